@@ -1,0 +1,2 @@
+//! The `hammerbeam` command.
+fn main() {}

@@ -1,0 +1,65 @@
+//! Hertz contact of two spheres.
+
+use super::{Contact, Force, LawError};
+
+/// One-sided stop after Hertz.
+///
+/// `f = -k p^1.5` at penetration `p = r - level > 0`, else `f = 0`; `level` is the gap, or minus the penetration that gives
+/// the preload.
+///
+/// # Source
+/// Goldsmith, *Impact* (1960), chapter 4.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzStop {
+    stiffness: f64,
+    contact: [Contact; 1],
+}
+
+impl HertzStop {
+    /// A stop of stiffness `k` [N/m^1.5] at rest distance `gap` [m].
+    ///
+    /// # Errors
+    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Gap`] unless finite and not negative.
+    pub fn with_gap(stiffness: f64, gap: f64) -> Result<Self, LawError> {
+        super::positive_stiffness(stiffness)?;
+        Ok(Self { stiffness, contact: [Contact { level: super::valid_gap(gap)?, sign: 1.0, onset_exponent: 1.5 }] })
+    }
+
+    /// A stop that presses on the undeformed structure with `preload` [N].
+    ///
+    /// # Errors
+    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Preload`] unless finite and not negative.
+    pub fn with_preload(stiffness: f64, preload: f64) -> Result<Self, LawError> {
+        super::positive_stiffness(stiffness)?;
+        let level = -(super::valid_preload(preload)? / stiffness).powf(2.0 / 3.0);
+        Ok(Self { stiffness, contact: [Contact { level, sign: 1.0, onset_exponent: 1.5 }] })
+    }
+
+    /// The constant `k` [N/m^1.5] of two spheres in contact.
+    ///
+    /// `k = 4/3 E sqrt(R)` with `1/E = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2` and `1/R = 1/R_1 + 1/R_2`.
+    ///
+    /// * `radii`: `R_1`, `R_2` [m]; an infinite radius is a plane.
+    /// * `moduli`: `E_1`, `E_2` [Pa].
+    /// * `poisson_ratios`: `nu_1`, `nu_2` [-].
+    #[must_use]
+    pub fn stiffness_of_spheres(radii: [f64; 2], moduli: [f64; 2], poisson_ratios: [f64; 2]) -> f64 {
+        let compliance: f64 =
+            (0..2).map(|i| (1.0 - poisson_ratios[i] * poisson_ratios[i]) / moduli[i]).sum();
+        let curvature: f64 = radii.iter().map(|radius| 1.0 / radius).sum();
+        4.0 / 3.0 / compliance / curvature.sqrt()
+    }
+
+    pub(super) fn force(&self, displacement: f64) -> Force {
+        let penetration = displacement - self.contact[0].level;
+        if penetration <= 0.0 {
+            return Force::ZERO;
+        }
+        let root = penetration.sqrt();
+        Force { value: -self.stiffness * penetration * root, slope: -1.5 * self.stiffness * root }
+    }
+
+    pub(super) fn contacts(&self) -> &[Contact] {
+        &self.contact
+    }
+}

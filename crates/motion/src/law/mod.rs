@@ -1,0 +1,106 @@
+//! Laws of local elements: the force as a function of the relative displacement `r`.
+//!
+//! The force acts on the structure along `+r` (a restoring force is negative for positive `r`). One-sided stops are
+//! oriented so that `r` is positive towards the stop; who builds the element turns the coordinate.
+
+mod cubic;
+mod hertz;
+mod linear;
+mod two_sided;
+
+pub use cubic::CubicSpring;
+pub use hertz::HertzStop;
+pub use linear::LinearStop;
+pub use two_sided::TwoSidedStop;
+
+/// Why a law cannot be built from its parameters.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LawError {
+    /// Stiffnesses are finite and positive (a cubic stiffness may be negative).
+    #[error("stiffness is {found}, must be finite and {allowed}")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Stiffness { found: f64, allowed: &'static str },
+    /// Gaps are finite and not negative.
+    #[error("gap is {found} m, must be finite and not negative")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Gap { found: f64 },
+    /// Preloads are finite and not negative.
+    #[error("preload is {found} N, must be finite and not negative")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Preload { found: f64 },
+}
+
+/// Force of a law and its derivative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Force {
+    /// Force on the structure along `r` [N].
+    pub value: f64,
+    /// `df/dr` [N/m].
+    pub slope: f64,
+}
+
+impl Force {
+    /// No force.
+    pub const ZERO: Self = Self { value: 0.0, slope: 0.0 };
+}
+
+/// One of the ways in which an element can be loaded: contact is where `sign * (r - level) > 0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Contact {
+    /// Relative displacement at which the force begins [m].
+    pub level: f64,
+    /// +1.0 if contact lies above the level, -1.0 if below.
+    pub sign: f64,
+    /// Exponent with which the force sets in: 1.5 for Hertz, 1.0 for a linear spring.
+    pub onset_exponent: f64,
+}
+
+/// The law of a local element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    /// Sphere on sphere, after Hertz.
+    Hertz(HertzStop),
+    /// One-sided linear spring.
+    Linear(LinearStop),
+    /// Linear springs on both sides of a clearance.
+    TwoSided(TwoSidedStop),
+    /// Cubic spring, always active.
+    Cubic(CubicSpring),
+}
+
+impl Law {
+    /// Force on the structure along `r` at the relative displacement `r` [m].
+    #[must_use]
+    pub fn force(&self, displacement: f64) -> Force {
+        match self {
+            Self::Hertz(law) => law.force(displacement),
+            Self::Linear(law) => law.force(displacement),
+            Self::TwoSided(law) => law.force(displacement),
+            Self::Cubic(law) => law.force(displacement),
+        }
+    }
+
+    /// The contacts of the law; none for a law that is always active.
+    #[must_use]
+    pub fn contacts(&self) -> &[Contact] {
+        match self {
+            Self::Hertz(law) => law.contacts(),
+            Self::Linear(law) => law.contacts(),
+            Self::TwoSided(law) => law.contacts(),
+            Self::Cubic(_) => &[],
+        }
+    }
+}
+
+fn positive_stiffness(found: f64) -> Result<(), LawError> {
+    if found.is_finite() && found > 0.0 { Ok(()) } else { Err(LawError::Stiffness { found, allowed: "positive" }) }
+}
+
+fn valid_gap(found: f64) -> Result<f64, LawError> {
+    if found.is_finite() && found >= 0.0 { Ok(found) } else { Err(LawError::Gap { found }) }
+}
+
+fn valid_preload(found: f64) -> Result<f64, LawError> {
+    if found.is_finite() && found >= 0.0 { Ok(found) } else { Err(LawError::Preload { found }) }
+}

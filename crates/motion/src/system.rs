@@ -1,0 +1,173 @@
+//! A reduced structure with its load and its local elements: the equations of motion.
+//!
+//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`,
+//! `r_e = phi_e . q + s_e u`, with the circular excitation frequency `W = 2 pi f`.
+
+use faer::c64;
+use hammerbeam_structure::ReducedModel;
+
+use crate::{Harmonic, Law, Load};
+
+/// Why a model, a load and elements do not make a system.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SystemError {
+    /// A vector over the modes has the wrong length.
+    #[error("{what} has {found} entries, the model has {expected} modes")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Length { what: String, found: usize, expected: usize },
+    /// Support motion is prescribed, but the model has no moving support.
+    #[error("support motion is prescribed, but no support of the structure can move")]
+    NoMovingSupport,
+    /// A number of the model, the load or an element is infinite or not a number.
+    #[error("{what} holds {found}, must be finite")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    NotFinite { what: String, found: f64 },
+}
+
+/// A local element: a law between two points, or between a point and its surroundings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocalElement {
+    /// Name for reports.
+    pub name: String,
+    /// `phi_e`: relative displacement per modal coordinate, and modal load per unit force, length n.
+    pub shape: Vec<f64>,
+    /// `s_e`: relative displacement per unit support displacement: 0 for a stop that rides on the support.
+    pub support_ratio: f64,
+    /// The force law.
+    pub law: Law,
+}
+
+/// A reduced structure with its load and its local elements.
+#[derive(Debug, Clone)]
+pub struct System {
+    model: ReducedModel,
+    elements: Vec<LocalElement>,
+    orders: Vec<u32>,
+    support: Vec<c64>,
+    forces: Vec<Vec<c64>>,
+}
+
+/// Modal load of one order and its derivative by the circular frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalLoad {
+    /// `b_m`, length n.
+    pub amplitude: Vec<c64>,
+    /// `d b_m / d W`, length n.
+    pub by_frequency: Vec<c64>,
+}
+
+impl System {
+    /// Puts a model, its load and its local elements together.
+    ///
+    /// # Errors
+    /// See [`SystemError`].
+    pub fn new(model: ReducedModel, load: &Load, elements: Vec<LocalElement>) -> Result<Self, SystemError> {
+        check(&model, load, &elements)?;
+        let mut orders: Vec<u32> =
+            load.support.iter().chain(load.forces.iter().map(|force| &force.harmonic)).map(|h| h.order).collect();
+        orders.sort_unstable();
+        orders.dedup();
+        let of_order = |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
+        let support = orders
+            .iter()
+            .map(|&order| load.support.iter().map(|harmonic| of_order(order, harmonic)).sum())
+            .collect();
+        let force_of = |order: u32, mode: usize| {
+            load.forces.iter().map(|force| of_order(order, &force.harmonic) * force.shape[mode]).sum()
+        };
+        let forces = orders.iter().map(|&order| (0..model.dof()).map(|i| force_of(order, i)).collect()).collect();
+        Ok(Self { model, elements, orders, support, forces })
+    }
+
+    /// Number of modes n; states have length 2n.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.model.dof()
+    }
+
+    /// The linear structure.
+    #[must_use]
+    pub fn model(&self) -> &ReducedModel {
+        &self.model
+    }
+
+    /// The local elements.
+    #[must_use]
+    pub fn elements(&self) -> &[LocalElement] {
+        &self.elements
+    }
+
+    /// Orders of the load, ascending; 0 is the constant part.
+    #[must_use]
+    pub fn orders(&self) -> &[u32] {
+        &self.orders
+    }
+
+    /// Complex amplitude of the support displacement [m] for each of [`System::orders`].
+    #[must_use]
+    pub fn support_amplitudes(&self) -> &[c64] {
+        &self.support
+    }
+
+    /// Modal load of the order with that index in [`System::orders`], at the circular frequency `W` [rad/s].
+    ///
+    /// `b_m = (m W)^2 U_m g - i m W U_m d + F_m`.
+    #[must_use]
+    pub fn modal_load(&self, order_index: usize, circular_frequency: f64) -> ModalLoad {
+        let mut amplitude = self.forces[order_index].clone();
+        let mut by_frequency = vec![c64::new(0.0, 0.0); self.dof()];
+        if let Some(support) = &self.model.support {
+            let order = f64::from(self.orders[order_index]);
+            let u = self.support[order_index];
+            let i = c64::new(0.0, 1.0);
+            for mode in 0..self.dof() {
+                let (inertia, damping) = (support.inertia[mode], support.damping[mode]);
+                let velocity = i * order * u * damping;
+                amplitude[mode] +=
+                    u * (order * circular_frequency).powi(2) * inertia - velocity * circular_frequency;
+                by_frequency[mode] = u * 2.0 * order * order * circular_frequency * inertia - velocity;
+            }
+        }
+        ModalLoad { amplitude, by_frequency }
+    }
+}
+
+fn complex(harmonic: &Harmonic) -> c64 {
+    if harmonic.order == 0 {
+        return c64::new(harmonic.amplitude * harmonic.phase.cos(), 0.0);
+    }
+    c64::new(harmonic.amplitude * harmonic.phase.cos(), harmonic.amplitude * harmonic.phase.sin())
+}
+
+fn check(model: &ReducedModel, load: &Load, elements: &[LocalElement]) -> Result<(), SystemError> {
+    if !load.support.is_empty() && model.support.is_none() {
+        return Err(SystemError::NoMovingSupport);
+    }
+    let shape = |what: String, values: &[f64]| {
+        if values.len() != model.dof() {
+            return Err(SystemError::Length { what, found: values.len(), expected: model.dof() });
+        }
+        finite(what, values)
+    };
+    shape("the vector of eigenfrequencies".into(), &model.natural_frequencies)?;
+    for force in &load.forces {
+        shape("a load".into(), &force.shape)?;
+        finite("a load".into(), &[force.harmonic.amplitude, force.harmonic.phase])?;
+    }
+    for harmonic in &load.support {
+        finite("the support motion".into(), &[harmonic.amplitude, harmonic.phase])?;
+    }
+    for element in elements {
+        shape(format!("element {}", element.name), &element.shape)?;
+        finite(format!("element {}", element.name), &[element.support_ratio])?;
+    }
+    Ok(())
+}
+
+fn finite(what: String, values: &[f64]) -> Result<(), SystemError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(&found) => Err(SystemError::NotFinite { what, found }),
+        None => Ok(()),
+    }
+}

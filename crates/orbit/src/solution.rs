@@ -1,0 +1,135 @@
+//! What a computed periodic solution and a row of a branch hold.
+
+/// A converged periodic solution.
+///
+/// States are `[q; q']` in the modal coordinates of the system's model, length 2n.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PeriodicSolution {
+    /// Excitation frequency [Hz].
+    pub frequency_hz: f64,
+    /// Orbit period over excitation period.
+    pub period_multiple: u32,
+    /// Shooting nodes: one state per segment, the first at phase 0, the others at equal phases.
+    pub nodes: Vec<Vec<f64>>,
+    /// Floquet multipliers `[re, im]` of one orbit period, largest modulus first, positive imaginary part first in a pair.
+    pub floquet_multipliers: Vec<[f64; 2]>,
+    /// Largest mismatch of the shooting equations, relative to the orbit (see the shooting module).
+    pub residual: f64,
+    /// Estimated error of the nodes, relative to the orbit (see the shooting module).
+    pub error_estimate: f64,
+    /// Maxima over one orbit period.
+    pub maxima: OrbitMaxima,
+}
+
+impl PeriodicSolution {
+    /// Whether all Floquet multipliers lie inside the unit circle.
+    #[must_use]
+    pub fn stable(&self) -> bool {
+        self.floquet_multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+    }
+}
+
+/// Maxima of an orbit on the continuous motion, and its contacts, over one orbit period.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct OrbitMaxima {
+    /// Largest absolute displacement of the response point, `max |y|` [m].
+    pub displacement: f64,
+    /// Largest absolute acceleration of the response point, `max |y''|` [m/s^2].
+    pub acceleration: f64,
+    /// Largest contact force over all elements [N].
+    pub contact_force: f64,
+    /// Largest speed with which a contact is reached [m/s].
+    pub impact_velocity: f64,
+    /// Sum of the impulses of all contacts [N s].
+    pub impulse: f64,
+    /// Number of contacts.
+    pub contacts: u32,
+}
+
+/// The two directions in which a branch leaves its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// The frequency increases at first.
+    Up,
+    /// The frequency decreases at first.
+    Down,
+}
+
+/// Events at a row of a branch; several may coincide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Events {
+    /// The branch turns in frequency (cyclic fold).
+    pub fold: bool,
+    /// A multiplier passes -1.
+    pub flip: bool,
+    /// A complex pair of multipliers passes the unit circle.
+    pub neimark_sacker: bool,
+    /// Branches cross.
+    pub branch_point: bool,
+    /// A contact is reached with zero velocity.
+    pub grazing: bool,
+    /// First row of the branch.
+    pub start: bool,
+    /// Last row of the branch.
+    pub end: bool,
+}
+
+impl Events {
+    /// The names of the events joined by `+`, empty if there are none.
+    #[must_use]
+    pub fn label(self) -> String {
+        let named = [
+            (self.fold, "fold"),
+            (self.flip, "flip"),
+            (self.neimark_sacker, "neimark-sacker"),
+            (self.branch_point, "branch-point"),
+            (self.grazing, "grazing"),
+            (self.start, "start"),
+            (self.end, "end"),
+        ];
+        named.iter().filter(|(set, _)| *set).map(|(_, name)| *name).collect::<Vec<_>>().join("+")
+    }
+}
+
+/// One row of a branch: a solution and what happens at it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchRow {
+    /// The solution.
+    pub solution: PeriodicSolution,
+    /// Events located at it.
+    pub events: Events,
+}
+
+/// Why a walk along a branch ended.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum StopReason {
+    /// The branch left the frequency range and was cut exactly at its end.
+    RangeEnd {
+        /// End of the range [Hz].
+        frequency_hz: f64,
+    },
+    /// The branch came back to its start.
+    Closed,
+    /// The budget of solutions is used up.
+    Budget {
+        /// Number of solutions.
+        solutions: usize,
+    },
+    /// No step, however short, led to an acceptable solution.
+    StepTooShort {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Last step tried, in the arc length of the path.
+        step: f64,
+        /// Residual of the last attempt.
+        residual: f64,
+    },
+    /// The motion could not be computed.
+    Motion {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// What the integrator said.
+        message: String,
+    },
+}

@@ -1,0 +1,67 @@
+//! The modal form in which a structure leaves this crate.
+
+use faer::Mat;
+
+/// A linear structure in mass-normalised modal coordinates `q`, relative to its support.
+///
+/// With the prescribed support displacement `u(t)`, forces `F_p` at the points and a uniform
+/// acceleration field `a` (gravity),
+///
+/// `q'' + C q' + diag(w^2) q = -g u'' - d u' + sum_p phi_p F_p + a m`,
+/// `y_p = phi_p . q + s_p u`,
+///
+/// where `y_p` is the absolute displacement of point `p`. The rows mean:
+///
+/// * `natural_frequencies`: `w` [rad/s], ascending, length n; rigid-body modes are exactly 0.0.
+/// * `damping`: `C = Phi^T C Phi` [1/s], n x n, symmetric; diagonal if damping does not couple the modes.
+/// * `points`: `phi_p` and `s_p`, see [`PointOutput`].
+/// * `support`: `g` and `d`, see [`SupportInput`]; `None` if no support motion is prescribed.
+/// * `uniform_acceleration`: `m = Phi^T M 1` [kg^1/2] over the transverse coordinates.
+#[derive(Debug, Clone)]
+pub struct ReducedModel {
+    /// Circular eigenfrequencies `w` [rad/s], ascending.
+    pub natural_frequencies: Vec<f64>,
+    /// Modal damping matrix `C` [1/s], n x n.
+    pub damping: Mat<f64>,
+    /// Displacement outputs and force inputs, one per named point.
+    pub points: Vec<PointOutput>,
+    /// How the support motion drives the modes.
+    pub support: Option<SupportInput>,
+    /// Modal load per unit uniform acceleration, `Phi^T M 1` [kg^1/2].
+    pub uniform_acceleration: Vec<f64>,
+}
+
+/// A named point: where motion is observed and forces act.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointOutput {
+    /// Name given in the study.
+    pub name: String,
+    /// Displacement of the point in each mode, `phi_p` [kg^-1/2], length n.
+    pub shape: Vec<f64>,
+    /// Displacement of the point per unit static support motion, `s_p` [-].
+    pub support_ratio: f64,
+}
+
+/// How a prescribed support displacement `u(t)` drives the modes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SupportInput {
+    /// `g = Phi^T (M_ff Gamma + M_fp)` [kg^1/2], with the static constraint vector `Gamma`.
+    pub inertia: Vec<f64>,
+    /// `d = Phi^T (C_ff Gamma + C_fp)` [kg^1/2/s], from discrete dampers only: modal and Rayleigh
+    /// damping act on the motion relative to the support.
+    pub damping: Vec<f64>,
+}
+
+impl ReducedModel {
+    /// Number of modes n.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.natural_frequencies.len()
+    }
+
+    /// The point of that name.
+    #[must_use]
+    pub fn point(&self, name: &str) -> Option<&PointOutput> {
+        self.points.iter().find(|point| point.name == name)
+    }
+}

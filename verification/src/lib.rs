@@ -1,0 +1,1 @@
+//! Published and closed-form results that Hammerbeam reproduces; see `tests/`.
