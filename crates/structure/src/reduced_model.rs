@@ -2,6 +2,8 @@
 
 use faer::Mat;
 
+use crate::{StructureError, modes::static_amplitudes};
+
 /// A linear structure in mass-normalised modal coordinates `q`, relative to its support.
 ///
 /// With the prescribed support displacement `u(t)`, forces `F_p` at the points and a uniform
@@ -63,5 +65,20 @@ impl ReducedModel {
     #[must_use]
     pub fn point(&self, name: &str) -> Option<&PointOutput> {
         self.points.iter().find(|point| point.name == name)
+    }
+
+    /// Displacement [m] of a point under a uniform acceleration (gravity), the support at rest.
+    ///
+    /// `y_p = a sum_i phi_pi m_i / w_i^2`; `None` if there is no such point.
+    ///
+    /// * `acceleration`: a [m/s^2], along the positive displacement.
+    ///
+    /// # Errors
+    /// A rigid-body mode that the load drives.
+    pub fn static_deflection(&self, point: &str, acceleration: f64) -> Result<Option<f64>, StructureError> {
+        let Some(point) = self.point(point) else { return Ok(None) };
+        let amplitudes = static_amplitudes(&self.natural_frequencies, &self.uniform_acceleration)?;
+        let per_acceleration: f64 = point.shape.iter().zip(amplitudes).map(|(phi, q)| phi * q).sum();
+        Ok(Some(acceleration * per_acceleration))
     }
 }

@@ -1,0 +1,95 @@
+//! What can be wrong with a structure or with the reduction asked for.
+
+/// Why a description is no structure, or a structure cannot be reduced as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum StructureError {
+    /// A number is infinite or not a number.
+    #[error("{what} is {found}, must be finite")]
+    NotFinite { what: String, found: f64 },
+    /// A quantity that must be positive is not.
+    #[error("{what} is {found}, must be greater than 0")]
+    NotPositive { what: String, found: f64 },
+    /// A quantity that must not be negative is.
+    #[error("{what} is {found}, must be 0 or greater")]
+    Negative { what: String, found: f64 },
+    /// A point lies beyond the ends of the beam.
+    #[error("point \"{name}\" is at {at} m, must be between 0 and {length} m")]
+    PointOffBeam { name: String, at: f64, length: f64 },
+    /// Two points are too close for an element between them, and too far apart to be one.
+    #[error(
+        "points \"{first}\" and \"{second}\" are {distance:e} m apart, must be at the same place or at least {allowed:e} m apart"
+    )]
+    PointsTooClose { first: String, second: String, distance: f64, allowed: f64 },
+    /// Each stretch between ends and points needs an element of its own.
+    #[error("the beam has {found} elements, its points divide it into {needed} stretches and each needs one")]
+    TooFewElements { found: usize, needed: usize },
+    /// Dense matrices of this size take too long.
+    #[error("the beam has {found} elements, at most {allowed} are allowed")]
+    TooManyElements { found: usize, allowed: usize },
+    /// A name is used twice.
+    #[error("the name \"{name}\" is used twice")]
+    DuplicateName { name: String },
+    /// A name has a meaning of its own.
+    #[error("the name \"{name}\" is reserved, choose another one")]
+    ReservedName { name: String },
+    /// A name is empty.
+    #[error("a {what} has an empty name")]
+    EmptyName { what: &'static str },
+    /// No point of the structure has this name.
+    #[error("{what} refers to \"{name}\", the structure has {}", known.join(", "))]
+    UnknownPoint { what: String, name: String, known: Vec<String> },
+    /// A spring or damper has both its ends at one place.
+    #[error("{what} connects \"{name}\" to itself")]
+    ConnectedToItself { what: String, name: String },
+    /// A lumped structure without masses.
+    #[error("the structure has no mass")]
+    NoMass,
+    /// Ends, supports and prescribed motion hold every coordinate.
+    #[error("every coordinate is fixed or prescribed, nothing is left to vibrate")]
+    NothingFree,
+    /// A lumped structure is taken as it is.
+    #[error("a lumped structure is not reduced, choose the reduction \"none\"")]
+    LumpedIsNotReduced,
+    /// The reduction would keep no elastic mode.
+    #[error("the cut-off frequency is {cut_off_hz} Hz, below the first elastic mode at {first_hz:.6} Hz")]
+    CutOffBelowFirstMode { cut_off_hz: f64, first_hz: f64 },
+    /// A damping ratio is missing or too much.
+    #[error("{found} modal damping ratios are given, the structure has {modes} modes")]
+    DampingRatioCount { found: usize, modes: usize },
+    /// A constant load drives a motion that nothing holds back.
+    #[error("a constant load has no static answer: rigid-body mode {mode} is not restrained")]
+    RigidBodyModeNotRestrained { mode: usize },
+    /// Masses so different that their matrix is not positive in floating point.
+    #[error("the mass matrix of {size} coordinates is not positive definite")]
+    MassNotPositive { size: usize },
+    /// The singular value iteration did not end.
+    #[error("the eigenmodes of {size} coordinates did not converge")]
+    ModesNotConverged { size: usize },
+}
+
+/// `value`, if finite and positive.
+pub(crate) fn positive(what: &str, value: f64) -> Result<f64, StructureError> {
+    match finite(what, value)? {
+        found if found > 0.0 => Ok(found),
+        found => Err(StructureError::NotPositive { what: what.into(), found }),
+    }
+}
+
+/// `value`, if finite and not negative.
+pub(crate) fn not_negative(what: &str, value: f64) -> Result<f64, StructureError> {
+    match finite(what, value)? {
+        found if found >= 0.0 => Ok(found),
+        found => Err(StructureError::Negative { what: what.into(), found }),
+    }
+}
+
+/// `value`, if finite.
+pub(crate) fn finite(what: &str, value: f64) -> Result<f64, StructureError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(StructureError::NotFinite { what: what.into(), found: value })
+    }
+}

@@ -1,0 +1,70 @@
+//! Reduction: fewer coordinates for the motion relative to the support.
+//!
+//! Every method gives a basis `B` of that motion, zero at the prescribed coordinates; the reduced modes
+//! are those of `B^T K B` and `B^T M B`.
+
+mod fixed_interface;
+mod free_interface;
+mod interface;
+
+use faer::Mat;
+
+use crate::{Structure, StructureError, error::positive, structure::Kind};
+
+/// How a structure is reduced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reduction {
+    /// All modes of the supported structure.
+    None,
+    /// Free-interface modes up to a cut-off frequency, rigid-body modes included, and residual
+    /// flexibility modes for the interface: for the prescribed displacements, which are let go, and for the
+    /// named points; then the prescribed displacements are prescribed again.
+    ///
+    /// Static flexibility at the interface is exact, and elastic modes below the cut-off nearly so.
+    FreeInterface {
+        /// Highest eigenfrequency kept [Hz].
+        cut_off_hz: f64,
+    },
+    /// Fixed-interface modes up to a cut-off frequency, and a static constraint mode for each interface point.
+    FixedInterface {
+        /// Highest eigenfrequency kept [Hz].
+        cut_off_hz: f64,
+    },
+}
+
+/// What a method hands over.
+pub(crate) struct Basis {
+    /// `B`, rows over the free coordinates of the structure.
+    pub relative: Mat<f64>,
+    /// Frequencies [Hz] of the component's modes that are kept.
+    pub kept_hz: Vec<f64>,
+}
+
+impl Reduction {
+    /// Cut-off frequency [Hz], if modes are cut off.
+    #[must_use]
+    pub fn cut_off_hz(&self) -> Option<f64> {
+        match *self {
+            Self::None => None,
+            Self::FreeInterface { cut_off_hz } | Self::FixedInterface { cut_off_hz } => Some(cut_off_hz),
+        }
+    }
+
+    /// The basis, or `None` if the structure stays as it is.
+    pub(crate) fn basis(
+        &self,
+        structure: &Structure,
+        interface: &[usize],
+    ) -> Result<Option<Basis>, StructureError> {
+        let Some(cut_off_hz) = self.cut_off_hz() else { return Ok(None) };
+        positive("cut-off frequency", cut_off_hz)?;
+        if structure.kind == Kind::Lumped {
+            return Err(StructureError::LumpedIsNotReduced);
+        }
+        let basis = match self {
+            Self::FixedInterface { .. } => fixed_interface::basis(structure, cut_off_hz, interface),
+            _ => free_interface::basis(structure, cut_off_hz, interface),
+        };
+        basis.map(Some)
+    }
+}

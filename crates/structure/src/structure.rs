@@ -1,0 +1,180 @@
+//! A validated linear structure: mass, stiffness and dampers over coordinates, some held, some prescribed.
+
+use faer::Mat;
+
+use crate::{StructureError, modes::Modes, strain::Strains};
+
+/// Which descriptor a structure came from; lumped ones are not reduced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Beam,
+    Lumped,
+}
+
+/// Matrices over all coordinates, before anything is held: `M`, `K = G^T G`, `C = D^T D`.
+#[derive(Debug, Clone)]
+pub(crate) struct Assembly {
+    /// `M` [kg, kg m, kg m^2].
+    pub mass: Mat<f64>,
+    /// Rows of `G`.
+    pub stiffness: Strains,
+    /// Rows of `D`, discrete dampers only.
+    pub damping: Strains,
+    /// 1 for transverse displacements, 0 for rotations: the motion in a uniform translation.
+    pub translation: Vec<f64>,
+}
+
+/// A name and the transverse displacement it stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NamedCoordinate {
+    pub name: String,
+    pub coordinate: usize,
+}
+
+/// A linear structure with its supports, as [`crate::Beam::structure`] and [`crate::Lumped::structure`] make it.
+///
+/// `M y'' + C y' + K y = f` over the free coordinates; held ones are zero, prescribed ones follow the
+/// support displacement `u(t)`.
+#[derive(Debug, Clone)]
+pub struct Structure {
+    pub(crate) kind: Kind,
+    pub(crate) assembly: Assembly,
+    held: Vec<bool>,
+    prescribed: Vec<usize>,
+    points: Vec<NamedCoordinate>,
+}
+
+impl Structure {
+    pub(crate) fn new(kind: Kind, assembly: Assembly, held: Vec<bool>, points: Vec<NamedCoordinate>) -> Self {
+        Self { kind, assembly, held, prescribed: Vec::new(), points }
+    }
+
+    /// Prescribes one support motion `u(t)` of the transverse displacement at each of the named points.
+    ///
+    /// At a clamped or pinned end the support moves; at any other point the structure is held by what
+    /// moves it (rotations stay as they were). At `ground` of a lumped structure the ground moves as a
+    /// whole. Springs and dampers of a beam's points stay fixed in space. Replaces an earlier choice.
+    ///
+    /// # Errors
+    /// A name that no point has.
+    pub fn with_support_motion(mut self, at: &[&str]) -> Result<Self, StructureError> {
+        self.prescribed = self.coordinates("support motion", at)?;
+        Ok(self)
+    }
+
+    /// Names of all points: those of the beam, `left` and `right`; or the masses and `ground`.
+    pub fn point_names(&self) -> impl Iterator<Item = &str> {
+        self.points.iter().map(|point| point.name.as_str())
+    }
+
+    /// Eigenfrequencies [Hz] of the supported structure, support motion held at zero; rigid-body modes are 0.0.
+    ///
+    /// # Errors
+    /// Nothing is free, or the modes do not converge.
+    pub fn eigenfrequencies_hz(&self) -> Result<Vec<f64>, StructureError> {
+        Ok(self.supported_modes()?.frequencies_hz())
+    }
+
+    /// Displacement [m] of a point under a uniform acceleration (gravity), the support at rest.
+    ///
+    /// `K y = a M 1`, from all modes of the unreduced structure.
+    ///
+    /// * `acceleration`: a [m/s^2], along the positive displacement.
+    ///
+    /// # Errors
+    /// An unknown point, or a rigid-body mode that the load drives.
+    pub fn static_deflection(&self, point: &str, acceleration: f64) -> Result<f64, StructureError> {
+        let coordinate = self.coordinate("static deflection", point)?;
+        let free = self.free_coordinates();
+        let modes = self.supported_modes()?;
+        let weight = self.uniform_load();
+        let load: Vec<f64> = free.iter().map(|&index| acceleration * weight[index]).collect();
+        let answer = modes.static_answer(&load)?;
+        Ok(free.iter().position(|&index| index == coordinate).map_or(0.0, |row| answer[row]))
+    }
+
+    /// All modes of the supported structure, rows over [`Structure::free_coordinates`].
+    pub(crate) fn supported_modes(&self) -> Result<Modes, StructureError> {
+        match self.free_coordinates() {
+            free if free.is_empty() => Err(StructureError::NothingFree),
+            free => Modes::over(&self.assembly, &free),
+        }
+    }
+
+    /// Coordinates that are neither held nor prescribed, ascending.
+    pub(crate) fn free_coordinates(&self) -> Vec<usize> {
+        (0..self.held.len()).filter(|index| !self.held[*index] && !self.prescribed.contains(index)).collect()
+    }
+
+    /// Free and prescribed coordinates, ascending: the component whose support is let go.
+    pub(crate) fn released_coordinates(&self) -> Vec<usize> {
+        (0..self.held.len()).filter(|index| !self.held[*index] || self.prescribed.contains(index)).collect()
+    }
+
+    /// Coordinates that follow the support motion.
+    pub(crate) fn prescribed(&self) -> &[usize] {
+        &self.prescribed
+    }
+
+    /// The named points.
+    pub(crate) fn points(&self) -> &[NamedCoordinate] {
+        &self.points
+    }
+
+    /// Distinct coordinates of the named points, in the order given.
+    pub(crate) fn coordinates(&self, what: &str, names: &[&str]) -> Result<Vec<usize>, StructureError> {
+        let mut coordinates = Vec::with_capacity(names.len());
+        for name in names {
+            let coordinate = self.coordinate(what, name)?;
+            if !coordinates.contains(&coordinate) {
+                coordinates.push(coordinate);
+            }
+        }
+        Ok(coordinates)
+    }
+
+    fn coordinate(&self, what: &str, name: &str) -> Result<usize, StructureError> {
+        let known = self.points.iter().find(|point| point.name == name);
+        known.map(|point| point.coordinate).ok_or_else(|| StructureError::UnknownPoint {
+            what: what.into(),
+            name: name.into(),
+            known: self.point_names().map(String::from).collect(),
+        })
+    }
+
+    /// `M 1`: force on every coordinate per unit uniform acceleration [kg], held neighbours included.
+    pub(crate) fn uniform_load(&self) -> Vec<f64> {
+        times(&self.assembly.mass, &self.assembly.translation)
+    }
+
+    /// Static answer of all coordinates to a unit support motion, `[Gamma; 1]` and 0 where held; `None` without one.
+    ///
+    /// `Gamma = -K_ff^-1 K_fp`. It is found as the uniform translation of everything not held, plus the
+    /// static answer to the strains that this leaves, so that a structure without other supports has
+    /// `Gamma` exactly 1; where `K_ff` is singular the rigid-body part is thereby that of the translation.
+    pub(crate) fn support_shape(&self, modes: &Modes) -> Option<Mat<f64>> {
+        if self.prescribed.is_empty() {
+            return None;
+        }
+        let mut shape = Mat::zeros(self.held.len(), 1);
+        for index in self.released_coordinates() {
+            shape[(index, 0)] = self.assembly.translation[index];
+        }
+        let correction = modes.relief_of_strains(self.assembly.stiffness.of(shape.as_ref()).as_ref());
+        for (row, index) in self.free_coordinates().into_iter().enumerate() {
+            shape[(index, 0)] += correction[(row, 0)];
+        }
+        Some(shape)
+    }
+}
+
+/// `matrix * vector`.
+pub(crate) fn times(matrix: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; matrix.nrows()];
+    for (column, factor) in vector.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
+        for (row, sum) in product.iter_mut().enumerate() {
+            *sum += matrix[(row, column)] * factor;
+        }
+    }
+    product
+}
