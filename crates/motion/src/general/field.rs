@@ -1,0 +1,53 @@
+//! What can be integrated: a vector field, its linearisation, and where it switches.
+
+/// A point of the extended phase space, in one smooth region of the field.
+#[derive(Debug, Clone, Copy)]
+pub struct Point<'a> {
+    /// The independent variable.
+    pub time: f64,
+    /// `z`, of length [`VectorField::dimension`].
+    pub state: &'a [f64],
+    /// For each switching function whether it is taken as positive; fixed within a step.
+    pub inside: &'a [bool],
+}
+
+/// A vector field `dz/dt = g(t, z; p)`, smooth within regions bounded by zeros of switching functions `s_k(t, z)`.
+///
+/// Across a boundary `g` has to be continuous (its derivatives may jump), so that sensitivities are continuous too.
+/// Within a step the field is evaluated in one region, [`Point::inside`], even where a stage of the method lies beyond
+/// its boundary: there the field continues smoothly, if it can.
+///
+/// [`VectorField::evaluate`] is called first at every point; [`VectorField::tangents`] and
+/// [`VectorField::add_by_parameter`] follow at the same point, and may rely on what was stored by it.
+pub trait VectorField {
+    /// Length of the state.
+    fn dimension(&self) -> usize;
+
+    /// Number of equal parts of the state, each measured against its own magnitude: 2 for `[q; q']`.
+    fn parts(&self) -> usize {
+        1
+    }
+
+    /// Writes `g(t, z; p)`.
+    fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]);
+
+    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another.
+    fn tangents(&mut self, at: Point<'_>, columns: &[f64], derivatives: &mut [f64]);
+
+    /// Adds `dg/dp` to `sum`; a field without a parameter adds nothing.
+    ///
+    /// * `derivative`: `g` at the point, as [`VectorField::evaluate`] wrote it.
+    fn add_by_parameter(&mut self, at: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
+        let _ = (at, derivative, sum);
+    }
+
+    /// Number of switching functions.
+    fn switches(&self) -> usize {
+        0
+    }
+
+    /// Writes the switching functions `s_k(t, z)`.
+    fn switching(&self, time: f64, state: &[f64], values: &mut [f64]) {
+        let _ = (time, state, values);
+    }
+}

@@ -1,0 +1,208 @@
+//! The march over a stretch: step control, crossings of boundaries, samples.
+//!
+//! After a step of error `e` (see the stepper) the next is `0.9 e^(-1/8)` times as long, between a fifth and six
+//! times. A step that leaves its smooth region is done again to end on the boundary; there the march starts afresh.
+//! Behind a boundary forces grow like a low power of time, so that a first step which fails there is shortened by
+//! `0.9 e^(-2/5)`; the length that succeeded is remembered for the next crossing of that kind.
+
+use super::{
+    Counts, GeneralError, GeneralSettings, VectorField,
+    dense::Dense,
+    stepper::Stepper,
+    switching::{Region, Verdict},
+};
+
+/// Steps shorter than this fraction of the one before a crossing do not resolve what follows it.
+const FINEST: f64 = 1e-7;
+
+/// A motion under way.
+pub(super) struct March<'a, F> {
+    field: &'a mut F,
+    settings: &'a GeneralSettings,
+    pub(super) stepper: Stepper,
+    region: Region,
+    dense: Dense,
+    time: f64,
+    end: f64,
+    step: f64,
+    finest: f64,
+    failed: bool,
+    unmoved: usize,
+    pub(super) counts: Counts,
+}
+
+/// States wanted at given times, in ascending order.
+pub(super) struct Samples<'a> {
+    pub(super) times: &'a [f64],
+    pub(super) states: Vec<Vec<f64>>,
+}
+
+impl<'a, F: VectorField> March<'a, F> {
+    pub(super) fn new(
+        field: &'a mut F,
+        settings: &'a GeneralSettings,
+        (start, end): (f64, f64),
+        state: &[f64],
+    ) -> Self {
+        let mut stepper = Stepper::new(field, state, settings.sensitivities);
+        let mut region = Region::new(state.len(), field.switches());
+        stepper.start(field, start, &region.inside);
+        let step = settings.first_step.unwrap_or_else(|| first_step(field, &stepper, end - start));
+        region.locate(field, start, &stepper, 1e-6 * step);
+        stepper.start(field, start, &region.inside);
+        let dense = Dense::new(state.len());
+        let counts = Counts::default();
+        let finest = FINEST * step;
+        Self {
+            field,
+            settings,
+            stepper,
+            region,
+            dense,
+            time: start,
+            end,
+            step,
+            finest,
+            failed: false,
+            unmoved: 0,
+            counts,
+        }
+    }
+
+    /// Marches to the end.
+    pub(super) fn run(&mut self, samples: &mut Samples<'_>) -> Result<(), GeneralError> {
+        self.take_start_samples(samples);
+        while self.time < self.end {
+            self.check()?;
+            self.advance(samples);
+        }
+        self.counts.evaluations = self.stepper.evaluations;
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), GeneralError> {
+        let (time, step) = (self.time, self.step);
+        if !self.stepper.state().iter().all(|value| value.is_finite()) {
+            return Err(GeneralError::NotFinite { time });
+        }
+        if self.counts.steps + self.counts.rejected >= self.settings.max_steps {
+            return Err(GeneralError::TooManySteps { steps: self.settings.max_steps, time });
+        }
+        if !step.is_finite() || time + 0.1 * step.min(self.end - time) == time {
+            return Err(GeneralError::StepTooSmall { time, step });
+        }
+        Ok(())
+    }
+
+    /// Tries a step, and moves on if it succeeds.
+    fn advance(&mut self, samples: &mut Samples<'_>) {
+        let remaining = self.end - self.time;
+        let step = if 1.01 * self.step >= remaining { remaining } else { self.step };
+        self.stepper.attempt(self.field, self.time, step, &self.region.inside);
+        let error = self.stepper.error(step, self.settings.tolerance);
+        if error.is_nan() || error > 1.0 {
+            self.reject(step, error);
+            return;
+        }
+        match self.inspect(step) {
+            Verdict::Clear => {
+                let growth = (0.9 * error.powf(-0.125)).clamp(0.2, if self.failed { 1.0 } else { 6.0 });
+                let next = step * growth;
+                self.step = if step < self.step { next.max(self.step) } else { next };
+                self.region.moved(step);
+                self.accept(step, samples);
+            }
+            Verdict::TooLong { .. } if step > self.finest => {
+                self.step = step / 16.0;
+                self.counts.rejected += 1;
+            }
+            Verdict::TooLong { switch } => self.cross(switch),
+            Verdict::Crossing { fraction, switch } => {
+                self.step_to_crossing(fraction * step, samples);
+                self.finest = FINEST * step;
+                self.cross(switch);
+            }
+        }
+    }
+
+    fn reject(&mut self, step: f64, error: f64) {
+        let factor = match self.region.fresh {
+            _ if !error.is_finite() => 0.1,
+            Some(_) => (0.9 * error.powf(-0.4)).max(0.02),
+            None => (0.9 * error.powf(-0.125)).max(0.2),
+        };
+        self.step = factor * step;
+        self.failed = true;
+        self.counts.rejected += 1;
+    }
+
+    fn inspect(&mut self, step: f64) -> Verdict {
+        let switches = self.region.inside.len();
+        if switches == 0 || self.unmoved > 2 * switches {
+            return Verdict::Clear;
+        }
+        if !self.region.near_boundary(self.field, &self.stepper, self.time + step) {
+            return Verdict::Clear;
+        }
+        self.stepper.densify(self.field, self.time, step, &self.region.inside, false);
+        self.dense.load(&self.stepper, step);
+        self.region.inspect(self.field, &self.dense, self.time, step)
+    }
+
+    fn step_to_crossing(&mut self, step: f64, samples: &mut Samples<'_>) {
+        if self.time + step > self.time {
+            self.stepper.attempt(self.field, self.time, step, &self.region.inside);
+            self.accept(step, samples);
+        }
+    }
+
+    fn cross(&mut self, switch: usize) {
+        self.step = self.step.min(self.region.cross(switch));
+        self.unmoved += 1;
+        self.counts.crossings += 1;
+        self.stepper.start(self.field, self.time, &self.region.inside);
+    }
+
+    fn accept(&mut self, step: f64, samples: &mut Samples<'_>) {
+        let end = if step == self.end - self.time { self.end } else { self.time + step };
+        self.stepper.finish(self.field, end, &self.region.inside);
+        self.take_samples(step, end, samples);
+        self.stepper.accept();
+        self.time = end;
+        self.failed = false;
+        self.unmoved = 0;
+        self.counts.steps += 1;
+    }
+
+    fn take_start_samples(&self, samples: &mut Samples<'_>) {
+        while samples.times.get(samples.states.len()).is_some_and(|&time| time <= self.time) {
+            samples.states.push(self.stepper.state().to_vec());
+        }
+    }
+
+    fn take_samples(&mut self, step: f64, end: f64, samples: &mut Samples<'_>) {
+        let due =
+            |samples: &Samples<'_>| samples.times.get(samples.states.len()).copied().filter(|&t| t <= end);
+        if due(samples).is_none() {
+            return;
+        }
+        self.stepper.densify(self.field, self.time, step, &self.region.inside, true);
+        self.dense.load(&self.stepper, step);
+        while let Some(time) = due(samples) {
+            let mut state = self.stepper.end_state().to_vec();
+            if time < end {
+                self.dense.state((time - self.time) / step, &mut state);
+            }
+            samples.states.push(state);
+        }
+    }
+}
+
+/// A hundredth of the time in which a part of the state would double, at most a tenth of the stretch.
+fn first_step(field: &impl VectorField, stepper: &Stepper, duration: f64) -> f64 {
+    let part = stepper.state().len() / field.parts();
+    let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let parts = stepper.state().chunks_exact(part).zip(stepper.slope(0).chunks_exact(part));
+    let times = parts.map(|(value, slope)| 0.01 * norm(value) / norm(slope)).filter(|&time| time > 0.0);
+    times.fold(0.1 * duration, f64::min)
+}

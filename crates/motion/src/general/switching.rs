@@ -1,0 +1,225 @@
+//! Where a step leaves the smooth region in which it began.
+//!
+//! Between the ends of a step a switching function is followed on the dense output: at equidistant samples, in the
+//! dips between them, and by bracketing of its first zero. A touch is missed only where the seventh-order polynomial
+//! has two zeros between neighbouring samples without a lowest sample at one of them.
+
+use super::{VectorField, dense::Dense, stepper::Stepper};
+
+const SAMPLES: usize = 16;
+
+/// What a step does about the boundaries of its region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Verdict {
+    /// It stays inside.
+    Clear,
+    /// It leaves first at this fraction of its length, through the zero of that switching function.
+    Crossing { fraction: f64, switch: usize },
+    /// It began on the boundary and is beyond it already at the first sample.
+    TooLong { switch: usize },
+}
+
+/// The region in which the motion is, and how it got there.
+pub(super) struct Region {
+    /// For each switching function whether it is positive.
+    pub(super) inside: Vec<bool>,
+    /// The switching function whose zero is the start of the step.
+    pub(super) fresh: Option<usize>,
+    first_steps: Vec<f64>,
+    samples: Vec<f64>,
+    state: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Region {
+    pub(super) fn new(dimension: usize, switches: usize) -> Self {
+        Self {
+            inside: vec![false; switches],
+            fresh: None,
+            first_steps: vec![f64::INFINITY; 2 * switches],
+            samples: vec![0.0; (SAMPLES + 1) * switches],
+            state: vec![0.0; dimension],
+            values: vec![0.0; switches],
+        }
+    }
+
+    fn sign(&self, switch: usize) -> f64 {
+        if self.inside[switch] { 1.0 } else { -1.0 }
+    }
+
+    /// Takes the region of a state; where a switching function is zero, that of a state a moment later counts.
+    pub(super) fn locate(&mut self, field: &impl VectorField, time: f64, stepper: &Stepper, moment: f64) {
+        field.switching(time, stepper.state(), &mut self.values);
+        let now = self.values.clone();
+        for (i, state) in self.state.iter_mut().enumerate() {
+            *state = stepper.state()[i] + moment * stepper.slope(0)[i];
+        }
+        field.switching(time + moment, &self.state, &mut self.values);
+        for (switch, inside) in self.inside.iter_mut().enumerate() {
+            *inside = if now[switch] == 0.0 { self.values[switch] > 0.0 } else { now[switch] > 0.0 };
+        }
+    }
+
+    /// Crosses the boundary; returns the length of the first step after the last such crossing.
+    pub(super) fn cross(&mut self, switch: usize) -> f64 {
+        self.inside[switch] = !self.inside[switch];
+        self.fresh = Some(switch);
+        self.first_steps[2 * switch + usize::from(self.inside[switch])]
+    }
+
+    /// Tells that a step of that length was accepted.
+    pub(super) fn moved(&mut self, step: f64) {
+        if let Some(switch) = self.fresh.take() {
+            self.first_steps[2 * switch + usize::from(self.inside[switch])] = step;
+        }
+    }
+
+    /// Whether a boundary is near: nearer than half of the way which the switching function goes over the stages.
+    pub(super) fn near_boundary(&mut self, field: &impl VectorField, stepper: &Stepper, end: f64) -> bool {
+        let switches = self.inside.len();
+        field.switching(end, stepper.end_state(), &mut self.values);
+        (0..switches).any(|switch| {
+            let stages = stepper.switching.iter().skip(switch).step_by(switches);
+            let distances = stages.chain([&self.values[switch]]).map(|value| self.sign(switch) * value);
+            let (lowest, highest) = distances
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (x.min(low), x.max(high)));
+            lowest < 0.5 * (highest - lowest)
+        })
+    }
+
+    /// Finds the first crossing of a boundary on the dense output of a step.
+    pub(super) fn inspect(
+        &mut self,
+        field: &impl VectorField,
+        dense: &Dense,
+        time: f64,
+        step: f64,
+    ) -> Verdict {
+        let switches = self.inside.len();
+        for k in 0..=SAMPLES {
+            let x = fraction(k);
+            dense.state(x, &mut self.state);
+            field.switching(time + x * step, &self.state, &mut self.samples[k * switches..][..switches]);
+        }
+        let mut first = Verdict::Clear;
+        for switch in 0..switches {
+            let found = self.first_crossing(field, dense, time, step, switch);
+            first = match (first, found) {
+                (_, Verdict::TooLong { .. }) => return found,
+                (Verdict::Crossing { fraction: a, .. }, Verdict::Crossing { fraction: b, .. }) if b < a => {
+                    found
+                }
+                (Verdict::Clear, _) => found,
+                _ => first,
+            };
+        }
+        first
+    }
+
+    fn first_crossing(
+        &mut self,
+        field: &impl VectorField,
+        dense: &Dense,
+        time: f64,
+        step: f64,
+        switch: usize,
+    ) -> Verdict {
+        let (sign, switches) = (self.sign(switch), self.inside.len());
+        let samples = &self.samples;
+        let sample = |k: usize| sign * samples[k * switches + switch];
+        let clear_start = sample(0) > 0.0 && self.fresh != Some(switch);
+        let (state, values) = (&mut self.state, &mut self.values);
+        let mut distance = |x: f64| {
+            dense.state(x, state);
+            field.switching(time + x * step, state, values);
+            sign * values[switch]
+        };
+        for k in 1..=SAMPLES {
+            if sample(k) < 0.0 {
+                if k == 1 && !clear_start {
+                    return Verdict::TooLong { switch };
+                }
+                return Verdict::Crossing {
+                    fraction: zero(&mut distance, fraction(k - 1), fraction(k)),
+                    switch,
+                };
+            }
+            let dips = k < SAMPLES && sample(k - 1) > sample(k) && sample(k + 1) >= sample(k);
+            if dips && sample(k) < sample(k - 1) + sample(k + 1) - 2.0 * sample(k) {
+                let lowest = minimum(&mut distance, fraction(k - 1), fraction(k + 1));
+                if distance(lowest) < 0.0 {
+                    let fraction = zero(&mut distance, fraction(k - 1), lowest);
+                    return Verdict::Crossing { fraction, switch };
+                }
+            }
+        }
+        Verdict::Clear
+    }
+}
+
+fn fraction(sample: usize) -> f64 {
+    sample as f64 / SAMPLES as f64
+}
+
+/// Zero of a function that is not negative at `low` and negative at `high`, by the Illinois method.
+fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    let (mut at_low, mut at_high) = (function(low), function(high));
+    let mut kept = 0;
+    for _ in 0..60 {
+        let x = (low * at_high - high * at_low) / (at_high - at_low);
+        if !(x > low && x < high) || high - low < 1e-15 {
+            break;
+        }
+        let at_x = function(x);
+        if at_x >= 0.0 {
+            (low, at_low) = (x, at_x);
+            if kept == 1 {
+                at_high *= 0.5;
+            }
+            kept = 1;
+        } else {
+            (high, at_high) = (x, at_x);
+            if kept == -1 {
+                at_low *= 0.5;
+            }
+            kept = -1;
+        }
+    }
+    if at_low.abs() <= at_high.abs() { low } else { high }
+}
+
+/// Place of the lowest value between two places, by golden section.
+fn minimum(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+    let (mut at_a, mut at_b) = (function(a), function(b));
+    while high - low > 1e-8 {
+        if at_a < at_b {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - GOLDEN * (high - low);
+            at_a = function(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + GOLDEN * (high - low);
+            at_b = function(b);
+        }
+    }
+    if at_a < at_b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_are_bracketed_to_rounding() {
+        let x = zero(&mut |x| 0.25 - x * x * x, 0.0, 1.0);
+        assert!((x - 0.25_f64.cbrt()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn minima_are_found_to_half_the_digits() {
+        let x = minimum(&mut |x| (x - 0.3_f64).powi(2) - 1e-9, 0.0, 1.0);
+        assert!((x - 0.3).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,231 @@
+//! The equations of motion of a [`System`] as a vector field over the phase of the excitation.
+//!
+//! With `W = 2 pi f` and the phase `x = f t` in cycles, `z = [q; v]` and
+//!
+//! `dz/dx = g / f`, `g = [v; -C v - diag(w^2) q + Re sum_m b_m(W) exp(i 2 pi m x) + sum_e phi_e f_e(r_e)]`.
+//!
+//! The ends of a stretch are fixed phases, so `d(dz/dx)/df = (dg/df) / f - g / f^2` with
+//! `dg/df = [0; 2 pi Re sum_m db_m/dW exp(i 2 pi m x)]` gives the whole derivative by the frequency: nothing is left
+//! to add for the duration.
+//!
+//! Switching functions are `sign (r - level)`, one for each contact of each element. In contact a law is continued
+//! below its level by its tangent there; out of contact its force is zero.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+
+use super::{Point, VectorField};
+use crate::{Contact, Force, LocalElement, ModalLoad, System};
+
+/// A system at one frequency.
+pub(super) struct SystemField<'a> {
+    system: &'a System,
+    period: f64,
+    damping: Damping,
+    stiffness: Vec<f64>,
+    loads: Vec<ModalLoad>,
+    switches: usize,
+    /// `exp(i 2 pi m x)` for each order at the last point.
+    rotations: Vec<c64>,
+    /// `df_e/dr` at the last point.
+    slopes: Vec<f64>,
+}
+
+/// The modal damping matrix `C`.
+enum Damping {
+    Diagonal(Vec<f64>),
+    /// Row by row.
+    Full(Vec<f64>),
+}
+
+impl<'a> SystemField<'a> {
+    pub(super) fn new(system: &'a System, frequency_hz: f64) -> Self {
+        let loads: Vec<_> =
+            (0..system.orders().len()).map(|order| system.modal_load(order, TAU * frequency_hz)).collect();
+        Self {
+            system,
+            period: 1.0 / frequency_hz,
+            damping: Damping::of(system),
+            stiffness: system.model().natural_frequencies.iter().map(|w| w * w).collect(),
+            rotations: vec![c64::new(0.0, 0.0); loads.len()],
+            loads,
+            switches: system.elements().iter().map(|element| element.law.contacts().len()).sum(),
+            slopes: vec![0.0; system.elements().len()],
+        }
+    }
+
+    fn rotate(&mut self, phase: f64) {
+        for (rotation, order) in self.rotations.iter_mut().zip(self.system.orders()) {
+            let (sin, cos) = (TAU * (f64::from(*order) * phase.fract()).fract()).sin_cos();
+            *rotation = c64::new(cos, sin);
+        }
+    }
+
+    /// Adds `Re sum_m b_m exp(i 2 pi m x)`, or the same of the derivatives of `b_m`.
+    fn add_load(&self, of: impl Fn(&ModalLoad) -> &[c64], factor: f64, sum: &mut [f64]) {
+        for (load, rotation) in self.loads.iter().zip(&self.rotations) {
+            let (cos, sin) = (factor * rotation.re, factor * rotation.im);
+            for (sum, amplitude) in sum.iter_mut().zip(of(load)) {
+                *sum += amplitude.re * cos - amplitude.im * sin;
+            }
+        }
+    }
+
+    /// `u = Re sum_m U_m exp(i 2 pi m x)`.
+    fn support_displacement(&self, phase: f64) -> f64 {
+        let terms = self.system.support_amplitudes().iter().zip(self.system.orders());
+        terms
+            .map(|(amplitude, &order)| {
+                let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
+                amplitude.re * cos - amplitude.im * sin
+            })
+            .sum()
+    }
+
+    fn relative_displacement(&self, element: &LocalElement, q: &[f64], phase: f64) -> f64 {
+        let elastic = dot(&element.shape, q);
+        if element.support_ratio == 0.0 {
+            elastic
+        } else {
+            elastic + element.support_ratio * self.support_displacement(phase)
+        }
+    }
+
+    fn add_local_forces(&mut self, at: Point<'_>, q: &[f64], rate: &mut [f64]) {
+        let mut flags = at.inside;
+        for (e, element) in self.system.elements().iter().enumerate() {
+            let r = self.relative_displacement(element, q, at.time);
+            let (inside, rest) = flags.split_at(element.law.contacts().len());
+            flags = rest;
+            let force = force_in_region(element, r, inside);
+            self.slopes[e] = force.slope;
+            add_scaled(rate, self.period * force.value, &element.shape);
+        }
+    }
+}
+
+impl VectorField for SystemField<'_> {
+    fn dimension(&self) -> usize {
+        2 * self.system.dof()
+    }
+
+    fn parts(&self) -> usize {
+        2
+    }
+
+    fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]) {
+        let n = self.system.dof();
+        self.rotate(at.time);
+        linear_rates(&self.stiffness, &self.damping, self.period, at.state, derivative);
+        let (q, rate) = (&at.state[..n], &mut derivative[n..]);
+        self.add_load(|load| &load.amplitude, self.period, rate);
+        self.add_local_forces(at, q, rate);
+    }
+
+    fn tangents(&mut self, _: Point<'_>, columns: &[f64], derivatives: &mut [f64]) {
+        let n = self.system.dof();
+        for (column, derivative) in columns.chunks_exact(2 * n).zip(derivatives.chunks_exact_mut(2 * n)) {
+            linear_rates(&self.stiffness, &self.damping, self.period, column, derivative);
+            for (element, &slope) in self.system.elements().iter().zip(&self.slopes) {
+                if slope != 0.0 {
+                    let force = self.period * slope * dot(&element.shape, &column[..n]);
+                    add_scaled(&mut derivative[n..], force, &element.shape);
+                }
+            }
+        }
+    }
+
+    fn add_by_parameter(&mut self, _: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
+        add_scaled(sum, -self.period, derivative);
+        let n = self.system.dof();
+        self.add_load(|load| &load.by_frequency, TAU * self.period, &mut sum[n..]);
+    }
+
+    fn switches(&self) -> usize {
+        self.switches
+    }
+
+    fn switching(&self, phase: f64, state: &[f64], values: &mut [f64]) {
+        let mut k = 0;
+        for element in self.system.elements() {
+            let contacts = element.law.contacts();
+            if !contacts.is_empty() {
+                let r = self.relative_displacement(element, &state[..self.system.dof()], phase);
+                for contact in contacts {
+                    values[k] = contact.sign * (r - contact.level);
+                    k += 1;
+                }
+            }
+        }
+    }
+}
+
+impl Damping {
+    fn of(system: &System) -> Self {
+        let (n, matrix) = (system.dof(), &system.model().damping);
+        let couples = (0..n).any(|i| (0..n).any(|j| i != j && matrix[(i, j)] != 0.0));
+        if couples {
+            Self::Full((0..n * n).map(|k| matrix[(k / n, k % n)]).collect())
+        } else {
+            Self::Diagonal((0..n).map(|i| matrix[(i, i)]).collect())
+        }
+    }
+}
+
+/// Writes `T [v; -diag(w^2) q - C v]`.
+fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64], derivative: &mut [f64]) {
+    let n = stiffness.len();
+    let (q, v) = state.split_at(n);
+    let (velocity, rate) = derivative.split_at_mut(n);
+    for (velocity, v) in velocity.iter_mut().zip(v) {
+        *velocity = period * v;
+    }
+    match damping {
+        Damping::Diagonal(damping) => {
+            for i in 0..n {
+                rate[i] = -period * (stiffness[i] * q[i] + damping[i] * v[i]);
+            }
+        }
+        Damping::Full(damping) => {
+            for (i, row) in damping.chunks_exact(n).enumerate() {
+                rate[i] = -period * (stiffness[i] * q[i] + dot(row, v));
+            }
+        }
+    }
+}
+
+/// Force of an element whose contacts are held closed or open.
+fn force_in_region(element: &LocalElement, r: f64, inside: &[bool]) -> Force {
+    let contacts = element.law.contacts();
+    if contacts.is_empty() {
+        return element.law.force(r);
+    }
+    let penetration = |contact: &Contact| contact.sign * (r - contact.level);
+    let closed = contacts.iter().zip(inside).filter(|(_, inside)| **inside).map(|(contact, _)| contact);
+    match closed.max_by(|a, b| penetration(a).total_cmp(&penetration(b))) {
+        None => Force::ZERO,
+        Some(contact) if penetration(contact) > 0.0 => element.law.force(r),
+        Some(contact) => continued_force(element, r, contact),
+    }
+}
+
+/// The tangent of the law at the level of a contact, where the law itself has ended.
+fn continued_force(element: &LocalElement, r: f64, contact: &Contact) -> Force {
+    if contact.onset_exponent > 1.0 {
+        return Force::ZERO;
+    }
+    let beyond = contact.level + contact.sign * (1e-9 * contact.level.abs() + 1e-12);
+    let slope = element.law.force(beyond).slope;
+    Force { value: slope * (r - contact.level), slope }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add_scaled(sum: &mut [f64], factor: f64, values: &[f64]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += factor * value;
+    }
+}
