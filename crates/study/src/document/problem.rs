@@ -1,0 +1,125 @@
+//! What is wrong with a document, and how it is shown.
+
+use std::{fmt, ops::Range};
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+
+/// One fault of a document.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// Path of the key, such as `stop[0].gap_m`; empty for a fault of the whole document.
+    pub key: String,
+    /// Where it stands [bytes]; `None` if nowhere in the text.
+    pub span: Option<Range<usize>>,
+    /// What was found.
+    pub message: String,
+    /// What is allowed.
+    pub help: Vec<String>,
+}
+
+/// All faults of one document, with its text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Report {
+    /// Name of the document, usually its path.
+    pub name: String,
+    text: String,
+    /// The faults, in the order of the text.
+    pub problems: Vec<Problem>,
+}
+
+impl Report {
+    pub(crate) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
+        problems.sort_by_key(|problem| problem.span.as_ref().map_or(usize::MAX, |span| span.start));
+        Self { name: name.to_owned(), text: text.to_owned(), problems }
+    }
+
+    /// Line and column of a fault, both counted from 1; `None` if it stands nowhere in the text.
+    #[must_use]
+    pub fn position(&self, problem: &Problem) -> Option<(usize, usize)> {
+        let before = &self.text[..boundary(&self.text, problem.span.as_ref()?.start)];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Some((before.matches('\n').count() + 1, before[line_start..].chars().count() + 1))
+    }
+
+    /// The faults as text for a terminal: each with its line, what was found and what is allowed.
+    ///
+    /// * `styled`: with ANSI colours.
+    #[must_use]
+    pub fn render(&self, styled: bool) -> String {
+        let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
+        let shown: Vec<String> =
+            self.problems.iter().map(|problem| renderer.render(&[self.group(problem)])).collect();
+        shown.join("\n\n")
+    }
+
+    fn group<'a>(&'a self, problem: &'a Problem) -> Group<'a> {
+        let title = Level::ERROR.primary_title(&problem.message);
+        let mut group = match &problem.span {
+            Some(span) => title.element(
+                Snippet::source(&self.text)
+                    .path(&self.name)
+                    .annotation(AnnotationKind::Primary.span(self.clip(span)).label(&problem.key)),
+            ),
+            None => Group::with_title(title),
+        };
+        for help in &problem.help {
+            group = group.element(Level::HELP.message(help));
+        }
+        group
+    }
+
+    /// The span cut to its first line: a table may span the rest of the file.
+    fn clip(&self, span: &Range<usize>) -> Range<usize> {
+        let start = boundary(&self.text, span.start);
+        let end = boundary(&self.text, span.end).max(start);
+        let line_end = self.text[start..end].find('\n').map_or(end, |newline| start + newline);
+        start..line_end
+    }
+}
+
+/// The last place in the text, up to `index`, where a character starts.
+fn boundary(text: &str, index: usize) -> usize {
+    (0..=index.min(text.len())).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0)
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.render(false))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report() -> Report {
+        let text = "title = \"ä\"\nlength_m = -1.0\n";
+        let problem = Problem {
+            key: "length_m".into(),
+            span: Some(24..28),
+            message: "`length_m` is -1 m".into(),
+            help: vec!["allowed: more than 0 m".into()],
+        };
+        Report::new("study.toml", text, vec![problem])
+    }
+
+    #[test]
+    fn position_counts_lines_and_characters_from_one() {
+        let report = report();
+        assert_eq!(report.position(&report.problems[0]), Some((2, 12)));
+    }
+
+    #[test]
+    fn rendering_shows_line_key_and_what_is_allowed() {
+        let shown = report().render(false);
+        for part in ["study.toml:2:12", "length_m = -1.0", "`length_m` is -1 m", "allowed: more than 0 m"] {
+            assert!(shown.contains(part), "{part} is missing in\n{shown}");
+        }
+    }
+
+    #[test]
+    fn a_span_over_several_lines_is_shown_by_its_first() {
+        let report = report();
+        assert_eq!(report.clip(&(0..25)), 0..12);
+    }
+}

@@ -1,0 +1,62 @@
+//! The state of reading one document: the faults so far, and where each key stands.
+
+use std::{
+    cell::{Cell, RefCell},
+    collections::BTreeMap,
+    ops::Range,
+};
+
+use super::Problem;
+
+/// Collects faults and the places of keys while a document is read.
+#[derive(Debug, Default)]
+pub(crate) struct Reading {
+    problems: RefCell<Vec<Problem>>,
+    places: RefCell<BTreeMap<String, Range<usize>>>,
+    count: Cell<usize>,
+}
+
+impl Reading {
+    /// Notes a fault at a place.
+    pub(crate) fn problem(&self, key: &str, span: Option<Range<usize>>, message: String, help: Vec<String>) {
+        self.count.set(self.count.get() + 1);
+        self.problems.borrow_mut().push(Problem { key: key.to_owned(), span, message, help });
+    }
+
+    /// Notes where a key stands.
+    pub(crate) fn note_place(&self, key: &str, span: Range<usize>) {
+        self.places.borrow_mut().insert(key.to_owned(), span);
+    }
+
+    /// Number of faults so far.
+    pub(crate) fn count(&self) -> usize {
+        self.count.get()
+    }
+
+    pub(crate) fn into_parts(self) -> (Vec<Problem>, BTreeMap<String, Range<usize>>) {
+        (self.problems.into_inner(), self.places.into_inner())
+    }
+}
+
+/// The place of a key, or of the closest table around it.
+pub(crate) fn place(places: &BTreeMap<String, Range<usize>>, key: &str) -> Option<Range<usize>> {
+    let mut key = key;
+    loop {
+        if let Some(span) = places.get(key) {
+            return Some(span.clone());
+        }
+        key = &key[..key.rfind(['.', '['])?];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_key_that_is_not_there_stands_in_its_table() {
+        let places = BTreeMap::from([("stop[0]".to_owned(), 3..7)]);
+        assert_eq!(place(&places, "stop[0].gap_m"), Some(3..7));
+        assert_eq!(place(&places, "reduction.cut_off_hz"), None);
+    }
+}

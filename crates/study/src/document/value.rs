@@ -1,0 +1,177 @@
+//! A value of the document, taken as what it has to be.
+
+use std::ops::Range;
+
+use toml::de::{DeFloat, DeInteger, DeValue};
+
+use super::{Quantity, Reading, Table, closest};
+
+/// A value with its key path and its place; the readers give `None` after noting what is wrong.
+pub(crate) struct Value<'a> {
+    reading: &'a Reading,
+    path: String,
+    span: Range<usize>,
+    value: &'a DeValue<'a>,
+}
+
+impl<'a> Value<'a> {
+    pub(crate) fn new(
+        reading: &'a Reading,
+        path: String,
+        span: Range<usize>,
+        value: &'a DeValue<'a>,
+    ) -> Self {
+        Self { reading, path, span, value }
+    }
+
+    /// Last part of the key path, for messages.
+    fn key(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or(&self.path)
+    }
+
+    /// Notes a fault of this value.
+    pub(crate) fn problem(&self, message: String, help: Vec<String>) {
+        self.reading.problem(&self.path, Some(self.span.clone()), message, help);
+    }
+
+    /// What the value is, in words.
+    fn found(&self) -> String {
+        match self.value {
+            DeValue::String(text) => format!("the string \"{text}\""),
+            DeValue::Integer(number) => format!("the number {number}"),
+            DeValue::Float(number) => format!("the number {number}"),
+            DeValue::Boolean(value) => format!("the boolean {value}"),
+            DeValue::Datetime(_) => "a date".to_owned(),
+            DeValue::Array(_) => "a list".to_owned(),
+            DeValue::Table(_) => "a table".to_owned(),
+        }
+    }
+
+    fn wrong_type<T>(&self, expected: &str) -> Option<T> {
+        self.problem(format!("`{}` must be {expected}, found {}", self.key(), self.found()), Vec::new());
+        None
+    }
+
+    /// A finite number within the range of the quantity.
+    pub(crate) fn number(&self, quantity: &Quantity) -> Option<f64> {
+        let number = match self.value {
+            DeValue::Integer(number) => integer(number)? as f64,
+            DeValue::Float(number) => float(number),
+            _ => return self.wrong_type("a number"),
+        };
+        match quantity.fault(number) {
+            None => Some(number),
+            Some(help) => {
+                self.problem(format!("`{}` is {}", self.key(), quantity.with_unit(number)), help);
+                None
+            }
+        }
+    }
+
+    /// A whole number from `low` to `high`.
+    pub(crate) fn whole(&self, low: u32, high: u32) -> Option<u32> {
+        let DeValue::Integer(number) = self.value else { return self.wrong_type("a whole number") };
+        match integer(number).and_then(|number| u32::try_from(number).ok()) {
+            Some(number) if (low..=high).contains(&number) => Some(number),
+            _ => {
+                let help = vec![format!("allowed: whole numbers from {low} to {high}")];
+                self.problem(format!("`{}` is {number}", self.key()), help);
+                None
+            }
+        }
+    }
+
+    /// A string.
+    pub(crate) fn text(&self) -> Option<&'a str> {
+        match self.value {
+            DeValue::String(text) => Some(text.as_ref()),
+            _ => self.wrong_type("a string"),
+        }
+    }
+
+    /// Whether the value is a string.
+    pub(crate) fn is_text(&self) -> bool {
+        matches!(self.value, DeValue::String(_))
+    }
+
+    /// Whether the value is a list.
+    pub(crate) fn is_list(&self) -> bool {
+        matches!(self.value, DeValue::Array(_))
+    }
+
+    /// One of a few words, each with its meaning.
+    pub(crate) fn choice<T: Copy>(&self, choices: &[(&str, T)]) -> Option<T> {
+        let text = self.text()?;
+        let meaning = choices.iter().find(|(name, _)| *name == text).map(|(_, meaning)| *meaning);
+        if meaning.is_none() {
+            let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
+            self.unknown_word(text, "one of the allowed words", &names);
+        }
+        meaning
+    }
+
+    /// Notes that a word is not one of those known.
+    pub(crate) fn unknown_word(&self, word: &str, what: &str, known: &[&str]) {
+        let mut help = vec![format!("allowed: {}", known.join(", "))];
+        if let Some(close) = closest(word, known.iter().copied()) {
+            help.insert(0, format!("did you mean \"{close}\"?"));
+        }
+        self.problem(format!("`{}` is \"{word}\", which is not {what}", self.key()), help);
+    }
+
+    /// A table.
+    pub(crate) fn table(&self) -> Option<Table<'a>> {
+        match self.value {
+            DeValue::Table(entries) => {
+                Some(Table::new(self.reading, self.path.clone(), self.span.clone(), entries))
+            }
+            _ => self.wrong_type("a table"),
+        }
+    }
+
+    /// A list; `what` says of what, for the message.
+    pub(crate) fn array_of(&self, what: &str) -> Option<Vec<Value<'a>>> {
+        let DeValue::Array(elements) = self.value else {
+            return self.wrong_type(&format!("a list of {what}"));
+        };
+        let element = |(index, element): (usize, &'a toml::Spanned<DeValue<'a>>)| {
+            let path = format!("{}[{index}]", self.path);
+            self.reading.note_place(&path, element.span());
+            Value::new(self.reading, path, element.span(), element.get_ref())
+        };
+        Some(elements.iter().enumerate().map(element).collect())
+    }
+
+    /// A list of exactly `N` numbers.
+    pub(crate) fn numbers<const N: usize>(&self, quantity: &Quantity) -> Option<[f64; N]> {
+        self.exactly(&format!("{N} numbers"), |element| element.number(quantity))
+    }
+
+    /// A list of exactly `N` values.
+    pub(crate) fn exactly<const N: usize, T>(
+        &self,
+        what: &str,
+        read: impl Fn(&Value<'a>) -> Option<T>,
+    ) -> Option<[T; N]> {
+        let elements = self.array_of(what)?;
+        if elements.len() != N {
+            self.problem(
+                format!("`{}` has {} entries", self.key(), elements.len()),
+                vec![format!("allowed: a list of {what}")],
+            );
+            return None;
+        }
+        let values: Vec<Option<T>> = elements.iter().map(read).collect();
+        values.into_iter().collect::<Option<Vec<T>>>()?.try_into().ok()
+    }
+}
+
+/// The integer, `None` if it does not fit (the parser has refused it then).
+fn integer(number: &DeInteger<'_>) -> Option<i64> {
+    i64::from_str_radix(number.as_str(), number.radix()).ok()
+}
+
+/// The number; what is too large for a double becomes infinite and is refused as such.
+fn float(number: &DeFloat<'_>) -> f64 {
+    number.as_str().parse().unwrap_or(f64::NAN)
+}

@@ -1,0 +1,66 @@
+//! `[continuation]`: how finely and how far branches are followed.
+
+use serde::Serialize;
+
+use crate::document::{Table, Value, quantity};
+
+use super::Excitation;
+
+/// Settings of the branch following.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Continuation {
+    /// Largest step of the excitation frequency [Hz].
+    pub max_step_hz: f64,
+    /// Relative tolerance of the periodic solutions.
+    pub tolerance: f64,
+    /// Number of shooting segments per excitation period.
+    pub segments: Segments,
+    /// Largest number of solutions on each side of a start; no part of the identity.
+    #[serde(skip)]
+    pub budget_solutions: usize,
+}
+
+/// Number of shooting segments.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Segments {
+    /// Chosen by the program.
+    Auto,
+    /// Given.
+    Given(u32),
+}
+
+/// Steps over the frequency range by default.
+const DEFAULT_STEPS: f64 = 2000.0;
+
+pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<Continuation> {
+    let table = match root.optional("continuation") {
+        Some(value) => Some(value.table()?),
+        None => None,
+    };
+    let key = |key| table.as_ref().and_then(|table| table.optional(key));
+    let step = key("max_step_hz").map(|value| value.number(&quantity::STEP));
+    let tolerance = key("tolerance").map_or(Some(1e-9), |value| value.number(&quantity::TOLERANCE));
+    let segments = key("segments").map_or(Some(Segments::Auto), |value| read_segments(&value));
+    let budget = key("budget_solutions").map_or(Some(200_000), |value| value.whole(1, 100_000_000));
+    if let Some(table) = table {
+        table.finish();
+    }
+    let step = match step {
+        Some(step) => step?,
+        None => excitation.map(|e| (e.frequency_hz[1] - e.frequency_hz[0]) / DEFAULT_STEPS)?,
+    };
+    Some(Continuation {
+        max_step_hz: step,
+        tolerance: tolerance?,
+        segments: segments?,
+        budget_solutions: budget? as usize,
+    })
+}
+
+fn read_segments(value: &Value<'_>) -> Option<Segments> {
+    if value.is_text() {
+        return value.choice(&[("auto", Segments::Auto)]);
+    }
+    value.whole(1, 1000).map(Segments::Given)
+}

@@ -1,0 +1,114 @@
+//! `[excitation]`: the harmonic that carries the frequency of the study.
+
+use serde::Serialize;
+
+use crate::document::{Table, Value, quantity};
+
+use super::names::Names;
+
+/// The harmonic excitation `amplitude cos(2 pi order f t + phase)` and the range of `f`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Excitation {
+    /// What is driven.
+    pub kind: ExcitationKind,
+    /// Phase [rad].
+    pub phase_rad: f64,
+    /// Multiple of the excitation frequency.
+    pub order: u32,
+    /// Range of the excitation frequency [Hz]; branches are cut exactly at its ends.
+    pub frequency_hz: [f64; 2],
+}
+
+/// What the excitation drives.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ExcitationKind {
+    /// A displacement common to the named supports is prescribed.
+    SupportMotion {
+        /// Supports that move together.
+        at: Vec<String>,
+        /// Amplitude [m].
+        amplitude_m: f64,
+    },
+    /// A force acts.
+    Force {
+        /// Point.
+        at: String,
+        /// Amplitude [N].
+        amplitude_n: f64,
+    },
+}
+
+impl Excitation {
+    /// The supports whose motion is prescribed; none for a force.
+    #[must_use]
+    pub fn moving_supports(&self) -> &[String] {
+        match &self.kind {
+            ExcitationKind::SupportMotion { at, .. } => at,
+            ExcitationKind::Force { .. } => &[],
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    SupportMotion,
+    Force,
+}
+
+pub(super) fn read(root: &Table<'_>, names: &Names) -> Option<Excitation> {
+    let table = root.required("excitation").and_then(|value| value.table())?;
+    let kinds = [("support-motion", Kind::SupportMotion), ("force", Kind::Force)];
+    let kind = table.required("kind").and_then(|value| value.choice(&kinds))?;
+    let kind = match kind {
+        Kind::SupportMotion => read_support_motion(&table, names),
+        Kind::Force => read_force(&table, names),
+    };
+    let phase = table.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
+    let order = table.optional("order").map_or(Some(1), |value| value.whole(1, 1000));
+    let range = table.required("frequency_hz").and_then(|value| read_range(&value));
+    table.finish();
+    Some(Excitation { kind: kind?, phase_rad: phase?, order: order?, frequency_hz: range? })
+}
+
+fn read_support_motion(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
+    let at = table.required("at").and_then(|value| read_supports(&value, names));
+    let amplitude = table.required("amplitude_m").and_then(|value| value.number(&quantity::AMPLITUDE));
+    Some(ExcitationKind::SupportMotion { at: at?, amplitude_m: amplitude? })
+}
+
+fn read_supports(value: &Value<'_>, names: &Names) -> Option<Vec<String>> {
+    if value.is_text() {
+        return names.support(value).map(|name| vec![name]);
+    }
+    let elements = value.array_of("supports")?;
+    let supports: Vec<Option<String>> = elements.iter().map(|element| names.support(element)).collect();
+    let supports = supports.into_iter().collect::<Option<Vec<String>>>()?;
+    let mut distinct = supports.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    if supports.is_empty() || distinct.len() < supports.len() {
+        let message =
+            if supports.is_empty() { "`at` is an empty list" } else { "`at` names a support twice" };
+        value.problem(message.into(), vec!["allowed: one support or more, each once".into()]);
+        return None;
+    }
+    Some(supports)
+}
+
+fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
+    let at = table.required("at").and_then(|value| names.point(&value));
+    let amplitude = table.required("amplitude_n").and_then(|value| value.number(&quantity::FORCE));
+    Some(ExcitationKind::Force { at: at?, amplitude_n: amplitude? })
+}
+
+fn read_range(value: &Value<'_>) -> Option<[f64; 2]> {
+    let range = value.numbers::<2>(&quantity::FREQUENCY)?;
+    if range[0] < range[1] {
+        return Some(range);
+    }
+    let what = if range[0] == range[1] { "empty" } else { "reversed" };
+    let help = vec!["allowed: [low, high] with low < high".into()];
+    value.problem(format!("`frequency_hz` is [{}, {}], which is {what}", range[0], range[1]), help);
+    None
+}

@@ -1,0 +1,85 @@
+//! `[structure]` of kind "lumped": masses, springs and dampers on a line.
+
+use serde::Serialize;
+
+use crate::document::{Quantity, Reading, Table, quantity};
+
+use super::names::{Names, read_name};
+
+/// Masses that move along one line, joined by springs and dampers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Lumped {
+    /// The masses; one degree of freedom each.
+    pub masses: Vec<Mass>,
+    /// Linear springs.
+    pub springs: Vec<Spring>,
+    /// Linear dampers.
+    pub dampers: Vec<Damper>,
+}
+
+/// A mass.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Mass {
+    /// Name.
+    pub name: String,
+    /// Mass [kg].
+    pub mass_kg: f64,
+}
+
+/// A linear spring between two masses, or a mass and the ground.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Spring {
+    /// What it joins.
+    pub between: [String; 2],
+    /// Stiffness [N/m].
+    pub stiffness_n_m: f64,
+}
+
+/// A linear damper between two masses, or a mass and the ground.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Damper {
+    /// What it joins.
+    pub between: [String; 2],
+    /// Damping constant [N s/m].
+    pub damping_n_s_m: f64,
+}
+
+pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> Option<Lumped> {
+    let before = reading.count();
+    names.add_ground();
+    table.required("mass")?;
+    let masses = table.tables("mass");
+    if masses.is_empty() && reading.count() == before {
+        table.problem("mass", "`mass` is an empty list".into(), vec!["allowed: one mass or more".into()]);
+    }
+    let masses: Vec<Mass> = masses.into_iter().filter_map(|mass| read_mass(mass, names)).collect();
+    let links = |key, constant, quantity: &Quantity| -> Vec<([String; 2], f64)> {
+        table.tables(key).into_iter().filter_map(|link| read_link(link, constant, quantity, names)).collect()
+    };
+    let springs = links("spring", "stiffness_n_m", &quantity::STIFFNESS);
+    let dampers = links("damper", "damping_n_s_m", &quantity::DAMPER);
+    (reading.count() == before).then(|| Lumped {
+        masses,
+        springs: springs.into_iter().map(|(between, k)| Spring { between, stiffness_n_m: k }).collect(),
+        dampers: dampers.into_iter().map(|(between, d)| Damper { between, damping_n_s_m: d }).collect(),
+    })
+}
+
+fn read_mass(table: Table<'_>, names: &mut Names) -> Option<Mass> {
+    let name = read_name(&table, names);
+    let mass = table.required("mass_kg").and_then(|value| value.number(&quantity::MASS));
+    table.finish();
+    Some(Mass { name: name?, mass_kg: mass? })
+}
+
+fn read_link(
+    table: Table<'_>,
+    constant: &'static str,
+    quantity: &Quantity,
+    names: &Names,
+) -> Option<([String; 2], f64)> {
+    let between = table.required("between").and_then(|value| names.pair(&value, true));
+    let constant = table.required(constant).and_then(|value| value.number(quantity));
+    table.finish();
+    Some((between?, constant?))
+}

@@ -1,0 +1,35 @@
+//! The study file: what a study says, and how it is read from TOML.
+//!
+//! One file per table of the study file. Each holds plain data, in SI units, and the reader that asks the table for
+//! its keys; `docs/study-file.md` lists them all. What needs the assembled model (a cut-off below the first mode, the
+//! number of modal damping ratios) is checked in [`crate::model`].
+
+mod beam;
+mod continuation;
+mod damping;
+mod excitation;
+mod load;
+mod lumped;
+mod names;
+mod reduction;
+mod response;
+mod stop;
+mod stop_law;
+mod structure;
+mod study;
+
+pub use beam::{Beam, BeamPoint, End, Section};
+pub use continuation::{Continuation, Segments};
+pub use damping::{Damping, ModalRatio};
+pub use excitation::{Excitation, ExcitationKind};
+pub use load::Load;
+pub use lumped::{Damper, Lumped, Mass, Spring};
+pub use reduction::{Reduction, ReductionMethod};
+pub use response::Response;
+pub use stop::{FixedTo, Place, Stop};
+pub use stop_law::{Approach, GapMeasured, Side, StopLaw};
+pub use structure::Structure;
+pub use study::{Study, StudyError, StudyFile};
+
+#[cfg(test)]
+mod tests;

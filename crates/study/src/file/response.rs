@@ -1,0 +1,71 @@
+//! `[response]`: what is to be computed.
+
+use serde::Serialize;
+
+use crate::document::{Table, Value};
+
+use super::{Place, Stop, names::Names};
+
+/// What a study asks for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Response {
+    /// The point whose displacement and acceleration are reported.
+    pub point: String,
+    /// Orbit periods over excitation period, each of which is sought.
+    pub period_multiples: Vec<u32>,
+}
+
+pub(super) fn read(root: &Table<'_>, names: &Names, stops: Option<&[Stop]>) -> Option<Response> {
+    let table = match root.optional("response") {
+        Some(value) => Some(value.table()?),
+        None => None,
+    };
+    let key = |key| table.as_ref().and_then(|table| table.optional(key));
+    let point = match key("point") {
+        Some(value) => names.point(&value),
+        None => default_point(names, stops),
+    };
+    let multiples = key("period_multiples").map_or(Some(vec![1]), |value| read_multiples(&value));
+    let depth = key("period_doubling_depth").map_or(Some(()), |value| read_depth(&value));
+    if let Some(table) = table {
+        table.finish();
+    }
+    depth?;
+    Some(Response { point: point?, period_multiples: multiples? })
+}
+
+/// First point of the first stop, else the first point or mass, else the right end.
+fn default_point(names: &Names, stops: Option<&[Stop]>) -> Option<String> {
+    let of_stop = stops?.first().map(|stop| match &stop.place {
+        Place::At { point, .. } => point.as_str(),
+        Place::Between { first, .. } => first.as_str(),
+    });
+    Some(of_stop.or_else(|| names.first()).unwrap_or("right").to_owned())
+}
+
+fn read_multiples(value: &Value<'_>) -> Option<Vec<u32>> {
+    let elements = value.array_of("whole numbers")?;
+    let multiples: Vec<Option<u32>> = elements.iter().map(|element| element.whole(1, 64)).collect();
+    let multiples = multiples.into_iter().collect::<Option<Vec<u32>>>()?;
+    let mut distinct = multiples.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    if distinct.is_empty() || distinct.len() < multiples.len() {
+        let what = if distinct.is_empty() { "is an empty list" } else { "names a multiple twice" };
+        let help = vec!["allowed: whole numbers from 1 to 64, each once".into()];
+        value.problem(format!("`period_multiples` {what}"), help);
+        return None;
+    }
+    Some(distinct)
+}
+
+fn read_depth(value: &Value<'_>) -> Option<()> {
+    match value.whole(0, 16)? {
+        0 => Some(()),
+        depth => {
+            let help = vec!["allowed: 0; branches of doubled period are not followed yet".into()];
+            value.problem(format!("`period_doubling_depth` is {depth}"), help);
+            None
+        }
+    }
+}

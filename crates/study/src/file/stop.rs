@@ -1,0 +1,129 @@
+//! `[[stop]]`: a local element, where it sits and what it pushes against.
+
+use serde::Serialize;
+
+use crate::document::{Reading, Table, Value};
+
+use super::{Excitation, StopLaw, names::Names, stop_law};
+
+/// A local non-linear element.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stop {
+    /// Name for reports.
+    pub name: String,
+    /// Where it sits.
+    pub place: Place,
+    /// Its force law.
+    pub law: StopLaw,
+}
+
+/// Where an element sits; with it goes the relative displacement `r`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// Between a point and its surroundings: `r` is the displacement of the point relative to what the stop is fixed to.
+    At {
+        /// Point.
+        point: String,
+        /// What carries the stop.
+        fixed_to: FixedTo,
+    },
+    /// Between two points: `r = y_first - y_second`.
+    Between {
+        /// First point.
+        first: String,
+        /// Second point.
+        second: String,
+    },
+}
+
+/// What carries a stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FixedTo {
+    /// It rides on the moving support.
+    Support,
+    /// It does not move.
+    Space,
+}
+
+pub(super) fn read(
+    root: &Table<'_>,
+    reading: &Reading,
+    names: &Names,
+    excitation: Option<&Excitation>,
+) -> Option<Vec<Stop>> {
+    let before = reading.count();
+    let mut stops: Vec<Stop> = Vec::new();
+    for (index, table) in root.tables("stop").into_iter().enumerate() {
+        let name = read_name(&table, index, &stops);
+        let stop = read_stop(table, names, excitation);
+        if let (Some(name), Some((place, law))) = (name, stop) {
+            stops.push(Stop { name, place, law });
+        }
+    }
+    (reading.count() == before).then_some(stops)
+}
+
+/// The name given, or "stop 1", "stop 2", ...
+fn read_name(table: &Table<'_>, index: usize, others: &[Stop]) -> Option<String> {
+    let Some(value) = table.optional("name") else { return Some(format!("stop {}", index + 1)) };
+    let name = value.text()?;
+    if name.trim().is_empty() || others.iter().any(|other| other.name == name) {
+        let message = format!(
+            "`name` is \"{name}\", which is {}",
+            if name.trim().is_empty() { "empty" } else { "taken" }
+        );
+        value.problem(message, vec!["allowed: a name of its own for each stop".into()]);
+        return None;
+    }
+    Some(name.to_owned())
+}
+
+fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<(Place, StopLaw)> {
+    let place = read_place(&table, names, excitation);
+    let law = stop_law::read(&table);
+    table.finish();
+    Some((place?, law?))
+}
+
+fn read_place(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Place> {
+    let Some(between) = table.optional("between") else {
+        let point = table.required("at").and_then(|value| names.point(&value));
+        let fixed_to = read_fixed_to(table, excitation);
+        return Some(Place::At { point: point?, fixed_to: fixed_to? });
+    };
+    for key in ["at", "fixed_to"] {
+        if let Some(value) = table.optional(key) {
+            let help = vec!["allowed: either `between`, or `at` with `fixed_to`".into()];
+            value.problem(format!("`{key}` is given besides `between`"), help);
+        }
+    }
+    let [first, second] = names.pair(&between, false)?;
+    Some(Place::Between { first, second })
+}
+
+/// The moving support by its name, or "space"; by default the moving support if there is one.
+fn read_fixed_to(table: &Table<'_>, excitation: Option<&Excitation>) -> Option<FixedTo> {
+    let supports = excitation.map_or(&[][..], Excitation::moving_supports);
+    let riding = if supports.is_empty() { FixedTo::Space } else { FixedTo::Support };
+    let Some(value) = table.optional("fixed_to") else { return Some(riding) };
+    let name = value.text()?;
+    if supports.iter().any(|support| support == name) {
+        return Some(FixedTo::Support);
+    }
+    if excitation.is_some() && name != "space" && name != "ground" {
+        refuse_carrier(&value, name, supports);
+        return None;
+    }
+    Some(FixedTo::Space)
+}
+
+fn refuse_carrier(value: &Value<'_>, name: &str, supports: &[String]) {
+    let mut known: Vec<&str> = supports.iter().map(String::as_str).collect();
+    known.push("space");
+    if !known.contains(&"ground") {
+        known.push("ground");
+    }
+    value.unknown_word(name, "a moving support, \"space\" or \"ground\"", &known);
+}

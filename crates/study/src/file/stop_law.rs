@@ -1,0 +1,233 @@
+//! The force law of a stop, as the study states it.
+
+use serde::Serialize;
+
+use crate::document::{Quantity, Table, Value, quantity};
+
+/// Force law of a local element.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopLaw {
+    /// One-sided, `k p^1.5`.
+    Hertz {
+        /// The constant.
+        stiffness: HertzStiffness,
+        /// Gap or preload.
+        approach: Approach,
+        /// On which side the stop is.
+        side: Side,
+    },
+    /// One-sided, `k p`.
+    Linear {
+        /// Stiffness [N/m].
+        stiffness_n_m: f64,
+        /// Gap or preload.
+        approach: Approach,
+        /// On which side the stop is.
+        side: Side,
+    },
+    /// Linear springs on both sides.
+    TwoSided {
+        /// Stiffness [N/m].
+        stiffness_n_m: f64,
+        /// Rest distance of the upper spring [m].
+        gap_above_m: f64,
+        /// Rest distance of the lower spring [m].
+        gap_below_m: f64,
+        /// From where the gaps count.
+        gap_measured: GapMeasured,
+    },
+    /// Cubic spring, always active.
+    Cubic {
+        /// Constant [N/m^3], either sign.
+        stiffness_n_m3: f64,
+    },
+}
+
+/// The constant of a Hertz contact, given or from two spheres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HertzStiffness {
+    /// Given [N/m^1.5].
+    Given(f64),
+    /// Of two spheres.
+    Spheres {
+        /// Radii [m]; `None` is a plane.
+        radii_m: [Option<f64>; 2],
+        /// Young's moduli [Pa].
+        moduli_pa: [f64; 2],
+        /// Poisson's ratios.
+        poisson_ratios: [f64; 2],
+    },
+}
+
+/// How close a one-sided stop is at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Approach {
+    /// At a distance.
+    Gap {
+        /// Distance [m].
+        gap_m: f64,
+        /// From where it counts.
+        measured: GapMeasured,
+    },
+    /// Pressing on the undeformed structure.
+    Preload {
+        /// Force [N].
+        preload_n: f64,
+    },
+}
+
+/// From where a gap counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GapMeasured {
+    /// From the undeformed structure.
+    Undeformed,
+    /// From where the structure rests under the constant loads.
+    AtRest,
+}
+
+/// On which side of the point a one-sided stop is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Side {
+    /// Contact where `r > gap`.
+    Above,
+    /// Contact where `r < -gap`.
+    Below,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    Hertz,
+    Linear,
+    TwoSided,
+    Cubic,
+}
+
+const KINDS: [(&str, Kind); 4] =
+    [("hertz", Kind::Hertz), ("linear", Kind::Linear), ("two-sided", Kind::TwoSided), ("cubic", Kind::Cubic)];
+
+pub(super) fn read(table: &Table<'_>) -> Option<StopLaw> {
+    let law = table.required("law").and_then(|value| value.choice(&KINDS));
+    match law? {
+        Kind::Hertz => {
+            let stiffness = read_hertz(table);
+            let (approach, side) = read_one_sided(table);
+            Some(StopLaw::Hertz { stiffness: stiffness?, approach: approach?, side: side? })
+        }
+        Kind::Linear => {
+            let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
+            let (approach, side) = read_one_sided(table);
+            Some(StopLaw::Linear { stiffness_n_m: stiffness?, approach: approach?, side: side? })
+        }
+        Kind::TwoSided => read_two_sided(table),
+        Kind::Cubic => read_cubic(table),
+    }
+}
+
+fn required(table: &Table<'_>, key: &'static str, quantity: &Quantity) -> Option<f64> {
+    table.required(key).and_then(|value| value.number(quantity))
+}
+
+/// `stiffness_n_m15`, or radii, moduli and Poisson's ratios.
+fn read_hertz(table: &Table<'_>) -> Option<HertzStiffness> {
+    const SPHERES: [&str; 3] = ["radii_m", "moduli_pa", "poisson_ratios"];
+    let given = table.optional("stiffness_n_m15");
+    let of_spheres = SPHERES.iter().any(|key| table.has(key));
+    if !of_spheres && let Some(given) = given {
+        return given.number(&quantity::HERTZ_STIFFNESS).map(HertzStiffness::Given);
+    }
+    if !of_spheres {
+        let help = vec!["allowed: `stiffness_n_m15`, or `radii_m`, `moduli_pa` and `poisson_ratios`".into()];
+        table.problem("stiffness_n_m15", "`stiffness_n_m15` is missing in this stop".into(), help);
+        return None;
+    }
+    if let Some(given) = given {
+        let help =
+            vec!["allowed: one of `stiffness_n_m15` and `radii_m`, `moduli_pa`, `poisson_ratios`".into()];
+        given.problem(
+            "`stiffness_n_m15` is given besides `radii_m`, `moduli_pa`, `poisson_ratios`".into(),
+            help,
+        );
+    }
+    let radii = table.required("radii_m").and_then(|value| read_radii(&value));
+    let moduli = table.required("moduli_pa").and_then(|value| value.numbers(&quantity::MODULUS));
+    let ratios = table.required("poisson_ratios").and_then(|value| value.numbers(&quantity::POISSON));
+    Some(HertzStiffness::Spheres { radii_m: radii?, moduli_pa: moduli?, poisson_ratios: ratios? })
+}
+
+/// Two radii, one of which may be "flat".
+fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
+    let radius = |element: &Value<'_>| {
+        if element.is_text() {
+            return element.choice(&[("flat", None)]);
+        }
+        element.number(&quantity::RADIUS).map(Some)
+    };
+    let radii = value.exactly::<2, Option<f64>>("2 radii", radius)?;
+    if radii == [None, None] {
+        value.problem("`radii_m` has two planes".into(), vec!["allowed: one \"flat\" at most".into()]);
+        return None;
+    }
+    Some(radii)
+}
+
+/// Gap or preload, and the side.
+fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Side>) {
+    let side = table
+        .required("side")
+        .and_then(|value| value.choice(&[("above", Side::Above), ("below", Side::Below)]));
+    let Some(preload) = table.optional("preload_n") else {
+        let gap = table.optional("gap_m").map_or(Some(0.0), |value| value.number(&quantity::GAP));
+        let measured = read_measured(table);
+        let approach = gap.zip(measured).map(|(gap_m, measured)| Approach::Gap { gap_m, measured });
+        return (approach, side);
+    };
+    for key in ["gap_m", "gap_measured"] {
+        if let Some(value) = table.optional(key) {
+            let help = vec!["allowed: either a gap or a preload".into()];
+            value.problem(format!("`{key}` is given besides `preload_n`"), help);
+        }
+    }
+    (preload.number(&quantity::PRELOAD).map(|preload_n| Approach::Preload { preload_n }), side)
+}
+
+fn read_measured(table: &Table<'_>) -> Option<GapMeasured> {
+    let choices = [("undeformed", GapMeasured::Undeformed), ("at-rest", GapMeasured::AtRest)];
+    table.optional("gap_measured").map_or(Some(GapMeasured::Undeformed), |value| value.choice(&choices))
+}
+
+/// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`.
+fn read_two_sided(table: &Table<'_>) -> Option<StopLaw> {
+    let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
+    let both = table.optional("gap_m");
+    let each = ["gap_above_m", "gap_below_m"].map(|key| table.optional(key));
+    if both.is_some() {
+        for gap in each.iter().flatten() {
+            let help = vec!["allowed: `gap_m` for both sides, or `gap_above_m` and `gap_below_m`".into()];
+            gap.problem("a gap of one side is given besides `gap_m`".into(), help);
+        }
+    }
+    let common = both.map_or(Some(0.0), |value| value.number(&quantity::GAP));
+    let [above, below] = each.map(|gap| gap.map_or(common, |value| value.number(&quantity::GAP)));
+    let measured = read_measured(table);
+    Some(StopLaw::TwoSided {
+        stiffness_n_m: stiffness?,
+        gap_above_m: above?,
+        gap_below_m: below?,
+        gap_measured: measured?,
+    })
+}
+
+fn read_cubic(table: &Table<'_>) -> Option<StopLaw> {
+    let value = table.required("stiffness_n_m3")?;
+    let stiffness = value.number(&quantity::CUBIC_STIFFNESS)?;
+    if stiffness == 0.0 {
+        value.problem("`stiffness_n_m3` is 0 N/m^3".into(), vec!["allowed: any number but zero".into()]);
+        return None;
+    }
+    Some(StopLaw::Cubic { stiffness_n_m3: stiffness })
+}

@@ -1,0 +1,138 @@
+//! The whole study and its file.
+
+use std::{
+    collections::BTreeMap,
+    fs, io,
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+use serde::Serialize;
+use toml::de::DeTable;
+
+use crate::document::{Problem, Reading, Report, Table, place};
+
+use super::{
+    Continuation, Damping, Excitation, Load, Reduction, Response, Stop, Structure, continuation, damping,
+    excitation, load, names::Names, reduction, response, stop, structure,
+};
+
+/// Everything a study says.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Study {
+    /// Title for reports and figures; no part of the identity.
+    #[serde(skip)]
+    pub title: String,
+    /// The linear structure.
+    pub structure: Structure,
+    /// How it is reduced.
+    pub reduction: Reduction,
+    /// Damping of its modes.
+    pub damping: Damping,
+    /// The excitation.
+    pub excitation: Excitation,
+    /// Further loads.
+    pub loads: Vec<Load>,
+    /// Local elements.
+    pub stops: Vec<Stop>,
+    /// What is asked for.
+    pub response: Response,
+    /// How branches are followed.
+    pub continuation: Continuation,
+}
+
+/// A study with the text it was read from, so that faults found later can still point into it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyFile {
+    /// Name of the file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// What it says.
+    pub study: Study,
+    places: BTreeMap<String, Range<usize>>,
+}
+
+/// Why there is no study.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// The file could not be read.
+    #[error("cannot read the study {}: {source}", path.display())]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Unreadable { path: PathBuf, source: io::Error },
+    /// The file says something that is not allowed.
+    #[error("{0}")]
+    Invalid(Report),
+}
+
+impl StudyFile {
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// [`StudyError`]: the file cannot be read, or something in it is not allowed.
+    pub fn read(path: &Path) -> Result<Self, StudyError> {
+        let text = fs::read_to_string(path)
+            .map_err(|source| StudyError::Unreadable { path: path.to_owned(), source })?;
+        Self::parse(&path.display().to_string(), text)
+    }
+
+    /// Reads a study from its text.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`] with everything that is not allowed.
+    pub fn parse(name: &str, text: String) -> Result<Self, StudyError> {
+        let reading = Reading::default();
+        let study = read_text(&text, &reading);
+        let (problems, places) = reading.into_parts();
+        match study {
+            Some(study) if problems.is_empty() => Ok(Self { name: name.to_owned(), text, study, places }),
+            _ => Err(StudyError::Invalid(Report::new(name, &text, problems))),
+        }
+    }
+
+    /// A fault of a key that was found after reading.
+    #[must_use]
+    pub fn fault(&self, key: &str, message: String, help: Vec<String>) -> StudyError {
+        let problem = Problem { key: key.to_owned(), span: place(&self.places, key), message, help };
+        StudyError::Invalid(Report::new(&self.name, &self.text, vec![problem]))
+    }
+}
+
+fn read_text(text: &str, reading: &Reading) -> Option<Study> {
+    let (document, errors) = DeTable::parse_recoverable(text);
+    for error in &errors {
+        reading.problem("", error.span(), format!("not TOML: {}", error.message()), Vec::new());
+    }
+    if !errors.is_empty() {
+        return None;
+    }
+    let root = Table::new(reading, String::new(), 0..0, document.get_ref());
+    let study = read_root(&root, reading);
+    root.finish();
+    study
+}
+
+fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
+    let mut names = Names::default();
+    let title = root.optional("title").map_or(Some(""), |value| value.text());
+    let structure = structure::read(root, reading, &mut names);
+    let reduction = reduction::read(root, structure.as_ref());
+    let damping = damping::read(root);
+    let excitation = excitation::read(root, &names);
+    let loads = load::read(root, reading, &names, excitation.as_ref());
+    let stops = stop::read(root, reading, &names, excitation.as_ref());
+    let response = response::read(root, &names, stops.as_deref());
+    let continuation = continuation::read(root, excitation.as_ref());
+    Some(Study {
+        title: title?.to_owned(),
+        structure: structure?,
+        reduction: reduction?,
+        damping: damping?,
+        excitation: excitation?,
+        loads: loads?,
+        stops: stops?,
+        response: response?,
+        continuation: continuation?,
+    })
+}
