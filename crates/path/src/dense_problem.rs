@@ -1,0 +1,74 @@
+//! A path problem given by one function: for tests, examples, and small systems.
+
+use crate::{
+    dense_lu::DenseLu,
+    problem::{Determinant, EvaluationError, PathProblem, SingularJacobian},
+};
+
+/// A [`PathProblem`] from a function `f(z, R, J) -> signature` and dense LU.
+///
+/// The function fills `R` (length `n`) and `J = [R_x R_λ]` (`n` rows of `n + 1` entries, one after the other)
+/// and returns the signature of the point (zero if there is but one kind).
+#[derive(Debug, Clone)]
+pub struct DenseProblem<F> {
+    function: F,
+    weights: Vec<f64>,
+    residual: Vec<f64>,
+    jacobian: Vec<f64>,
+    signature: u64,
+    lu: DenseLu,
+}
+
+impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> DenseProblem<F> {
+    /// A problem with all weights one.
+    pub fn new(unknowns: usize, function: F) -> Self {
+        Self::weighted(vec![1.0; unknowns + 1], function)
+    }
+
+    /// A problem with the given weights, `n + 1` of them, all positive.
+    pub fn weighted(weights: Vec<f64>, function: F) -> Self {
+        assert!(weights.len() >= 2, "at least one unknown and the parameter");
+        assert!(weights.iter().all(|&w| w > 0.0 && w.is_finite()), "weights are positive");
+        let n = weights.len() - 1;
+        let (residual, jacobian) = (vec![0.0; n], vec![0.0; n * (n + 1)]);
+        Self { function, weights, residual, jacobian, signature: 0, lu: DenseLu::new() }
+    }
+
+    /// `[R_x R_λ]` at the last evaluated point, row by row.
+    #[must_use]
+    pub fn jacobian(&self) -> &[f64] {
+        &self.jacobian
+    }
+}
+
+impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> PathProblem for DenseProblem<F> {
+    fn unknowns(&self) -> usize {
+        self.residual.len()
+    }
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.signature = (self.function)(point, &mut self.residual, &mut self.jacobian);
+        let finite = self.residual.iter().chain(&self.jacobian).all(|value| value.is_finite());
+        if finite { Ok(()) } else { Err(EvaluationError::NotFinite) }
+    }
+
+    fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
+        self.lu.factorise_bordered(&self.jacobian, row)
+    }
+
+    fn solve(&self, right_hand_side: &mut [f64]) {
+        self.lu.solve(right_hand_side);
+    }
+
+    fn signature(&self) -> u64 {
+        self.signature
+    }
+}

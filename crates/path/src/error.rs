@@ -1,0 +1,95 @@
+//! Why nothing can be followed at all, and why a branch ended.
+
+use crate::{corrector::CorrectorError, problem::EvaluationError};
+
+/// There is nothing to give: no branch was begun.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum PathError {
+    /// The start is not near the path, or lies at a fold.
+    #[error("the start at parameter {parameter} was not corrected: {cause}")]
+    Start { parameter: f64, cause: CorrectorError },
+    /// The start lies outside the range of the parameter.
+    #[error("the start at parameter {parameter} lies outside the range {low} to {high}")]
+    StartOutsideRange { parameter: f64, low: f64, high: f64 },
+    /// The ends of the range are not in order.
+    #[error("the range {low} to {high} is empty, its ends must be finite and in order")]
+    EmptyRange { low: f64, high: f64 },
+    /// A setting is zero, negative or not a number.
+    #[error("setting {name} is {value}, it must be positive (max_angle at most 1)")]
+    UnusableSetting { name: &'static str, value: f64 },
+    /// A point, a direction or the weights have another length than `n + 1`.
+    #[error("length {found} where {expected} is needed: unknowns and one parameter")]
+    WrongLength { found: usize, expected: usize },
+}
+
+/// Why a branch ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StopReason {
+    /// The last point lies exactly at an end of the range.
+    RangeEnd,
+    /// The path came back to its start with the same tangent; the last point is the start again.
+    Closed,
+    /// `Settings::max_points` points were accepted.
+    Budget,
+    /// No acceptable point was found with the shortest step.
+    StepTooShort {
+        /// Parameter of the last accepted point.
+        parameter: f64,
+        /// Step length that was tried last.
+        step: f64,
+        /// Largest residual `max |R_i|` of the last evaluation.
+        residual: f64,
+        /// What was wrong with it.
+        doubt: Doubt,
+    },
+    /// The problem could not be evaluated beyond the last accepted point.
+    EvaluationFailed {
+        /// Parameter of the last accepted point.
+        parameter: f64,
+        /// Step length that was tried last.
+        step: f64,
+        /// What the problem answered.
+        error: EvaluationError,
+    },
+    /// However short the step, the path continued on a stretch that was already walked.
+    RunsBack {
+        /// Parameter of the last accepted point.
+        parameter: f64,
+        /// Arc length of the stored stretch that was met.
+        met_arc_length: f64,
+    },
+}
+
+/// What was wrong with a candidate for the next point; the step is then shortened.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// The corrector failed.
+    Corrector(CorrectorError),
+    /// The tangent turned by more than `max_angle`.
+    Angle {
+        /// Angle between the tangents [rad].
+        angle: f64,
+    },
+    /// The determinant says that the path runs backwards here, and there is no branch point between.
+    Reversed,
+    /// Chord and tangents do not belong to one smooth arc.
+    Defect {
+        /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖`.
+        defect: f64,
+    },
+    /// The signature changed within a step longer than `signature_step`.
+    Signature,
+    /// The parameter seems to turn twice between the points.
+    HiddenFolds,
+    /// The candidate lies on a stretch that was already walked.
+    Retraced {
+        /// Arc length of that stretch.
+        arc_length: f64,
+    },
+    /// A fold or branch point between the points could not be located.
+    NotLocated,
+}

@@ -1,0 +1,59 @@
+//! One attempt at a step: predict, correct, judge, and locate what lies on the way.
+
+use super::{Arrival, Follower, judge::Finding};
+use crate::{corrector::Limits, error::Doubt, predictor, problem::PathProblem, product::weigh};
+
+impl Follower {
+    /// Tries a step of this length; on success the trial is the next point, and the problem evaluated there.
+    pub(super) fn attempt(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+        most_earlier: usize,
+    ) -> Result<Arrival, Doubt> {
+        weigh(&self.weights, &self.state.history.base().tangent, &mut self.row);
+        let earlier = self.state.history.predict(&self.weights, step, most_earlier, &mut self.trial.point);
+        if !self.range.contains(self.trial.parameter()) {
+            return self.arrive_at_end(problem, step, most_earlier);
+        }
+        let limits = self.limits(step);
+        self.trial
+            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
+            .map_err(Doubt::Corrector)?;
+        if !self.range.contains(self.trial.parameter()) {
+            return self.arrive_at_end(problem, step, most_earlier);
+        }
+        match self.judge(step)? {
+            Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
+            Finding::Closing => self.arrive_at_start(problem),
+            Finding::Fold => self.arrive_at_fold(problem, step),
+            Finding::Reversed => self.arrive_at_branch_point(problem, step),
+        }
+    }
+
+    pub(super) fn limits(&self, step: f64) -> Limits {
+        Limits {
+            tolerance: self.settings.tolerance_at(step),
+            loose_tolerance: self.settings.correction_tolerance.min(0.1 * step),
+            residual_tolerance: self.settings.residual_tolerance,
+            max_iterations: self.settings.max_iterations,
+            max_displacement: self.settings.allowed_displacement(step),
+            max_angle: Some(self.settings.max_angle),
+        }
+    }
+
+    /// Corrects the probe at `σ` of the step, predicted by the interpolant through both ends of the step.
+    pub(super) fn probe_between(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+        sigma: f64,
+    ) -> Result<(), Doubt> {
+        let base = self.state.history.base();
+        predictor::hermite(&self.weights, base, [&self.trial.node], sigma, &mut self.probe.point);
+        let limits = Limits { max_angle: Some(2.0 * self.settings.max_angle), ..self.limits(step) };
+        self.probe
+            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
+            .map_err(Doubt::Corrector)
+    }
+}

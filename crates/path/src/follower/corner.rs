@@ -1,0 +1,111 @@
+//! A turn sharper than the shortest step: the path has a corner.
+//!
+//! Where `R` is continuous and piecewise smooth, `[R_x R_λ]` jumps by a matrix of rank one across the surface on which
+//! its pieces meet, and tangents oriented by the determinant cross that surface in the same sense on both sides.
+//! So the determinant gives the direction behind a corner whatever the angle; but the plane normal to the old tangent
+//! may not meet the path there. The probe is therefore put behind the corner on the old tangent, linearised, moved
+//! onto the new piece and along its tangent, and corrected in the plane normal to the new tangent. The corner is
+//! where both straight lines meet.
+
+use super::{Arrival, Follower};
+use crate::{
+    corrector::Limits,
+    error::Doubt,
+    point::Events,
+    predictor::Node,
+    problem::PathProblem,
+    product::{add_scaled, product, progress, weigh},
+};
+
+/// Distances of the probe behind the last point, in steps.
+const REACHES: [f64; 3] = [2.0, 8.0, 32.0];
+
+impl Follower {
+    /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself.
+    ///
+    /// # Errors
+    /// There is no corner that leads on: the branch stops.
+    pub(super) fn turn_corner(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<Arrival, ()> {
+        for reach in REACHES {
+            if self.step_behind_corner(problem, reach * step).is_ok() {
+                return self.arrive_at_corner(problem, step).map_err(|_| ());
+            }
+        }
+        Err(())
+    }
+
+    /// Leaves in the trial a point on the new piece, about `length` behind the corner.
+    fn step_behind_corner(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        length: f64,
+    ) -> Result<(), Doubt> {
+        let unlimited = self.corner_limits(length);
+        let base = self.state.history.base();
+        weigh(&self.weights, &base.tangent, &mut self.row);
+        self.trial.point.copy_from_slice(&base.point);
+        add_scaled(&mut self.trial.point, length, &base.tangent);
+        self.trial
+            .linearise(problem, &self.weights, &self.row, &mut self.state.counters)
+            .map_err(Doubt::Corrector)?;
+        self.trial.orient(self.state.orientation);
+        let direction = self.trial.node.tangent.clone();
+        weigh(&self.weights, &direction, &mut self.row);
+        self.trial.refactorise(problem, &self.weights, &self.row).map_err(Doubt::Corrector)?;
+        self.trial.apply_correction();
+        add_scaled(&mut self.trial.point, 2.0 * length, &direction);
+        self.trial
+            .correct(problem, &self.weights, &self.row, unlimited, &mut self.state.counters)
+            .map_err(Doubt::Corrector)?;
+        self.trial.orient(self.state.orientation);
+        let agrees = product(&self.weights, &self.trial.node.tangent, &direction) > 0.9;
+        if agrees { Ok(()) } else { Err(Doubt::NotLocated) }
+    }
+
+    fn corner_limits(&self, length: f64) -> Limits {
+        Limits {
+            tolerance: self.settings.tolerance_at(length),
+            loose_tolerance: self.settings.correction_floor.max(0.01 * length),
+            residual_tolerance: self.settings.residual_tolerance,
+            max_iterations: self.settings.max_iterations,
+            max_displacement: length,
+            max_angle: Some(self.settings.max_angle),
+        }
+    }
+
+    /// Evaluates the place where the tangents of base and trial meet and makes it the trial, with the new tangent.
+    fn arrive_at_corner(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<Arrival, Doubt> {
+        let along = meeting(&self.weights, self.state.history.base(), &self.trial.node);
+        self.probe.point.copy_from_slice(&self.trial.node.point);
+        add_scaled(&mut self.probe.point, -along, &self.trial.node.tangent);
+        let limits = Limits { max_angle: None, ..self.corner_limits(step) };
+        let counters = &mut self.state.counters;
+        self.probe.correct(problem, &self.weights, &self.row, limits, counters).map_err(Doubt::Corrector)?;
+        let after = self.trial.tangent_parameter();
+        std::mem::swap(&mut self.trial, &mut self.probe);
+        self.trial.node.tangent.copy_from_slice(&self.probe.node.tangent);
+        self.trial.signature = self.probe.signature;
+        self.trial.log_determinant = self.probe.log_determinant;
+        let fold = after * self.state.parameter_sign < 0.0;
+        let events = Events { corner: true, fold, ..Events::default() };
+        Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
+    }
+}
+
+/// Distance back from `b` along its tangent to the place nearest to the tangent line of `a`.
+///
+/// Minimises `‖a + α t_a − b + β t_b‖`: with `c = ⟨t_a, t_b⟩` and `e = b − a` is `β (1 − c²) = ⟨t_b, e⟩ − c ⟨t_a, e⟩`.
+fn meeting(weights: &[f64], a: &Node, b: &Node) -> f64 {
+    let c = product(weights, &a.tangent, &b.tangent);
+    let along_b = progress(weights, &b.tangent, &b.point, &a.point);
+    let along_a = progress(weights, &a.tangent, &b.point, &a.point);
+    (along_b - c * along_a) / (1.0 - c * c).max(f64::EPSILON)
+}

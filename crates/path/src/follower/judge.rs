@@ -1,0 +1,127 @@
+//! The judgement over a corrected candidate: the same smooth arc, an event on the way, or doubt.
+
+use super::Follower;
+use crate::{
+    error::Doubt,
+    product::{add_scaled, distance, product, progress},
+};
+
+/// What lies between the last point and a candidate that is beyond doubt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Finding {
+    /// Nothing.
+    Regular,
+    /// One fold.
+    Fold,
+    /// The tangents agree but the determinant changed its sign: a branch point, or a jump to another sheet.
+    Reversed,
+    /// The start of the branch.
+    Closing,
+}
+
+/// Roots of the slope of `λ` this close to an end of the step (share of the step) belong to that end.
+const EDGE: f64 = 0.02;
+/// No second look for two folds in a step shorter than this many times the rounding of a point.
+const NOISE: f64 = 100.0;
+
+impl Follower {
+    /// Judges the corrected trial of this step, and orients its tangent.
+    pub(super) fn judge(&mut self, step: f64) -> Result<Finding, Doubt> {
+        if self.trial.signature != self.state.current.signature && step > self.settings.signature_step {
+            return Err(Doubt::Signature);
+        }
+        self.check_defect(step)?;
+        if self.trial.sign * self.state.orientation < 0.0 {
+            return Ok(Finding::Reversed);
+        }
+        self.check_hidden_folds(step)?;
+        if self.passes_start(step) {
+            return Ok(Finding::Closing);
+        }
+        if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation) {
+            return Err(Doubt::Retraced { arc_length });
+        }
+        let turned = self.trial.tangent_parameter() * self.state.parameter_sign < 0.0;
+        Ok(if turned { Finding::Fold } else { Finding::Regular })
+    }
+
+    /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.
+    pub(super) fn check_defect(&mut self, step: f64) -> Result<(), Doubt> {
+        let base = self.state.history.base();
+        let (weights, node) = (&self.weights, &self.trial.node);
+        let cosine = product(weights, &base.tangent, &node.tangent).clamp(-1.0, 1.0);
+        let angle = cosine.acos();
+        if angle > self.settings.max_angle {
+            return Err(Doubt::Angle { angle });
+        }
+        let chord = distance(weights, &node.point, &base.point) * (1.0 + angle * angle / 24.0);
+        let offset = &mut self.probe.point;
+        offset.copy_from_slice(&node.point);
+        add_scaled(offset, -1.0, &base.point);
+        add_scaled(offset, -0.5 * chord, &base.tangent);
+        add_scaled(offset, -0.5 * chord, &node.tangent);
+        let defect = product(weights, offset, offset).sqrt();
+        let allowed = self.settings.allowed_displacement(step) + 0.1 * chord * angle;
+        if defect > allowed { Err(Doubt::Defect { defect }) } else { Ok(()) }
+    }
+
+    /// The cubic Hermite polynomial of `λ` over the step must not turn twice.
+    fn check_hidden_folds(&self, step: f64) -> Result<(), Doubt> {
+        if step < NOISE * self.settings.correction_floor {
+            return Ok(());
+        }
+        let slope = self.parameter_slope();
+        let same_sign = slope.start * slope.end > 0.0;
+        if same_sign && slope.inner_roots() == 2 { Err(Doubt::HiddenFolds) } else { Ok(()) }
+    }
+
+    /// Slope `dλ/dσ` of the Hermite polynomial through base and trial.
+    pub(super) fn parameter_slope(&self) -> ParameterSlope {
+        let base = self.state.history.base();
+        let (weights, node) = (&self.weights, &self.trial.node);
+        let n = base.point.len() - 1;
+        let sigma = progress(weights, &base.tangent, &node.point, &base.point);
+        ParameterSlope {
+            start: base.tangent[n],
+            end: node.tangent[n] / product(weights, &base.tangent, &node.tangent),
+            chord: (node.point[n] - base.point[n]) / sigma,
+        }
+    }
+}
+
+/// `q(u) = 6 u (1−u) chord + (1−u)(1−3u) start + u (3u−2) end`, the slope of a cubic Hermite polynomial.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ParameterSlope {
+    pub start: f64,
+    pub end: f64,
+    chord: f64,
+}
+
+impl ParameterSlope {
+    fn at(self, u: f64) -> f64 {
+        let v = 1.0 - u;
+        6.0 * u * v * self.chord + v * (v - 2.0 * u) * self.start + u * (u - 2.0 * v) * self.end
+    }
+
+    /// Number of roots well inside the step: `q = a u² + b u + start`.
+    fn inner_roots(self) -> usize {
+        let a = 3.0 * (self.start + self.end - 2.0 * self.chord);
+        let b = 6.0 * self.chord - 4.0 * self.start - 2.0 * self.end;
+        let discriminant = b * b - 4.0 * a * self.start;
+        if discriminant <= 0.0 {
+            return 0;
+        }
+        let pivot = -0.5 * (b + discriminant.sqrt().copysign(b));
+        [pivot / a, self.start / pivot].iter().filter(|u| (EDGE..=1.0 - EDGE).contains(*u)).count()
+    }
+
+    /// The place where the slope changes its sign, as a share of the step, if its ends differ in sign.
+    pub fn root(self) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if self.at(middle) * self.end > 0.0 { high = middle } else { low = middle }
+        }
+        0.5 * (low + high)
+    }
+}

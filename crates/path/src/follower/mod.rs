@@ -1,0 +1,249 @@
+//! The follower: from one accepted point to the next.
+
+mod attempt;
+mod branch_point;
+mod closing;
+mod corner;
+mod fold;
+mod judge;
+mod range_end;
+mod start;
+mod step_control;
+mod whole;
+
+pub use start::Direction;
+pub use whole::{Branch, TwoSidedBranch, follow, follow_both};
+
+use crate::{
+    checkpoint::Checkpoint,
+    corrector::Candidate,
+    error::{Doubt, StopReason},
+    memory::PathMemory,
+    point::{ContinuationPoint, Counters, Events},
+    predictor::MOST_EARLIER_NODES,
+    problem::PathProblem,
+    product::{distance, product},
+    settings::{ParameterRange, Settings},
+};
+
+/// What one call of [`Follower::step`] did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepOutcome {
+    /// [`Follower::current`] is a new point, and the problem was evaluated last exactly there.
+    Accepted,
+    /// The branch ended with the point accepted last. The problem may have been evaluated elsewhere.
+    Stopped(StopReason),
+}
+
+/// Follows one path in one direction, one accepted point per call.
+///
+/// Events are points of their own: the step ends at a fold or branch point that lies on its way.
+#[derive(Debug, Clone)]
+pub struct Follower {
+    settings: Settings,
+    range: ParameterRange,
+    weights: Vec<f64>,
+    state: Checkpoint,
+    memory: PathMemory,
+    /// The candidate for the next point.
+    trial: Candidate,
+    /// Candidates between, while something is located.
+    probe: Candidate,
+    best: Candidate,
+    /// `W t₀`.
+    row: Vec<f64>,
+    /// The border that keeps the parameter.
+    parameter_row: Vec<f64>,
+}
+
+/// A candidate that is to be accepted.
+#[derive(Debug, Clone, Copy, Default)]
+struct Arrival {
+    events: Events,
+    /// The branch ends here for this reason.
+    end: Option<StopReason>,
+    /// Earlier nodes of the predictor, for the order in the step control.
+    earlier: usize,
+    /// Sign of `t_λ` from here on, if it differs from that before.
+    parameter_sign: Option<f64>,
+}
+
+/// What happened to the attempts at one step.
+#[derive(Debug, Clone, Copy)]
+struct Attempts {
+    rejected: u32,
+    retraced: u32,
+    most_earlier: usize,
+}
+
+impl Follower {
+    /// The point accepted last; the start before the first step.
+    #[must_use]
+    pub fn current(&self) -> &ContinuationPoint {
+        &self.state.current
+    }
+
+    /// Why the branch ended, if it did.
+    #[must_use]
+    pub fn stop_reason(&self) -> Option<StopReason> {
+        self.state.stop
+    }
+
+    /// Work done since the start.
+    #[must_use]
+    pub fn counters(&self) -> Counters {
+        self.state.counters
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// All that is needed to continue later, but for the memory of the points.
+    #[must_use]
+    pub fn checkpoint(&self) -> &Checkpoint {
+        &self.state
+    }
+
+    /// Continues from a checkpoint; then [`remember`](Self::remember) all accepted points in order.
+    #[must_use]
+    pub fn resume(
+        problem: &(impl PathProblem + ?Sized),
+        checkpoint: Checkpoint,
+        range: ParameterRange,
+        settings: Settings,
+    ) -> Self {
+        let weights = problem.weights().to_vec();
+        let length = weights.len();
+        let memory = PathMemory::new(&weights, &settings);
+        let mut parameter_row = vec![0.0; length];
+        parameter_row[length - 1] = 1.0;
+        let candidate = Candidate::new(length);
+        Self {
+            settings,
+            range,
+            weights,
+            state: checkpoint,
+            memory,
+            trial: candidate.clone(),
+            probe: candidate.clone(),
+            best: candidate,
+            row: vec![0.0; length],
+            parameter_row,
+        }
+    }
+
+    /// Adds a point that was accepted before the checkpoint to the memory; the start comes first.
+    pub fn remember(&mut self, point: &ContinuationPoint) {
+        self.memory.remember(point);
+    }
+
+    /// Goes to the next point of the path.
+    pub fn step(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> StepOutcome {
+        if self.state.stop.is_none() && self.state.counters.accepted >= self.settings.max_points {
+            self.state.stop = Some(StopReason::Budget);
+        }
+        if let Some(reason) = self.state.stop {
+            return StepOutcome::Stopped(reason);
+        }
+        let evaluations = self.state.counters.evaluations;
+        match self.next_point(problem) {
+            Ok(()) => {
+                self.state.current.evaluations = self.state.counters.evaluations - evaluations;
+                StepOutcome::Accepted
+            }
+            Err(reason) => {
+                self.state.stop = Some(reason);
+                StepOutcome::Stopped(reason)
+            }
+        }
+    }
+
+    /// Attempts shorter and shorter steps until one is beyond doubt.
+    fn next_point(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), StopReason> {
+        let mut attempts = Attempts { rejected: 0, retraced: 0, most_earlier: MOST_EARLIER_NODES };
+        let mut step = self.first_step();
+        loop {
+            let doubt = match self.attempt(problem, step, attempts.most_earlier) {
+                Ok(arrival) => {
+                    self.accept(arrival, step, attempts);
+                    return Ok(());
+                }
+                Err(doubt) => doubt,
+            };
+            self.state.counters.rejected += 1;
+            let shorter = self.shortened(step, doubt, &mut attempts);
+            self.give_up_if_retraced(doubt, shorter, attempts)?;
+            if shorter < self.settings.min_step {
+                let arrival = self.turn_corner(problem, step).map_err(|()| self.too_short(step, doubt))?;
+                self.accept(arrival, step, attempts);
+                return Ok(());
+            }
+            step = shorter;
+        }
+    }
+
+    fn give_up_if_retraced(&self, doubt: Doubt, step: f64, attempts: Attempts) -> Result<(), StopReason> {
+        let Doubt::Retraced { arc_length } = doubt else { return Ok(()) };
+        if step < self.settings.signature_step || attempts.retraced > 8 {
+            let parameter = self.state.current.parameter();
+            return Err(StopReason::RunsBack { parameter, met_arc_length: arc_length });
+        }
+        Ok(())
+    }
+
+    fn too_short(&self, step: f64, doubt: Doubt) -> StopReason {
+        let parameter = self.state.current.parameter();
+        match doubt {
+            Doubt::Corrector(crate::CorrectorError::Evaluation(error)) => {
+                StopReason::EvaluationFailed { parameter, step, error }
+            }
+            _ => StopReason::StepTooShort { parameter, step, residual: self.trial.residual_norm, doubt },
+        }
+    }
+
+    /// Makes the trial, evaluated last and oriented, the current point.
+    fn accept(&mut self, arrival: Arrival, step: f64, attempts: Attempts) {
+        let state = &mut self.state;
+        let mut events = arrival.events;
+        events.signature_change = self.trial.signature != state.current.signature;
+        let base = state.history.base();
+        let chord = distance(&self.weights, &base.point, &self.trial.node.point);
+        let angle = product(&self.weights, &base.tangent, &self.trial.node.tangent).clamp(-1.0, 1.0).acos();
+        let arc_length = state.current.arc_length + chord * (1.0 + angle * angle / 24.0);
+        if events.branch_point {
+            state.orientation = -state.orientation;
+        }
+        if let Some(sign) = arrival.parameter_sign {
+            state.parameter_sign = sign;
+        }
+        if events.signature_change || events.branch_point || events.corner {
+            state.history.used = 0;
+        }
+        state.change_ahead =
+            if events.signature_change { 0.0 } else { (state.change_ahead - chord).max(0.0) };
+        state.history.push(&self.trial.node);
+        state.stop = arrival.end;
+        state.counters.accepted += 1;
+        self.store(events, arc_length);
+        self.state.step_length = self.next_step(step, arrival, angle, attempts);
+        self.memory.remember(&self.state.current);
+    }
+
+    /// Copies the trial into the current point.
+    fn store(&mut self, events: Events, arc_length: f64) {
+        let orientation = self.state.orientation;
+        let (current, trial) = (&mut self.state.current, &self.trial);
+        current.point.copy_from_slice(&trial.point);
+        current.tangent.copy_from_slice(&trial.node.tangent);
+        current.arc_length = arc_length;
+        current.signature = trial.signature;
+        current.orientation = orientation;
+        current.log_determinant = trial.log_determinant;
+        current.correction_norm = trial.correction_norm;
+        current.residual_norm = trial.residual_norm;
+        current.events = events;
+    }
+}

@@ -1,0 +1,245 @@
+//! The memory of a branch: has this stretch been walked before?
+//!
+//! Every accepted point is kept as a *sketch*, a projection of `√w_i z_i` to eight numbers (all of them when
+//! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average), with its
+//! tangent: 170 bytes a point whatever `n`. Neighbouring points make a segment with its cubic Hermite
+//! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates.
+//!
+//! A point is on a stored stretch if it is within the tolerance of the interpolant, runs parallel to it, has its
+//! signature, and its determinant. A stretch walked with the same orientation must be met in the same direction: the
+//! returning sheet of a narrow fold, which runs the other way, is not a retrace.
+
+use std::collections::HashMap;
+
+use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings};
+
+const SKETCH: usize = 8;
+const NONE: u32 = u32::MAX;
+/// Segments this recent belong to the step that is being made.
+const RECENT: usize = 2;
+
+type Sketch = [f64; SKETCH];
+
+#[derive(Debug, Clone)]
+struct Vertex {
+    place: Sketch,
+    tangent: Sketch,
+    arc_length: f64,
+    orientation: f64,
+    log_determinant: f64,
+    signature: u64,
+}
+
+/// All accepted points of one follower in order, indexed by place.
+#[derive(Debug, Clone)]
+pub struct PathMemory {
+    roots: Vec<f64>,
+    cell: f64,
+    tolerance: f64,
+    largest_defect: f64,
+    vertices: Vec<Vertex>,
+    heads: HashMap<(i64, i64), u32>,
+    /// (segment, next link of the same cell); segment `k` ends at vertex `k`.
+    links: Vec<(u32, u32)>,
+}
+
+impl PathMemory {
+    pub(crate) fn new(weights: &[f64], settings: &Settings) -> Self {
+        let parameter_root = weights[weights.len() - 1].sqrt();
+        Self {
+            roots: weights.iter().map(|w| w.sqrt()).collect(),
+            cell: settings.max_step_length.min(4.0 * settings.max_parameter_step * parameter_root),
+            tolerance: 10.0 * settings.correction_tolerance,
+            largest_defect: settings.sheet_distance,
+            vertices: Vec::new(),
+            heads: HashMap::new(),
+            links: Vec::new(),
+        }
+    }
+
+    /// Number of remembered points.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Whether nothing is remembered.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.vertices.is_empty()
+    }
+
+    /// Adds the next accepted point of the branch.
+    pub fn remember(&mut self, point: &ContinuationPoint) {
+        let vertex = Vertex {
+            place: self.sketch(&point.point),
+            tangent: self.sketch(&point.tangent),
+            arc_length: point.arc_length,
+            orientation: point.orientation,
+            log_determinant: point.log_determinant,
+            signature: point.signature,
+        };
+        self.vertices.push(vertex);
+        if self.vertices.len() > 1 {
+            self.enter_cells(self.vertices.len() - 1);
+        }
+    }
+
+    /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
+    pub(crate) fn meets(&self, candidate: &Candidate, orientation: f64) -> Option<f64> {
+        let probe = Vertex {
+            place: self.sketch(&candidate.node.point),
+            tangent: self.sketch(&candidate.node.tangent),
+            arc_length: 0.0,
+            orientation,
+            log_determinant: candidate.log_determinant,
+            signature: candidate.signature,
+        };
+        let (i, j) = self.cell_of(&probe.place);
+        (-1..=1)
+            .flat_map(|di| (-1..=1).map(move |dj| (i + di, j + dj)))
+            .find_map(|cell| self.meets_in(cell, &probe))
+    }
+
+    fn meets_in(&self, cell: (i64, i64), probe: &Vertex) -> Option<f64> {
+        let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
+        while link != NONE {
+            let (segment, next) = self.links[link as usize];
+            let segment = segment as usize;
+            if segment + RECENT < self.vertices.len() {
+                let found = self.meets_segment(&self.vertices[segment - 1], &self.vertices[segment], probe);
+                if found.is_some() {
+                    return found;
+                }
+            }
+            link = next;
+        }
+        None
+    }
+
+    fn meets_segment(&self, a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<f64> {
+        let margin = self.tolerance + self.largest_defect;
+        let (low, high) = (a.place[0].min(b.place[0]), a.place[0].max(b.place[0]));
+        let near = probe.place[0] >= low - margin && probe.place[0] <= high + margin;
+        if !near || !same_kind(a, b, probe) {
+            return None;
+        }
+        let (share, distance, cosine) = nearest(a, b, probe)?;
+        let wanted = if a.orientation == probe.orientation { cosine } else { -cosine };
+        let tolerance = self.tolerance + 0.25 * defect(a, b).min(self.largest_defect);
+        let met = distance <= tolerance && wanted > 0.99;
+        met.then_some(a.arc_length + share * (b.arc_length - a.arc_length))
+    }
+
+    /// The parameter first, then `√w x` itself or seven signed sums of it.
+    fn sketch(&self, z: &[f64]) -> Sketch {
+        let n = z.len() - 1;
+        let mut sketch = [0.0; SKETCH];
+        sketch[0] = self.roots[n] * z[n];
+        if n < SKETCH {
+            for i in 0..n {
+                sketch[i + 1] = self.roots[i] * z[i];
+            }
+            return sketch;
+        }
+        let size = 1.0 / ((SKETCH - 1) as f64).sqrt();
+        for i in 0..n {
+            let value = size * self.roots[i] * z[i];
+            let bits = mix(i as u64);
+            for (j, s) in sketch[1..].iter_mut().enumerate() {
+                *s += if (bits >> j) & 1 == 0 { value } else { -value };
+            }
+        }
+        sketch
+    }
+
+    fn cell_of(&self, place: &Sketch) -> (i64, i64) {
+        ((place[0] / self.cell).floor() as i64, (place[1] / self.cell).floor() as i64)
+    }
+
+    /// Enters the segment that ends at vertex `k` into the cells along it, half a cell apart at most.
+    fn enter_cells(&mut self, k: usize) {
+        let (a, b) = (self.vertices[k - 1].place, self.vertices[k].place);
+        let span = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
+        let samples = (2.0 * span / self.cell).ceil().clamp(1.0, 1e4) as usize;
+        let mut last = None;
+        for i in 0..=samples {
+            let share = i as f64 / samples as f64;
+            let mut place = a;
+            place[0] += share * (b[0] - a[0]);
+            place[1] += share * (b[1] - a[1]);
+            let cell = self.cell_of(&place);
+            if last != Some(cell) {
+                let next = self.heads.insert(cell, self.links.len() as u32).unwrap_or(NONE);
+                self.links.push((k as u32, next));
+                last = Some(cell);
+            }
+        }
+    }
+}
+
+/// Signature of either end, and a determinant like that of the segment: interpolation leaves it some room.
+fn same_kind(a: &Vertex, b: &Vertex, probe: &Vertex) -> bool {
+    let (low, high) = (a.log_determinant.min(b.log_determinant), a.log_determinant.max(b.log_determinant));
+    let room = 0.1 + 0.25 * (high - low);
+    let signature = probe.signature == a.signature || probe.signature == b.signature;
+    signature && probe.log_determinant >= low - room && probe.log_determinant <= high + room
+}
+
+/// Share of the segment, distance and cosine between the tangents at the nearest place of the Hermite interpolant.
+fn nearest(a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<(f64, f64, f64)> {
+    let chord = subtract(&b.place, &a.place);
+    let length = dot(&chord, &chord).sqrt();
+    let mut share = dot(&subtract(&probe.place, &a.place), &chord) / (length * length);
+    let (mut offset, mut slope) = (chord, chord);
+    for _ in 0..3 {
+        if !(-0.1..=1.1).contains(&share) {
+            return None;
+        }
+        (offset, slope) = interpolant(a, b, length, share, &probe.place);
+        share += dot(&offset, &slope) / dot(&slope, &slope);
+    }
+    let cosine =
+        dot(&slope, &probe.tangent) / (dot(&slope, &slope) * dot(&probe.tangent, &probe.tangent)).sqrt();
+    let inside = (0.0..=1.0).contains(&share);
+    inside.then(|| (share, dot(&offset, &offset).sqrt(), cosine))
+}
+
+/// Offset of `place` from the cubic Hermite interpolant at this share, and the slope of the interpolant by share.
+fn interpolant(a: &Vertex, b: &Vertex, length: f64, share: f64, place: &Sketch) -> (Sketch, Sketch) {
+    let (s, r) = (share, 1.0 - share);
+    let (mut offset, mut slope) = ([0.0; SKETCH], [0.0; SKETCH]);
+    for i in 0..SKETCH {
+        let rise = b.place[i] - a.place[i];
+        let (ta, tb) = (length * a.tangent[i], length * b.tangent[i]);
+        let value = a.place[i] + s * s * (3.0 - 2.0 * s) * rise + s * r * (r * ta - s * tb);
+        offset[i] = place[i] - value;
+        slope[i] = 6.0 * s * r * rise + r * (r - 2.0 * s) * ta + s * (s - 2.0 * r) * tb;
+    }
+    (offset, slope)
+}
+
+/// `‖b − a − L (t_a + t_b)/2‖`: a bound in practice for the error of the interpolant, which has one order more.
+fn defect(a: &Vertex, b: &Vertex) -> f64 {
+    let chord = subtract(&b.place, &a.place);
+    let length = dot(&chord, &chord).sqrt();
+    let square: f64 =
+        (0..SKETCH).map(|i| (chord[i] - 0.5 * length * (a.tangent[i] + b.tangent[i])).powi(2)).sum();
+    square.sqrt()
+}
+
+fn subtract(a: &Sketch, b: &Sketch) -> Sketch {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn dot(a: &Sketch, b: &Sketch) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// Random bits from a number (splitmix64; Steele, Lea and Flood, OOPSLA 2014).
+fn mix(number: u64) -> u64 {
+    let mut z = number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

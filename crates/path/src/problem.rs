@@ -1,0 +1,69 @@
+//! What is followed: `R(x, λ) = 0` with `n` equations for `n + 1` unknowns, seen through its linearisation.
+
+/// Why `R` could not be evaluated at a point. The step that asked for it is shortened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EvaluationError {
+    /// A number of the residual or of its derivatives is infinite or not a number.
+    #[error("the residual or its derivatives are not finite")]
+    NotFinite,
+    /// The point lies where the problem is not defined.
+    #[error("the point lies outside the domain of the problem")]
+    OutsideDomain,
+    /// The work of one evaluation exceeded what the problem allows itself.
+    #[error("one evaluation took more work than allowed")]
+    WorkLimit,
+}
+
+/// The bordered matrix has no inverse: a branch point, or a border that is orthogonal to the tangent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the bordered Jacobian is singular")]
+pub struct SingularJacobian;
+
+/// Determinant of a matrix as `sign · exp(log_magnitude)`, which cannot overflow.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Determinant {
+    /// +1 or −1.
+    pub sign: f64,
+    /// `ln |det|`.
+    pub log_magnitude: f64,
+}
+
+/// A system of `n` equations `R(x, λ) = 0` in `n` unknowns `x` and one parameter `λ`.
+///
+/// A *point* is `z = [x; λ]`, length `n + 1`. `evaluate` does the expensive work and keeps `R` and
+/// `[R_x R_λ]`; all other methods refer to the last evaluated point. Equal points must give equal bits,
+/// else a resumed run differs from an uninterrupted one.
+pub trait PathProblem {
+    /// `n`, the length of `x` and of `R`.
+    fn unknowns(&self) -> usize;
+
+    /// Weights `w_i > 0` of the inner product `⟨a, b⟩ = Σ w_i a_i b_i` of points, length `n + 1`.
+    ///
+    /// They scale the problem: every length in [`Settings`](crate::Settings) is measured with them.
+    fn weights(&self) -> &[f64];
+
+    /// Evaluates `R` and `[R_x R_λ]` at the point and keeps both.
+    ///
+    /// # Errors
+    /// See [`EvaluationError`]; the step is then shortened.
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError>;
+
+    /// `R` at the last evaluated point, scaled to order one, length `n`.
+    fn residual(&self) -> &[f64];
+
+    /// Factorises `[R_x R_λ; row]` at the last evaluated point.
+    ///
+    /// # Errors
+    /// [`SingularJacobian`] when a pivot is zero or not finite.
+    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian>;
+
+    /// Solves with the last factorisation, in place, length `n + 1`.
+    fn solve(&self, right_hand_side: &mut [f64]);
+
+    /// What kind of solution the last evaluated point is: equal along one smooth arc, different where `R` may
+    /// lose derivatives (for an impact problem: a hash of the sequence of contacts, which changes at grazing).
+    fn signature(&self) -> u64 {
+        0
+    }
+}
