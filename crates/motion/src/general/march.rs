@@ -118,9 +118,11 @@ impl<'a, F: VectorField> March<'a, F> {
             }
             Verdict::TooLong { switch } => self.cross(switch),
             Verdict::Crossing { fraction, switch } => {
-                self.step_to_crossing(fraction * step, samples);
-                self.finest = FINEST * step;
-                self.cross(switch);
+                let to_crossing = self.polish(switch, fraction, step);
+                if self.step_to_crossing(to_crossing, samples) {
+                    self.finest = FINEST * step;
+                    self.cross(switch);
+                }
             }
         }
     }
@@ -149,11 +151,40 @@ impl<'a, F: VectorField> March<'a, F> {
         self.region.inspect(self.field, &self.dense, self.time, step)
     }
 
-    fn step_to_crossing(&mut self, step: f64, samples: &mut Samples<'_>) {
+    /// Length of the step that ends on the zero itself, from that which ends on the zero of the dense output.
+    ///
+    /// Where the Jacobian jumps, sensitivities are wrong by as much as the time of the crossing.
+    fn polish(&mut self, switch: usize, fraction: f64, step: f64) -> f64 {
+        let start = (self.time, step);
+        let rate = self.region.rate(self.field, &self.dense, start, fraction, switch);
+        let mut polished = fraction * step;
+        for _ in 0..4 {
+            self.stepper.attempt_state(self.field, self.time, polished, &self.region.inside);
+            let end = self.time + polished;
+            let change = -self.region.value(self.field, switch, end, self.stepper.end_state()) / rate;
+            if change.is_nan() || change.abs() > 1e-2 * fraction * step {
+                break;
+            }
+            polished += change;
+            if change.abs() <= 1e-3 * self.settings.tolerance * polished {
+                break;
+            }
+        }
+        polished
+    }
+
+    /// Steps onto the boundary; tells whether the step was good enough.
+    fn step_to_crossing(&mut self, step: f64, samples: &mut Samples<'_>) -> bool {
         if self.time + step > self.time {
             self.stepper.attempt(self.field, self.time, step, &self.region.inside);
+            let error = self.stepper.error(step, self.settings.tolerance);
+            if error.is_nan() || error > 1.0 {
+                self.reject(step, error);
+                return false;
+            }
             self.accept(step, samples);
         }
+        true
     }
 
     fn cross(&mut self, switch: usize) {

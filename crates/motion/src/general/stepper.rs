@@ -83,20 +83,43 @@ impl Stepper {
     /// Evaluates the slope at the start.
     pub(super) fn start(&mut self, field: &mut impl VectorField, time: f64, inside: &[bool]) {
         self.argument.copy_from_slice(&self.value);
-        self.evaluate(field, 0, time, inside);
+        self.evaluate(field, 0, time, inside, self.value.len());
     }
 
     /// Carries the columns over a step from `time`.
     pub(super) fn attempt(&mut self, field: &mut impl VectorField, time: f64, step: f64, inside: &[bool]) {
-        let length = self.value.len();
+        self.carry(field, (time, step), inside, self.value.len());
+    }
+
+    /// Carries the state alone over a step from `time`.
+    pub(super) fn attempt_state(
+        &mut self,
+        field: &mut impl VectorField,
+        time: f64,
+        step: f64,
+        inside: &[bool],
+    ) {
+        self.carry(field, (time, step), inside, self.dimension);
+    }
+
+    /// Carries the first `active` entries.
+    fn carry(
+        &mut self,
+        field: &mut impl VectorField,
+        (time, step): (f64, f64),
+        inside: &[bool],
+        active: usize,
+    ) {
+        let stride = self.value.len();
         self.store_switching(field, 0, time);
         for stage in 1..STAGES {
-            combine(&mut self.argument, &self.value, step, ARGUMENTS[stage], &self.slopes, length);
+            let argument = &mut self.argument[..active];
+            combine(argument, &self.value, step, ARGUMENTS[stage], &self.slopes, stride);
             let stage_time = time + NODES[stage] * step;
             self.store_switching(field, stage, stage_time);
-            self.evaluate(field, stage, stage_time, inside);
+            self.evaluate(field, stage, stage_time, inside, active);
         }
-        combine(&mut self.trial, &self.value, step, VALUE, &self.slopes, length);
+        combine(&mut self.trial[..active], &self.value, step, VALUE, &self.slopes, stride);
     }
 
     fn store_switching(&mut self, field: &impl VectorField, stage: usize, time: f64) {
@@ -107,11 +130,17 @@ impl Stepper {
         }
     }
 
-    fn evaluate(&mut self, field: &mut impl VectorField, index: usize, time: f64, inside: &[bool]) {
-        let length = self.value.len();
-        let (state, columns) = self.argument.split_at(self.dimension);
-        let (derivative, column_slopes) =
-            self.slopes[index * length..][..length].split_at_mut(self.dimension);
+    fn evaluate(
+        &mut self,
+        field: &mut impl VectorField,
+        index: usize,
+        time: f64,
+        inside: &[bool],
+        active: usize,
+    ) {
+        let (state, columns) = self.argument[..active].split_at(self.dimension);
+        let slopes = &mut self.slopes[index * self.value.len()..][..active];
+        let (derivative, column_slopes) = slopes.split_at_mut(self.dimension);
         let at = Point { time, state, inside };
         field.evaluate(at, derivative);
         self.evaluations += 1;
@@ -147,7 +176,7 @@ impl Stepper {
     /// Evaluates the slope at the end of the attempted step.
     pub(super) fn finish(&mut self, field: &mut impl VectorField, end: f64, inside: &[bool]) {
         self.argument.copy_from_slice(&self.trial);
-        self.evaluate(field, END, end, inside);
+        self.evaluate(field, END, end, inside, self.value.len());
     }
 
     /// Moves on: the end of the attempted step becomes the start of the next.

@@ -87,6 +87,30 @@ impl Region {
         })
     }
 
+    /// Value of a switching function.
+    pub(super) fn value(&mut self, field: &impl VectorField, switch: usize, time: f64, state: &[f64]) -> f64 {
+        field.switching(time, state, &mut self.values);
+        self.values[switch]
+    }
+
+    /// Rate of a switching function on the dense output, per unit of time.
+    pub(super) fn rate(
+        &mut self,
+        field: &impl VectorField,
+        dense: &Dense,
+        (time, step): (f64, f64),
+        fraction: f64,
+        switch: usize,
+    ) -> f64 {
+        const NEARBY: f64 = 1e-4;
+        let [before, after] = [fraction - NEARBY, fraction + NEARBY].map(|x| {
+            dense.state(x, &mut self.state);
+            field.switching(time + x * step, &self.state, &mut self.values);
+            self.values[switch]
+        });
+        (after - before) / (2.0 * NEARBY * step)
+    }
+
     /// Finds the first crossing of a boundary on the dense output of a step.
     pub(super) fn inspect(
         &mut self,

@@ -104,3 +104,6 @@ fn valid_gap(found: f64) -> Result<f64, LawError> {
 fn valid_preload(found: f64) -> Result<f64, LawError> {
     if found.is_finite() && found >= 0.0 { Ok(found) } else { Err(LawError::Preload { found }) }
 }
+
+#[cfg(test)]
+mod tests;

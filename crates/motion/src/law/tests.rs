@@ -1,0 +1,141 @@
+//! Every law: values, slopes against differences, levels of its contacts, and the parameters it refuses.
+
+use super::*;
+
+fn every_law() -> [Law; 7] {
+    [
+        Law::Hertz(HertzStop::with_gap(4.5e9, 1e-3).unwrap()),
+        Law::Hertz(HertzStop::with_preload(4.5e9, 12.0).unwrap()),
+        Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap()),
+        Law::Linear(LinearStop::with_preload(1.6e5, 12.0).unwrap()),
+        Law::TwoSided(TwoSidedStop::new(2e4, 1e-3, 5e-4).unwrap()),
+        Law::Cubic(CubicSpring::new(3e7).unwrap()),
+        Law::Cubic(CubicSpring::new(-3e7).unwrap()),
+    ]
+}
+
+/// Displacements away from the levels of the laws above.
+const PLACES: [f64; 6] = [-4e-3, -6.1e-4, -3e-4, 4e-4, 1.3e-3, 5e-3];
+
+fn assert_close(found: f64, expected: f64, what: &str) {
+    assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{what}: {found:e}, not {expected:e}");
+}
+
+#[test]
+fn slopes_agree_with_differences() {
+    for law in every_law() {
+        for place in PLACES {
+            let step = 1e-7;
+            let difference = (law.force(place + step).value - law.force(place - step).value) / (2.0 * step);
+            let slope = law.force(place).slope;
+            let scale = slope.abs().max(1.0);
+            assert!(
+                (slope - difference).abs() < 1e-6 * scale,
+                "{law:?} at {place}: {slope} against {difference}"
+            );
+        }
+    }
+}
+
+#[test]
+fn one_sided_stops_are_free_up_to_their_gap_and_press_back_beyond() {
+    let hertz = Law::Hertz(HertzStop::with_gap(4.5e9, 1e-3).unwrap());
+    let linear = Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap());
+    for law in [hertz, linear] {
+        assert_eq!(law.force(1e-3), Force::ZERO);
+        assert_eq!(law.force(-1.0), Force::ZERO);
+    }
+    assert_close(hertz.force(1e-3 + 4e-6).value, -4.5e9 * 8e-9, "Hertz at 4 micrometres");
+    assert_close(hertz.force(1e-3 + 4e-6).slope, -1.5 * 4.5e9 * 2e-3, "Hertz slope");
+    assert_close(linear.force(3e-3).value, -320.0, "linear at 2 millimetres");
+}
+
+#[test]
+fn a_preload_is_the_force_on_the_undeformed_structure() {
+    assert_close(HertzStop::with_preload(4.5e9, 12.0).unwrap().force(0.0).value, -12.0, "Hertz");
+    assert_close(LinearStop::with_preload(1.6e5, 12.0).unwrap().force(0.0).value, -12.0, "linear");
+    assert_eq!(LinearStop::with_preload(1.6e5, 0.0).unwrap().force(0.0), Force::ZERO);
+}
+
+#[test]
+fn a_two_sided_stop_presses_back_on_either_side() {
+    let law = Law::TwoSided(TwoSidedStop::new(2e4, 1e-3, 5e-4).unwrap());
+    assert_eq!(law.force(9e-4), Force::ZERO);
+    assert_eq!(law.force(-4e-4), Force::ZERO);
+    assert_close(law.force(2e-3).value, -20.0, "above");
+    assert_close(law.force(-1.5e-3).value, 20.0, "below");
+}
+
+#[test]
+fn a_cubic_spring_is_odd_and_always_active() {
+    let law = Law::Cubic(CubicSpring::new(3e7).unwrap());
+    assert_close(law.force(1e-2).value, -30.0, "above");
+    assert_close(law.force(-1e-2).value, 30.0, "below");
+    assert!(law.contacts().is_empty());
+}
+
+#[test]
+fn forces_set_in_at_the_level_of_a_contact_and_with_its_exponent() {
+    for law in every_law() {
+        for contact in law.contacts() {
+            let force = |depth: f64| law.force(contact.level + contact.sign * depth).value;
+            assert_eq!(force(-1e-9), 0.0);
+            assert!(contact.sign * force(1e-9) < 0.0, "{law:?}");
+            let exponent = (force(2e-6) / force(1e-6)).log2();
+            assert!((exponent - contact.onset_exponent).abs() < 1e-6, "{law:?}: {exponent}");
+        }
+    }
+}
+
+/// Two steel spheres of radius R on each other: `1/E = 2 (1 - nu^2) / E_0`, `1/R' = 2 / R`.
+#[test]
+fn stiffness_of_two_equal_spheres_is_that_of_hertz() {
+    let found = HertzStop::stiffness_of_spheres([0.02; 2], [2.1e11; 2], [0.3; 2]);
+    assert_close(found, 4.0 / 3.0 * 2.1e11 / (2.0 * 0.91) * 0.1, "equal spheres");
+    let plane = HertzStop::stiffness_of_spheres([0.01, f64::INFINITY], [2.1e11; 2], [0.3; 2]);
+    assert_close(plane, found, "a sphere of half the radius on a plane");
+}
+
+#[test]
+fn stiffnesses_are_finite_and_positive() {
+    for found in [0.0, -1.0, f64::INFINITY] {
+        let refused = Err(LawError::Stiffness { found, allowed: "positive" });
+        assert_eq!(HertzStop::with_gap(found, 0.0).map(|_| ()), refused);
+        assert_eq!(HertzStop::with_preload(found, 0.0).map(|_| ()), refused);
+        assert_eq!(LinearStop::with_gap(found, 0.0).map(|_| ()), refused);
+        assert_eq!(LinearStop::with_preload(found, 0.0).map(|_| ()), refused);
+        assert_eq!(TwoSidedStop::new(found, 0.0, 0.0).map(|_| ()), refused);
+    }
+    assert!(HertzStop::with_gap(f64::NAN, 0.0).is_err());
+}
+
+#[test]
+fn a_cubic_stiffness_may_be_negative_but_not_zero() {
+    let refused = Err(LawError::Stiffness { found: 0.0, allowed: "not zero" });
+    assert_eq!(CubicSpring::new(0.0), refused);
+    assert!(CubicSpring::new(f64::INFINITY).is_err() && CubicSpring::new(f64::NAN).is_err());
+    assert!(CubicSpring::new(-1.0).is_ok());
+}
+
+#[test]
+fn gaps_and_preloads_are_finite_and_not_negative() {
+    for found in [-1e-9, f64::INFINITY] {
+        let gap = Err(LawError::Gap { found });
+        let preload = Err(LawError::Preload { found });
+        assert_eq!(HertzStop::with_gap(1.0, found).map(|_| ()), gap);
+        assert_eq!(LinearStop::with_gap(1.0, found).map(|_| ()), gap);
+        assert_eq!(TwoSidedStop::new(1.0, found, 0.0).map(|_| ()), gap);
+        assert_eq!(TwoSidedStop::new(1.0, 0.0, found).map(|_| ()), gap);
+        assert_eq!(HertzStop::with_preload(1.0, found).map(|_| ()), preload);
+        assert_eq!(LinearStop::with_preload(1.0, found).map(|_| ()), preload);
+    }
+    assert!(LinearStop::with_gap(1.0, f64::NAN).is_err() && LinearStop::with_preload(1.0, f64::NAN).is_err());
+}
+
+#[test]
+fn refusals_say_what_was_found_and_what_is_allowed() {
+    let message = HertzStop::with_gap(1.0, -0.5).unwrap_err().to_string();
+    assert_eq!(message, "gap is -0.5 m, must be finite and not negative");
+    let message = CubicSpring::new(0.0).unwrap_err().to_string();
+    assert_eq!(message, "stiffness is 0, must be finite and not zero");
+}
