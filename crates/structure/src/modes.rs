@@ -138,3 +138,64 @@ fn rigid_exactly_zero(mut frequencies: Vec<f64>) -> Vec<f64> {
     }
     frequencies
 }
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+    use crate::strain::Strains;
+
+    /// Three masses in a chain with two springs, floating.
+    fn chain() -> (Mat<f64>, Mat<f64>) {
+        let mut strains = Strains::default();
+        strains.connect(2.0, 0, Some(1));
+        strains.connect(3.0, 1, Some(2));
+        let mass = Mat::from_fn(3, 3, |i, j| if i == j { 1.0 + i as f64 } else { 0.0 });
+        (strains.columns(&[0, 1, 2]), mass)
+    }
+
+    #[test]
+    fn modes_diagonalise_mass_and_stiffness() {
+        let (strains, mass) = chain();
+        let modes = Modes::of(strains.as_ref(), mass.as_ref()).unwrap();
+        let unit = modes.shapes.transpose() * &mass * &modes.shapes;
+        let bent = &strains * &modes.shapes;
+        let squares = bent.transpose() * &bent;
+        for i in 0..3 {
+            for j in 0..3 {
+                let same = if i == j { 1.0 } else { 0.0 };
+                assert!((unit[(i, j)] - same).abs() < 1e-14);
+                assert!((squares[(i, j)] - same * modes.frequencies[i].powi(2)).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn floating_chain_has_one_rigid_body_mode_at_exactly_zero() {
+        let (strains, mass) = chain();
+        let modes = Modes::of(strains.as_ref(), mass.as_ref()).unwrap();
+        assert_eq!((modes.rigid(), modes.frequencies[0]), (1, 0.0));
+        assert_relative_eq!(modes.shapes[(0, 0)].abs(), 1.0 / 6.0_f64.sqrt(), max_relative = 1e-14);
+    }
+
+    #[test]
+    fn balanced_forces_have_a_static_answer_and_others_drive_the_rigid_body() {
+        let (strains, mass) = chain();
+        let modes = Modes::of(strains.as_ref(), mass.as_ref()).unwrap();
+        let answer = modes.static_answer(&[-1.0, 0.0, 1.0]).unwrap();
+        assert_relative_eq!(answer[1] - answer[0], 1.0 / 2.0, max_relative = 1e-13);
+        assert_relative_eq!(answer[2] - answer[1], 1.0 / 3.0, max_relative = 1e-13);
+        assert_eq!(
+            modes.static_answer(&[1.0, 0.0, 0.0]),
+            Err(StructureError::RigidBodyModeNotRestrained { mode: 1 })
+        );
+    }
+
+    #[test]
+    fn negative_mass_is_refused() {
+        let mass = Mat::from_fn(1, 1, |_, _| -1.0);
+        let error = Modes::of(Mat::zeros(1, 1).as_ref(), mass.as_ref()).unwrap_err();
+        assert_eq!(error, StructureError::MassNotPositive { size: 1 });
+    }
+}

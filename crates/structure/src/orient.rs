@@ -10,7 +10,7 @@ const AT_REST: f64 = 1e-6;
 /// * `shapes`: one column a mode, rows over all coordinates.
 /// * `translation`: 1 for transverse displacements, 0 for rotations.
 pub(crate) fn orient(mut shapes: Mat<f64>, preferred: &[usize], translation: &[f64]) -> Mat<f64> {
-    for mut shape in shapes.col_iter_mut() {
+    for shape in shapes.col_iter_mut() {
         let across = |row: usize| (shape[row] * translation[row]).abs();
         let largest = (0..shape.nrows()).map(across).fold(0.0, f64::max);
         let moves = |row: &usize| across(*row) > AT_REST * largest;

@@ -7,6 +7,7 @@ use faer::{Mat, MatRef};
 use crate::{
     Damping, FlexibilityError, ModeTables, PointOutput, ReducedModel, Reduction, Structure, StructureError,
     SupportInput,
+    error::finite,
     modes::Modes,
     orient::orient,
     reduction::Basis,
@@ -103,7 +104,9 @@ impl Structure {
             ),
         });
         let uniform_acceleration = projected(shapes, &self.uniform_load());
-        Ok(ReducedModel { natural_frequencies: frequencies, damping, points, support, uniform_acceleration })
+        let model =
+            ReducedModel { natural_frequencies: frequencies, damping, points, support, uniform_acceleration };
+        check_finite(&model).map(|()| model)
     }
 
     fn tables(
@@ -166,4 +169,16 @@ fn projected(shapes: &Mat<f64>, vector: &[f64]) -> Vec<f64> {
 fn dampers_on_support(modes: MatRef<'_, f64>, support: MatRef<'_, f64>) -> Vec<f64> {
     let product = modes.transpose() * support;
     product.col(0).iter().copied().collect()
+}
+
+/// Refuses a model whose numbers left the range of floating point: the input was absurd in size.
+fn check_finite(model: &ReducedModel) -> Result<(), StructureError> {
+    for (mode, &w) in model.natural_frequencies.iter().enumerate() {
+        finite(&format!("eigenfrequency {}", mode + 1), w)?;
+        finite(&format!("square of eigenfrequency {}", mode + 1), w * w)?;
+    }
+    let shapes = model.points.iter().flat_map(|point| &point.shape);
+    shapes
+        .chain(model.damping.col_iter().flat_map(|column| column.iter()))
+        .try_for_each(|&value| finite("an entry of the reduced model", value).map(drop))
 }

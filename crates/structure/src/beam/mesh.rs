@@ -6,6 +6,8 @@ use crate::StructureError;
 const SAME_PLACE: f64 = 1e-9;
 /// Shortest stretch between two points, as a part of the length; shorter elements cost digits.
 const SHORTEST_STRETCH: f64 = 1e-4;
+/// Elements on a short stretch, where there are enough.
+const LOCAL_ELEMENTS: usize = 4;
 /// Most elements of a beam: the dense eigenproblem grows with the cube.
 pub(crate) const MOST_ELEMENTS: usize = 1000;
 
@@ -85,10 +87,12 @@ fn nearest(corners: &[f64], at: f64) -> usize {
     best
 }
 
-/// One element for each stretch, every further one to the stretch whose elements are longest.
+/// Number of elements of each stretch.
+///
+/// Each gets its start, and every further element goes to the stretch whose elements are longest.
 fn share(elements: usize, stretches: &[f64]) -> Vec<usize> {
-    let mut counts = vec![1; stretches.len()];
-    for _ in stretches.len()..elements {
+    let mut counts = start(elements, stretches);
+    for _ in counts.iter().sum()..elements {
         let mut longest = 0;
         for index in 1..stretches.len() {
             if stretches[index] * counts[longest] as f64 > stretches[longest] * counts[index] as f64 {
@@ -98,6 +102,16 @@ fn share(elements: usize, stretches: &[f64]) -> Vec<usize> {
         counts[longest] += 1;
     }
     counts
+}
+
+/// What each stretch starts with: one element, and up to four on a short one.
+///
+/// Forces at points bend the beam locally, and the residual flexibility modes need elements there. More than
+/// one is given only while they are at least half as long as the mean and take half of all at most.
+fn start(elements: usize, stretches: &[f64]) -> Vec<usize> {
+    let mean = stretches.iter().sum::<f64>() / elements as f64;
+    let most = (elements / (2 * stretches.len())).min(LOCAL_ELEMENTS);
+    stretches.iter().map(|stretch| most.min((2.0 * stretch / mean) as usize).max(1)).collect()
 }
 
 #[cfg(test)]
@@ -118,6 +132,12 @@ mod tests {
     fn elements_are_shared_so_that_the_longest_is_shortest() {
         assert_eq!(share(10, &[3.0, 1.0, 1.0]), vec![6, 2, 2]);
         assert_eq!(share(3, &[3.0, 1.0, 1e-3]), vec![1, 1, 1]);
+    }
+
+    #[test]
+    fn a_short_stretch_has_four_elements_unless_they_would_be_tiny() {
+        assert_eq!(share(44, &[0.2432157, 0.0147665]), vec![40, 4]);
+        assert_eq!(share(44, &[0.2432157, 0.0001]), vec![43, 1]);
     }
 
     #[test]
