@@ -51,9 +51,16 @@ impl Follower {
     ) -> Result<(), Doubt> {
         let base = self.state.history.base();
         predictor::hermite(&self.weights, base, [&self.trial.node], sigma, &mut self.probe.point);
-        let limits = Limits { max_angle: Some(2.0 * self.settings.max_angle), ..self.limits(step) };
+        let limits = Limits { max_angle: Some(2.0 * self.settings.max_angle), ..self.locating_limits(step) };
         self.probe
             .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
             .map_err(Doubt::Corrector)
+    }
+
+    /// Events are located to a hundredth of the tolerance, as far as rounding allows.
+    pub(super) fn locating_limits(&self, step: f64) -> Limits {
+        let limits = self.limits(step);
+        let sharp = (0.01 * self.settings.correction_tolerance).max(self.settings.correction_floor);
+        Limits { tolerance: limits.tolerance.min(sharp), max_angle: None, ..limits }
     }
 }

@@ -8,6 +8,7 @@ use crate::{
     corrector::CorrectorError,
     error::Doubt,
     point::Events,
+    predictor,
     problem::PathProblem,
     product::{norm, scale},
 };
@@ -52,11 +53,11 @@ impl Follower {
         let mut smallest = (0.0, f64::INFINITY);
         for _ in 0..MOST_PROBES {
             let sigma = bracket.next();
-            match self.probe_between(problem, step, sigma) {
-                Err(Doubt::Corrector(CorrectorError::SingularJacobian)) => {
+            match self.probe_near_branch_point(problem, step, sigma, smallest.0 > 0.0) {
+                Err(CorrectorError::SingularJacobian) => {
                     return self.exactly_singular(sigma / length);
                 }
-                Err(doubt) if smallest.1 > VANISHING => return Err(doubt),
+                Err(error) if smallest.1 > VANISHING => return Err(Doubt::Corrector(error)),
                 Err(_) => break,
                 Ok(()) => {}
             }
@@ -72,6 +73,25 @@ impl Follower {
         }
         self.return_to_best(problem)?;
         Ok(smallest)
+    }
+
+    /// As [`probe_between`](Self::probe_between), but the best probe so far sharpens the prediction: near the branch
+    /// point the direction of the path is known only as far as the prediction is close.
+    fn probe_near_branch_point(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+        sigma: f64,
+        use_best: bool,
+    ) -> Result<(), CorrectorError> {
+        let (base, out) = (self.state.history.base(), &mut self.probe.point);
+        if use_best {
+            predictor::hermite(&self.weights, base, [&self.trial.node, &self.best.node], sigma, out);
+        } else {
+            predictor::hermite(&self.weights, base, [&self.trial.node], sigma, out);
+        }
+        let limits = self.locating_limits(step);
+        self.probe.correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
     }
 
     /// The matrix could not even be factorised: the probe lies on the branch point as far as numbers tell.

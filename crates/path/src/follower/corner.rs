@@ -9,7 +9,7 @@
 
 use super::{Arrival, Follower};
 use crate::{
-    corrector::Limits,
+    corrector::{CorrectorError, Limits},
     error::Doubt,
     point::Events,
     predictor::Node,
@@ -49,10 +49,7 @@ impl Follower {
         weigh(&self.weights, &base.tangent, &mut self.row);
         self.trial.point.copy_from_slice(&base.point);
         add_scaled(&mut self.trial.point, length, &base.tangent);
-        self.trial
-            .linearise(problem, &self.weights, &self.row, &mut self.state.counters)
-            .map_err(Doubt::Corrector)?;
-        self.trial.orient(self.state.orientation);
+        self.linearise_trial(problem)?;
         let direction = self.trial.node.tangent.clone();
         weigh(&self.weights, &direction, &mut self.row);
         self.trial.refactorise(problem, &self.weights, &self.row).map_err(Doubt::Corrector)?;
@@ -64,6 +61,18 @@ impl Follower {
         self.trial.orient(self.state.orientation);
         let agrees = product(&self.weights, &self.trial.node.tangent, &direction) > 0.9;
         if agrees { Ok(()) } else { Err(Doubt::NotLocated) }
+    }
+
+    /// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old tangent.
+    fn linearise_trial(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), Doubt> {
+        let first = self.trial.linearise(problem, &self.weights, &self.row, &mut self.state.counters);
+        if first == Err(CorrectorError::SingularJacobian) {
+            self.trial.refactorise(problem, &self.weights, &self.parameter_row).map_err(Doubt::Corrector)?;
+        } else {
+            first.map_err(Doubt::Corrector)?;
+        }
+        self.trial.orient(self.state.orientation);
+        Ok(())
     }
 
     fn corner_limits(&self, length: f64) -> Limits {
@@ -86,6 +95,7 @@ impl Follower {
         let along = meeting(&self.weights, self.state.history.base(), &self.trial.node);
         self.probe.point.copy_from_slice(&self.trial.node.point);
         add_scaled(&mut self.probe.point, -along, &self.trial.node.tangent);
+        self.border_both_sides();
         let limits = Limits { max_angle: None, ..self.corner_limits(step) };
         let counters = &mut self.state.counters;
         self.probe.correct(problem, &self.weights, &self.row, limits, counters).map_err(Doubt::Corrector)?;
@@ -97,6 +107,18 @@ impl Follower {
         let fold = after * self.state.parameter_sign < 0.0;
         let events = Events { corner: true, fold, ..Events::default() };
         Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
+    }
+
+    /// On the corner the matrix may be that of either side: a border for both is the sum of their tangents, unless
+    /// they are nearly opposite; then either serves.
+    fn border_both_sides(&mut self) {
+        let base = self.state.history.base();
+        if product(&self.weights, &base.tangent, &self.trial.node.tangent) < -0.5 {
+            return;
+        }
+        for (i, r) in self.row.iter_mut().enumerate() {
+            *r = self.weights[i] * (base.tangent[i] + self.trial.node.tangent[i]);
+        }
     }
 }
 

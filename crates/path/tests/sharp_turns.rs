@@ -1,0 +1,169 @@
+//! Folds as sharp as grazing makes them: turns within 1e-6 to 1e-8 of the parameter, corners, one-sided powers.
+
+mod support;
+
+use approx::assert_abs_diff_eq;
+use hammerbeam_path::{Settings, follow_both};
+use support::*;
+
+const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
+
+#[test]
+fn a_hairpin_of_any_radius_is_rounded_once() {
+    for radius in [1e-2, 1e-4, 1e-6, 1e-7, 1e-8] {
+        for step in STEPS {
+            let hairpin = move |x: f64| {
+                let root = x.hypot(radius);
+                (-root, -x / root, 0)
+            };
+            let start = [-0.5, -0.5_f64.hypot(radius)];
+            let branch = up(&mut graph(hairpin), &start, -0.6, 1.0, steps_of(step));
+            assert_reached_end(&branch, -0.6);
+            assert_eq!(folds(&branch).len(), 1, "radius {radius}, step {step}");
+            assert_abs_diff_eq!(folds(&branch)[0], -radius, epsilon = 1e-10);
+            assert_monotone(&branch, |z| z[0]);
+        }
+    }
+}
+
+/// The sheets of `λ = −√(x² + r²) / slope` close in on each other: at slope 0.05 they leave the fold 6 degrees apart.
+#[test]
+fn a_narrow_hairpin_is_rounded_without_jumping_to_its_other_sheet() {
+    for slope in [0.05, 0.3, 3.0] {
+        for radius in [0.0, 1e-8, 1e-5] {
+            let hairpin = move |x: f64| {
+                let root = x.hypot(radius);
+                let sign = if radius == 0.0 { x.signum() } else { x / root };
+                (-root / slope, -sign / slope, u64::from(radius == 0.0 && x > 0.0))
+            };
+            let far = 0.9 * slope;
+            let start = [-far, -far.hypot(radius) / slope];
+            let branch = up(&mut graph(hairpin), &start, -1.0, 1.0, steps_of(0.01));
+            assert_reached_end(&branch, -1.0);
+            assert_eq!(folds(&branch).len(), 1, "slope {slope}, radius {radius}");
+            assert_abs_diff_eq!(folds(&branch)[0], -radius / slope, epsilon = 1e-9);
+            assert_monotone(&branch, |z| z[0]);
+        }
+    }
+}
+
+#[test]
+fn a_corner_is_turned_with_and_without_a_signature() {
+    for marked in [false, true] {
+        for (left, right) in [(1.0, -1.0), (1.0, -0.1), (0.2, -5.0), (1.0, 10.0), (3.0, 0.2)] {
+            let corner = move |x: f64| {
+                let slope = if x < 0.0 { left } else { right };
+                (slope * x, slope, u64::from(marked && x >= 0.0))
+            };
+            let branch = up(&mut graph(corner), &[-0.5 / left, -0.5], -0.7, 0.6, steps_of(0.01));
+            assert_reached_end(&branch, if right > 0.0 { 0.6 } else { -0.7 });
+            let turns = if right > 0.0 { vec![] } else { vec![0.0] };
+            assert_eq!(folds(&branch).len(), turns.len(), "{left} {right}");
+            for fold in folds(&branch) {
+                assert_abs_diff_eq!(fold, 0.0, epsilon = 1e-10);
+            }
+            assert_monotone(&branch, |z| z[0]);
+        }
+    }
+}
+
+/// Hertz contact: `λ = x − c p^1.5` with `p = max(x, 0)`: a fold at `p = (1.5 c)^-2` behind the first touch.
+#[test]
+fn folds_behind_a_touch_with_power_one_and_a_half_are_found_at_every_step() {
+    for c in [2.0, 20.0, 200.0, 2000.0] {
+        for step in STEPS {
+            let hertz = move |x: f64| {
+                let p = x.max(0.0);
+                (x - c * p.powf(1.5), 1.0 - 1.5 * c * p.sqrt(), u64::from(x > 0.0))
+            };
+            let branch = up(&mut graph(hertz), &[-0.5, -0.5], -0.6, 1.0, steps_of(step));
+            assert_reached_end(&branch, -0.6);
+            let p = (1.5 * c).powi(-2);
+            assert_eq!(folds(&branch).len(), 1);
+            assert_abs_diff_eq!(folds(&branch)[0], p / 3.0, epsilon = 1e-10);
+            assert_monotone(&branch, |z| z[0]);
+            assert_eq!(branch.points.iter().filter(|point| point.events.signature_change).count(), 1);
+        }
+    }
+}
+
+/// `λ = −c x|x| + x`: the curvature jumps at the touch, with folds on both sides or on one.
+#[test]
+fn folds_beside_a_jump_of_curvature_are_found_at_every_step() {
+    for c in [1.0, 1e3, 1e6] {
+        for step in STEPS {
+            let curve = move |x: f64| (x - c * x * x.abs(), 1.0 - 2.0 * c * x.abs(), u64::from(x > 0.0));
+            let far = 0.5 / c + (0.25 / (c * c) + 0.6 / c).sqrt();
+            let branch = down(&mut graph(curve), &[-far, 0.6], -0.7, 0.7, steps_of(step));
+            assert_reached_end(&branch, -0.7);
+            let found = folds(&branch);
+            assert_eq!(found.len(), 2, "c {c}, step {step}");
+            assert_abs_diff_eq!(found[0], -0.25 / c, epsilon = 1e-10);
+            assert_abs_diff_eq!(found[1], 0.25 / c, epsilon = 1e-10);
+            assert_monotone(&branch, |z| z[0]);
+        }
+    }
+}
+
+/// Beside the touch at `x = 0.1 k` hides `λ = x − 2 w (G(p/w))`, `G(u) = 3 u^1.5 e^-u`: a pair of folds within about
+/// `w` of the touch, on its left or on its right.
+fn hidden_pairs(x: f64, width: f64, side: f64) -> (f64, f64, u64) {
+    let (mut value, mut slope, mut touches) = (x, 1.0, 0);
+    for k in 0..5 {
+        let touch = 0.1 * k as f64 + 0.05;
+        let u = side * (x - touch) / width;
+        touches += u64::from(x > touch);
+        if u > 0.0 {
+            let e = (-u).exp();
+            value -= side * 3.0 * width * u.powf(1.5) * e;
+            slope -= 3.0 * (1.5 * u.sqrt() - u.powf(1.5)) * e;
+        }
+    }
+    (value, slope, touches)
+}
+
+#[test]
+fn pairs_of_folds_hidden_at_a_change_of_signature_do_not_depend_on_the_step() {
+    for width in [1e-5, 1e-4] {
+        for side in [-1.0, 1.0] {
+            let mut lists = Vec::new();
+            for step in STEPS {
+                let curve = move |x: f64| hidden_pairs(x, width, side);
+                let branch = up(&mut graph(curve), &[0.0, 0.0], -0.5, 0.5, steps_of(step));
+                assert_reached_end(&branch, 0.5);
+                assert_monotone(&branch, |z| z[0]);
+                lists.push(folds(&branch));
+            }
+            assert_eq!(lists[0].len(), 10, "width {width}, side {side}");
+            for list in &lists[1..] {
+                assert_eq!(list.len(), 10, "width {width}, side {side}");
+                for (a, b) in list.iter().zip(&lists[0]) {
+                    assert_abs_diff_eq!(a, b, epsilon = 1e-10);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn hidden_pairs_are_found_in_mixed_coordinates_and_backwards() {
+    for seed in [0.0, 0.7] {
+        let f = |x: f64, l: f64| {
+            let (value, slope, signature) = hidden_pairs(x, 1e-5, 1.0);
+            (value - l, slope, -1.0, signature)
+        };
+        let mut problem = mixed(6, seed, f);
+        let start = mixed_point(6, seed, 0.2, 0.2);
+        let both = follow_both(&mut problem, &start, range(0.0, 0.5), steps_of(0.05)).unwrap();
+        assert_eq!(both.points[0].parameter(), 0.0);
+        assert_eq!(both.points.last().unwrap().parameter(), 0.5);
+        assert_eq!(both.points.iter().filter(|point| point.events.fold).count(), 10);
+    }
+}
+
+#[test]
+fn a_sharp_fold_costs_a_bounded_number_of_evaluations() {
+    let hairpin = |x: f64| (-x.hypot(1e-8), -x / x.hypot(1e-8), 0);
+    let branch = up(&mut graph(hairpin), &[-0.05, -0.05], -0.06, 1.0, Settings::default());
+    assert!(branch.counters.evaluations < 600, "{:?}", branch.counters);
+}
