@@ -19,7 +19,7 @@ pub enum StructureError {
     PointOffBeam { name: String, at: f64, length: f64 },
     /// Two points are too close for an element between them, and too far apart to be one.
     #[error(
-        "points \"{first}\" and \"{second}\" are {distance:e} m apart, must be at the same place or at least {allowed:e} m apart"
+        "points \"{first}\" and \"{second}\" are {distance:e} m apart, must be 0 or at least {allowed:e} m"
     )]
     PointsTooClose { first: String, second: String, distance: f64, allowed: f64 },
     /// Each stretch between ends and points needs an element of its own.

@@ -31,7 +31,7 @@ pub(crate) struct NamedCoordinate {
     pub coordinate: usize,
 }
 
-/// A linear structure with its supports, as [`crate::Beam::structure`] and [`crate::Lumped::structure`] make it.
+/// A linear structure with its supports, made by [`crate::Beam::structure`] or [`crate::Lumped::structure`].
 ///
 /// `M y'' + C y' + K y = f` over the free coordinates; held ones are zero, prescribed ones follow the
 /// support displacement `u(t)`.
@@ -147,11 +147,12 @@ impl Structure {
         times(&self.assembly.mass, &self.assembly.translation)
     }
 
-    /// Static answer of all coordinates to a unit support motion, `[Gamma; 1]` and 0 where held; `None` without one.
+    /// Static answer of all coordinates to a unit support motion: `[Gamma; 1]`, and 0 where held.
     ///
     /// `Gamma = -K_ff^-1 K_fp`. It is found as the uniform translation of everything not held, plus the
     /// static answer to the strains that this leaves, so that a structure without other supports has
     /// `Gamma` exactly 1; where `K_ff` is singular the rigid-body part is thereby that of the translation.
+    /// `None` if no support moves.
     pub(crate) fn support_shape(&self, modes: &Modes) -> Option<Mat<f64>> {
         if self.prescribed.is_empty() {
             return None;

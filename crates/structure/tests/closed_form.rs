@@ -1,4 +1,5 @@
 //! Uniform beams against the wavenumbers of the closed form, `w = beta^2 sqrt(EI / (rho A l^4))`.
+#![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Damping: modal, Rayleigh and discrete dampers.
+#![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 mod common;
 

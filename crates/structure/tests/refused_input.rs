@@ -1,4 +1,5 @@
 //! Input that is no structure, and what the user is told.
+#![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 mod common;
 

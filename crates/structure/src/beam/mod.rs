@@ -68,7 +68,8 @@ pub struct Beam {
     /// Length [m].
     pub length: f64,
     /// Number of elements, shared over the stretches between ends and points as evenly as possible, with at
-    /// least one each and up to four on a short one; at most 1000. The dense eigenproblem costs the cube: see [`Structure::reduce`].
+    /// least one each and up to four on a short one; at most 1000. The dense eigenproblem costs the cube:
+    /// see [`Structure::reduce`].
     pub elements: usize,
     /// Cross-section.
     pub section: Section,
