@@ -27,7 +27,7 @@ pub use lumped::{Damper, Lumped, Mass, Spring};
 pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;
 pub use stop::{FixedTo, Place, Stop};
-pub use stop_law::{Approach, GapMeasured, Side, StopLaw};
+pub use stop_law::{Approach, GapMeasured, HertzStiffness, Side, StopLaw};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
 

@@ -99,6 +99,19 @@ pub enum Side {
     Below,
 }
 
+impl StopLaw {
+    /// From where its gap counts, if it has one.
+    #[must_use]
+    pub fn gap_measured(&self) -> GapMeasured {
+        match self {
+            Self::Hertz { approach: Approach::Gap { measured, .. }, .. }
+            | Self::Linear { approach: Approach::Gap { measured, .. }, .. } => *measured,
+            Self::TwoSided { gap_measured, .. } => *gap_measured,
+            _ => GapMeasured::Undeformed,
+        }
+    }
+}
+
 #[derive(Clone, Copy)]
 enum Kind {
     Hertz,

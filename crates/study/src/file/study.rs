@@ -13,8 +13,8 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Damping, Excitation, Load, Reduction, Response, Stop, Structure, continuation, damping,
-    excitation, load, names::Names, reduction, response, stop, structure,
+    Continuation, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Stop, Structure,
+    continuation, damping, excitation, load, names::Names, reduction, response, stop, structure,
 };
 
 /// Everything a study says.
@@ -39,6 +39,20 @@ pub struct Study {
     pub response: Response,
     /// How branches are followed.
     pub continuation: Continuation,
+}
+
+impl Study {
+    /// Points at which forces of the excitation and of the loads act.
+    pub fn force_points(&self) -> impl Iterator<Item = &str> {
+        let excitation = match &self.excitation.kind {
+            ExcitationKind::Force { at, .. } => Some(at.as_str()),
+            ExcitationKind::SupportMotion { .. } => None,
+        };
+        excitation.into_iter().chain(self.loads.iter().filter_map(|load| match load {
+            Load::Force { at, .. } => Some(at.as_str()),
+            _ => None,
+        }))
+    }
 }
 
 /// A study with the text it was read from, so that faults found later can still point into it.

@@ -1,0 +1,64 @@
+//! Excitation and loads of a study as harmonics over the modes.
+
+use hammerbeam_motion::{Harmonic, HarmonicForce, Load};
+use hammerbeam_structure::ReducedModel;
+
+use crate::file::{self, ExcitationKind, Study};
+
+/// All that drives the structure.
+pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
+    let excitation = &study.excitation;
+    let mut load = Load::default();
+    let harmonic = |amplitude| Harmonic { order: excitation.order, amplitude, phase: excitation.phase_rad };
+    match &excitation.kind {
+        ExcitationKind::SupportMotion { amplitude_m, .. } => load.support.push(harmonic(*amplitude_m)),
+        ExcitationKind::Force { at, amplitude_n } => {
+            load.forces.push(HarmonicForce { shape: shape(model, at), harmonic: harmonic(*amplitude_n) });
+        }
+    }
+    for further in &study.loads {
+        add(&mut load, further, model);
+    }
+    load
+}
+
+fn add(load: &mut Load, further: &file::Load, model: &ReducedModel) {
+    match further {
+        file::Load::Gravity { acceleration_m_s2 } => load.forces.push(HarmonicForce {
+            shape: model.uniform_acceleration.clone(),
+            harmonic: Harmonic { order: 0, amplitude: *acceleration_m_s2, phase: 0.0 },
+        }),
+        file::Load::Force { at, amplitude_n, order, phase_rad } => load.forces.push(HarmonicForce {
+            shape: shape(model, at),
+            harmonic: Harmonic { order: *order, amplitude: *amplitude_n, phase: *phase_rad },
+        }),
+        file::Load::SupportMotion { amplitude_m, order, phase_rad } => {
+            load.support.push(Harmonic { order: *order, amplitude: *amplitude_m, phase: *phase_rad });
+        }
+    }
+}
+
+fn shape(model: &ReducedModel, name: &str) -> Vec<f64> {
+    model.point(name).expect("the study knows the names of its structure").shape.clone()
+}
+
+/// Modal displacements under the constant part of the load, `q_i = b_i / w_i^2`.
+///
+/// # Errors
+/// The number of the first mode that a constant load drives and nothing restrains.
+pub(super) fn rest(load: &Load, model: &ReducedModel) -> Result<Vec<f64>, usize> {
+    let constant = load.forces.iter().filter(|force| force.harmonic.order == 0);
+    let mut rest = vec![0.0; model.dof()];
+    for force in constant {
+        let amplitude = force.harmonic.amplitude * force.harmonic.phase.cos();
+        rest.iter_mut().zip(&force.shape).for_each(|(sum, shape)| *sum += amplitude * shape);
+    }
+    for (mode, (value, w)) in rest.iter_mut().zip(&model.natural_frequencies).enumerate() {
+        match (*value, *w) {
+            (0.0, _) => {}
+            (_, 0.0) => return Err(mode),
+            _ => *value /= w * w,
+        }
+    }
+    Ok(rest)
+}

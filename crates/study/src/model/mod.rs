@@ -1,0 +1,118 @@
+//! From the study to the equations of motion.
+
+mod element;
+mod load;
+mod structure;
+
+use hammerbeam_motion::{System, SystemError};
+use hammerbeam_structure::{ModeTables, ReducedModel, StructureError};
+
+use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
+
+/// A study made ready for computing.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The equations of motion.
+    pub system: System,
+    /// What is observed.
+    pub response: ResponsePoint,
+    /// Eigenfrequencies of all stages.
+    pub tables: ModeTables,
+}
+
+/// The observed displacement `y = shape . q + support_ratio u`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ResponsePoint {
+    /// Displacement per modal coordinate [kg^-1/2].
+    pub shape: Vec<f64>,
+    /// Displacement per unit support displacement [-].
+    pub support_ratio: f64,
+}
+
+impl Model {
+    /// Assembles, supports and reduces the structure, and puts loads and local elements on it.
+    ///
+    /// # Errors
+    /// [`StudyError::Invalid`]: something of the study does not fit its structure, at the key that is to blame.
+    pub fn build(file: &StudyFile) -> Result<Self, StudyError> {
+        check_magnitudes(file)?;
+        let study = &file.study;
+        let interface = interface(study);
+        let reduced = structure::reduce(study, &interface).map_err(|error| structure_fault(file, &error))?;
+        let load = load::load(study, &reduced.model);
+        let elements = element::elements(file, &reduced.model, &load)?;
+        let response = response_point(study, &reduced.model);
+        let system =
+            System::new(reduced.model, &load, elements).map_err(|error| system_fault(file, &error))?;
+        Ok(Self { system, response, tables: reduced.tables })
+    }
+}
+
+/// Names of the points at which local or exciting forces act, each once.
+fn interface(study: &Study) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for stop in &study.stops {
+        match &stop.place {
+            Place::At { point, .. } => names.push(point.clone()),
+            Place::Between { first, second } => names.extend([first.clone(), second.clone()]),
+        }
+    }
+    names.extend(study.force_points().map(str::to_owned));
+    let mut seen = std::collections::BTreeSet::new();
+    names.retain(|name| seen.insert(name.clone()));
+    names
+}
+
+fn response_point(study: &Study, model: &ReducedModel) -> ResponsePoint {
+    let point = model.point(&study.response.point).expect("the study knows the names of its structure");
+    ResponsePoint { shape: point.shape.clone(), support_ratio: point.support_ratio }
+}
+
+/// Displacements longer than the beam are in the wrong unit.
+fn check_magnitudes(file: &StudyFile) -> Result<(), StudyError> {
+    let Structure::Beam(beam) = &file.study.structure else { return Ok(()) };
+    let Excitation { kind: ExcitationKind::SupportMotion { amplitude_m, .. }, .. } = &file.study.excitation
+    else {
+        return Ok(());
+    };
+    if *amplitude_m <= beam.length_m {
+        return Ok(());
+    }
+    let help = format!("allowed: at most {} m, the length of the beam; is the unit m?", beam.length_m);
+    Err(file.fault("excitation.amplitude_m", format!("`amplitude_m` is {amplitude_m} m"), vec![help]))
+}
+
+/// The fault of a structure at the key that is to blame.
+fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
+    let key = match error {
+        StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
+        StructureError::LumpedIsNotReduced => "reduction.method",
+        StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
+        StructureError::TooFewElements { .. } | StructureError::TooManyElements { .. } => {
+            "structure.elements"
+        }
+        StructureError::PointsTooClose { .. } => "structure.point",
+        _ => "structure",
+    };
+    let help = match error {
+        StructureError::CutOffBelowFirstMode { first_hz, .. } => {
+            vec![format!("allowed: more than {first_hz:.6} Hz, so that one elastic mode is kept at least")]
+        }
+        StructureError::DampingRatioCount { modes, .. } => {
+            vec![format!("allowed: one ratio for all modes, or a list of {modes}")]
+        }
+        _ => Vec::new(),
+    };
+    file.fault(key, error.to_string(), help)
+}
+
+fn system_fault(file: &StudyFile, error: &SystemError) -> StudyError {
+    let key = match error {
+        SystemError::NoMovingSupport => "excitation.at",
+        _ => "structure",
+    };
+    file.fault(key, error.to_string(), Vec::new())
+}
+
+#[cfg(test)]
+mod tests;

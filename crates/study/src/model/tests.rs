@@ -1,0 +1,113 @@
+use approx::assert_relative_eq;
+
+use super::*;
+
+const PAPER: &str = include_str!("../../../../studies/beam-with-stop.toml");
+
+fn build(text: &str) -> Result<Model, StudyError> {
+    Model::build(&StudyFile::parse("study.toml", text.to_owned())?)
+}
+
+fn paper_with(old: &str, new: &str) -> Result<Model, StudyError> {
+    assert!(PAPER.contains(old), "{old} is not in the study");
+    build(&PAPER.replacen(old, new, 1))
+}
+
+#[track_caller]
+fn assert_refused(model: Result<Model, StudyError>, parts: &[&str]) {
+    let message = model.map(|_| ()).unwrap_err().to_string();
+    for part in parts {
+        assert!(message.contains(part), "\"{part}\" is missing in:\n{message}");
+    }
+}
+
+const GRAVITY: &str = "[[load]]\nkind = \"gravity\"\nacceleration_m_s2 = -9.81\n";
+
+#[test]
+fn the_paper_has_six_modes_and_a_riding_stop_below() {
+    let model = build(PAPER).unwrap();
+    assert_eq!(model.system.dof(), 6);
+    let element = &model.system.elements()[0];
+    assert!(model.response.shape[0] > 0.0 && element.shape[0] == -model.response.shape[0]);
+    assert_relative_eq!(element.support_ratio, 0.0, epsilon = 1e-12);
+    assert_relative_eq!(model.response.support_ratio, 1.0, epsilon = 1e-12);
+    assert_relative_eq!(model.tables.reduced_hz[0], 17.495, max_relative = 1e-4);
+}
+
+#[test]
+fn a_stop_fixed_in_space_feels_the_support_motion() {
+    let model = paper_with("fixed_to = \"left\"", "fixed_to = \"space\"").unwrap();
+    assert_relative_eq!(model.system.elements()[0].support_ratio, -1.0, epsilon = 1e-12);
+}
+
+#[test]
+fn a_gap_measured_at_rest_moves_with_the_sag() {
+    let text =
+        format!("{PAPER}\n{GRAVITY}").replacen("gap_m = 0.0", "gap_m = 0.0\ngap_measured = \"at-rest\"", 1);
+    let model = build(&text).unwrap();
+    let level = model.system.elements()[0].law.contacts()[0].level;
+    assert_relative_eq!(level, 0.98e-3, max_relative = 5e-3); // printed with two digits in the design
+}
+
+#[test]
+fn a_cut_off_below_the_first_mode_is_refused_at_its_key() {
+    assert_refused(
+        paper_with("cut_off_hz = 1000.0", "cut_off_hz = 5.0"),
+        &["the cut-off frequency is 5 Hz", "reduction.cut_off_hz", "allowed: more than 30.5"],
+    );
+}
+
+#[test]
+fn one_damping_ratio_per_mode_is_needed() {
+    let ratios = |list: &str| paper_with("modal_ratio = 0.015", &format!("modal_ratio = {list}"));
+    assert!(ratios("[0.01, 0.01, 0.01, 0.01, 0.01, 0.01]").is_ok());
+    assert_refused(ratios("[0.01, 0.02]"), &["2 modal damping ratios", "damping.modal_ratio", "a list of 6"]);
+}
+
+#[test]
+fn an_amplitude_beyond_the_length_of_the_beam_is_in_the_wrong_unit() {
+    assert_refused(
+        paper_with("amplitude_m = 0.5015e-3", "amplitude_m = 0.5015"),
+        &["`amplitude_m` is 0.5015 m", "0.2579822 m, the length of the beam"],
+    );
+}
+
+#[test]
+fn a_stop_at_a_held_point_cannot_act() {
+    assert_refused(paper_with("at = \"contact\"", "at = \"left\""), &["the stop cannot act", "stop[0]"]);
+}
+
+#[test]
+fn a_lumped_structure_is_not_reduced() {
+    let text = include_str!("../../../../studies/duffing.toml");
+    let text = format!("{text}\n[reduction]\nmethod = \"free-interface\"\ncut_off_hz = 10.0\n");
+    assert_refused(build(&text), &["a lumped structure is not reduced", "reduction.method"]);
+}
+
+#[test]
+fn every_published_study_builds() {
+    for text in [
+        include_str!("../../../../studies/bilinear-oscillator.toml"),
+        include_str!("../../../../studies/duffing.toml"),
+        include_str!("../../../../studies/two-masses.toml"),
+        include_str!("../../../../studies/beam-between-stops.toml"),
+    ] {
+        let model = build(text).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!model.system.elements().is_empty());
+    }
+}
+
+/// A two-sided stop whose lower spring the sag has passed is the sum of two one-sided ones.
+#[test]
+fn a_two_sided_stop_pushed_past_one_spring_keeps_its_force() {
+    let mut text = include_str!("../../../../studies/two-masses.toml").to_owned();
+    text.push_str("\n[[load]]\nkind = \"force\"\nat = \"first\"\namplitude_n = -1.0\norder = 0\n");
+    text.push_str("[[stop]]\nat = \"first\"\nlaw = \"two-sided\"\nstiffness_n_m = 10.0\ngap_m = 1e-9\n");
+    text.push_str("gap_measured = \"at-rest\"\n");
+    let model = build(&text).unwrap();
+    let elements = &model.system.elements()[model.system.elements().len() - 2..];
+    assert_eq!(elements[1].shape, elements[0].shape.iter().map(|entry| -entry).collect::<Vec<_>>());
+    let levels: Vec<f64> = elements.iter().map(|element| element.law.contacts()[0].level).collect();
+    assert_relative_eq!(levels[0] + levels[1], 2e-9, max_relative = 1e-6);
+    assert!(levels[0] < 0.0 && levels[1] > 0.0);
+}
