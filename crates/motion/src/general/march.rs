@@ -2,8 +2,8 @@
 //!
 //! After a step of error `e` (see the stepper) the next is `0.9 e^(-1/8)` times as long, between a fifth and six
 //! times. A step that leaves its smooth region is done again to end on the boundary; there the march starts afresh.
-//! Behind a boundary forces grow like a low power of time, so that a first step which fails there is shortened by
-//! `0.9 e^(-2/5)`; the length that succeeded is remembered for the next crossing of that kind.
+//! Behind a boundary forces grow like a low power of time, so that the first step there is corrected by
+//! `0.9 e^(-2/5)` if it fails, and its best length is remembered for the next crossing of that kind.
 
 use super::{
     Counts, GeneralError, GeneralSettings, VectorField,
@@ -106,10 +106,7 @@ impl<'a, F: VectorField> March<'a, F> {
         }
         match self.inspect(step) {
             Verdict::Clear => {
-                let growth = (0.9 * error.powf(-0.125)).clamp(0.2, if self.failed { 1.0 } else { 6.0 });
-                let next = step * growth;
-                self.step = if step < self.step { next.max(self.step) } else { next };
-                self.region.moved(step);
+                self.lengthen(step, error);
                 self.accept(step, samples);
             }
             Verdict::TooLong { .. } if step > self.finest => {
@@ -125,6 +122,17 @@ impl<'a, F: VectorField> March<'a, F> {
                 }
             }
         }
+    }
+
+    fn lengthen(&mut self, step: f64, error: f64) {
+        let most = match self.region.fresh {
+            _ if self.failed => 1.0,
+            Some(_) => 100.0,
+            None => 6.0,
+        };
+        let next = step * (0.9 * error.powf(-0.125)).clamp(0.2, most);
+        self.step = if step < self.step { next.max(self.step) } else { next };
+        self.region.moved(step * (0.9 * error.powf(-0.4)).clamp(0.2, 1e4));
     }
 
     fn reject(&mut self, step: f64, error: f64) {
@@ -188,7 +196,7 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     fn cross(&mut self, switch: usize) {
-        self.step = self.step.min(self.region.cross(switch));
+        self.step = self.region.cross(switch).unwrap_or(self.step);
         self.unmoved += 1;
         self.counts.crossings += 1;
         self.stepper.start(self.field, self.time, &self.region.inside);

@@ -222,12 +222,22 @@ impl Stepper {
     }
 }
 
+#[inline]
 fn square(values: &[f64]) -> f64 {
-    values.iter().map(|value| value * value).sum()
+    let mut sum = 0.0;
+    for value in values {
+        sum += value * value;
+    }
+    sum
 }
 
+#[inline]
 fn magnitude(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |largest, value| value.abs().max(largest))
+    let mut largest = 0.0_f64;
+    for value in values {
+        largest = largest.max(value.abs());
+    }
+    largest
 }
 
 /// `sum = base + step sum_j a_j k_j` with slopes `stride` apart.
@@ -238,27 +248,35 @@ fn combine(sum: &mut [f64], base: &[f64], step: f64, terms: &Combination, slopes
     }
 }
 
+/// `sum = sum_j a_j k_j`, in blocks which stay in registers while the slopes go by.
 fn combine_from_zero(sum: &mut [f64], terms: &Combination, slopes: &[f64], stride: usize) {
-    let (fours, rest) = terms.as_chunks::<4>();
-    sum.fill(0.0);
-    for four in fours {
-        add(sum, four, slopes, stride);
+    let (blocks, rest) = sum.as_chunks_mut::<BLOCK>();
+    for (b, block) in blocks.iter_mut().enumerate() {
+        *block = block_of(terms, slopes, stride, b * BLOCK);
     }
-    match *rest {
-        [a] => add(sum, &[a], slopes, stride),
-        [a, b] => add(sum, &[a, b], slopes, stride),
-        [a, b, c] => add(sum, &[a, b, c], slopes, stride),
-        _ => {}
+    let first = BLOCK * blocks.len();
+    let (blocks, rest) = rest.as_chunks_mut::<2>();
+    for (b, block) in blocks.iter_mut().enumerate() {
+        *block = block_of(terms, slopes, stride, first + 2 * b);
+    }
+    for last in rest {
+        [*last] = block_of(terms, slopes, stride, first + 2 * blocks.len());
     }
 }
 
-/// Adds `M` slopes in one pass.
-fn add<const M: usize>(sum: &mut [f64], terms: &[(usize, f64); M], slopes: &[f64], stride: usize) {
-    let length = sum.len();
-    let rows = terms.map(|(index, _)| &slopes[index * stride..][..length]);
-    for i in 0..length {
-        sum[i] += (0..M).map(|m| terms[m].1 * rows[m][i]).sum::<f64>();
+const BLOCK: usize = 8;
+
+#[inline]
+fn block_of<const N: usize>(terms: &Combination, slopes: &[f64], stride: usize, offset: usize) -> [f64; N] {
+    let mut sum = [0.0; N];
+    for &(index, weight) in terms {
+        if let Some(slope) = slopes[index * stride + offset..].first_chunk::<N>() {
+            for i in 0..N {
+                sum[i] += weight * slope[i];
+            }
+        }
     }
+    sum
 }
 
 #[cfg(test)]

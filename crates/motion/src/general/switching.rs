@@ -25,7 +25,7 @@ pub(super) struct Region {
     pub(super) inside: Vec<bool>,
     /// The switching function whose zero is the start of the step.
     pub(super) fresh: Option<usize>,
-    first_steps: Vec<f64>,
+    first_steps: Vec<Option<f64>>,
     samples: Vec<f64>,
     state: Vec<f64>,
     values: Vec<f64>,
@@ -36,7 +36,7 @@ impl Region {
         Self {
             inside: vec![false; switches],
             fresh: None,
-            first_steps: vec![f64::INFINITY; 2 * switches],
+            first_steps: vec![None; 2 * switches],
             samples: vec![0.0; (SAMPLES + 1) * switches],
             state: vec![0.0; dimension],
             values: vec![0.0; switches],
@@ -60,17 +60,17 @@ impl Region {
         }
     }
 
-    /// Crosses the boundary; returns the length of the first step after the last such crossing.
-    pub(super) fn cross(&mut self, switch: usize) -> f64 {
+    /// Crosses the boundary; returns a good length of the first step, if there was such a crossing before.
+    pub(super) fn cross(&mut self, switch: usize) -> Option<f64> {
         self.inside[switch] = !self.inside[switch];
         self.fresh = Some(switch);
         self.first_steps[2 * switch + usize::from(self.inside[switch])]
     }
 
-    /// Tells that a step of that length was accepted.
-    pub(super) fn moved(&mut self, step: f64) {
+    /// Tells that a step was accepted which had better been of that length.
+    pub(super) fn moved(&mut self, best: f64) {
         if let Some(switch) = self.fresh.take() {
-            self.first_steps[2 * switch + usize::from(self.inside[switch])] = step;
+            self.first_steps[2 * switch + usize::from(self.inside[switch])] = Some(best);
         }
     }
 

@@ -174,15 +174,17 @@ impl Damping {
 }
 
 /// Writes `T [v; -diag(w^2) q - C v]`.
+#[inline]
 fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64], derivative: &mut [f64]) {
     let n = stiffness.len();
-    let (q, v) = state.split_at(n);
-    let (velocity, rate) = derivative.split_at_mut(n);
-    for (velocity, v) in velocity.iter_mut().zip(v) {
-        *velocity = period * v;
+    let (q, v) = (&state[..n], &state[n..2 * n]);
+    let (velocity, rate) = derivative[..2 * n].split_at_mut(n);
+    for i in 0..n {
+        velocity[i] = period * v[i];
     }
     match damping {
         Damping::Diagonal(damping) => {
+            let damping = &damping[..n];
             for i in 0..n {
                 rate[i] = -period * (stiffness[i] * q[i] + damping[i] * v[i]);
             }
@@ -220,10 +222,16 @@ fn continued_force(element: &LocalElement, r: f64, contact: &Contact) -> Force {
     Force { value: slope * (r - contact.level), slope }
 }
 
+#[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let mut sum = 0.0;
+    for (a, b) in a.iter().zip(b) {
+        sum += a * b;
+    }
+    sum
 }
 
+#[inline]
 fn add_scaled(sum: &mut [f64], factor: f64, values: &[f64]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += factor * value;
