@@ -18,6 +18,9 @@ const MOST_PROBES: u32 = 40;
 const SHARP: f64 = 1e-8;
 /// `|D|` relative to the ends of the step that is needed for a branch point.
 const VANISHING: f64 = 1e-3;
+/// If `|D|` did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it jumps.
+const JUMP_WIDTH: f64 = 1e-2;
+const JUMP_SIZE: f64 = 0.1;
 /// Share of `t_λ` of the ends below which the branch point is also a fold (as on the arms of a pitchfork).
 const STATIONARY: f64 = 0.02;
 
@@ -36,7 +39,7 @@ impl Follower {
         self.interpolate_tangent(share);
         std::mem::swap(&mut self.trial, &mut self.probe);
         let events = Events { branch_point: true, fold: parameter_sign.is_some(), ..Events::default() };
-        Ok(Arrival { events, parameter_sign, ..Arrival::default() })
+        Ok(Arrival { events, parameter_sign, anchors_anew: true, ..Arrival::default() })
     }
 
     /// Leaves the point with the smallest `|D|` found in the probe, evaluated last; returns its share of the step and
@@ -66,6 +69,9 @@ impl Follower {
             if size < smallest.1 {
                 smallest = (sigma / length, size);
                 std::mem::swap(&mut self.probe, &mut self.best);
+            }
+            if bracket.width() < JUMP_WIDTH * length && smallest.1 > JUMP_SIZE {
+                return Err(Doubt::Reversed);
             }
             if size <= SHARP || bracket.width() <= self.settings.correction_floor {
                 break;

@@ -24,18 +24,18 @@ impl Follower {
     /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself.
     ///
     /// # Errors
-    /// There is no corner that leads on: the branch stops.
+    /// There is no corner that leads on.
     pub(super) fn turn_corner(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         step: f64,
-    ) -> Result<Arrival, ()> {
+    ) -> Result<Arrival, Doubt> {
         for reach in REACHES {
             if self.step_behind_corner(problem, reach * step).is_ok() {
-                return self.arrive_at_corner(problem, step).map_err(|_| ());
+                return self.arrive_at_corner(problem, step);
             }
         }
-        Err(())
+        Err(Doubt::NotLocated)
     }
 
     /// Leaves in the trial a point on the new piece, about `length` behind the corner.

@@ -7,6 +7,7 @@ mod corner;
 mod fold;
 mod judge;
 mod range_end;
+mod recut;
 mod start;
 mod step_control;
 mod whole;
@@ -66,6 +67,8 @@ struct Arrival {
     earlier: usize,
     /// Sign of `t_λ` from here on, if it differs from that before.
     parameter_sign: Option<f64>,
+    /// The sign of the determinant changes here while the direction of travel does not.
+    anchors_anew: bool,
 }
 
 /// What happened to the attempts at one step.
@@ -177,12 +180,17 @@ impl Follower {
             let shorter = self.shortened(step, doubt, &mut attempts);
             self.give_up_if_retraced(doubt, shorter, attempts)?;
             if shorter < self.settings.min_step {
-                let arrival = self.turn_corner(problem, step).map_err(|()| self.too_short(step, doubt))?;
+                let arrival = self.pass_by_force(problem, step).ok_or_else(|| self.too_short(step, doubt))?;
                 self.accept(arrival, step, attempts);
                 return Ok(());
             }
             step = shorter;
         }
+    }
+
+    /// What is left when the shortest step is still in doubt: a corner, or other equations on the same path.
+    fn pass_by_force(&mut self, problem: &mut (impl PathProblem + ?Sized), step: f64) -> Option<Arrival> {
+        self.turn_corner(problem, step).or_else(|_| self.pass_recut(problem, step)).ok()
     }
 
     fn give_up_if_retraced(&self, doubt: Doubt, step: f64, attempts: Attempts) -> Result<(), StopReason> {
@@ -213,7 +221,7 @@ impl Follower {
         let chord = distance(&self.weights, &base.point, &self.trial.node.point);
         let angle = product(&self.weights, &base.tangent, &self.trial.node.tangent).clamp(-1.0, 1.0).acos();
         let arc_length = state.current.arc_length + chord * (1.0 + angle * angle / 24.0);
-        if events.branch_point {
+        if arrival.anchors_anew {
             state.orientation = -state.orientation;
         }
         if let Some(sign) = arrival.parameter_sign {
