@@ -1,0 +1,136 @@
+//! Certified search for the first contact of a flight.
+//!
+//! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and `|d'''| <= B_3` that hold
+//! for the rest of the flight, two steps provably cannot jump over a zero of `d`:
+//!
+//! * `h_2`, the positive root of `d + d' h - B_2 h^2/2`;
+//! * `h_3`, the first positive root of `d + d' h + d'' h^2/2 - B_3 h^3/6`.
+//!
+//! Repeated, they converge on the first contact, quadratically where it is crossed with some speed. Where a minimum of `d` lies
+//! ahead inside a stretch that `B_3` proves convex, the minimum itself is found by Newton's method: if it is above the
+//! rounding margin the stretch is passed at once, if it is below, Newton's method from the left runs monotonically into the
+//! crossing (the tangent of a convex function lies below it), and in between the contact is grazed without force. The
+//! margin is `8 eps` times the sum of the magnitudes of the terms of `r`: what rounding leaves undecided.
+
+use super::drive::Jet;
+
+/// Bounds for a clearance over the rest of the flight.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ClearanceBounds {
+    pub second: f64,
+    pub third: f64,
+    /// Rounding margin of the clearance [m].
+    pub margin: f64,
+}
+
+/// What is known after a look at the clearance at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Look {
+    /// No contact for this time [s], counted from the look.
+    FreeFor(f64),
+    /// Contact now.
+    Contact,
+    /// A minimum lies this far ahead, inside a convex stretch of that length.
+    MinimumAhead { at: f64, convex: f64 },
+}
+
+/// Looks at a clearance `d` with its derivatives.
+pub(crate) fn look(clearance: Jet, bounds: ClearanceBounds) -> Look {
+    let Jet { value, slope, curvature } = clearance;
+    let convex = if bounds.third > 0.0 { curvature / bounds.third } else { f64::INFINITY };
+    if slope < 0.0 && curvature > 0.0 {
+        let at = -slope / curvature;
+        let lowest = value + 0.5 * slope * at;
+        if at < 0.5 * convex && (value <= bounds.margin || lowest < 0.1 * value) {
+            return Look::MinimumAhead { at, convex };
+        }
+    }
+    if value <= bounds.margin && (slope < 0.0 || (slope == 0.0 && curvature < 0.0)) {
+        return Look::Contact;
+    }
+    let value = value.max(0.0);
+    Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(value, slope, curvature, bounds.third)))
+}
+
+/// Positive root of `d + d' h - B h^2/2`.
+fn safe_step(value: f64, slope: f64, bound: f64) -> f64 {
+    let root = (slope * slope + 2.0 * bound * value).sqrt();
+    if slope >= 0.0 {
+        return if bound > 0.0 { (slope + root) / bound } else { f64::INFINITY };
+    }
+    2.0 * value / (root - slope)
+}
+
+/// A step below the first positive root of `d + d' h + d'' h^2/2 - B h^3/6`, at least nine tenths of it.
+fn safe_cubic_step(value: f64, slope: f64, curvature: f64, bound: f64) -> f64 {
+    let cubic = |h: f64| value + h * (slope + h * (0.5 * curvature - bound * h / 6.0));
+    if bound <= 0.0 {
+        let no_root = slope >= 0.0 && curvature >= 0.0;
+        return if no_root { f64::INFINITY } else { 0.0 };
+    }
+    // After the last extremum (a maximum, since -B h^3 wins) the cubic falls; before it, it must be shown to be positive.
+    let discriminant = curvature * curvature + 2.0 * bound * slope;
+    let mut h = if discriminant > 0.0 {
+        let root = discriminant.sqrt();
+        let (low, high) = ((curvature - root) / bound, (curvature + root) / bound);
+        if high <= 0.0 || (low > 0.0 && cubic(low) <= 0.0) || cubic(high) <= 0.0 {
+            return 0.0;
+        }
+        high
+    } else {
+        return 0.0;
+    };
+    // Beyond the maximum the cubic falls to its root: step out by doubling, then halve down to the safe side.
+    let mut beyond = 2.0 * h;
+    while cubic(beyond) > 0.0 {
+        h = beyond;
+        beyond *= 2.0;
+    }
+    while beyond - h > 0.1 * h {
+        let middle = 0.5 * (h + beyond);
+        if cubic(middle) > 0.0 {
+            h = middle;
+        } else {
+            beyond = middle;
+        }
+    }
+    h
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounds(second: f64, third: f64) -> ClearanceBounds {
+        ClearanceBounds { second, third, margin: 1e-18 }
+    }
+
+    #[test]
+    fn safe_steps_stay_before_the_root_of_their_polynomial() {
+        for &(value, slope, curvature) in
+            &[(1.0, -1.0, 0.5), (1e-6, 0.3, -2.0), (1e-3, -1e-3, 1.0), (0.0, 1e-3, 5.0), (2.0, 0.0, -1.0)]
+        {
+            let bound: f64 = 7.0;
+            let h: f64 = safe_cubic_step(value, slope, curvature, bound);
+            for part in 1..=100 {
+                let t = h * f64::from(part) / 100.0;
+                let lower: f64 = value + t * (slope + t * (0.5 * curvature - bound * t / 6.0));
+                assert!(lower >= -1e-15, "{value} {slope} {curvature}: {lower} at {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_clearance_that_closes_inside_the_margin_is_a_contact() {
+        let closing = Jet { value: 1e-19, slope: -1.0, curvature: 0.0 };
+        assert_eq!(look(closing, bounds(1.0, 1.0)), Look::Contact);
+        let opening = Jet { value: -1e-12, slope: 1.0, curvature: 0.0 };
+        assert!(matches!(look(opening, bounds(1.0, 1.0)), Look::FreeFor(h) if h > 0.0));
+    }
+
+    #[test]
+    fn a_shallow_minimum_is_announced() {
+        let near_grazing = Jet { value: 0.5e-6, slope: -1e-3 + 1e-9, curvature: 1.0 };
+        assert!(matches!(look(near_grazing, bounds(50.0, 10.0)), Look::MinimumAhead { .. }));
+    }
+}

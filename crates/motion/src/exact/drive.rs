@@ -1,0 +1,209 @@
+//! The part of the motion that the load drives: the particular solution at one excitation frequency.
+//!
+//! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has the steady solution
+//! `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the denominator (nearly) vanishes - a constant load on a
+//! rigid mode, a load on an undamped eigenfrequency - the solution that starts from rest with the stretch takes its place
+//! (`secular.rs`); it stays finite.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+
+use super::{block::Blocks, output::Output, secular::SecularLoad};
+use crate::{Stretch, System};
+
+/// Relative distance from resonance below which the steady solution would cost more than four digits.
+const RESONANT: f64 = 1e-4;
+
+/// Steady solution of one order.
+#[derive(Debug, Clone)]
+struct Order {
+    /// m.
+    order: f64,
+    /// `[p; s]` complex, length 2n.
+    state: Vec<c64>,
+    /// Its derivative by the frequency [1/Hz].
+    state_by_frequency: Vec<c64>,
+    /// Amplitude of each output, and its derivative by the frequency.
+    outputs: Vec<(c64, c64)>,
+}
+
+/// The particular solution over a stretch; times are counted from the start of the stretch.
+#[derive(Debug, Clone)]
+pub(crate) struct Drive {
+    circular_frequency: f64,
+    start_angle: f64,
+    orders: Vec<Order>,
+    secular: Vec<SecularLoad>,
+}
+
+/// Value of an output and of its first two derivatives by time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Jet {
+    pub value: f64,
+    pub slope: f64,
+    pub curvature: f64,
+}
+
+impl Drive {
+    /// Solves for the particular solution of `system` over `stretch`.
+    pub fn new(system: &System, blocks: &Blocks, outputs: &[Output], stretch: &Stretch) -> Self {
+        let circular_frequency = TAU * stretch.frequency_hz;
+        let start_angle = TAU * (stretch.start - stretch.start.floor());
+        let mut drive = Self { circular_frequency, start_angle, orders: Vec::new(), secular: Vec::new() };
+        for (index, &order) in system.orders().iter().enumerate() {
+            drive.add_order(system, blocks, outputs, index, f64::from(order));
+        }
+        drive
+    }
+
+    fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
+        let n = blocks.count();
+        let load = system.modal_load(index, self.circular_frequency);
+        let input = complex_input(blocks, &load.amplitude);
+        let input_by_frequency = complex_input(blocks, &load.by_frequency);
+        let w = order * self.circular_frequency;
+        let mut state = vec![c64::new(0.0, 0.0); 2 * n];
+        let mut state_by_frequency = state.clone();
+        for i in 0..n {
+            let (k, c) = (blocks.stiffness[i], blocks.damping[i]);
+            let (beta, phi) = (input[i], input[n + i]);
+            let (beta_w, phi_w) = (input_by_frequency[i] * TAU, input_by_frequency[n + i] * TAU);
+            if beta == c64::new(0.0, 0.0) && phi == beta {
+                continue;
+            }
+            let denominator = c64::new(k - w * w, w * c);
+            if denominator.norm() <= RESONANT * (k + w * w) {
+                let rate = TAU * order;
+                let angle = order * self.start_angle;
+                self.secular.push(SecularLoad::new(i, (k, c), [beta, phi], [beta_w, phi_w], (w, rate), angle));
+                continue;
+            }
+            let iw = c64::new(0.0, w);
+            let p = (phi + (iw + c) * beta) / denominator;
+            let rate = TAU * order;
+            let slope = c64::new(-2.0 * w, c) * rate;
+            let p_f = (phi_w + (iw + c) * beta_w + c64::new(0.0, rate) * beta - p * slope) / denominator;
+            state[i] = p;
+            state[n + i] = iw * p - beta;
+            state_by_frequency[i] = p_f;
+            state_by_frequency[n + i] = iw * p_f + c64::new(0.0, rate) * p - beta_w;
+        }
+        let support = system.support_amplitudes()[index];
+        let amplitude = |output: &Output| {
+            let read = |values: &[c64]| output.row.iter().zip(values).map(|(r, v)| *v * *r).sum::<c64>();
+            (read(&state) + support * output.support_ratio, read(&state_by_frequency))
+        };
+        let outputs = outputs.iter().map(amplitude).collect();
+        self.orders.push(Order { order, state, state_by_frequency, outputs });
+    }
+
+    /// Circular excitation frequency [rad/s].
+    pub fn circular_frequency(&self) -> f64 {
+        self.circular_frequency
+    }
+
+    /// `exp(i w t)` of an order.
+    #[inline]
+    fn rotation(&self, order: &Order, time: f64) -> c64 {
+        let (sin, cos) = (order.order * (self.start_angle + self.circular_frequency * time)).sin_cos();
+        c64::new(cos, sin)
+    }
+
+    /// Adds the particular state at `time`, times `factor`, to `state`.
+    pub fn add_state(&self, time: f64, factor: f64, state: &mut [f64]) {
+        for order in &self.orders {
+            let rotation = self.rotation(order, time) * factor;
+            for (entry, amplitude) in state.iter_mut().zip(&order.state) {
+                *entry += amplitude.re * rotation.re - amplitude.im * rotation.im;
+            }
+        }
+        let n = state.len() / 2;
+        for load in &self.secular {
+            let response = load.response(time);
+            state[load.block] += factor * response.state[0];
+            state[n + load.block] += factor * response.state[1];
+        }
+    }
+
+    /// Calls `add(i, value)` with the derivative of the particular state by the frequency at fixed `time`.
+    pub fn for_state_by_frequency(&self, time: f64, n: usize, mut add: impl FnMut(usize, f64)) {
+        for order in &self.orders {
+            let rotation = self.rotation(order, time);
+            let turning = c64::new(0.0, TAU * order.order * time);
+            for i in 0..2 * n {
+                add(i, ((order.state_by_frequency[i] + turning * order.state[i]) * rotation).re);
+            }
+        }
+        for load in &self.secular {
+            let response = load.response(time);
+            add(load.block, response.by_frequency[0]);
+            add(n + load.block, response.by_frequency[1]);
+        }
+    }
+
+    /// Particular part of output `index` (with the row `output`) and its derivatives at `time`.
+    pub fn jet(&self, index: usize, output: &Output, time: f64) -> Jet {
+        let mut jet = Jet::default();
+        for order in &self.orders {
+            let w = order.order * self.circular_frequency;
+            let value = order.outputs[index].0 * self.rotation(order, time);
+            jet.value += value.re;
+            jet.slope -= w * value.im;
+            jet.curvature -= w * w * value.re;
+        }
+        let n = output.row.len() / 2;
+        for load in &self.secular {
+            let (b, response) = (load.block, load.response(time));
+            let [p, s] = [output.row[b], output.row[n + b]];
+            jet.value += p * response.state[0] + s * response.state[1];
+            jet.slope += p * response.rate[0] + s * response.rate[1];
+            jet.curvature += p * response.curvature[0] + s * response.curvature[1];
+        }
+        jet
+    }
+
+    /// Derivative of the particular part of output `index` by the frequency at fixed `time`.
+    pub fn output_by_frequency(&self, index: usize, output: &Output, time: f64) -> f64 {
+        let mut sum = 0.0;
+        for order in &self.orders {
+            let (value, by_frequency) = order.outputs[index];
+            let turning = c64::new(0.0, TAU * order.order * time);
+            sum += ((by_frequency + turning * value) * self.rotation(order, time)).re;
+        }
+        let n = output.row.len() / 2;
+        for load in &self.secular {
+            let response = load.response(time);
+            sum += output.row[load.block] * response.by_frequency[0] + output.row[n + load.block] * response.by_frequency[1];
+        }
+        sum
+    }
+
+    /// Bounds on the second and third derivative of the particular part of output `index` until `until`.
+    pub fn bounds(&self, index: usize, output: &Output, until: f64) -> (f64, f64) {
+        let mut bounds = (0.0, 0.0);
+        for order in &self.orders {
+            let w = order.order * self.circular_frequency;
+            let amplitude = order.outputs[index].0.norm();
+            bounds.0 += amplitude * w * w;
+            bounds.1 += amplitude * w * w * w;
+        }
+        for load in &self.secular {
+            let (second, third) = load.bounds(output, until);
+            bounds.0 += second;
+            bounds.1 += third;
+        }
+        bounds
+    }
+
+    /// Largest value that the particular part of output `index` can take, for rounding margins.
+    pub fn magnitude(&self, index: usize) -> f64 {
+        self.orders.iter().map(|order| order.outputs[index].0.norm()).sum()
+    }
+}
+
+fn complex_input(blocks: &Blocks, modal_load: &[c64]) -> Vec<c64> {
+    let part = |f: fn(&c64) -> f64| blocks.input(&modal_load.iter().map(f).collect::<Vec<f64>>());
+    let (re, im) = (part(|v| v.re), part(|v| v.im));
+    re.into_iter().zip(im).map(|(re, im)| c64::new(re, im)).collect()
+}

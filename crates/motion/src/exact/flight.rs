@@ -1,0 +1,161 @@
+//! Free flight: no force acts, the motion is closed form, and the first contact is found with proof.
+
+use super::{
+    ExactIntegrator, MotionError,
+    block::Propagator,
+    clearance::{ClearanceBounds, Look, look},
+    drive::Jet,
+    run::Run,
+};
+
+/// An open contact that closes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Touch {
+    pub element: usize,
+    pub contact: usize,
+}
+
+/// Looks allowed in one flight; about twenty are usual.
+const MAX_LOOKS: usize = 100_000;
+
+impl ExactIntegrator {
+    /// Flies until the first contact or until `end`; the state of `run` is moved there.
+    pub(super) fn fly(&mut self, run: &mut Run, end: f64) -> Result<Option<Touch>, MotionError> {
+        self.flight_start.clear();
+        self.flight_start.extend_from_slice(&run.state);
+        let horizon = end - run.time;
+        let mut time = 0.0;
+        let mut touch = None;
+        if self.has_contacts {
+            let mut looks = 0;
+            let mut past_minimum = false;
+            while time < horizon && touch.is_none() {
+                looks += 1;
+                if looks > MAX_LOOKS {
+                    return Err(MotionError::FlightStalled { time: run.time + time });
+                }
+                self.counts.looks += 1;
+                self.place(run, time);
+                let (step, found) = self.look_at_all(run, time, horizon, &mut past_minimum);
+                touch = found;
+                time = (time + step).min(horizon);
+            }
+        }
+        self.place(run, time);
+        run.time = if touch.is_none() { end } else { run.time + time };
+        if let Some(sensitivity) = &mut run.sensitivity {
+            self.propagators.clear();
+            let pairs = self.blocks.stiffness.iter().zip(&self.blocks.damping);
+            self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, time)));
+            sensitivity.propagate(&self.propagators);
+        }
+        Ok(touch)
+    }
+
+    /// Puts the state of `run` to `time` after the start of the flight.
+    fn place(&self, run: &mut Run, time: f64) {
+        let n = self.blocks.count();
+        for i in 0..n {
+            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
+            (run.state[i], run.state[n + i]) = propagator.apply(self.flight_start[i], self.flight_start[n + i]);
+        }
+    }
+
+    /// A time that is free of contact, counted from now, and the contact that closes at its end, if any.
+    fn look_at_all(&self, run: &mut Run, time: f64, horizon: f64, past: &mut bool) -> (f64, Option<Touch>) {
+        let mut free = f64::INFINITY;
+        let mut touch = None;
+        let after_minimum = std::mem::take(past);
+        for (element, law) in self.laws.iter().enumerate() {
+            if law.contacts().is_empty() {
+                continue;
+            }
+            let jet = self.output_jet(run, element, run.time + time);
+            let bounds = self.bounds(run, element, run.time + horizon);
+            for (contact, c) in law.contacts().iter().enumerate() {
+                let mut clearance = clearance_of(jet, c.level, c.sign);
+                if after_minimum && clearance.value.abs() <= bounds.margin {
+                    clearance.slope = clearance.slope.max(0.0);
+                }
+                let touching = Some(Touch { element, contact });
+                match look(clearance, bounds) {
+                    Look::Contact => return (0.0, touching),
+                    Look::FreeFor(step) if step < free => (free, touch) = (step, None),
+                    Look::FreeFor(_) => {}
+                    Look::MinimumAhead { at, convex } => {
+                        let (step, hit) = self.minimum(run, time, (element, contact), (at, convex), bounds);
+                        if step < free {
+                            (free, touch) = (step, if hit { touching } else { None });
+                            *past = !hit;
+                        }
+                    }
+                }
+            }
+        }
+        (free, touch)
+    }
+
+    /// Goes to the minimum of a clearance in a convex stretch: the time to it, or to the contact before it.
+    fn minimum(
+        &self,
+        run: &mut Run,
+        time: f64,
+        (element, contact): (usize, usize),
+        (at, convex): (f64, f64),
+        bounds: ClearanceBounds,
+    ) -> (f64, bool) {
+        let c = self.laws[element].contacts()[contact];
+        let mut clearance = |ahead: f64| {
+            self.place(run, time + ahead);
+            clearance_of(self.output_jet(run, element, run.time + time + ahead), c.level, c.sign)
+        };
+        let mut ahead = at;
+        let mut lowest = clearance(ahead);
+        for _ in 0..20 {
+            let step = -lowest.slope / lowest.curvature;
+            ahead = (ahead + step).clamp(0.0, convex);
+            lowest = clearance(ahead);
+            if step.abs() <= 1e-14 * (time + ahead) || lowest.slope == 0.0 {
+                break;
+            }
+        }
+        if lowest.value >= -bounds.margin {
+            return (ahead, false);
+        }
+        let mut before = 0.0;
+        for _ in 0..60 {
+            let here = clearance(before);
+            if here.value <= bounds.margin || here.slope >= 0.0 {
+                break;
+            }
+            before -= here.value / here.slope;
+        }
+        (before, true)
+    }
+
+    /// Bounds on a clearance of `element` until `until`, from the state of `run`.
+    pub(super) fn bounds(&self, run: &Run, element: usize, until: f64) -> ClearanceBounds {
+        let output = &self.outputs[element];
+        let n = self.blocks.count();
+        let (mut second, mut third) = self.drive.bounds(element, output, until);
+        let mut magnitude = self.drive.magnitude(element);
+        for i in 0..n {
+            let (p, s) = (run.state[i], run.state[n + i]);
+            let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
+            second += output.second_bound[i] * norm;
+            third += output.third_bound[i] * norm;
+            magnitude += (output.row[i] * p).abs() + (output.row[n + i] * s).abs();
+        }
+        let level = self.laws[element].contacts().iter().map(|c| c.level.abs()).fold(0.0, f64::max);
+        ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
+    }
+}
+
+/// Clearance of a contact from the relative displacement.
+pub(crate) fn clearance_of(displacement: Jet, level: f64, sign: f64) -> Jet {
+    Jet {
+        value: -sign * (displacement.value - level),
+        slope: -sign * displacement.slope,
+        curvature: -sign * displacement.curvature,
+    }
+}

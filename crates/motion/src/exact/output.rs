@@ -1,0 +1,43 @@
+//! What is read off the motion: relative displacements of elements, displacement of a point.
+
+use super::block::Blocks;
+
+/// A displacement `r = row . x + support_ratio u` and the rows of its derivatives.
+#[derive(Debug, Clone)]
+pub(crate) struct Output {
+    /// Row over the block state, length 2n.
+    pub row: Vec<f64>,
+    /// `row A`: the velocity, apart from inputs.
+    pub velocity_row: Vec<f64>,
+    /// `row A^2`: the acceleration, apart from inputs.
+    pub acceleration_row: Vec<f64>,
+    /// Part of the support displacement [-].
+    pub support_ratio: f64,
+    /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the second derivative.
+    pub second_bound: Vec<f64>,
+    /// The same for the third derivative.
+    pub third_bound: Vec<f64>,
+}
+
+impl Output {
+    /// Reads `shape . q + support_ratio u`.
+    pub fn new(blocks: &Blocks, shape: &[f64], support_ratio: f64) -> Self {
+        let row = blocks.output(shape);
+        let velocity_row = blocks.row_times_system(&row);
+        let acceleration_row = blocks.row_times_system(&velocity_row);
+        let jerk_row = blocks.row_times_system(&acceleration_row);
+        let second_bound = energy_factors(blocks, &acceleration_row);
+        let third_bound = energy_factors(blocks, &jerk_row);
+        Self { row, velocity_row, acceleration_row, support_ratio, second_bound, third_bound }
+    }
+}
+
+/// Smallest `g_i` with `|row_p p + row_s s| <= g_i sqrt(k p^2 + s^2)`; a row on `p` where `k = 0` is zero for derivatives.
+fn energy_factors(blocks: &Blocks, row: &[f64]) -> Vec<f64> {
+    let n = blocks.count();
+    let factor = |i: usize| {
+        let position = if blocks.stiffness[i] > 0.0 { row[i] / blocks.stiffness[i].sqrt() } else { 0.0 };
+        position.hypot(row[n + i])
+    };
+    (0..n).map(factor).collect()
+}

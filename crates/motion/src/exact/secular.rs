@@ -1,0 +1,145 @@
+//! A load at (or very near) resonance: the motion it drives from rest.
+//!
+//! `p' = s + Re(beta e)`, `s' = -k p - c s + Re(phi e)`, `e = exp(i (w t + angle))`, from `p = s = 0`. With `C = Re e`, `S = Im e` and
+//! `t C`, `t S` as further states, the motion and its derivative by the frequency solve one constant linear system
+//! of eight equations, whose exponential is finite whatever the distance from resonance. The constant load on a free block
+//! (gravity on a rigid mode) is the parabola.
+
+use faer::c64;
+
+use super::output::Output;
+
+const SIZE: usize = 8;
+type Matrix = [[f64; SIZE]; SIZE];
+
+/// A resonant load on one block.
+#[derive(Debug, Clone)]
+pub(crate) struct SecularLoad {
+    pub block: usize,
+    stiffness: f64,
+    damping: f64,
+    frequency: f64,
+    input: [c64; 2],
+    system: Matrix,
+}
+
+/// Motion of the block, from rest at the start of the stretch.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SecularResponse {
+    pub state: [f64; 2],
+    pub rate: [f64; 2],
+    pub curvature: [f64; 2],
+    pub by_frequency: [f64; 2],
+}
+
+impl SecularLoad {
+    /// * `(k, c)`: the block; `input`: `[beta, phi]`; `input_by_frequency` [1/Hz].
+    /// * `(w, rate)`: circular frequency and its derivative by the excitation frequency.
+    /// * `angle`: phase of the load at the start of the stretch.
+    pub fn new(
+        block: usize,
+        (stiffness, damping): (f64, f64),
+        input: [c64; 2],
+        input_by_frequency: [c64; 2],
+        (frequency, rate): (f64, f64),
+        angle: f64,
+    ) -> Self {
+        let turned = c64::new(angle.cos(), angle.sin());
+        let input = input.map(|value| value * turned);
+        let input_by_frequency = input_by_frequency.map(|value| value * turned);
+        let mut system = [[0.0; SIZE]; SIZE];
+        for offset in [0, 2] {
+            system[offset][offset + 1] = 1.0;
+            system[offset + 1][offset] = -stiffness;
+            system[offset + 1][offset + 1] = -damping;
+        }
+        for row in 0..2 {
+            system[row][4] = input[row].re;
+            system[row][5] = -input[row].im;
+            system[2 + row][4] = input_by_frequency[row].re;
+            system[2 + row][5] = -input_by_frequency[row].im;
+            system[2 + row][6] = -rate * input[row].im;
+            system[2 + row][7] = -rate * input[row].re;
+        }
+        system[4][5] = -frequency;
+        system[5][4] = frequency;
+        system[6][7] = -frequency;
+        system[7][6] = frequency;
+        system[6][4] = 1.0;
+        system[7][5] = 1.0;
+        Self { block, stiffness, damping, frequency, input, system }
+    }
+
+    /// The motion at `time` after the start.
+    pub fn response(&self, time: f64) -> SecularResponse {
+        let free = self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0;
+        let (state, by_frequency) = if free { self.parabola(time) } else { self.exponential(time) };
+        let (sin, cos) = (self.frequency * time).sin_cos();
+        let rotation = c64::new(cos, sin);
+        let load = self.input.map(|value| (value * rotation).re);
+        let load_rate = self.input.map(|value| (value * rotation * c64::new(0.0, self.frequency)).re);
+        let rate = [state[1] + load[0], -self.stiffness * state[0] - self.damping * state[1] + load[1]];
+        let curvature =
+            [rate[1] + load_rate[0], -self.stiffness * rate[0] - self.damping * rate[1] + load_rate[1]];
+        SecularResponse { state, rate, curvature, by_frequency }
+    }
+
+    fn parabola(&self, time: f64) -> ([f64; 2], [f64; 2]) {
+        let [beta, phi] = [self.system[0][4], self.system[1][4]];
+        let [beta_f, phi_f] = [self.system[2][4], self.system[3][4]];
+        let half = 0.5 * time * time;
+        ([beta * time + phi * half, phi * time], [beta_f * time + phi_f * half, phi_f * time])
+    }
+
+    fn exponential(&self, time: f64) -> ([f64; 2], [f64; 2]) {
+        let exponential = exponential(&self.system, time);
+        let column = |row: usize| exponential[row][4];
+        ([column(0), column(1)], [column(2), column(3)])
+    }
+
+    /// Bounds on the second and third derivative of the part that `output` reads, until `until`.
+    ///
+    /// The energy norm grows at most like `g t`, `g = sqrt(k) |beta| + |phi|`, since damping only takes.
+    pub fn bounds(&self, output: &Output, until: f64) -> (f64, f64) {
+        let n = output.row.len() / 2;
+        let [beta, phi] = self.input.map(c64::norm);
+        let root = self.stiffness.sqrt();
+        let norm = (root * beta + phi) * until;
+        let (p, s) = (output.row[self.block].abs(), output.row[n + self.block].abs());
+        let (c, w, k) = (self.damping, self.frequency, self.stiffness);
+        let s_rate = (root + c) * norm + phi;
+        let s_second = k * (norm + beta) + c * s_rate + w * phi;
+        let s_third = k * (s_rate + w * beta) + c * s_second + w * w * phi;
+        (p * (s_rate + w * beta) + s * s_second, p * (s_second + w * w * beta) + s * s_third)
+    }
+}
+
+fn multiply(x: &Matrix, y: &Matrix) -> Matrix {
+    let mut product = [[0.0; SIZE]; SIZE];
+    for i in 0..SIZE {
+        for k in 0..SIZE {
+            for j in 0..SIZE {
+                product[i][j] += x[i][k] * y[k][j];
+            }
+        }
+    }
+    product
+}
+
+/// `exp(A t)` by Taylor's series of `A t / 2^j` and j squarings.
+fn exponential(system: &Matrix, time: f64) -> Matrix {
+    let norm = system.iter().map(|row| row.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max) * time.abs();
+    let squarings = if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 };
+    let scaled = system.map(|row| row.map(|value| value * time / 2f64.powi(squarings)));
+    let mut sum = [[0.0; SIZE]; SIZE];
+    (0..SIZE).for_each(|i| sum[i][i] = 1.0);
+    let mut term = sum;
+    for m in 1..=18 {
+        term = multiply(&term, &scaled).map(|row| row.map(|value| value / f64::from(m)));
+        (0..SIZE).for_each(|i| (0..SIZE).for_each(|j| sum[i][j] += term[i][j]));
+    }
+    for _ in 0..squarings {
+        sum = multiply(&sum, &sum);
+    }
+    sum
+}

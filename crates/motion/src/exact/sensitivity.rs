@@ -1,0 +1,102 @@
+//! Sensitivities of the homogeneous block state to the initial state and to the frequency.
+
+use faer::Mat;
+
+use super::{
+    block::{Blocks, Propagator},
+    collocation::NODES,
+};
+
+/// The matrix `V` of 2n rows: a column per initial state, one for the frequency, and padding to a multiple of four.
+///
+/// Rows are contiguous, so every inner loop runs along a row.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Sensitivity {
+    rows: usize,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Sensitivity {
+    /// Sensitivities at the start of a stretch: `S^-1`, and `frequency` as the last column.
+    pub fn start(&mut self, blocks: &Blocks, frequency: impl Fn(usize) -> f64) {
+        self.rows = 2 * blocks.count();
+        self.columns = (self.rows + 4) / 4 * 4;
+        self.values.clear();
+        self.values.resize(self.rows * self.columns, 0.0);
+        for i in 0..self.rows {
+            match &blocks.transform {
+                None => self.values[i * self.columns + i] = 1.0,
+                Some(transform) => {
+                    (0..self.rows).for_each(|j| self.values[i * self.columns + j] = transform.to_blocks[(i, j)]);
+                }
+            }
+            self.values[i * self.columns + self.rows] = frequency(i);
+        }
+    }
+
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    pub fn frequency_column(&self) -> usize {
+        self.rows
+    }
+
+    fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        &mut self.values[i * self.columns..(i + 1) * self.columns]
+    }
+
+    /// Takes the sensitivities over a flight or the linear part of a step.
+    pub fn propagate(&mut self, propagators: &[Propagator]) {
+        let half = self.values.len() / 2;
+        let columns = self.columns;
+        let (positions, velocities) = self.values.split_at_mut(half);
+        let rows = positions.chunks_exact_mut(columns).zip(velocities.chunks_exact_mut(columns));
+        for ((p, s), propagator) in rows.zip(propagators) {
+            for (p, s) in p.iter_mut().zip(s) {
+                (*p, *s) = propagator.apply(*p, *s);
+            }
+        }
+    }
+
+    /// `X V` for the rows of one element, into `[k * columns + column]`.
+    pub fn read(&self, rows: &[f64], into: &mut [f64]) {
+        for (row, weights) in self.values.chunks_exact(self.columns).zip(rows.chunks_exact(NODES)) {
+            for (target, weight) in into.chunks_exact_mut(self.columns).zip(weights) {
+                target.iter_mut().zip(row).for_each(|(t, v)| *t += weight * v);
+            }
+        }
+    }
+
+    /// Adds `P dF` for one element.
+    pub fn add(&mut self, to_state: &[f64], force: &[f64]) {
+        let (rows, columns) = (self.rows, self.columns);
+        for (i, row) in self.values.chunks_exact_mut(columns).enumerate() {
+            for (j, source) in force.chunks_exact(columns).enumerate() {
+                let weight = to_state[j * rows + i];
+                row.iter_mut().zip(source).for_each(|(v, f)| *v += weight * f);
+            }
+        }
+    }
+
+    /// Adds to the frequency column.
+    pub fn add_frequency(&mut self, i: usize, value: f64) {
+        let column = self.rows;
+        self.row_mut(i)[column] += value;
+    }
+
+    /// Writes the modal fundamental matrix and frequency column.
+    pub fn write(&self, blocks: &Blocks, by_state: &mut Mat<f64>, by_frequency: &mut [f64]) {
+        let rows = self.rows;
+        let entry = |i: usize, j: usize| self.values[i * self.columns + j];
+        let modal = |i: usize, j: usize| match &blocks.transform {
+            None => entry(i, j),
+            Some(transform) => (0..rows).map(|k| transform.from_blocks[(i, k)] * entry(k, j)).sum(),
+        };
+        for j in 0..rows {
+            (0..rows).for_each(|i| by_state[(i, j)] = modal(i, j));
+        }
+        (0..rows).for_each(|i| by_frequency[i] = modal(i, rows));
+    }
+}

@@ -1,0 +1,231 @@
+//! Matrices of one force step of length h, for the active elements.
+//!
+//! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate docs). For short steps all of
+//! them come from power series in h (`collocation.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
+//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`], they come from quadrature
+//! fine enough for every mode; such steps have lengths `2^-j` s and are cached.
+
+use super::{
+    block::{Blocks, Propagator},
+    collocation::{Grading, NODES, REACH, TERMS, gauss_legendre},
+    output::Output,
+};
+
+/// Row over the block state at each node, `[i * NODES + k]`.
+pub(crate) type NodeRows = Vec<f64>;
+
+/// Matrices of a step. `a` and `b` count the active elements.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StepWeights {
+    /// Length of the step [s].
+    pub length: f64,
+    /// `E`, one propagator per block.
+    pub propagators: Vec<Propagator>,
+    /// `X` of each active element.
+    pub rows: Vec<NodeRows>,
+    /// `W`, indexed `[a * active + b][k * NODES + j]`.
+    pub convolution: Vec<[f64; NODES * NODES]>,
+    /// `P` of each active element, `[j * 2n + i]`.
+    pub to_state: Vec<Vec<f64>>,
+}
+
+/// What the weights are made of: powers of the system on the rows and columns of the elements.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    rate: f64,
+    /// Row of element e times `(A/rate)^m`, `[e][m][i]`.
+    rows: Vec<Vec<Vec<f64>>>,
+    /// `(A/rate)^m` times the column of element e, `[e][m][i]`.
+    columns: Vec<Vec<Vec<f64>>>,
+    /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
+    markov: Vec<Vec<f64>>,
+}
+
+impl Series {
+    pub fn new(blocks: &Blocks, outputs: &[Output], inputs: &[Vec<f64>]) -> Self {
+        let rate = blocks.fastest_rate().max(f64::MIN_POSITIVE.sqrt());
+        let scaled = |values: Vec<f64>| values.into_iter().map(|value| value / rate).collect::<Vec<f64>>();
+        let powers = |first: &Vec<f64>, next: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let mut list = vec![first.clone()];
+            for m in 1..=TERMS {
+                list.push(scaled(next(&list[m - 1])));
+            }
+            list
+        };
+        let rows: Vec<_> = outputs.iter().map(|o| powers(&o.row, &|row| blocks.row_times_system(row))).collect();
+        let columns: Vec<_> = inputs.iter().map(|b| powers(b, &|column| blocks.system_times_column(column))).collect();
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
+        let markov = outputs
+            .iter()
+            .flat_map(|output| columns.iter().map(move |powers| powers.iter().map(|c| dot(&output.row, c)).collect()))
+            .collect();
+        Self { rate, rows, columns, markov }
+    }
+
+    /// Longest step that the series serve [s].
+    pub fn reach(&self) -> f64 {
+        REACH / self.rate
+    }
+
+    /// Impulse response `C_e A^d exp(A t) B_f` of output e to input f (d = 0, 1, 2), for `t` within the reach.
+    pub fn impulse_response(&self, e: usize, f: usize, derivative: usize, time: f64) -> f64 {
+        let markov = &self.markov[e * self.columns.len() + f];
+        let z = time * self.rate;
+        let mut sum = 0.0;
+        for m in (derivative..=TERMS).rev() {
+            sum = markov[m] + sum * z / (m - derivative + 1) as f64;
+        }
+        sum * self.rate.powi(derivative as i32)
+    }
+
+    /// Terms needed at `z = h rate`.
+    fn terms(z: f64) -> usize {
+        let mut term = 1.0;
+        (1..TERMS)
+            .find(|&m| {
+                term *= z / m as f64;
+                term < 1e-18
+            })
+            .unwrap_or(TERMS)
+    }
+
+    /// Matrices of a step within the reach; `active` lists elements.
+    pub fn weights(&self, blocks: &Blocks, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
+        let rule = grading.rule();
+        let size = 2 * blocks.count();
+        let z = length * self.rate;
+        let terms = Self::terms(z);
+        into.resize(active.len(), size);
+        into.length = length;
+        into.set_propagators(blocks, length);
+        let count = self.columns.len();
+        for (a, &e) in active.iter().enumerate() {
+            self.node_rows(e, rule.c, z, terms, &mut into.rows[a]);
+            let to_state = &mut into.to_state[a];
+            to_state.fill(0.0);
+            let mut factor = length;
+            for m in 0..terms {
+                let column = &self.columns[e][m];
+                for j in 0..NODES {
+                    let weight = factor * rule.at_end[m][j];
+                    let target = &mut to_state[j * size..(j + 1) * size];
+                    target.iter_mut().zip(column).for_each(|(t, c)| *t += weight * c);
+                }
+                factor *= z;
+            }
+            for (b, &f) in active.iter().enumerate() {
+                let convolution = &mut into.convolution[a * active.len() + b];
+                convolution.fill(0.0);
+                let mut factor = length;
+                for m in 0..terms {
+                    let weight = factor * self.markov[e * count + f][m];
+                    convolution.iter_mut().zip(&rule.at_nodes[m]).for_each(|(w, r)| *w += weight * r);
+                    factor *= z;
+                }
+            }
+        }
+    }
+
+    fn node_rows(&self, element: usize, c: [f64; NODES], z: f64, terms: usize, rows: &mut [f64]) {
+        rows.fill(0.0);
+        let mut powers = [1.0; NODES];
+        for m in 0..terms {
+            for (i, &entry) in self.rows[element][m].iter().enumerate() {
+                let target = &mut rows[i * NODES..(i + 1) * NODES];
+                (0..NODES).for_each(|k| target[k] += powers[k] * entry);
+            }
+            (0..NODES).for_each(|k| powers[k] *= z * c[k] / (m + 1) as f64);
+        }
+    }
+}
+
+impl StepWeights {
+    fn resize(&mut self, active: usize, size: usize) {
+        self.rows.resize(active, Vec::new());
+        self.rows.iter_mut().for_each(|row| row.resize(size * NODES, 0.0));
+        self.to_state.resize(active, Vec::new());
+        self.to_state.iter_mut().for_each(|p| p.resize(size * NODES, 0.0));
+        self.convolution.resize(active * active, [0.0; NODES * NODES]);
+    }
+
+    fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
+        self.propagators.clear();
+        let pairs = blocks.stiffness.iter().zip(&blocks.damping);
+        self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, length)));
+    }
+
+    /// Matrices of a step of any length, by quadrature fine enough for the fastest mode.
+    pub fn by_quadrature(
+        blocks: &Blocks,
+        outputs: &[Output],
+        inputs: &[Vec<f64>],
+        active: &[usize],
+        grading: Grading,
+        length: f64,
+    ) -> Self {
+        let (n, rule) = (blocks.count(), grading.rule());
+        let mut weights = Self { length, ..Self::default() };
+        weights.resize(active.len(), 2 * n);
+        weights.set_propagators(blocks, length);
+        weights.convolution.iter_mut().for_each(|w| w.fill(0.0));
+        weights.to_state.iter_mut().for_each(|p| p.fill(0.0));
+        for i in 0..n {
+            let (k, c) = (blocks.stiffness[i], blocks.damping[i]);
+            let ends: Vec<f64> = rule.s.iter().copied().chain([1.0]).collect();
+            for (node, &end) in ends.iter().enumerate() {
+                let integrals = block_integrals((k, c), grading, end, length);
+                for (b, &f) in active.iter().enumerate() {
+                    let (beta, phi) = (inputs[f][i], inputs[f][n + i]);
+                    for j in 0..NODES {
+                        let [aa, bb, cc, dd] = integrals[j];
+                        let (p, s) = (aa * beta + bb * phi, cc * beta + dd * phi);
+                        if node == NODES {
+                            weights.to_state[b][j * 2 * n + i] = p;
+                            weights.to_state[b][j * 2 * n + n + i] = s;
+                            continue;
+                        }
+                        for (a, &e) in active.iter().enumerate() {
+                            weights.convolution[a * active.len() + b][node * NODES + j] +=
+                                outputs[e].row[i] * p + outputs[e].row[n + i] * s;
+                        }
+                    }
+                }
+                if node < NODES {
+                    let propagator = Propagator::new(k, c, length * rule.c[node]);
+                    for (a, &e) in active.iter().enumerate() {
+                        let (row_p, row_s) = (outputs[e].row[i], outputs[e].row[n + i]);
+                        weights.rows[a][i * NODES + node] = row_p * propagator.a + row_s * propagator.c;
+                        weights.rows[a][(n + i) * NODES + node] = row_p * propagator.b + row_s * propagator.d;
+                    }
+                }
+            }
+        }
+        weights
+    }
+}
+
+/// `int_0^{h c(end)} exp(A (h c(end) - t)) l_j dt` of one block, entries `[a, b, c, d]` for each j.
+fn block_integrals((k, c): (f64, f64), grading: Grading, end: f64, length: f64) -> [[f64; 4]; NODES] {
+    let rule = grading.rule();
+    let upper = grading.map(end).0;
+    // Sixteen Gauss points for every three radians of the mode keep rounding.
+    let panels = ((k.sqrt() + c) * length * upper / 3.0).ceil().max(1.0) as usize * 2;
+    let mut integrals = [[0.0; 4]; NODES];
+    for panel in 0..panels {
+        for (x, weight) in gauss_legendre(16) {
+            let s = end * (panel as f64 + x) / panels as f64;
+            let (position, slope) = grading.map(s);
+            let propagator = Propagator::new(k, c, length * (upper - position));
+            let measure = weight * end / panels as f64 * slope * length;
+            let lagrange = rule.lagrange(s);
+            for j in 0..NODES {
+                let factor = measure * lagrange[j];
+                integrals[j][0] += factor * propagator.a;
+                integrals[j][1] += factor * propagator.b;
+                integrals[j][2] += factor * propagator.c;
+                integrals[j][3] += factor * propagator.d;
+            }
+        }
+    }
+    integrals
+}
