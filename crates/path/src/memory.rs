@@ -5,7 +5,7 @@
 //! tangent: 170 bytes a point whatever `n`. Neighbouring points make a segment with its cubic Hermite
 //! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates.
 //!
-//! A point is on a stored stretch if it is within the tolerance of the interpolant, runs parallel to it, has its
+//! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the segment's length), runs parallel to it, has its
 //! signature, and its determinant. A stretch walked with the same orientation must be met in the same direction: the
 //! returning sheet of a narrow fold, which runs the other way, is not a retrace.
 
@@ -126,7 +126,8 @@ impl PathMemory {
         }
         let (share, distance, cosine) = nearest(a, b, probe)?;
         let wanted = if a.orientation == probe.orientation { cosine } else { -cosine };
-        let tolerance = self.tolerance + 0.25 * defect(a, b).min(self.largest_defect);
+        let tolerance =
+            (self.tolerance + 0.25 * defect(a, b).min(self.largest_defect)).min(0.1 * length(a, b));
         let met = distance <= tolerance && wanted > 0.99;
         met.then_some(a.arc_length + share * (b.arc_length - a.arc_length))
     }
@@ -189,7 +190,7 @@ fn same_kind(a: &Vertex, b: &Vertex, probe: &Vertex) -> bool {
 /// Share of the segment, distance and cosine between the tangents at the nearest place of the Hermite interpolant.
 fn nearest(a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<(f64, f64, f64)> {
     let chord = subtract(&b.place, &a.place);
-    let length = dot(&chord, &chord).sqrt();
+    let length = length(a, b);
     let mut share = dot(&subtract(&probe.place, &a.place), &chord) / (length * length);
     let (mut offset, mut slope) = (chord, chord);
     for _ in 0..3 {
@@ -221,11 +222,15 @@ fn interpolant(a: &Vertex, b: &Vertex, length: f64, share: f64, place: &Sketch) 
 
 /// `‖b − a − L (t_a + t_b)/2‖`: a bound in practice for the error of the interpolant, which has one order more.
 fn defect(a: &Vertex, b: &Vertex) -> f64 {
-    let chord = subtract(&b.place, &a.place);
-    let length = dot(&chord, &chord).sqrt();
+    let (chord, length) = (subtract(&b.place, &a.place), length(a, b));
     let square: f64 =
         (0..SKETCH).map(|i| (chord[i] - 0.5 * length * (a.tangent[i] + b.tangent[i])).powi(2)).sum();
     square.sqrt()
+}
+
+fn length(a: &Vertex, b: &Vertex) -> f64 {
+    let chord = subtract(&b.place, &a.place);
+    dot(&chord, &chord).sqrt()
 }
 
 fn subtract(a: &Sketch, b: &Sketch) -> Sketch {

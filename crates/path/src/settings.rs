@@ -58,7 +58,7 @@ pub struct Settings {
     pub max_parameter_step: f64,
     /// Bound of `h`.
     pub max_step_length: f64,
-    /// Shortest step; a turn that is still unresolved at it is taken as a corner, and if that fails too, the
+    /// Shortest step, some hundred times the `correction_floor`; a turn that is still unresolved at it is taken as a corner, and if that fails too, the
     /// branch stops.
     pub min_step: f64,
     /// Bound of `θ` [rad].
@@ -73,7 +73,7 @@ pub struct Settings {
     /// Most evaluations of one correction.
     pub max_iterations: u32,
     /// Sheets at least this far apart are told apart: the corrector may move a prediction by
-    /// `min(sheet_distance, h / 10)`, and `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`.
+    /// `min(sheet_distance, h / 10)` (but ten times the `correction_floor`), and `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`.
     pub sheet_distance: f64,
     /// Longest step over a change of signature. On both sides of the change steps grow at most like the
     /// distance from it, so that pairs of folds beside it are seen whatever the longest step.
@@ -107,12 +107,17 @@ impl Default for Settings {
 impl Settings {
     /// How far the corrector may move a prediction of a step of length `h`.
     pub(crate) fn allowed_displacement(&self, step: f64) -> f64 {
-        self.sheet_distance.min(0.1 * step)
+        self.sheet_distance.min((0.1 * step).max(10.0 * self.correction_floor))
     }
 
     /// Correction that may stay unapplied after a step of length `h`.
     pub(crate) fn tolerance_at(&self, step: f64) -> f64 {
         self.correction_tolerance.min((0.01 * step).max(self.correction_floor))
+    }
+
+    /// Correction that may stay unapplied where corrections stop shrinking.
+    pub(crate) fn loose_tolerance_at(&self, step: f64) -> f64 {
+        self.correction_tolerance.min((0.1 * step).max(10.0 * self.correction_floor))
     }
 
     /// Longest step with this parameter component of the tangent.

@@ -138,3 +138,35 @@ fn a_stretch_that_would_be_walked_again_ends_the_branch() {
     assert_abs_diff_eq!(parameter, 0.0, epsilon = 0.03);
     assert_abs_diff_eq!(met_arc_length, 0.51, epsilon = 0.03);
 }
+
+/// `λ = 0.3 sin(π x / s)`: nearly parallel sheets `s` apart, joined by hairpins of radius `s² / 3`.
+#[test]
+fn a_pleat_of_sheets_is_walked_sheet_by_sheet_at_every_step() {
+    for spacing in [1e-2, 1e-3, 1e-4] {
+        for step in STEPS {
+            let k = std::f64::consts::PI / spacing;
+            let pleat =
+                move |x: f64, l: f64| ((0.3 * (k * x).sin() - l) / k, 0.3 * (k * x).cos(), -1.0 / k, 0);
+            let settings = Settings { max_points: 20_000, ..steps_of(step) };
+            for n in [1, 5] {
+                let start = mixed_point(n, 0.4, 0.0, 0.0);
+                let branch = up(
+                    &mut mixed(n, 0.4, pleat),
+                    &start,
+                    -1.0,
+                    1.0,
+                    Settings { max_points: if n == 1 { 3000 } else { 1000 }, ..settings.clone() },
+                );
+                assert_eq!(branch.stop, StopReason::Budget, "spacing {spacing}, step {step}");
+                assert_monotone(&branch, |z| unmixed(n, 0.4, z));
+                let last = unmixed(n, 0.4, &branch.points.last().unwrap().point);
+                println!(
+                    "{spacing} {step} {n}: folds {} x {last} evals/pt {}",
+                    folds(&branch).len(),
+                    evaluations_per_point(&branch)
+                );
+                assert_eq!(folds(&branch).len(), (last / spacing + 0.5).floor() as usize);
+            }
+        }
+    }
+}

@@ -34,7 +34,7 @@ impl Follower {
     pub(super) fn limits(&self, step: f64) -> Limits {
         Limits {
             tolerance: self.settings.tolerance_at(step),
-            loose_tolerance: self.settings.correction_tolerance.min(0.1 * step),
+            loose_tolerance: self.settings.loose_tolerance_at(step),
             residual_tolerance: self.settings.residual_tolerance,
             max_iterations: self.settings.max_iterations,
             max_displacement: self.settings.allowed_displacement(step),

@@ -17,11 +17,13 @@ use crate::{
     product::{add_scaled, product, progress, weigh},
 };
 
-/// Distances of the probe behind the last point, in steps.
-const REACHES: [f64; 3] = [2.0, 8.0, 32.0];
+/// Distances of the probe ahead of the last point, in steps: the first that works is taken. The longer ones are for
+/// turns that rounding hides from the shortest steps.
+const REACHES: [f64; 5] = [2.0, 8.0, 32.0, 128.0, 512.0];
 
 impl Follower {
-    /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself.
+    /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also returns
+    /// the length over which it was turned.
     ///
     /// # Errors
     /// There is no corner that leads on.
@@ -29,10 +31,13 @@ impl Follower {
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         step: f64,
-    ) -> Result<Arrival, Doubt> {
+    ) -> Result<(Arrival, f64), Doubt> {
         for reach in REACHES {
-            if self.step_behind_corner(problem, reach * step).is_ok() {
-                return self.arrive_at_corner(problem, step);
+            let length = reach * step;
+            if self.step_behind_corner(problem, length).is_ok() {
+                if let Ok(arrival) = self.arrive_at_corner(problem, length) {
+                    return Ok((arrival, length));
+                }
             }
         }
         Err(Doubt::NotLocated)
@@ -86,27 +91,46 @@ impl Follower {
         }
     }
 
-    /// Evaluates the place where the tangents of base and trial meet and makes it the trial, with the new tangent.
+    /// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead, the trial
+    /// itself, behind the turn, is the next point.
     fn arrive_at_corner(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
-        step: f64,
+        length: f64,
     ) -> Result<Arrival, Doubt> {
-        let along = meeting(&self.weights, self.state.history.base(), &self.trial.node);
+        let after = self.trial.tangent_parameter();
+        let fold = after * self.state.parameter_sign < 0.0;
+        let base = self.state.history.base();
+        let corner =
+            product(&self.weights, &base.tangent, &self.trial.node.tangent) < self.settings.max_angle.cos();
+        if let Some(back) = meeting(&self.weights, base, &self.trial.node, length).filter(|_| corner) {
+            self.evaluate_corner(problem, back, length)?;
+        }
+        if !self.range.contains(self.trial.parameter()) {
+            return Err(Doubt::NotLocated);
+        }
+        let events = Events { corner, fold, ..Events::default() };
+        Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
+    }
+
+    /// Evaluates the corner, this far back from the trial, and makes it the trial.
+    fn evaluate_corner(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        back: f64,
+        length: f64,
+    ) -> Result<(), Doubt> {
         self.probe.point.copy_from_slice(&self.trial.node.point);
-        add_scaled(&mut self.probe.point, -along, &self.trial.node.tangent);
+        add_scaled(&mut self.probe.point, -back, &self.trial.node.tangent);
         self.border_both_sides();
-        let limits = Limits { max_angle: None, ..self.corner_limits(step) };
+        let limits = Limits { max_angle: None, ..self.corner_limits(length) };
         let counters = &mut self.state.counters;
         self.probe.correct(problem, &self.weights, &self.row, limits, counters).map_err(Doubt::Corrector)?;
-        let after = self.trial.tangent_parameter();
         std::mem::swap(&mut self.trial, &mut self.probe);
         self.trial.node.tangent.copy_from_slice(&self.probe.node.tangent);
         self.trial.signature = self.probe.signature;
         self.trial.log_determinant = self.probe.log_determinant;
-        let fold = after * self.state.parameter_sign < 0.0;
-        let events = Events { corner: true, fold, ..Events::default() };
-        Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
+        Ok(())
     }
 
     /// On the corner the matrix may be that of either side: a border for both is the sum of their tangents, unless
@@ -122,12 +146,17 @@ impl Follower {
     }
 }
 
-/// Distance back from `b` along its tangent to the place nearest to the tangent line of `a`.
+/// Distance back from `b` along its tangent to the place nearest to the tangent line of `a`, if that place lies ahead of
+/// `a`, behind `b` (but for rounding), and within a few lengths of both.
 ///
-/// Minimises `‖a + α t_a − b + β t_b‖`: with `c = ⟨t_a, t_b⟩` and `e = b − a` is `β (1 − c²) = ⟨t_b, e⟩ − c ⟨t_a, e⟩`.
-fn meeting(weights: &[f64], a: &Node, b: &Node) -> f64 {
+/// Minimises `‖a + α t_a − b + β t_b‖`: with `c = ⟨t_a, t_b⟩` and `e = b − a` is `α (1 − c²) = ⟨t_a, e⟩ − c ⟨t_b, e⟩` and
+/// `β (1 − c²) = ⟨t_b, e⟩ − c ⟨t_a, e⟩`.
+fn meeting(weights: &[f64], a: &Node, b: &Node, length: f64) -> Option<f64> {
     let c = product(weights, &a.tangent, &b.tangent);
     let along_b = progress(weights, &b.tangent, &b.point, &a.point);
     let along_a = progress(weights, &a.tangent, &b.point, &a.point);
-    (along_b - c * along_a) / (1.0 - c * c).max(f64::EPSILON)
+    let scale = 1.0 / (1.0 - c * c);
+    let (ahead, back) = (scale * (along_a - c * along_b), scale * (along_b - c * along_a));
+    let within = -0.5 * length..=4.0 * length;
+    (within.contains(&ahead) && within.contains(&back)).then_some(back)
 }

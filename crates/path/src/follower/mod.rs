@@ -180,8 +180,9 @@ impl Follower {
             let shorter = self.shortened(step, doubt, &mut attempts);
             self.give_up_if_retraced(doubt, shorter, attempts)?;
             if shorter < self.settings.min_step {
-                let arrival = self.pass_by_force(problem, step).ok_or_else(|| self.too_short(step, doubt))?;
-                self.accept(arrival, step, attempts);
+                let (arrival, length) =
+                    self.pass_by_force(problem, step).ok_or_else(|| self.too_short(step, doubt))?;
+                self.accept(arrival, length, attempts);
                 return Ok(());
             }
             step = shorter;
@@ -189,7 +190,11 @@ impl Follower {
     }
 
     /// What is left when the shortest step is still in doubt: a corner, or other equations on the same path.
-    fn pass_by_force(&mut self, problem: &mut (impl PathProblem + ?Sized), step: f64) -> Option<Arrival> {
+    fn pass_by_force(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Option<(Arrival, f64)> {
         self.turn_corner(problem, step).or_else(|_| self.pass_recut(problem, step)).ok()
     }
 

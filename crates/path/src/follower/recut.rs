@@ -24,7 +24,7 @@ impl Follower {
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         step: f64,
-    ) -> Result<Arrival, Doubt> {
+    ) -> Result<(Arrival, f64), Doubt> {
         weigh(&self.weights, &self.state.history.base().tangent, &mut self.row);
         self.correct_ahead(problem, LOOK_AHEAD * step, step)?;
         let ahead = (self.trial.sign, self.trial.signature);
@@ -36,7 +36,7 @@ impl Follower {
             return Err(Doubt::Reversed);
         }
         self.check_defect(step)?;
-        Ok(Arrival { anchors_anew: true, ..Arrival::default() })
+        Ok((Arrival { anchors_anew: true, ..Arrival::default() }, step))
     }
 
     /// Corrects the trial in the plane this far ahead, with the displacement allowed for the step.

@@ -8,6 +8,8 @@ use crate::{corrector::CorrectorError, error::Doubt, predictor::order};
 
 /// Steps grow at most by this factor, so that after an event they stay in proportion to the distance from it.
 const MOST_GROWTH: f64 = 2.0;
+/// So many last corrections of the displacement are put down to rounding: steps do not shrink on account of it.
+const NOISE: f64 = 4.0;
 const EFFORTLESS_ITERATIONS: u32 = 3;
 
 impl Follower {
@@ -41,7 +43,8 @@ impl Follower {
     pub(super) fn next_step(&self, step: f64, arrival: Arrival, angle: f64, attempts: Attempts) -> f64 {
         let by_angle = 0.5 * self.settings.max_angle / angle.max(1e-12);
         let aim = 0.25 * self.settings.allowed_displacement(step);
-        let by_displacement = (aim / self.trial.displacement.max(1e-300)).powf(1.0 / order(arrival.earlier));
+        let displacement = self.trial.displacement - NOISE * self.trial.correction_norm;
+        let by_displacement = (aim / displacement.max(1e-300)).powf(1.0 / order(arrival.earlier));
         let effort = if self.trial.iterations > EFFORTLESS_ITERATIONS { 0.7 } else { MOST_GROWTH };
         let hold = if attempts.rejected > 0 { 1.0 } else { MOST_GROWTH };
         let factor = by_angle.min(by_displacement).min(effort).min(hold).max(0.3);
