@@ -1,8 +1,8 @@
 //! Motion of a linear structure with local stops and springs, with exact sensitivities.
 
+pub mod exact;
 pub mod general;
 pub mod law;
-pub mod exact;
 mod load;
 mod stretch;
 mod system;

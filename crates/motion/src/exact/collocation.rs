@@ -77,8 +77,13 @@ pub(crate) struct Rule {
     pub at_end: Vec<[f64; NODES]>,
     /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed `[degree][node]`.
     pub coefficients: [[f64; NODES]; NODES],
+    /// Lagrange polynomials at [`FINE`]` + 1` equal steps of the variable, indexed `[place][node]`.
+    pub fine: Vec<[f64; NODES]>,
     recurrence: Recurrence,
 }
+
+/// Intervals of the table on which extrema in a step are looked for.
+pub(crate) const FINE: usize = 32;
 
 impl Rule {
     fn new(grading: Grading) -> Self {
@@ -91,7 +96,8 @@ impl Rule {
             let values = recurrence.values(s[node]);
             (0..NODES).for_each(|degree| coefficients[degree][node] = weights[node] * values[degree]);
         }
-        let mut rule = Self { s, c, at_nodes: Vec::new(), at_end: Vec::new(), coefficients, recurrence };
+        let mut rule = Self { s, c, at_nodes: Vec::new(), at_end: Vec::new(), coefficients, fine: Vec::new(), recurrence };
+        rule.fine = (0..=FINE).map(|i| rule.lagrange(i as f64 / FINE as f64)).collect();
         let moments = |end: f64| rule.moments(grading, end, &fine);
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
         rule.at_end = moments(1.0);

@@ -221,6 +221,10 @@ impl ExactIntegrator {
             done.map_err(|_| MotionError::StepTooShort { time: run.time, step: length })?;
         }
         self.counts.steps += 1;
+        if let Some(mut observation) = self.observation.take() {
+            self.observe_step(run, &mut observation);
+            self.observation = Some(observation);
+        }
         run.state.copy_from_slice(&self.next_state);
         run.time = if length >= end - run.time { end } else { run.time + length };
         run.proposal = length * (0.8 * error.powf(-1.0 / NODES as f64)).clamp(0.3, 3.0);

@@ -196,6 +196,15 @@ impl Drive {
         bounds
     }
 
+    /// Bound on the fourth derivative of the particular part of output `index` until `until`.
+    pub fn fourth_bound(&self, index: usize, output: &Output, until: f64) -> f64 {
+        let of_order = |order: &Order| {
+            order.outputs[index].0.norm() * (order.order * self.circular_frequency).powi(4)
+        };
+        self.orders.iter().map(of_order).sum::<f64>()
+            + self.secular.iter().map(|load| load.fourth_bound(output, until)).sum::<f64>()
+    }
+
     /// Largest value that the particular part of output `index` can take, for rounding margins.
     pub fn magnitude(&self, index: usize) -> f64 {
         self.orders.iter().map(|order| order.outputs[index].0.norm()).sum()

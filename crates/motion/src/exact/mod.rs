@@ -11,6 +11,7 @@
 //! | `collocation.rs`, `weights.rs`, `force_step.rs` | one step with forces |
 //! | `contact_phase.rs`, `release.rs` | steps from touch to release, with error control |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
+//! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 
 mod block;
 mod clearance;
@@ -21,6 +22,7 @@ mod drive;
 mod flight;
 mod force_step;
 mod lu;
+mod maxima;
 mod output;
 mod release;
 mod run;
@@ -34,6 +36,7 @@ use std::collections::HashMap;
 use faer::Mat;
 
 pub use decouple::MergedModes;
+pub use maxima::Maxima;
 
 use block::{Blocks, Propagator};
 use collocation::Grading;
@@ -113,6 +116,7 @@ pub struct ExactIntegrator {
     propagators: Vec<Propagator>,
     next_state: Vec<f64>,
     touches: Vec<u32>,
+    observation: Option<maxima::Observation>,
 }
 
 impl ExactIntegrator {
@@ -121,9 +125,22 @@ impl ExactIntegrator {
     /// # Errors
     /// [`MotionError::MergedModes`] if the damping has no block form.
     pub fn new(system: System, settings: ExactSettings) -> Result<Self, MotionError> {
+        Self::watching(system, settings, None)
+    }
+
+    /// An integrator that can also observe a response point, whose displacement is `shape . q + support_ratio u`.
+    ///
+    /// # Errors
+    /// [`MotionError::MergedModes`] if the damping has no block form.
+    pub fn watching(
+        system: System,
+        settings: ExactSettings,
+        response: Option<(&[f64], f64)>,
+    ) -> Result<Self, MotionError> {
         let blocks = Blocks::new(system.model())?;
+        let elements = system.elements().iter().map(|e| (e.shape.as_slice(), e.support_ratio));
         let outputs: Vec<Output> =
-            system.elements().iter().map(|e| Output::new(&blocks, &e.shape, e.support_ratio)).collect();
+            elements.chain(response).map(|(shape, ratio)| Output::new(&blocks, shape, ratio)).collect();
         let inputs: Vec<Vec<f64>> = system.elements().iter().map(|e| blocks.input(&e.shape)).collect();
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
         let mobility =
@@ -149,6 +166,7 @@ impl ExactIntegrator {
             flight_start: Vec::new(),
             propagators: Vec::new(),
             next_state: Vec::new(),
+            observation: None,
         })
     }
 
@@ -254,6 +272,10 @@ impl ExactIntegrator {
 
     /// Notes that a contact closes.
     fn close(&mut self, run: &mut Run, touch: flight::Touch) {
+        if let Some(mut observation) = self.observation.take() {
+            observation.touch(self.output_jet(run, touch.element, run.time).slope);
+            self.observation = Some(observation);
+        }
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
         run.proposal = 0.0;

@@ -17,6 +17,8 @@ pub(crate) struct Output {
     pub second_bound: Vec<f64>,
     /// The same for the third derivative.
     pub third_bound: Vec<f64>,
+    /// The same for the fourth derivative.
+    pub fourth_bound: Vec<f64>,
 }
 
 impl Output {
@@ -28,7 +30,8 @@ impl Output {
         let jerk_row = blocks.row_times_system(&acceleration_row);
         let second_bound = energy_factors(blocks, &acceleration_row);
         let third_bound = energy_factors(blocks, &jerk_row);
-        Self { row, velocity_row, acceleration_row, support_ratio, second_bound, third_bound }
+        let fourth_bound = energy_factors(blocks, &blocks.row_times_system(&jerk_row));
+        Self { row, velocity_row, acceleration_row, support_ratio, second_bound, third_bound, fourth_bound }
     }
 }
 

@@ -98,19 +98,35 @@ impl SecularLoad {
     }
 
     /// Bounds on the second and third derivative of the part that `output` reads, until `until`.
+    pub fn bounds(&self, output: &Output, until: f64) -> (f64, f64) {
+        let [second, third, _] = self.derivative_bounds(output, until);
+        (second, third)
+    }
+
+    /// Bound on the fourth derivative of the part that `output` reads, until `until`.
+    pub fn fourth_bound(&self, output: &Output, until: f64) -> f64 {
+        self.derivative_bounds(output, until)[2]
+    }
+
+    /// Bounds on the second to fourth derivative.
     ///
     /// The energy norm grows at most like `g t`, `g = sqrt(k) |beta| + |phi|`, since damping only takes.
-    pub fn bounds(&self, output: &Output, until: f64) -> (f64, f64) {
+    fn derivative_bounds(&self, output: &Output, until: f64) -> [f64; 3] {
         let n = output.row.len() / 2;
         let [beta, phi] = self.input.map(c64::norm);
         let root = self.stiffness.sqrt();
         let norm = (root * beta + phi) * until;
         let (p, s) = (output.row[self.block].abs(), output.row[n + self.block].abs());
         let (c, w, k) = (self.damping, self.frequency, self.stiffness);
-        let s_rate = (root + c) * norm + phi;
-        let s_second = k * (norm + beta) + c * s_rate + w * phi;
-        let s_third = k * (s_rate + w * beta) + c * s_second + w * w * phi;
-        (p * (s_rate + w * beta) + s * s_second, p * (s_second + w * w * beta) + s * s_third)
+        let s_1 = (root + c) * norm + phi;
+        let s_2 = k * (norm + beta) + c * s_1 + w * phi;
+        let s_3 = k * (s_1 + w * beta) + c * s_2 + w * w * phi;
+        let s_4 = k * (s_2 + w * w * beta) + c * s_3 + w * w * w * phi;
+        [
+            p * (s_1 + w * beta) + s * s_2,
+            p * (s_2 + w * w * beta) + s * s_3,
+            p * (s_3 + w * w * w * beta) + s * s_4,
+        ]
     }
 }
 

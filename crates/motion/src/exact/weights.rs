@@ -78,6 +78,41 @@ impl Series {
         sum * self.rate.powi(derivative as i32)
     }
 
+    /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part and from direct forces:
+    /// `C A^d (exp(A t) x + int exp(A (t - s)) B F ds)`.
+    ///
+    /// * `state`: block state at the start of the step; `force`: node values, `[a * NODES + k]`.
+    pub fn node_values(
+        &self,
+        (output, derivative): (usize, usize),
+        (grading, length): (Grading, f64),
+        state: &[f64],
+        (active, force): (&[usize], &[f64]),
+    ) -> [f64; NODES] {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let terms = Self::terms(z).min(TERMS - derivative);
+        let mut values = [0.0; NODES];
+        let mut powers = [1.0; NODES];
+        let mut factor = length;
+        let count = self.columns.len();
+        for m in 0..terms {
+            let row = &self.rows[output][m + derivative];
+            let free: f64 = row.iter().zip(state).map(|(r, x)| r * x).sum();
+            (0..NODES).for_each(|k| values[k] += powers[k] * free);
+            (0..NODES).for_each(|k| powers[k] *= z * rule.c[k] / (m + 1) as f64);
+            for (a, &e) in active.iter().enumerate() {
+                let weight = factor * self.markov[output * count + e][m + derivative];
+                let force = &force[a * NODES..(a + 1) * NODES];
+                for (value, row) in values.iter_mut().zip(rule.at_nodes[m].chunks_exact(NODES)) {
+                    *value += weight * row.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+                }
+            }
+            factor *= z;
+        }
+        values.map(|value| value * self.rate.powi(derivative as i32))
+    }
+
     /// Terms needed at `z = h rate`.
     fn terms(z: f64) -> usize {
         let mut term = 1.0;
