@@ -75,7 +75,7 @@ fn sensitivities_agree_with_differences_for_every_law() {
     for law in laws() {
         for support_ratio in [0.0, 1.0, -0.6] {
             let system = two_modes(support_ratio, law);
-            let GeneralFlow { flow, counts } = run(&system, &STRETCH, &STATE, 1e-12);
+            let GeneralFlow { flow, counts, .. } = run(&system, &STRETCH, &STATE, 1e-12);
             let stops = !law.contacts().is_empty();
             assert!(!stops || counts.crossings >= 2, "{law:?} {support_ratio}: {counts:?}");
             assert_sensitivities(&system, &flow, 2e-6);
@@ -100,7 +100,7 @@ fn errors_follow_the_tolerance_through_contacts() {
         let system = two_modes(0.0, law);
         let exact = run(&system, &STRETCH, &STATE, 1e-14).flow;
         for tolerance in [1e-7, 1e-9, 1e-11] {
-            let GeneralFlow { flow, counts } = run(&system, &STRETCH, &STATE, tolerance);
+            let GeneralFlow { flow, counts, .. } = run(&system, &STRETCH, &STATE, tolerance);
             let error = flow_error(&flow, &exact);
             assert!(error < 300.0 * tolerance, "{law:?} at {tolerance:e}: {error:e}, {counts:?}");
         }
@@ -114,7 +114,7 @@ fn the_bilinear_oscillator_returns_after_its_period() {
     let system = System::new(model(&[1.0], diagonal(&[0.0])), &Load::default(), vec![stop]).unwrap();
     let period = PI + PI / 2.0_f64.sqrt();
     let stretch = Stretch { frequency_hz: 1.0 / period, start: 0.0, end: 1.0 };
-    let GeneralFlow { flow, counts } = run(&system, &stretch, &[-0.3, 0.4], 1e-12);
+    let GeneralFlow { flow, counts, .. } = run(&system, &stretch, &[-0.3, 0.4], 1e-12);
     assert_columns_close(&flow.state, &[-0.3, 0.4], 1e-11);
     assert_eq!(counts.crossings, 2);
     for i in 0..2 {
@@ -197,7 +197,7 @@ fn rest_on_the_level_stays_at_rest() {
         let system =
             System::new(model(&[5.0], diagonal(&[0.1])), &Load::default(), vec![element(&[1.0], 0.0, law)])
                 .unwrap();
-        let GeneralFlow { flow, counts } =
+        let GeneralFlow { flow, counts, .. } =
             run(&system, &Stretch { frequency_hz: 1.0, start: 0.0, end: 2.0 }, &[0.0, 0.0], 1e-10);
         assert_eq!(flow.state, [0.0, 0.0]);
         assert!(counts.steps < 60, "{counts:?}");
@@ -213,4 +213,42 @@ fn a_two_sided_stop_without_clearance_is_a_linear_spring() {
     let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 2.0 };
     let (a, b) = (run(&system, &stretch, &[0.1, 1.0], 1e-12), run(&spring, &stretch, &[0.1, 1.0], 1e-12));
     assert!(flow_error(&a.flow, &b.flow) < 1e-11, "{:e}", flow_error(&a.flow, &b.flow));
+}
+
+/// Pushed from rest on the level: `q'' = F - w^2 q` one way, `q'' = F - (w^2 + k) q` the other.
+#[test]
+fn a_load_moves_a_structure_off_the_level_it_rests_on() {
+    let stop = Law::Linear(LinearStop::with_gap(75.0, 0.0).unwrap());
+    for (force, stiffness) in [(2.0, 100.0_f64), (-2.0, 25.0)] {
+        let load = Load { support: vec![], forces: vec![harmonic_force(&[1.0], 0, force, 0.0)] };
+        let system =
+            System::new(model(&[5.0], diagonal(&[0.0])), &load, vec![element(&[1.0], 0.0, stop)]).unwrap();
+        let time = 0.2;
+        let stretch = Stretch { frequency_hz: 2.0, start: 0.0, end: 2.0 * time };
+        let flow = run(&system, &stretch, &[0.0, 0.0], 1e-12).flow;
+        let w = stiffness.sqrt();
+        let exact = [force / stiffness * (1.0 - (w * time).cos()), force / w * (w * time).sin()];
+        assert_columns_close(&flow.state, &exact, 1e-11);
+        assert_near(flow.by_state[(0, 0)], (w * time).cos(), 1e-6, "by state"); // one-sided at the level
+    }
+}
+
+#[test]
+fn the_next_step_spares_the_search_for_the_first() {
+    let system = two_modes(0.0, laws()[5]);
+    let first = run(&system, &STRETCH, &STATE, 1e-10);
+    let next = Stretch { start: STRETCH.end, end: STRETCH.end + 0.5, ..STRETCH };
+    let settings = GeneralSettings { first_step: Some(first.next_step), ..GeneralSettings::default() };
+    let resumed = advance(&system, &next, &first.flow.state, &settings).unwrap();
+    let fresh = advance(&system, &next, &first.flow.state, &GeneralSettings::default()).unwrap();
+    assert!(resumed.counts.evaluations < fresh.counts.evaluations);
+    assert!(flow_error(&resumed.flow, &fresh.flow) < 1e-8);
+}
+
+/// Work as it came out; more of it is a slow-down that no clock shows.
+#[test]
+fn work_through_eight_crossings_of_a_hertz_stop_does_not_grow() {
+    let counts = run(&two_modes(0.0, laws()[0]), &STRETCH, &STATE, 1e-9).counts;
+    assert_eq!(counts.crossings, 8);
+    assert!(counts.steps <= 345 && counts.rejected <= 120 && counts.evaluations <= 5800, "{counts:?}");
 }

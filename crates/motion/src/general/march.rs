@@ -24,7 +24,7 @@ pub(super) struct March<'a, F> {
     dense: Dense,
     time: f64,
     end: f64,
-    step: f64,
+    pub(super) step: f64,
     finest: f64,
     failed: bool,
     unmoved: usize,

@@ -94,6 +94,8 @@ pub struct GeneralFlow {
     pub flow: Flow,
     /// Work done.
     pub counts: Counts,
+    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of the stretch that follows.
+    pub next_step: f64,
 }
 
 /// Flow of a vector field, and what it cost.
@@ -107,6 +109,8 @@ pub struct FieldFlow {
     pub by_parameter: Vec<f64>,
     /// Work done.
     pub counts: Counts,
+    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of what follows.
+    pub next_step: f64,
 }
 
 /// Motion of a system over a stretch.
@@ -123,14 +127,14 @@ pub fn advance(
 ) -> Result<GeneralFlow, GeneralError> {
     check_frequency(stretch)?;
     let mut field = SystemField::new(system, stretch.frequency_hz);
-    let FieldFlow { state, by_state, by_parameter, counts } =
+    let FieldFlow { state, by_state, by_parameter, counts, next_step } =
         integrate(&mut field, stretch.start, stretch.end, state, settings)?;
-    Ok(GeneralFlow { flow: Flow { state, by_state, by_frequency: by_parameter }, counts })
+    Ok(GeneralFlow { flow: Flow { state, by_state, by_frequency: by_parameter }, counts, next_step })
 }
 
 /// States of a system at given phases of a stretch; sensitivities are not computed.
 ///
-/// * `phases`: ascending, within the stretch [cycles].
+/// * `phases`: in cycles, ascending, within the stretch.
 ///
 /// # Returns
 /// One state per phase, from dense output of order 7, about as accurate as the steps.
@@ -162,13 +166,13 @@ pub fn integrate(
     check(field, (start, end), state, settings)?;
     let mut march = March::new(field, settings, (start, end), state);
     march.run(&mut Samples { times: &[], states: Vec::new() })?;
-    let (d, counts) = (state.len(), march.counts);
+    let (d, counts, next_step) = (state.len(), march.counts, march.step);
     let (state, columns) = march.stepper.value.split_at(d);
     let (by_state, by_parameter) = match columns.len() {
         0 => (Mat::new(), Vec::new()),
         _ => (Mat::from_fn(d, d, |i, j| columns[j * d + i]), columns[d * d..].to_vec()),
     };
-    Ok(FieldFlow { state: state.to_vec(), by_state, by_parameter, counts })
+    Ok(FieldFlow { state: state.to_vec(), by_state, by_parameter, counts, next_step })
 }
 
 /// States along a vector field at given times, ascending and within the stretch `(start, end)`.
