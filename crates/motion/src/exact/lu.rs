@@ -43,12 +43,14 @@ impl SmallLu {
     /// Solves in place for `columns` right-hand sides stored row by row (`[row * columns + column]`).
     pub fn solve(&self, right: &mut [f64], columns: usize) {
         let size = self.size;
-        for k in 0..size {
-            let pivot = self.pivots[k];
+        // All exchanges first: later ones have moved the factors of earlier columns too.
+        for (k, &pivot) in self.pivots.iter().enumerate() {
             if pivot != k {
                 let (upper, lower) = right.split_at_mut(pivot * columns);
                 upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
             }
+        }
+        for k in 0..size {
             let (upper, lower) = right.split_at_mut((k + 1) * columns);
             let top = &upper[k * columns..];
             for (row, target) in lower.chunks_exact_mut(columns).enumerate() {

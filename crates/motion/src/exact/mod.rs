@@ -117,6 +117,7 @@ pub struct ExactIntegrator {
     next_state: Vec<f64>,
     touches: Vec<u32>,
     observation: Option<maxima::Observation>,
+    closed_throughout: u64,
 }
 
 impl ExactIntegrator {
@@ -167,6 +168,7 @@ impl ExactIntegrator {
             propagators: Vec::new(),
             next_state: Vec::new(),
             observation: None,
+            closed_throughout: 0,
         })
     }
 
@@ -186,6 +188,12 @@ impl ExactIntegrator {
     #[must_use]
     pub fn touches(&self) -> &[u32] {
         &self.touches
+    }
+
+    /// Elements that were closed all through the last stretch, one bit each (the first 64).
+    #[must_use]
+    pub fn closed_throughout(&self) -> u64 {
+        self.closed_throughout
     }
 
     /// State at the end of a stretch, from `state` (`[q; q']`, length 2n) at its start.
@@ -253,6 +261,7 @@ impl ExactIntegrator {
     /// Runs to the end of the stretch.
     fn complete(&mut self, run: &mut Run, stretch: &Stretch) -> Result<(), MotionError> {
         let end = stretch.duration();
+        self.closed_throughout = maxima::closed_bits(run);
         while run.time < end {
             if self.forces_act(run) {
                 self.contact_phase(run, end)?;
@@ -262,6 +271,7 @@ impl ExactIntegrator {
             if !run.state.iter().all(|value| value.is_finite()) {
                 return Err(MotionError::NotFinite { time: run.time });
             }
+            self.closed_throughout &= maxima::closed_bits(run);
         }
         Ok(())
     }
