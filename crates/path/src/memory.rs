@@ -191,7 +191,7 @@ fn same_kind(a: &Vertex, b: &Vertex, probe: &Vertex) -> bool {
 fn nearest(a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<(f64, f64, f64)> {
     let chord = subtract(&b.place, &a.place);
     let length = length(a, b);
-    let mut share = dot(&subtract(&probe.place, &a.place), &chord) / (length * length);
+    let mut share = dot(&subtract(&probe.place, &a.place), &chord) / dot(&chord, &chord);
     let (mut offset, mut slope) = (chord, chord);
     for _ in 0..3 {
         if !(-0.1..=1.1).contains(&share) {
@@ -228,9 +228,9 @@ fn defect(a: &Vertex, b: &Vertex) -> f64 {
     square.sqrt()
 }
 
+/// Length of the segment in full space, to which the sketched tangents belong.
 fn length(a: &Vertex, b: &Vertex) -> f64 {
-    let chord = subtract(&b.place, &a.place);
-    dot(&chord, &chord).sqrt()
+    b.arc_length - a.arc_length
 }
 
 fn subtract(a: &Sketch, b: &Sketch) -> Sketch {
@@ -247,4 +247,79 @@ fn mix(number: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::predictor::Node;
+    use std::f64::consts::FRAC_PI_2;
+
+    /// A helix in twelve unknowns with unit speed: a long smooth path whose sketch is a projection.
+    fn on_helix(s: f64) -> ContinuationPoint {
+        let mut point = ContinuationPoint::empty(13);
+        let rate = 1.0 / 7.0_f64.sqrt();
+        for k in 0..12 {
+            let frequency = 1.0 + (k / 2) as f64;
+            let (phase, amplitude) = (frequency * s + FRAC_PI_2 * (k % 2) as f64, 1.0 / frequency);
+            point.point[k] = amplitude * phase.sin() * rate;
+            point.tangent[k] = phase.cos() * rate;
+        }
+        point.point[12] = s * rate;
+        point.tangent[12] = rate;
+        point.arc_length = s;
+        point
+    }
+
+    fn candidate(point: &ContinuationPoint) -> Candidate {
+        let mut candidate = Candidate::new(point.point.len());
+        candidate.node = Node { point: point.point.clone(), tangent: point.tangent.clone() };
+        candidate
+    }
+
+    fn helix_memory(step: f64) -> PathMemory {
+        let settings = Settings { max_step_length: step, ..Settings::default() };
+        let mut memory = PathMemory::new(&[1.0; 13], &settings);
+        (0..1000).for_each(|k| memory.remember(&on_helix(step * f64::from(k))));
+        memory
+    }
+
+    #[test]
+    fn a_point_between_stored_ones_is_met_at_its_arc_length() {
+        let memory = helix_memory(0.02);
+        for s in [0.011, 3.337, 12.345] {
+            let met = memory.meets(&candidate(&on_helix(s)), 1.0).unwrap();
+            assert!((met - s).abs() < 1e-3, "{met} for {s}");
+        }
+    }
+
+    #[test]
+    fn a_sheet_beside_or_one_that_runs_back_is_not_met() {
+        let memory = helix_memory(0.02);
+        let mut beside = on_helix(3.337);
+        beside.point[3] += 1e-5;
+        assert_eq!(memory.meets(&candidate(&beside), 1.0), None);
+        let mut back = on_helix(3.337);
+        back.tangent.iter_mut().for_each(|t| *t = -*t);
+        assert_eq!(memory.meets(&candidate(&back), 1.0), None);
+        assert!(
+            memory.meets(&candidate(&back), -1.0).is_some(),
+            "with the other orientation it is a retrace"
+        );
+    }
+
+    #[test]
+    fn the_end_of_the_stored_path_is_not_met() {
+        let memory = helix_memory(0.02);
+        assert_eq!(memory.meets(&candidate(&on_helix(999.5 * 0.02)), 1.0), None);
+        assert_eq!(memory.meets(&candidate(&on_helix(998.5 * 0.02)), 1.0), None, "nor is the step before");
+    }
+
+    #[test]
+    fn a_vertex_takes_no_more_than_200_bytes() {
+        assert!(size_of::<Vertex>() <= 160);
+        let memory = helix_memory(0.02);
+        let links = memory.links.len() * size_of::<(u32, u32)>();
+        assert!(links <= 40 * memory.len(), "{links} bytes of links for {} points", memory.len());
+    }
 }

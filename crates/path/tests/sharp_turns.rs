@@ -3,7 +3,7 @@
 mod support;
 
 use approx::assert_abs_diff_eq;
-use hammerbeam_path::{Settings, follow_both};
+use hammerbeam_path::{DenseProblem, Settings, follow_both};
 use support::*;
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
@@ -166,4 +166,54 @@ fn a_sharp_fold_costs_a_bounded_number_of_evaluations() {
     let hairpin = |x: f64| (-x.hypot(1e-8), -x / x.hypot(1e-8), 0);
     let branch = up(&mut graph(hairpin), &[-0.05, -0.05], -0.06, 1.0, Settings::default());
     assert!(branch.counters.evaluations < 600, "{:?}", branch.counters);
+}
+
+/// A stiff stop: `λ = x − c (√(p + δ) − √δ)`, whose slope jumps to `1 − c / (2 √δ)` at the touch. The parameter turns at
+/// the touch itself, at `λ = 0`, and again at `p = c²/4 − δ`.
+#[test]
+fn a_fold_at_a_touch_with_a_steep_far_side_is_passed() {
+    for c in [0.01, 0.1, 0.5] {
+        for delta in [1e-4, 1e-6, 1e-8] {
+            for step in STEPS {
+                let stiff = move |x: f64, l: f64| {
+                    let p = x.max(0.0);
+                    let root = (p + delta).sqrt();
+                    let slope = if x > 0.0 { 1.0 - 0.5 * c / root } else { 1.0 };
+                    (x - c * (root - delta.sqrt()) - l, slope, -1.0, u64::from(x > 0.0))
+                };
+                let branch = up(&mut plane(stiff), &[-0.5, -0.5], -0.6, 1.0, steps_of(step));
+                assert_reached_end(&branch, 1.0);
+                let turn = c * c / 4.0 - delta;
+                assert_monotone(&branch, |z| z[0]);
+                if turn <= 0.0 {
+                    assert_eq!(folds(&branch).len(), 0, "c {c}, delta {delta}, step {step}");
+                    continue;
+                }
+                assert_eq!(folds(&branch).len(), 2, "c {c}, delta {delta}, step {step}");
+                assert_abs_diff_eq!(folds(&branch)[0], 0.0, epsilon = 1e-9);
+                assert_abs_diff_eq!(folds(&branch)[1], turn - c * (0.5 * c - delta.sqrt()), epsilon = 1e-9);
+            }
+        }
+    }
+}
+
+/// Parameter in hertz, unknowns in units a thousand times smaller, scaled by the weights.
+#[test]
+fn weights_scale_the_problem() {
+    for step in STEPS {
+        let (size, width) = (1e-3, 1e-5);
+        let mut problem = DenseProblem::weighted(
+            vec![1.0 / (size * size), 1.0],
+            move |z: &[f64], r: &mut [f64], j: &mut [f64]| {
+                let (value, slope, signature) = hidden_pairs(z[0] / size - 90.0, width, 1.0);
+                r[0] = value + 90.0 - z[1];
+                j.copy_from_slice(&[slope / size, -1.0]);
+                signature
+            },
+        );
+        let branch = up(&mut problem, &[90.0 * size, 90.0], 80.0, 90.5, steps_of(step));
+        assert_reached_end(&branch, 90.5);
+        assert_eq!(folds(&branch).len(), 10);
+        assert_monotone(&branch, |z| z[0]);
+    }
 }

@@ -20,6 +20,9 @@ use crate::{
 /// Distances of the probe ahead of the last point, in steps: the first that works is taken. The longer ones are for
 /// turns that rounding hides from the shortest steps.
 const REACHES: [f64; 5] = [2.0, 8.0, 32.0, 128.0, 512.0];
+/// Ways along the new tangent, in distances of the probe. The longer ones are for new pieces so steep that they gain
+/// little distance from the corner.
+const ADVANCES: [f64; 3] = [2.0, 64.0, 2048.0];
 
 impl Follower {
     /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also returns
@@ -32,10 +35,14 @@ impl Follower {
         problem: &mut (impl PathProblem + ?Sized),
         step: f64,
     ) -> Result<(Arrival, f64), Doubt> {
-        for reach in REACHES {
-            let length = reach * step;
-            if self.step_behind_corner(problem, length).is_ok() {
-                if let Ok(arrival) = self.arrive_at_corner(problem, length) {
+        for advance in ADVANCES {
+            for length in REACHES.map(|reach| reach * step) {
+                if advance * length > self.settings.sheet_distance
+                    || self.step_behind_corner(problem, length, advance * length).is_err()
+                {
+                    continue;
+                }
+                if let Ok(arrival) = self.arrive_at_corner(problem, advance * length) {
                     return Ok((arrival, length));
                 }
             }
@@ -43,28 +50,43 @@ impl Follower {
         Err(Doubt::NotLocated)
     }
 
-    /// Leaves in the trial a point on the new piece, about `length` behind the corner.
+    /// Leaves in the trial a point on the new piece: linearised `length` ahead, corrected `advance` behind the corner.
     fn step_behind_corner(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         length: f64,
+        advance: f64,
     ) -> Result<(), Doubt> {
-        let unlimited = self.corner_limits(length);
-        let base = self.state.history.base();
-        weigh(&self.weights, &base.tangent, &mut self.row);
-        self.trial.point.copy_from_slice(&base.point);
-        add_scaled(&mut self.trial.point, length, &base.tangent);
-        self.linearise_trial(problem)?;
+        self.probe_ahead(problem, length)?;
         let direction = self.trial.node.tangent.clone();
         weigh(&self.weights, &direction, &mut self.row);
         self.trial.refactorise(problem, &self.weights, &self.row).map_err(Doubt::Corrector)?;
         self.trial.apply_correction();
-        add_scaled(&mut self.trial.point, 2.0 * length, &direction);
+        add_scaled(&mut self.trial.point, advance, &direction);
+        self.correct_behind_corner(problem, &direction, self.corner_limits(advance))
+    }
+
+    /// Linearises on the old tangent, this far ahead.
+    fn probe_ahead(&mut self, problem: &mut (impl PathProblem + ?Sized), length: f64) -> Result<(), Doubt> {
+        let base = self.state.history.base();
+        weigh(&self.weights, &base.tangent, &mut self.row);
+        self.trial.point.copy_from_slice(&base.point);
+        add_scaled(&mut self.trial.point, length, &base.tangent);
+        self.linearise_trial(problem)
+    }
+
+    /// Corrects the trial with the present border; its tangent must be about that of the probe.
+    fn correct_behind_corner(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        direction: &[f64],
+        limits: Limits,
+    ) -> Result<(), Doubt> {
         self.trial
-            .correct(problem, &self.weights, &self.row, unlimited, &mut self.state.counters)
+            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
             .map_err(Doubt::Corrector)?;
         self.trial.orient(self.state.orientation);
-        let agrees = product(&self.weights, &self.trial.node.tangent, &direction) > 0.9;
+        let agrees = product(&self.weights, &self.trial.node.tangent, direction) > 0.9;
         if agrees { Ok(()) } else { Err(Doubt::NotLocated) }
     }
 
@@ -98,19 +120,28 @@ impl Follower {
         problem: &mut (impl PathProblem + ?Sized),
         length: f64,
     ) -> Result<Arrival, Doubt> {
-        let after = self.trial.tangent_parameter();
-        let fold = after * self.state.parameter_sign < 0.0;
         let base = self.state.history.base();
-        let corner =
-            product(&self.weights, &base.tangent, &self.trial.node.tangent) < self.settings.max_angle.cos();
-        if let Some(back) = meeting(&self.weights, base, &self.trial.node, length).filter(|_| corner) {
+        if let Some(back) = meeting(&self.weights, base, &self.trial.node, length).filter(|_| self.turns()) {
             self.evaluate_corner(problem, back, length)?;
         }
+        self.arrive_behind_corner()
+    }
+
+    /// The trial, with the tangent behind the corner, is the next point.
+    fn arrive_behind_corner(&self) -> Result<Arrival, Doubt> {
         if !self.range.contains(self.trial.parameter()) {
             return Err(Doubt::NotLocated);
         }
-        let events = Events { corner, fold, ..Events::default() };
+        let after = self.trial.tangent_parameter();
+        let fold = after * self.state.parameter_sign < 0.0;
+        let events = Events { corner: self.turns(), fold, ..Events::default() };
         Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
+    }
+
+    /// Whether the tangent of the trial differs from that of its base by more than a step may turn.
+    fn turns(&self) -> bool {
+        let cosine = product(&self.weights, &self.state.history.base().tangent, &self.trial.node.tangent);
+        cosine < self.settings.max_angle.cos()
     }
 
     /// Evaluates the corner, this far back from the trial, and makes it the trial.
