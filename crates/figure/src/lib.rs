@@ -1,1 +1,73 @@
-//! To be written.
+//! Figures from stored results: SVG for print and screen, PNG for everything else.
+//!
+//! A figure is a function of the data it is given and of nothing else: no clock, no locale, no system font,
+//! no hash order. Drawn twice, it is the same file byte for byte. This crate owns the plain data that its
+//! figures take, so it knows neither the results store nor anything that solves.
+//!
+//! ```
+//! use hammerbeam_figure::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint};
+//!
+//! let points = (20..110).map(f64::from).map(|frequency_hz| ResponsePoint {
+//!     frequency_hz,
+//!     displacement_m: 5e-3 / (1.0 + (frequency_hz - 36.0).powi(2)),
+//!     acceleration_m_s2: 300.0,
+//!     stable: frequency_hz < 60.0,
+//!     ..ResponsePoint::default()
+//! });
+//! let curve = ResponseCurve { period_multiple: 1, points: points.collect() };
+//! let diagram = ResponseDiagram { title: String::new(), curves: vec![curve], frequency_range_hz: None };
+//! let figure = diagram.draw(Quantity::Displacement)?;
+//! assert!(figure.svg().starts_with("<svg"));
+//! assert!(figure.png(300.0)?.starts_with(b"\x89PNG"));
+//! # Ok::<(), hammerbeam_figure::FigureError>(())
+//! ```
+//!
+//! # The rooms
+//! Data run from the diagram to the page. [`ResponseDiagram`] is the one kind of figure so far; a further
+//! kind is one more file beside it, made of the same parts:
+//!
+//! | room | what it knows |
+//! |---|---|
+//! | `style` | the look: sizes for a journal column, line widths, colours; the only place to change it |
+//! | `scale`, `ticks`, `axis`, `plot` | a linear or logarithmic scale, where its ticks are, a frame with two axes |
+//! | `stretch`, `decimate`, `line` | a branch cut where its stability changes, fewer points for the same line, dashes |
+//! | `marks`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
+//! | `text`, `font` | lines with italic parts, numbers as printed, widths of the glyphs of the bundled font |
+//! | `svg`, `png` | the few elements we need, in points; the renderer with the bundled font alone |
+//!
+//! # Decisions
+//! - **Own SVG writer, not a plotting library.** What makes these figures good (dashes that fit their stretch,
+//!   decimation on the page, marks thinned on the page) is not what a plotting library has, and what it has is
+//!   200 lines here.
+//! - **Line style and width tell stability, colour tells the period, shape tells the event**, so a grey copy
+//!   still says it all.
+//! - **A tenth of a pixel.** Lines are simplified on the page to 0.024 pt, a tenth of a pixel at 300 per inch;
+//!   folds, ends of stretches and the ends of the axis stay. A hundred thousand solutions become some tens of
+//!   kilobytes.
+//! - **The font is Arimo**, bundled for PNG and named first in the SVG; its widths are those of Arial and
+//!   Helvetica, so that the layout holds where it is missing. The SVG does not carry it: that would add 300 kB
+//!   to every figure.
+
+mod axis;
+mod decimate;
+mod error;
+mod figure;
+mod font;
+mod legend;
+mod line;
+mod marks;
+mod plot;
+mod png;
+mod response_diagram;
+mod scale;
+mod stretch;
+mod style;
+mod svg;
+mod text;
+mod ticks;
+
+pub use error::FigureError;
+pub use figure::Figure;
+pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
+pub use scale::ScaleChoice;
+pub use style::Style;

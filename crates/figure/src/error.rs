@@ -1,0 +1,27 @@
+//! Why a figure cannot be drawn.
+
+/// Why a figure cannot be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum FigureError {
+    /// Nothing to draw: no branch, or no finite point inside the frequency range.
+    #[error(
+        "nothing to draw: no finite {quantity} inside the axes (points given: {points}, branches: {curves})"
+    )]
+    Empty { quantity: &'static str, curves: usize, points: usize },
+    /// A figure needs at least one panel.
+    #[error("nothing to draw: no quantity was asked for")]
+    NoQuantity,
+    /// The ends of the frequency axis are not finite numbers in rising order.
+    #[error(
+        "the frequency axis must run from a lower to a higher finite frequency, not from {from_hz} to {to_hz} Hz"
+    )]
+    FrequencyRange { from_hz: f64, to_hz: f64 },
+    /// The PNG would be useless or would not fit into memory.
+    #[error("{pixels_per_inch} pixels per inch is outside the allowed 24 to 1200")]
+    Resolution { pixels_per_inch: f64 },
+    /// The renderer did not take our SVG, which is a bug of this crate.
+    #[error("the renderer refused the figure: {reason}")]
+    Rendering { reason: String },
+}

@@ -1,0 +1,51 @@
+//! A finished figure.
+
+use crate::{FigureError, png};
+
+/// A finished figure: an SVG document and its size on paper.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    svg: String,
+    description: String,
+    width_mm: f64,
+    height_mm: f64,
+}
+
+impl Figure {
+    pub(crate) fn new(svg: String, description: String, width_mm: f64, height_mm: f64) -> Self {
+        Self { svg, description, width_mm, height_mm }
+    }
+
+    /// The figure as an SVG document, in UTF-8.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        self.svg.clone()
+    }
+
+    /// The figure as a PNG file; 300 pixels per inch is what journals ask for.
+    ///
+    /// # Errors
+    /// [`FigureError::Resolution`] outside 24 to 1200 pixels per inch.
+    pub fn png(&self, pixels_per_inch: f64) -> Result<Vec<u8>, FigureError> {
+        png::png(&self.svg, self.width_mm, self.height_mm, pixels_per_inch)
+    }
+
+    /// What the figure shows, in words, with the number of solutions and of marks that were left out where
+    /// they overlap.
+    #[must_use]
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// Width on paper (mm).
+    #[must_use]
+    pub fn width_mm(&self) -> f64 {
+        self.width_mm
+    }
+
+    /// Height on paper (mm).
+    #[must_use]
+    pub fn height_mm(&self) -> f64 {
+        self.height_mm
+    }
+}

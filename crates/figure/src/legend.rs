@@ -1,0 +1,143 @@
+//! The legend: a flow of samples with their names, in rows above the plot, where it covers no data.
+
+use crate::{
+    font::CAPITAL_HEIGHT,
+    line::draw_stretches,
+    marks::Mark,
+    plot::lettering,
+    style::Style,
+    svg::{Anchor, Point, Stroke, SvgWriter},
+    text::Text,
+};
+
+/// What a sample shows.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Sample {
+    /// The line of a kind of solutions, stable or not.
+    Line { colour: &'static str, stable: bool },
+    /// A colour, as a broad line.
+    Colour(&'static str),
+    /// An event.
+    Mark(Mark),
+}
+
+/// A sample with its name.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Entry {
+    pub(crate) sample: Sample,
+    pub(crate) name: String,
+}
+
+const LINE_LENGTH: f64 = 20.0; // five dashes of the default pattern
+const COLOUR_LENGTH: f64 = 9.0;
+const COLOUR_WIDTH: f64 = 2.5;
+const MARK_WIDTH: f64 = 4.0;
+const GAP_IN_ENTRY: f64 = 3.0;
+const GAP_BETWEEN_ENTRIES: f64 = 11.0;
+
+impl Entry {
+    fn sample_width(&self) -> f64 {
+        match self.sample {
+            Sample::Line { .. } => LINE_LENGTH,
+            Sample::Colour(_) => COLOUR_LENGTH,
+            Sample::Mark(_) => MARK_WIDTH,
+        }
+    }
+
+    fn width(&self, style: &Style) -> f64 {
+        self.sample_width() + GAP_IN_ENTRY + Text::upright(&self.name).width(style.tick_size)
+    }
+
+    fn draw(&self, svg: &mut SvgWriter, at: Point, style: &Style) {
+        let y = at.y - 0.5 * CAPITAL_HEIGHT * style.tick_size;
+        let ends = [Point { x: at.x, y }, Point { x: at.x + self.sample_width(), y }];
+        match self.sample {
+            Sample::Line { colour, stable } => draw_stretches(svg, &[ends.to_vec()], stable, colour, style),
+            Sample::Colour(colour) => svg.polyline(&ends, Stroke { colour, width: COLOUR_WIDTH }),
+            Sample::Mark(mark) => {
+                mark.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }], style.mark_radius);
+            }
+        }
+        let text_at = Point { x: ends[1].x + GAP_IN_ENTRY, y: at.y };
+        svg.text(text_at, &Text::upright(&self.name), lettering(style.tick_size, Anchor::Start));
+    }
+}
+
+/// Entries in rows.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Legend {
+    rows: Vec<Vec<Entry>>,
+}
+
+impl Legend {
+    /// Breaks the entries into rows no wider than `width` (pt); each group starts a new row where that costs
+    /// none.
+    pub(crate) fn new(groups: Vec<Vec<Entry>>, style: &Style, width: f64) -> Self {
+        let flowing = flow(groups.concat(), style, width);
+        let grouped: Vec<_> = groups.into_iter().flat_map(|group| flow(group, style, width)).collect();
+        Self { rows: if grouped.len() > flowing.len() { flowing } else { grouped } }
+    }
+
+    /// Height of all rows (pt).
+    pub(crate) fn height(&self, style: &Style) -> f64 {
+        self.rows.len() as f64 * row_height(style)
+    }
+
+    /// Draws the legend with its upper left corner at `corner`.
+    pub(crate) fn draw(&self, svg: &mut SvgWriter, corner: Point, style: &Style) {
+        for (i, row) in self.rows.iter().enumerate() {
+            let baseline = corner.y + i as f64 * row_height(style) + CAPITAL_HEIGHT * style.tick_size;
+            let mut x = corner.x;
+            for entry in row {
+                entry.draw(svg, Point { x, y: baseline }, style);
+                x += entry.width(style) + GAP_BETWEEN_ENTRIES;
+            }
+        }
+    }
+}
+
+fn flow(entries: Vec<Entry>, style: &Style, width: f64) -> Vec<Vec<Entry>> {
+    let mut rows: Vec<Vec<Entry>> = Vec::new();
+    let mut used = 0.0;
+    for entry in entries {
+        let needed = GAP_BETWEEN_ENTRIES + entry.width(style);
+        match rows.last_mut().filter(|_| used + needed <= width) {
+            Some(row) => {
+                used += needed;
+                row.push(entry);
+            }
+            None => {
+                used = needed - GAP_BETWEEN_ENTRIES;
+                rows.push(vec![entry]);
+            }
+        }
+    }
+    rows
+}
+
+fn row_height(style: &Style) -> f64 {
+    1.5 * style.tick_size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_are_no_wider_than_the_plot_and_lose_nothing() {
+        let style = Style::default();
+        let entry = |i: u32| Entry { sample: Sample::Colour("#000000"), name: format!("1/{i} subharmonic") };
+        let legend =
+            Legend::new(vec![(1..=5).map(entry).collect(), (6..=9).map(entry).collect()], &style, 200.0);
+        assert!(legend.rows.len() > 1);
+        assert_eq!(
+            legend.rows.iter().flatten().cloned().collect::<Vec<_>>(),
+            (1..=9).map(entry).collect::<Vec<_>>()
+        );
+        assert!(legend.rows.iter().any(|row| row[0] == entry(5)), "the second group starts a row");
+        for row in &legend.rows {
+            let width: f64 = row.iter().map(|e| e.width(&style) + GAP_BETWEEN_ENTRIES).sum();
+            assert!(width - GAP_BETWEEN_ENTRIES <= 200.0);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! The response diagram: maximum displacement and acceleration of the response point over the excitation
+//! frequency.
+//!
+//! Figures 3 and 4 of van de Vorst, Fey, de Kraker, van Campen are of this kind.
+
+mod drawing;
+mod panel;
+
+use crate::{Figure, FigureError, ScaleChoice, Style};
+
+/// Branches of periodic solutions over the excitation frequency.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ResponseDiagram {
+    /// Title above the figure; empty for none, as most journals want it.
+    pub title: String,
+    /// The branches, in the order in which they are drawn.
+    pub curves: Vec<ResponseCurve>,
+    /// Ends of the frequency axis (Hz); by default those of the data.
+    pub frequency_range_hz: Option<(f64, f64)>,
+}
+
+/// A branch of periodic solutions.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ResponseCurve {
+    /// Period of the solutions over the period of the excitation, from 1.
+    pub period_multiple: u32,
+    /// The solutions, in order along the branch. One that is not finite leaves a gap.
+    pub points: Vec<ResponsePoint>,
+}
+
+/// A periodic solution, and what happens to the branch there.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ResponsePoint {
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Maximum of the absolute displacement over the period (m).
+    pub displacement_m: f64,
+    /// Maximum of the absolute acceleration over the period (m/s²).
+    pub acceleration_m_s2: f64,
+    /// Whether the solution is stable; at an event the neighbours decide how the line is drawn.
+    pub stable: bool,
+    /// The branch turns: a multiplier of +1.
+    pub fold: bool,
+    /// A contact begins or ends: it is reached with zero velocity.
+    pub grazing: bool,
+    /// A branch of twice the period begins: a multiplier of −1.
+    pub flip: bool,
+    /// A quasi-periodic motion begins: a complex pair on the unit circle.
+    pub neimark_sacker: bool,
+    /// Branches cross.
+    pub branch_point: bool,
+}
+
+/// What a panel of the diagram shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Maximum displacement, in millimetres on the axis.
+    Displacement,
+    /// Maximum acceleration (m/s²).
+    Acceleration,
+}
+
+/// How the diagram is drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ResponseSettings {
+    /// Sizes on paper.
+    pub style: Style,
+    /// Scale of the axis of displacements.
+    pub displacement_scale: ScaleChoice,
+    /// Scale of the axis of accelerations.
+    pub acceleration_scale: ScaleChoice,
+}
+
+impl ResponseDiagram {
+    /// The figure of one quantity, in the default style.
+    ///
+    /// # Errors
+    /// As [`Self::draw_with`].
+    pub fn draw(&self, quantity: Quantity) -> Result<Figure, FigureError> {
+        self.draw_with(&[quantity], &ResponseSettings::default())
+    }
+
+    /// The figure of the displacement over that of the acceleration, with one frequency axis, in the default
+    /// style.
+    ///
+    /// # Errors
+    /// As [`Self::draw_with`].
+    pub fn draw_both(&self) -> Result<Figure, FigureError> {
+        self.draw_with(&[Quantity::Displacement, Quantity::Acceleration], &ResponseSettings::default())
+    }
+
+    /// One panel for each of `quantities`, from top to bottom, with one frequency axis.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where no solution has a place in a panel; [`FigureError::NoQuantity`] where
+    /// there is no panel; [`FigureError::FrequencyRange`] where the ends of the frequency axis are not in
+    /// order.
+    pub fn draw_with(
+        &self,
+        quantities: &[Quantity],
+        settings: &ResponseSettings,
+    ) -> Result<Figure, FigureError> {
+        drawing::draw(self, quantities, settings)
+    }
+}
+
+impl Quantity {
+    /// The quantity in words.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Displacement => "maximum displacement",
+            Self::Acceleration => "maximum acceleration",
+        }
+    }
+
+    /// The value in the unit of the axis.
+    fn value(self, point: &ResponsePoint) -> f64 {
+        match self {
+            Self::Displacement => 1e3 * point.displacement_m,
+            Self::Acceleration => point.acceleration_m_s2,
+        }
+    }
+}

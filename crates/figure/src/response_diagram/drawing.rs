@@ -1,0 +1,192 @@
+//! The page: title, legend and panels put together.
+
+use super::{Quantity, ResponseDiagram, ResponseSettings, panel::Panel};
+use crate::{
+    Figure, FigureError,
+    axis::Axis,
+    font::CAPITAL_HEIGHT,
+    legend::{Entry, Legend, Sample},
+    marks::Mark,
+    plot::{Area, Plot, lettering, room_below, room_left},
+    scale::{Scale, ScaleKind, extent},
+    style::{INK, Style, period_colour},
+    svg::{Anchor, Point, SvgWriter, points},
+    text::{Text, wrap},
+};
+
+/// Space around everything (pt).
+const MARGIN: f64 = 2.0;
+/// Space between title, legend and panels (pt).
+const GAP: f64 = 5.0;
+/// Distance of tick labels on the horizontal and vertical axis (pt).
+const TICK_SPACING: (f64, f64) = (42.0, 27.0);
+
+/// Draws a panel for each quantity.
+pub(super) fn draw(
+    diagram: &ResponseDiagram,
+    quantities: &[Quantity],
+    settings: &ResponseSettings,
+) -> Result<Figure, FigureError> {
+    let range_hz = frequency_range(diagram)?;
+    let panels = quantities
+        .iter()
+        .map(|&quantity| Panel::new(diagram, quantity, range_hz, settings))
+        .collect::<Result<Vec<_>, _>>()?;
+    if panels.is_empty() {
+        return Err(FigureError::NoQuantity);
+    }
+    Ok(Page::new(diagram, &panels, range_hz, &settings.style).draw())
+}
+
+/// Ends of the frequency axis: as asked for, else those of the finite frequencies with a small margin.
+fn frequency_range(diagram: &ResponseDiagram) -> Result<(f64, f64), FigureError> {
+    if let Some((from_hz, to_hz)) = diagram.frequency_range_hz {
+        let shown = [from_hz, to_hz].into_iter().all(|end| ScaleKind::Linear.shows(end));
+        return if shown && from_hz < to_hz {
+            Ok((from_hz, to_hz))
+        } else {
+            Err(FigureError::FrequencyRange { from_hz, to_hz })
+        };
+    }
+    let frequencies = diagram.curves.iter().flat_map(|curve| &curve.points).map(|point| point.frequency_hz);
+    let (least, greatest) =
+        extent(frequencies.filter(|&frequency| ScaleKind::Linear.shows(frequency))).unwrap_or((0.0, 1.0));
+    let margin = if greatest > least { 0.015 * (greatest - least) } else { 0.05 * greatest.abs().max(1e-3) };
+    Ok((least - margin, greatest + margin))
+}
+
+/// A page with everything in its place.
+struct Page<'a> {
+    diagram: &'a ResponseDiagram,
+    style: &'a Style,
+    panels: &'a [Panel],
+    title: Vec<Text>,
+    legend: Legend,
+    plots: Vec<Plot>,
+    left: f64,
+    height: f64,
+}
+
+impl<'a> Page<'a> {
+    fn new(
+        diagram: &'a ResponseDiagram,
+        panels: &'a [Panel],
+        range_hz: (f64, f64),
+        style: &'a Style,
+    ) -> Self {
+        let panel_height = panel_share(panels.len()) * points(style.height_mm) - room_below(style);
+        let axes: Vec<Axis> = panels
+            .iter()
+            .map(|panel| Axis::new(panel.scale, panel.label(), 0.85 * panel_height, TICK_SPACING.1))
+            .collect();
+        let label_width = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
+        let left = room_left(style, label_width);
+        let right = points(style.width_mm) - MARGIN - style.tick_size;
+        let title = wrap(&diagram.title, style.label_size, right - left);
+        let legend = Legend::new(entries(panels), style, right - left);
+        let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
+        let horizontal = Axis::new(
+            Scale::exact(ScaleKind::Linear, range_hz),
+            Text::upright("Excitation frequency (Hz)"),
+            right - left,
+            TICK_SPACING.0,
+        );
+        let lowest = axes.len() - 1;
+        let labels = axes.iter().map(|axis| axis.label.width(style.label_size));
+        let plot_height = labels.fold(panel_height - head, f64::max);
+        let plots: Vec<Plot> = axes
+            .into_iter()
+            .enumerate()
+            .map(|(i, y)| {
+                let top = head + i as f64 * (plot_height + 2.0 * GAP);
+                let area = Area { left, right, top, bottom: top + plot_height };
+                Plot { area, x: horizontal.clone(), y, labelled_below: i == lowest }
+            })
+            .collect();
+        let height = plots[lowest].area.bottom + room_below(style);
+        Self { diagram, style, panels, title, legend, plots, left, height }
+    }
+
+    fn draw(&self) -> Figure {
+        let style = self.style;
+        let description = self.description();
+        let height_mm = self.height * 25.4 / 72.0;
+        let mut svg = SvgWriter::new(style.width_mm, height_mm, &self.diagram.title, &description);
+        self.draw_head(&mut svg);
+        for (panel, plot) in self.panels.iter().zip(&self.plots) {
+            plot.draw_grid(&mut svg, style);
+            plot.draw_axes(&mut svg, style);
+            panel.draw(&mut svg, plot, style);
+        }
+        Figure::new(svg.finish(), description, style.width_mm, height_mm)
+    }
+
+    fn draw_head(&self, svg: &mut SvgWriter) {
+        let style = self.style;
+        for (i, line) in self.title.iter().enumerate() {
+            let y = MARGIN + i as f64 * title_height(style) + CAPITAL_HEIGHT * style.label_size;
+            svg.text(Point { x: self.left, y }, line, lettering(style.label_size, Anchor::Start));
+        }
+        let y = MARGIN + self.title.len() as f64 * title_height(style);
+        self.legend.draw(svg, Point { x: self.left, y }, style);
+    }
+
+    /// What the figure shows, in words.
+    fn description(&self) -> String {
+        let names: Vec<&str> = self.panels.iter().map(|panel| panel.quantity.name()).collect();
+        let curves = self.diagram.curves.len();
+        let solutions: usize = self.diagram.curves.iter().map(|curve| curve.points.len()).sum();
+        let (branches, names) = (if curves == 1 { "branch" } else { "branches" }, names.join(" and "));
+        let mut description = format!(
+            "{names} over excitation frequency, {curves} {branches} with {solutions} solutions; \
+             stable solid, unstable dashed"
+        );
+        for (panel, plot) in self.panels.iter().zip(&self.plots) {
+            for (mark, places) in panel.marks(plot, self.style) {
+                let (all, drawn) = (panel.count(mark), places.len());
+                description.push_str(&format!("; {} of {}: {all}", mark.name(), panel.quantity.name()));
+                if drawn < all {
+                    description.push_str(&format!(", marked at {drawn} places"));
+                }
+            }
+        }
+        description
+    }
+}
+
+/// Height of a panel over that of a figure of one: panels on top of each other are lower.
+fn panel_share(panels: usize) -> f64 {
+    if panels == 1 { 1.0 } else { 0.85 }
+}
+
+fn title_height(style: &Style) -> f64 {
+    1.5 * style.label_size
+}
+
+/// What the legend explains, lines and marks: only what is drawn.
+fn entries(panels: &[Panel]) -> Vec<Vec<Entry>> {
+    let mut multiples: Vec<u32> = panels.iter().flat_map(Panel::period_multiples).collect();
+    multiples.sort_unstable();
+    multiples.dedup();
+    let line_colour = if let [single] = multiples[..] { period_colour(single) } else { INK };
+    let colours = multiples.iter().filter(|_| multiples.len() > 1).map(|&multiple| Entry {
+        sample: Sample::Colour(period_colour(multiple)),
+        name: period_name(multiple),
+    });
+    let lines = [(true, "stable"), (false, "unstable")]
+        .into_iter()
+        .filter(|(stable, _)| panels.iter().any(|panel| panel.has(*stable)))
+        .map(|(stable, name)| Entry {
+            sample: Sample::Line { colour: line_colour, stable },
+            name: name.to_owned(),
+        });
+    let marks = Mark::ALL
+        .into_iter()
+        .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))
+        .map(|mark| Entry { sample: Sample::Mark(mark), name: mark.name().to_owned() });
+    vec![colours.chain(lines).collect(), marks.collect()]
+}
+
+fn period_name(multiple: u32) -> String {
+    if multiple <= 1 { "harmonic".to_owned() } else { format!("1/{multiple} subharmonic") }
+}

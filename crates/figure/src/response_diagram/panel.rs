@@ -1,0 +1,184 @@
+//! One panel: the data of one quantity, made ready for the page.
+
+use super::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
+use crate::{
+    FigureError, ScaleChoice,
+    decimate::decimate,
+    line::draw_stretches,
+    marks::Mark,
+    plot::Plot,
+    scale::{Scale, ScaleKind, extent},
+    stretch::{Sample, Stretch, Vertex, stretches},
+    style::{Style, period_colour},
+    svg::{Point, SvgWriter},
+    text::Text,
+};
+
+/// The data of one quantity.
+pub(super) struct Panel {
+    pub(super) quantity: Quantity,
+    pub(super) scale: Scale,
+    lines: Vec<Line>,
+    events: Vec<(Mark, Vec<(f64, f64)>)>,
+}
+
+/// The stretches of a branch.
+struct Line {
+    period_multiple: u32,
+    stretches: Vec<Stretch>,
+}
+
+impl Panel {
+    /// Collects what lies between the ends of the frequency axis.
+    pub(super) fn new(
+        diagram: &ResponseDiagram,
+        quantity: Quantity,
+        range_hz: (f64, f64),
+        settings: &ResponseSettings,
+    ) -> Result<Self, FigureError> {
+        let kind = scale_choice(quantity, settings).decide(visible_values(diagram, quantity, range_hz));
+        let lines: Vec<Line> =
+            diagram.curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect();
+        let vertices = lines.iter().flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
+        let ends = extent(vertices.map(|vertex| vertex.y)).ok_or_else(|| empty(diagram, quantity))?;
+        let events = Mark::ALL.map(|mark| (mark, events(diagram, quantity, kind, range_hz, mark)));
+        let events = events.into_iter().filter(|(_, places)| !places.is_empty()).collect();
+        Ok(Self { quantity, scale: Scale::around(kind, ends), lines, events })
+    }
+
+    /// What the vertical axis shows.
+    pub(super) fn label(&self) -> Text {
+        match self.quantity {
+            Quantity::Displacement => Text::upright("Displacement max\u{2009}|").variable("y").and("| (mm)"),
+            Quantity::Acceleration => {
+                Text::upright("Acceleration max\u{2009}|").variable("ÿ").and("| (m/s²)")
+            }
+        }
+    }
+
+    /// Whether a stable (or unstable) solution is drawn.
+    pub(super) fn has(&self, stable: bool) -> bool {
+        self.lines.iter().flat_map(|line| &line.stretches).any(|stretch| stretch.stable == stable)
+    }
+
+    /// Whether an event of a kind is drawn.
+    pub(super) fn has_mark(&self, mark: Mark) -> bool {
+        self.events.iter().any(|(present, _)| *present == mark)
+    }
+
+    /// The period multiples drawn, each once, rising.
+    pub(super) fn period_multiples(&self) -> Vec<u32> {
+        let drawn = self.lines.iter().filter(|line| !line.stretches.is_empty());
+        let mut multiples: Vec<u32> = drawn.map(|line| line.period_multiple).collect();
+        multiples.sort_unstable();
+        multiples.dedup();
+        multiples
+    }
+
+    /// Draws marks and lines: unstable lines under stable ones, grazing marks under both, the other marks on
+    /// top.
+    pub(super) fn draw(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
+        let marks = self.marks(plot, style);
+        for (mark, places) in marks.iter().filter(|(mark, _)| mark.is_behind()) {
+            mark.draw(svg, places, style.mark_radius);
+        }
+        self.draw_lines(svg, plot, style, false);
+        self.draw_lines(svg, plot, style, true);
+        for (mark, places) in marks.iter().filter(|(mark, _)| !mark.is_behind()) {
+            mark.draw(svg, places, style.mark_radius);
+        }
+    }
+
+    fn draw_lines(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style, stable: bool) {
+        for line in &self.lines {
+            let colour = period_colour(line.period_multiple);
+            let stretches = line.stretches.iter().filter(|stretch| stretch.stable == stable);
+            let stretches: Vec<_> =
+                stretches.map(|stretch| on_page(&stretch.vertices, plot, style)).collect();
+            draw_stretches(svg, &stretches, stable, colour, style);
+        }
+    }
+
+    /// The marks that are drawn, and where.
+    pub(super) fn marks(&self, plot: &Plot, style: &Style) -> Vec<(Mark, Vec<Point>)> {
+        let thinned = |mark: Mark, places: &[(f64, f64)]| {
+            let places: Vec<Point> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
+            mark.thin_out(&places, style.mark_distance)
+        };
+        self.events.iter().map(|(mark, places)| (*mark, thinned(*mark, places))).collect()
+    }
+
+    /// Number of events of a kind, drawn or not.
+    pub(super) fn count(&self, mark: Mark) -> usize {
+        self.events.iter().filter(|(present, _)| *present == mark).map(|(_, places)| places.len()).sum()
+    }
+}
+
+fn scale_choice(quantity: Quantity, settings: &ResponseSettings) -> ScaleChoice {
+    match quantity {
+        Quantity::Displacement => settings.displacement_scale,
+        Quantity::Acceleration => settings.acceleration_scale,
+    }
+}
+
+fn empty(diagram: &ResponseDiagram, quantity: Quantity) -> FigureError {
+    let points = diagram.curves.iter().map(|curve| curve.points.len()).sum();
+    FigureError::Empty { quantity: quantity.name(), curves: diagram.curves.len(), points }
+}
+
+fn visible_values(
+    diagram: &ResponseDiagram,
+    quantity: Quantity,
+    (from, to): (f64, f64),
+) -> impl Iterator<Item = f64> {
+    let points = diagram.curves.iter().flat_map(|curve| &curve.points);
+    let inside = points.filter(move |point| (from..=to).contains(&point.frequency_hz));
+    inside.map(move |point| quantity.value(point)).filter(|&value| ScaleKind::Linear.shows(value))
+}
+
+fn line(curve: &ResponseCurve, quantity: Quantity, kind: ScaleKind, range_hz: (f64, f64)) -> Line {
+    let samples: Vec<Sample> = curve.points.iter().map(|point| sample(point, quantity, kind)).collect();
+    Line { period_multiple: curve.period_multiple, stretches: stretches(&samples, range_hz) }
+}
+
+fn sample(point: &ResponsePoint, quantity: Quantity, kind: ScaleKind) -> Sample {
+    let value = quantity.value(point);
+    Sample {
+        x: point.frequency_hz,
+        y: if kind.shows(value) && ScaleKind::Linear.shows(point.frequency_hz) { value } else { f64::NAN },
+        stable: point.stable,
+        bifurcation: point.fold || point.flip || point.neimark_sacker || point.branch_point,
+    }
+}
+
+/// Frequencies and values of the events of a kind, in order along the branches.
+fn events(
+    diagram: &ResponseDiagram,
+    quantity: Quantity,
+    kind: ScaleKind,
+    (from, to): (f64, f64),
+    mark: Mark,
+) -> Vec<(f64, f64)> {
+    let points = diagram.curves.iter().flat_map(|curve| &curve.points);
+    points
+        .filter(|point| is(point, mark) && (from..=to).contains(&point.frequency_hz))
+        .map(|point| (point.frequency_hz, quantity.value(point)))
+        .filter(|&(_, value)| kind.shows(value))
+        .collect()
+}
+
+fn is(point: &ResponsePoint, mark: Mark) -> bool {
+    match mark {
+        Mark::Grazing => point.grazing,
+        Mark::Fold => point.fold,
+        Mark::Flip => point.flip,
+        Mark::NeimarkSacker => point.neimark_sacker,
+        Mark::BranchPoint => point.branch_point,
+    }
+}
+
+fn on_page(vertices: &[Vertex], plot: &Plot, style: &Style) -> Vec<Point> {
+    let points: Vec<Point> = vertices.iter().map(|vertex| plot.place(vertex.x, vertex.y)).collect();
+    let keep: Vec<bool> = vertices.iter().map(|vertex| vertex.keep).collect();
+    decimate(&points, &keep, style.line_tolerance).into_iter().map(|i| points[i]).collect()
+}
