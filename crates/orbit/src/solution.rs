@@ -125,6 +125,13 @@ pub enum StopReason {
         /// Residual of the last attempt.
         residual: f64,
     },
+    /// However short the step, the path went on along a stretch that was already walked.
+    RunsBack {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Arc length of the stretch that was met.
+        met_arc_length: f64,
+    },
     /// The motion could not be computed.
     Motion {
         /// Where [Hz].

@@ -1,0 +1,31 @@
+//! Why there is no orbit or branch to give.
+
+use hammerbeam_motion::exact::MotionError;
+use hammerbeam_path::PathError;
+
+use crate::NoEigenvalues;
+
+/// Why there is no orbit or branch to give.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum OrbitError {
+    /// The motion could not be computed.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The path could not be begun.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// The multipliers were not found.
+    #[error(transparent)]
+    Eigenvalues(#[from] NoEigenvalues),
+    /// Newton's method did not come to a periodic orbit.
+    #[error("no periodic orbit near the guess at {frequency_hz} Hz: correction {correction:.2e} after {iterations} iterations")]
+    NotConverged { frequency_hz: f64, correction: f64, iterations: u32 },
+    /// No start led to an orbit of that period.
+    #[error("no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts")]
+    NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },
+    /// A stored checkpoint does not fit this system or version.
+    #[error("the checkpoint does not belong to this system")]
+    Checkpoint,
+}

@@ -1,0 +1,51 @@
+//! What the user chooses for orbits and branches.
+
+/// How many shooting segments an orbit period is cut into.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Segments {
+    /// As many as multipliers and contacts ask for.
+    #[default]
+    Automatic,
+    /// That many, at least one.
+    Fixed(usize),
+}
+
+/// Settings of orbits and branches.
+///
+/// Lengths of a path are measured in `ds^2 = df^2 + |dz|^2`, f in hertz and `|dz|` the change of the orbit's state in the energy
+/// norm `sqrt(sum w_i^2 q_i^2 + q_i'^2)`, relative to the norm of the start, in hertz too: a change as large as the
+/// start's motion counts like one hertz.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OrbitSettings {
+    /// Largest change of frequency from one solution to the next [Hz].
+    pub max_step_hz: f64,
+    /// An orbit is accepted when Newton's correction that is still due is at most this, in the relative energy norm.
+    pub tolerance: f64,
+    /// Tolerance of the contact steps, see [`hammerbeam_motion::exact::ExactSettings`].
+    pub motion_tolerance: f64,
+    /// Shooting segments.
+    pub segments: Segments,
+    /// Most solutions on one side of a branch.
+    pub max_solutions: usize,
+}
+
+impl Default for OrbitSettings {
+    fn default() -> Self {
+        Self {
+            max_step_hz: 0.02,
+            tolerance: 1e-10,
+            motion_tolerance: 1e-11,
+            segments: Segments::Automatic,
+            max_solutions: 1_000_000,
+        }
+    }
+}
+
+/// What is observed: the displacement `shape . q + support_ratio u`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// Displacement of the response point in each mode [kg^-1/2], length n.
+    pub shape: Vec<f64>,
+    /// Its part of the support displacement [-].
+    pub support_ratio: f64,
+}

@@ -1,0 +1,293 @@
+//! Multiple shooting: the periodic orbit as a problem for the path crate.
+//!
+//! An orbit of N excitation periods is cut at m equal phases. The unknowns are the states `z_k` there, scaled: displacements with
+//! `V/w_i`, velocities with `V`, so that the Euclidean norm of a node is its energy norm relative to `V`. With the flow `Z_k`
+//! of segment k the equations are
+//!
+//! `R_k = Z_k(z_k, f) - z_{k+1} = 0`, `k = 0..m`, `z_m = z_0`.
+//!
+//! With `G_k = dZ_k/dz_k`, `g_k = dZ_k/df` a bordered system with right-hand sides `b_k`, and `b` for the border row, is condensed to the first node:
+//! `d_{k+1} = A_{k+1} d_0 + a_{k+1} df - s_{k+1}`, where `A_{k+1} = G_k A_k`, `a_{k+1} = G_k a_k + g_k`,
+//! `s_{k+1} = G_k s_k + b_k`. Then `(A_m - I) d_0 + a_m df = s_m` and the border row, summed over the nodes. `A_m` is the monodromy
+//! matrix. Eliminating the other nodes divides by determinants of `-I` only, so the determinant of the condensed
+//! matrix orients the path, and the orientation does not depend on m.
+//!
+//! # Source
+//! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
+
+use hammerbeam_motion::{Stretch, exact::{ExactIntegrator, MotionError}};
+use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian};
+
+/// Scales of a state: displacements `V/w_i`, velocities `V`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct StateScale {
+    scales: Vec<f64>,
+}
+
+impl StateScale {
+    /// * `natural_frequencies`: `w_i` [rad/s]; rigid modes take `reference` [rad/s] instead.
+    /// * `velocity`: `V` [kg^1/2 m/s].
+    pub fn new(natural_frequencies: &[f64], reference: f64, velocity: f64) -> Self {
+        let displacement = natural_frequencies.iter().map(|w| velocity / w.max(reference));
+        let velocities = natural_frequencies.iter().map(|_| velocity);
+        Self { scales: displacement.chain(velocities).collect() }
+    }
+
+    /// Scales, one per entry of a state.
+    pub fn values(&self) -> &[f64] {
+        &self.scales
+    }
+
+    /// Norm of a state relative to the scale.
+    pub fn norm(&self, state: &[f64]) -> f64 {
+        state.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt()
+    }
+}
+
+/// The shooting equations of one system.
+#[derive(Debug)]
+pub(crate) struct ShootingProblem {
+    integrator: ExactIntegrator,
+    period_multiple: u32,
+    segments: usize,
+    scale: StateScale,
+    weights: Vec<f64>,
+    residual: Vec<f64>,
+    /// `G_k` by rows, scaled.
+    segment_matrices: Vec<Vec<f64>>,
+    /// `A_k` by rows, `k = 0..=m`; the first is the identity.
+    products: Vec<Vec<f64>>,
+    /// `g_k` and `a_k`.
+    by_frequency: Vec<Vec<f64>>,
+    frequency_sums: Vec<Vec<f64>>,
+    condensed: Vec<f64>,
+    border: Vec<f64>,
+    lu: DenseLu,
+    touches: Vec<u32>,
+    failure: Option<MotionError>,
+}
+
+impl ShootingProblem {
+    pub fn new(integrator: ExactIntegrator, period_multiple: u32, segments: usize, scale: StateScale) -> Self {
+        let size = scale.values().len();
+        let mut identity = vec![0.0; size * size];
+        (0..size).for_each(|i| identity[i * size + i] = 1.0);
+        let contacts = integrator.touches().len();
+        Self {
+            integrator,
+            period_multiple,
+            segments,
+            // The orbit counts once, whatever the number of nodes.
+            weights: (0..segments * size).map(|_| 1.0 / segments as f64).chain([1.0]).collect(),
+            residual: vec![0.0; segments * size],
+            segment_matrices: vec![vec![0.0; size * size]; segments],
+            products: vec![identity; segments + 1],
+            by_frequency: vec![vec![0.0; size]; segments],
+            frequency_sums: vec![vec![0.0; size]; segments + 1],
+            condensed: vec![0.0; (size + 1) * (size + 1)],
+            border: Vec::new(),
+            lu: DenseLu::new(),
+            touches: vec![0; contacts],
+            failure: None,
+            scale,
+        }
+    }
+
+    /// Entries of a node, 2n.
+    pub fn node_size(&self) -> usize {
+        self.scale.values().len()
+    }
+
+    pub fn segments(&self) -> usize {
+        self.segments
+    }
+
+    pub fn period_multiple(&self) -> u32 {
+        self.period_multiple
+    }
+
+    pub fn scale(&self) -> &StateScale {
+        &self.scale
+    }
+
+    pub fn integrator(&mut self) -> &mut ExactIntegrator {
+        &mut self.integrator
+    }
+
+    /// What went wrong in the last evaluation.
+    pub fn failure(&self) -> Option<&MotionError> {
+        self.failure.as_ref()
+    }
+
+    /// Monodromy matrix at the last evaluated point, by rows, in scaled states.
+    pub fn monodromy(&self) -> &[f64] {
+        &self.products[self.segments]
+    }
+
+    /// Segment k at a frequency.
+    pub fn stretch(&self, segment: usize, frequency_hz: f64) -> Stretch {
+        let period = f64::from(self.period_multiple);
+        let phase = |k: usize| period * k as f64 / self.segments as f64;
+        Stretch { frequency_hz, start: phase(segment), end: phase(segment + 1) }
+    }
+
+    /// Point of the path from states and frequency.
+    pub fn point(&self, nodes: &[Vec<f64>], frequency_hz: f64) -> Vec<f64> {
+        let scaled = nodes.iter().flat_map(|node| node.iter().zip(self.scale.values()).map(|(z, s)| z / s));
+        scaled.chain([frequency_hz]).collect()
+    }
+
+    /// States from a point of the path.
+    pub fn nodes(&self, point: &[f64]) -> Vec<Vec<f64>> {
+        let size = self.node_size();
+        let nodes = point[..self.segments * size].chunks_exact(size);
+        nodes.map(|node| node.iter().zip(self.scale.values()).map(|(x, s)| x * s).collect()).collect()
+    }
+
+    fn evaluate_segment(&mut self, segment: usize, point: &[f64]) -> Result<(), MotionError> {
+        let size = self.node_size();
+        let stretch = self.stretch(segment, point[self.segments * size]);
+        let scales = self.scale.values();
+        let node: Vec<f64> =
+            point[segment * size..(segment + 1) * size].iter().zip(scales).map(|(x, s)| x * s).collect();
+        let flow = self.integrator.flow(&stretch, &node)?;
+        let next = (segment + 1) % self.segments;
+        for i in 0..size {
+            self.residual[segment * size + i] = flow.state[i] / scales[i] - point[next * size + i];
+            self.by_frequency[segment][i] = flow.by_frequency[i] / scales[i];
+        }
+        let matrix = &mut self.segment_matrices[segment];
+        for j in 0..size {
+            for i in 0..size {
+                matrix[i * size + j] = flow.by_state[(i, j)] / scales[i] * scales[j];
+            }
+        }
+        self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
+        Ok(())
+    }
+
+    /// `A_k` and `a_k`.
+    fn accumulate(&mut self) {
+        let size = self.node_size();
+        for k in 0..self.segments {
+            let (before, after) = self.products.split_at_mut(k + 1);
+            let (factor, source, target) = (&self.segment_matrices[k], &before[k], &mut after[0]);
+            if k == 0 {
+                target.copy_from_slice(factor);
+            } else {
+                multiply(size, factor, source, target);
+            }
+            let (before, after) = self.frequency_sums.split_at_mut(k + 1);
+            for i in 0..size {
+                let row = &factor[i * size..(i + 1) * size];
+                let carried: f64 = row.iter().zip(&before[k]).map(|(g, a)| g * a).sum();
+                after[0][i] = carried + self.by_frequency[k][i];
+            }
+        }
+    }
+}
+
+/// `target = factor source` by rows.
+fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
+    target.fill(0.0);
+    for (row, out) in factor.chunks_exact(size).zip(target.chunks_exact_mut(size)) {
+        for (value, from) in row.iter().zip(source.chunks_exact(size)) {
+            out.iter_mut().zip(from).for_each(|(o, s)| *o += value * s);
+        }
+    }
+}
+
+impl PathProblem for ShootingProblem {
+    fn unknowns(&self) -> usize {
+        self.residual.len()
+    }
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.touches.fill(0);
+        self.failure = None;
+        let frequency = point[self.residual.len()];
+        if frequency.is_nan() || frequency <= 0.0 {
+            return Err(EvaluationError::OutsideDomain);
+        }
+        for segment in 0..self.segments {
+            if let Err(error) = self.evaluate_segment(segment, point) {
+                self.failure = Some(error);
+                return Err(EvaluationError::NotFinite);
+            }
+        }
+        self.accumulate();
+        Ok(())
+    }
+
+    fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
+        let size = self.node_size();
+        let width = size + 1;
+        self.border.clear();
+        self.border.extend_from_slice(row);
+        self.condensed.fill(0.0);
+        let monodromy = &self.products[self.segments];
+        for i in 0..size {
+            let target = &mut self.condensed[i * width..(i + 1) * width];
+            target[..size].copy_from_slice(&monodromy[i * size..(i + 1) * size]);
+            target[i] -= 1.0;
+            target[size] = self.frequency_sums[self.segments][i];
+        }
+        let target = &mut self.condensed[size * width..];
+        target[size] = row[self.segments * size];
+        for k in 0..self.segments {
+            for i in 0..size {
+                let border = row[k * size + i];
+                let product = &self.products[k][i * size..(i + 1) * size];
+                target.iter_mut().zip(product).for_each(|(t, a)| *t += border * a);
+                target[size] += border * self.frequency_sums[k][i];
+            }
+        }
+        self.lu.factorise(width, &self.condensed)
+    }
+
+    fn solve(&self, right_hand_side: &mut [f64]) {
+        let (size, m) = (self.node_size(), self.segments);
+        // `s_k`, for k = 1..=m in place of the right-hand sides.
+        for k in 1..m {
+            let (before, after) = right_hand_side.split_at_mut(k * size);
+            let (carried, target) = (&before[(k - 1) * size..], &mut after[..size]);
+            let matrix = &self.segment_matrices[k];
+            for (row, value) in matrix.chunks_exact(size).zip(target) {
+                *value += row.iter().zip(carried).map(|(g, s)| g * s).sum::<f64>();
+            }
+        }
+        let mut condensed = vec![0.0; size + 1];
+        condensed[..size].copy_from_slice(&right_hand_side[(m - 1) * size..m * size]);
+        let carried = (size..m * size).map(|i| self.border[i] * right_hand_side[i - size]).sum::<f64>();
+        condensed[size] = right_hand_side[m * size] + carried;
+        self.lu.solve(&mut condensed);
+        let change = condensed[size];
+        // `d_k = A_k d_0 + a_k df - s_k`, from the last node back since `s_k` stands where `d_{k-1}` goes.
+        for k in (1..m).rev() {
+            for i in 0..size {
+                let row = &self.products[k][i * size..(i + 1) * size];
+                let carried: f64 = row.iter().zip(&condensed).map(|(a, d)| a * d).sum();
+                right_hand_side[k * size + i] =
+                    carried + self.frequency_sums[k][i] * change - right_hand_side[(k - 1) * size + i];
+            }
+        }
+        right_hand_side[..size].copy_from_slice(&condensed[..size]);
+        right_hand_side[m * size] = change;
+    }
+
+    fn signature(&self) -> u64 {
+        // FNV-1a over the numbers of touches; without any, elements may be closed or open throughout.
+        let still = self.touches.iter().all(|&t| t == 0);
+        let closed = if still { self.integrator.closed_throughout() } else { 0 };
+        let words = self.touches.iter().map(|&t| u64::from(t)).chain([closed]);
+        words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
+    }
+}

@@ -1,0 +1,176 @@
+//! One periodic orbit: Newton's method at a fixed frequency, and what is stored of a converged orbit.
+
+use hammerbeam_motion::{
+    Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+};
+use hammerbeam_path::PathProblem;
+
+use crate::{
+    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
+    eigenvalues::eigenvalues,
+    shooting::{ShootingProblem, StateScale},
+};
+
+const MAX_ITERATIONS: u32 = 25;
+
+/// An integrator of the system that observes the response.
+pub(crate) fn integrator(
+    system: &System,
+    response: &Response,
+    settings: &OrbitSettings,
+) -> Result<ExactIntegrator, OrbitError> {
+    let motion = ExactSettings { tolerance: settings.motion_tolerance };
+    let watched = Some((response.shape.as_slice(), response.support_ratio));
+    Ok(ExactIntegrator::watching(system.clone(), motion, watched)?)
+}
+
+/// Scale of the states of an orbit through `state`.
+pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
+    let reference = std::f64::consts::TAU * frequency_hz;
+    let frequencies = &system.model().natural_frequencies;
+    let unit = StateScale::new(frequencies, reference, 1.0);
+    let norm = unit.norm(state);
+    StateScale::new(frequencies, reference, if norm > 0.0 { norm } else { 1.0 })
+}
+
+/// Newton's method at a fixed frequency from `point`, which ends at the orbit; returns the correction that is still due.
+pub(crate) fn correct(
+    problem: &mut ShootingProblem,
+    point: &mut [f64],
+    settings: &OrbitSettings,
+) -> Result<f64, OrbitError> {
+    let last = point.len() - 1;
+    let frequency_hz = point[last];
+    let mut row = vec![0.0; point.len()];
+    row[last] = 1.0;
+    let mut correction = f64::INFINITY;
+    for _ in 0..MAX_ITERATIONS {
+        evaluate(problem, point)?;
+        let failed = OrbitError::NotConverged { frequency_hz, correction, iterations: MAX_ITERATIONS };
+        problem.factorise(&row).map_err(|_| failed.clone())?;
+        let mut update: Vec<f64> = problem.residual().iter().map(|r| -r).chain([0.0]).collect();
+        problem.solve(&mut update);
+        let squares = update.iter().zip(problem.weights()).map(|(u, w)| w * u * u);
+        correction = squares.sum::<f64>().sqrt();
+        if !correction.is_finite() {
+            return Err(failed);
+        }
+        if correction <= settings.tolerance {
+            return Ok(correction);
+        }
+        // A guess that is far off is approached in steps as large as the motion itself.
+        let factor = (1.0 / correction).min(1.0);
+        point[..last].iter_mut().zip(&update).for_each(|(x, u)| *x += factor * u);
+    }
+    Err(OrbitError::NotConverged { frequency_hz, correction, iterations: MAX_ITERATIONS })
+}
+
+/// Evaluates the problem and keeps the reason of a failure.
+pub(crate) fn evaluate(problem: &mut ShootingProblem, point: &[f64]) -> Result<(), OrbitError> {
+    if problem.evaluate(point).is_ok() {
+        return Ok(());
+    }
+    let frequency_hz = point[point.len() - 1];
+    let unknown = OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: 0 };
+    Err(problem.failure().map_or(unknown, |failure| OrbitError::Motion(failure.clone())))
+}
+
+/// The solution at the point where the problem was evaluated last.
+pub(crate) fn solution(
+    problem: &mut ShootingProblem,
+    point: &[f64],
+    error_estimate: f64,
+) -> Result<PeriodicSolution, OrbitError> {
+    let frequency_hz = point[point.len() - 1];
+    let floquet_multipliers = eigenvalues(problem.node_size(), problem.monodromy())?;
+    let residual = problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
+    let nodes = problem.nodes(point);
+    let maxima = observe(problem, &nodes, frequency_hz)?;
+    Ok(PeriodicSolution {
+        frequency_hz,
+        period_multiple: problem.period_multiple(),
+        nodes,
+        floquet_multipliers,
+        residual,
+        error_estimate,
+        maxima,
+    })
+}
+
+fn observe(
+    problem: &mut ShootingProblem,
+    nodes: &[Vec<f64>],
+    frequency_hz: f64,
+) -> Result<OrbitMaxima, OrbitError> {
+    let mut joined = None;
+    for (segment, node) in nodes.iter().enumerate() {
+        let stretch = problem.stretch(segment, frequency_hz);
+        let (_, maxima) = problem.integrator().observe(&stretch, node)?;
+        joined = Some(joined.map_or(maxima, |earlier: hammerbeam_motion::exact::Maxima| earlier.joined(maxima)));
+    }
+    let maxima = joined.unwrap_or_default();
+    Ok(OrbitMaxima {
+        displacement: maxima.displacement,
+        acceleration: maxima.acceleration,
+        contact_force: maxima.contact_force,
+        impact_velocity: maxima.impact_velocity,
+        impulse: maxima.impulse,
+        contacts: maxima.contacts(),
+    })
+}
+
+/// Nodes at equal phases of the motion from `state`.
+pub(crate) fn nodes_from(
+    integrator: &mut ExactIntegrator,
+    state: &[f64],
+    frequency_hz: f64,
+    period_multiple: u32,
+    segments: usize,
+) -> Result<Vec<Vec<f64>>, OrbitError> {
+    let phase = |k: usize| f64::from(period_multiple) * k as f64 / segments as f64;
+    let mut nodes = vec![state.to_vec()];
+    for k in 1..segments {
+        let stretch = Stretch { frequency_hz, start: phase(k - 1), end: phase(k) };
+        nodes.push(integrator.advance(&stretch, &nodes[k - 1])?);
+    }
+    Ok(nodes)
+}
+
+/// Whether the orbit through `state` closes only after all its `period_multiple` excitation periods.
+pub(crate) fn has_minimal_period(
+    integrator: &mut ExactIntegrator,
+    scale: &StateScale,
+    solution: &PeriodicSolution,
+) -> Result<bool, OrbitError> {
+    let multiple = solution.period_multiple;
+    let mut state = solution.nodes[0].clone();
+    for cycle in 1..multiple {
+        let stretch = Stretch { frequency_hz: solution.frequency_hz, start: 0.0, end: 1.0 };
+        state = integrator.advance(&stretch, &state)?;
+        let difference: Vec<f64> = state.iter().zip(&solution.nodes[0]).map(|(a, b)| a - b).collect();
+        if multiple % cycle == 0 && scale.norm(&difference) < 1e-6 * scale.norm(&state).max(1e-3) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Corrects an orbit near `state` at a fixed frequency.
+///
+/// # Errors
+/// [`OrbitError::NotConverged`] if Newton's method fails, [`OrbitError::Motion`] if the motion does.
+pub(crate) fn orbit_near(
+    integrator: ExactIntegrator,
+    state: &[f64],
+    (frequency_hz, period_multiple, segments): (f64, u32, usize),
+    settings: &OrbitSettings,
+) -> Result<(PeriodicSolution, ShootingProblem), OrbitError> {
+    let scale = state_scale(integrator.system(), state, frequency_hz);
+    let mut problem = ShootingProblem::new(integrator, period_multiple, segments, scale);
+    let nodes = nodes_from(problem.integrator(), state, frequency_hz, period_multiple, segments)?;
+    let mut point = problem.point(&nodes, frequency_hz);
+    let correction = correct(&mut problem, &mut point, settings)?;
+    let solution = solution(&mut problem, &point, correction)?;
+    Ok((solution, problem))
+}

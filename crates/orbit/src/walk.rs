@@ -1,0 +1,142 @@
+//! Walking along a branch of periodic orbits, one row at a time.
+
+use hammerbeam_motion::System;
+use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange, Settings, StepOutcome};
+
+use crate::{
+    BranchRow, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    shooting::ShootingProblem,
+    solve::{integrator, nodes_from, solution, state_scale},
+};
+
+/// One side of a branch, followed from its start.
+///
+/// Drive it with [`BranchWalk::step`] until it gives a [`StopReason`]. Between two steps it can be stored with
+/// [`BranchWalk::checkpoint`] and taken up again with [`BranchWalk::resume`]: what follows has the same bits.
+#[derive(Debug)]
+pub struct BranchWalk {
+    pub(crate) problem: ShootingProblem,
+    pub(crate) follower: Follower,
+    /// Accepted points since the last [`BranchWalk::take_journal`].
+    pub(crate) journal: Vec<ContinuationPoint>,
+}
+
+impl BranchWalk {
+    /// Begins at `start` and walks to `side` within `range_hz`.
+    ///
+    /// # Errors
+    /// [`OrbitError::Path`] if the start is outside the range or does not converge.
+    pub fn new(
+        system: &System,
+        response: &Response,
+        start: &PeriodicSolution,
+        side: Side,
+        range_hz: (f64, f64),
+        settings: &OrbitSettings,
+    ) -> Result<Self, OrbitError> {
+        let mut integrator = integrator(system, response, settings)?;
+        let scale = state_scale(system, &start.nodes[0], start.frequency_hz);
+        let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
+        let segments = segment_count(start, settings);
+        let nodes = nodes_from(&mut integrator, &start.nodes[0], frequency, multiple, segments)?;
+        let mut problem = ShootingProblem::new(integrator, multiple, segments, scale);
+        let point = problem.point(&nodes, frequency);
+        let direction = match side {
+            Side::Up => Direction::Increasing,
+            Side::Down => Direction::Decreasing,
+        };
+        let range = ParameterRange::new(range_hz.0, range_hz.1)?;
+        let follower = Follower::start(&mut problem, &point, direction, range, path_settings(settings))?;
+        let journal = vec![follower.current().clone()];
+        Ok(Self { problem, follower, journal })
+    }
+
+    /// The row of the start, to be taken before the first step.
+    ///
+    /// # Errors
+    /// See [`OrbitError`].
+    pub fn start_row(&mut self) -> Result<BranchRow, OrbitError> {
+        let mut row = self.row()?;
+        row.events.start = true;
+        Ok(row)
+    }
+
+    /// Goes to the next solution and appends its row; or says why the walk has ended.
+    ///
+    /// # Errors
+    /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
+    pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
+        match self.follower.step(&mut self.problem) {
+            StepOutcome::Accepted => {
+                let row = self.row()?;
+                self.journal.push(self.follower.current().clone());
+                rows.push(row);
+                Ok(None)
+            }
+            StepOutcome::Stopped(reason) => Ok(Some(self.stop_reason(reason))),
+        }
+    }
+
+    /// Shooting evaluations since the start of the walk.
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.follower.counters().evaluations
+    }
+
+    /// The row of the point at which the problem was evaluated last.
+    fn row(&mut self) -> Result<BranchRow, OrbitError> {
+        let current = self.follower.current();
+        let solution = solution(&mut self.problem, &current.point, current.correction_norm)?;
+        let events = Events {
+            fold: current.events.fold,
+            branch_point: current.events.branch_point,
+            grazing: current.events.signature_change,
+            ..Events::default()
+        };
+        Ok(BranchRow { solution, events })
+    }
+
+    fn stop_reason(&self, reason: hammerbeam_path::StopReason) -> StopReason {
+        let frequency_hz = self.follower.current().parameter();
+        match reason {
+            hammerbeam_path::StopReason::RangeEnd => StopReason::RangeEnd { frequency_hz },
+            hammerbeam_path::StopReason::Closed => StopReason::Closed,
+            hammerbeam_path::StopReason::StepTooShort { parameter, step, residual, .. } => {
+                StopReason::StepTooShort { frequency_hz: parameter, step, residual }
+            }
+            hammerbeam_path::StopReason::RunsBack { parameter, met_arc_length } => {
+                StopReason::RunsBack { frequency_hz: parameter, met_arc_length }
+            }
+            hammerbeam_path::StopReason::EvaluationFailed { parameter, error, .. } => {
+                let message = self.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
+                StopReason::Motion { frequency_hz: parameter, message }
+            }
+            _ => StopReason::Budget { solutions: self.follower.counters().accepted as usize },
+        }
+    }
+}
+
+/// Settings of the path from those of the orbits.
+pub(crate) fn path_settings(settings: &OrbitSettings) -> Settings {
+    Settings {
+        initial_step: 0.1 * settings.max_step_hz,
+        max_parameter_step: settings.max_step_hz,
+        max_step_length: 2.0 * settings.max_step_hz,
+        correction_tolerance: settings.tolerance,
+        max_points: settings.max_solutions as u64,
+        ..Settings::default()
+    }
+}
+
+/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period.
+fn segment_count(start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
+    match settings.segments {
+        Segments::Fixed(count) => count.max(1),
+        Segments::Automatic => {
+            let largest = start.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+            let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;
+            let by_contacts = start.maxima.contacts as usize / 12 + 1;
+            by_growth.max(by_contacts).min(16)
+        }
+    }
+}
