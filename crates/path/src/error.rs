@@ -71,7 +71,7 @@ pub enum Doubt {
     Corrector(CorrectorError),
     /// The tangent turned by more than `max_angle`.
     Angle {
-        /// Angle between the tangents [rad].
+        /// Angle between the tangents, in radians.
         angle: f64,
     },
     /// The determinant says that the path runs backwards here, and there is no branch point between.

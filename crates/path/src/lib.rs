@@ -78,7 +78,6 @@ pub use dense_lu::DenseLu;
 pub use dense_problem::DenseProblem;
 pub use error::{Doubt, PathError, StopReason};
 pub use follower::{Branch, Direction, Follower, StepOutcome, TwoSidedBranch, follow, follow_both};
-pub use memory::PathMemory;
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
 pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian};

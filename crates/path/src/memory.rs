@@ -32,7 +32,7 @@ struct Vertex {
 
 /// All accepted points of one follower in order, indexed by place.
 #[derive(Debug, Clone)]
-pub struct PathMemory {
+pub(crate) struct PathMemory {
     roots: Vec<f64>,
     cell: f64,
     tolerance: f64,
@@ -44,7 +44,7 @@ pub struct PathMemory {
 }
 
 impl PathMemory {
-    pub(crate) fn new(weights: &[f64], settings: &Settings) -> Self {
+    pub fn new(weights: &[f64], settings: &Settings) -> Self {
         let parameter_root = weights[weights.len() - 1].sqrt();
         Self {
             roots: weights.iter().map(|w| w.sqrt()).collect(),
@@ -55,18 +55,6 @@ impl PathMemory {
             heads: HashMap::new(),
             links: Vec::new(),
         }
-    }
-
-    /// Number of remembered points.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.vertices.len()
-    }
-
-    /// Whether nothing is remembered.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.vertices.is_empty()
     }
 
     /// Adds the next accepted point of the branch.
@@ -86,7 +74,7 @@ impl PathMemory {
     }
 
     /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
-    pub(crate) fn meets(&self, candidate: &Candidate, orientation: f64) -> Option<f64> {
+    pub fn meets(&self, candidate: &Candidate, orientation: f64) -> Option<f64> {
         let probe = Vertex {
             place: self.sketch(&candidate.node.point),
             tangent: self.sketch(&candidate.node.tangent),
@@ -320,6 +308,10 @@ mod tests {
         assert!(size_of::<Vertex>() <= 160);
         let memory = helix_memory(0.02);
         let links = memory.links.len() * size_of::<(u32, u32)>();
-        assert!(links <= 40 * memory.len(), "{links} bytes of links for {} points", memory.len());
+        assert!(
+            links <= 40 * memory.vertices.len(),
+            "{links} bytes of links for {} points",
+            memory.vertices.len()
+        );
     }
 }

@@ -66,4 +66,13 @@ pub trait PathProblem {
     fn signature(&self) -> u64 {
         0
     }
+
+    /// Estimated length along the unit tangent from the last evaluated point to the next change of signature ahead;
+    /// infinite if none is in sight or nothing is known.
+    ///
+    /// With it the steps shrink before the change is met, and two changes within one step are not overlooked.
+    fn distance_to_change(&self, tangent: &[f64]) -> f64 {
+        let _ = tangent;
+        f64::INFINITY
+    }
 }

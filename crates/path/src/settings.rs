@@ -61,7 +61,7 @@ pub struct Settings {
     /// Shortest step, some hundred times the `correction_floor`; a turn that is still unresolved at it is taken as a corner, and if that fails too, the
     /// branch stops.
     pub min_step: f64,
-    /// Bound of `θ` [rad].
+    /// Bound of `θ`, in radians.
     pub max_angle: f64,
     /// A point is accepted when the correction that is still due has `‖d‖ ≤ correction_tolerance`
     /// (and `≤ h / 100` at very short steps, as far as `correction_floor` allows).

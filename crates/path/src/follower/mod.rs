@@ -154,6 +154,7 @@ impl Follower {
         let evaluations = self.state.counters.evaluations;
         match self.next_point(problem) {
             Ok(()) => {
+                self.heed_change_ahead(problem);
                 self.state.current.evaluations = self.state.counters.evaluations - evaluations;
                 StepOutcome::Accepted
             }

@@ -4,7 +4,7 @@
 //! Aimed at is half the largest angle and a quarter of the allowed displacement.
 
 use super::{Arrival, Attempts, Follower};
-use crate::{corrector::CorrectorError, error::Doubt, predictor::order};
+use crate::{corrector::CorrectorError, error::Doubt, predictor::order, problem::PathProblem};
 
 /// Steps grow at most by this factor, so that after an event they stay in proportion to the distance from it.
 const MOST_GROWTH: f64 = 2.0;
@@ -20,6 +20,15 @@ impl Follower {
             step = step.min((0.5 * self.state.change_ahead).max(self.settings.signature_step));
         }
         step.max(self.settings.min_step)
+    }
+
+    /// Half the way to the next change of signature at most, if the problem sees it coming.
+    pub(super) fn heed_change_ahead(&mut self, problem: &(impl PathProblem + ?Sized)) {
+        let distance = problem.distance_to_change(&self.state.current.tangent);
+        if distance.is_finite() {
+            let most = (0.5 * distance).max(self.settings.signature_step);
+            self.state.step_length = self.state.step_length.min(most);
+        }
     }
 
     /// `h ≤ max_step_length` and `h (|t_λ| + |t_λ'| h) ≤ max_parameter_step`, with `t_λ'` from the last step.

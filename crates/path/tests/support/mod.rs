@@ -1,5 +1,5 @@
 //! Problems with known paths, and what the tests ask of a followed branch.
-#![allow(dead_code, reason = "each test file uses a part")]
+#![allow(dead_code, clippy::unwrap_used, reason = "each test file uses a part, and tests may panic")]
 
 use hammerbeam_path::{
     Branch, ContinuationPoint, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason,
