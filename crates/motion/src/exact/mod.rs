@@ -208,6 +208,17 @@ impl ExactIntegrator {
         result.map(|()| end)
     }
 
+    /// State of the steady motion without local forces at the start of a stretch (of the motion from rest, where resonant).
+    pub fn steady_state(&mut self, stretch: &Stretch) -> Vec<f64> {
+        let n = self.blocks.count();
+        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
+        let mut block = vec![0.0; 2 * n];
+        self.drive.add_state(0.0, 1.0, &mut block);
+        let mut modal = vec![0.0; 2 * n];
+        self.blocks.to_modal(&block, &mut modal);
+        modal
+    }
+
     /// Flow over a stretch: the state at its end and its sensitivities.
     ///
     /// # Errors

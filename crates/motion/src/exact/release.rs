@@ -107,7 +107,7 @@ impl ExactIntegrator {
         }
         let grading = if half_integer { Grading::Release } else { grading };
         let tolerance = self.settings.tolerance.powf(1.0 / contact.onset_exponent);
-        let mut length = time;
+        let mut length = time.min(remaining);
         for _ in 0..12 {
             let Some(error) = self.attempt(run, length, grading) else { break };
             let jet = self.jet_at_step_end(element);
@@ -116,8 +116,12 @@ impl ExactIntegrator {
                 break;
             }
             let change = -penetration / rate;
-            if change.abs() <= tolerance * length || (length >= remaining && change > 0.0) {
+            if change.abs() <= tolerance * length {
                 return ReleaseStep::Solved(error);
+            }
+            if length >= remaining && change > 0.0 {
+                // The stretch ends before the contact does.
+                break;
             }
             length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
             if length > self.series.reach() {
