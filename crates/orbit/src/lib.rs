@@ -1,7 +1,9 @@
 //! Periodic orbits by multiple shooting, their Floquet multipliers and their branches.
 
+mod checkpoint;
 mod eigenvalues;
 mod error;
+mod find;
 mod settings;
 mod shooting;
 mod solution;
@@ -11,6 +13,7 @@ mod walk;
 
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
+pub use find::find_orbits;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 pub use start::find_start;

@@ -33,6 +33,11 @@ impl StateScale {
         Self { scales: displacement.chain(velocities).collect() }
     }
 
+    /// The scale with these [`StateScale::values`].
+    pub fn from_values(scales: Vec<f64>) -> Self {
+        Self { scales }
+    }
+
     /// Scales, one per entry of a state.
     pub fn values(&self) -> &[f64] {
         &self.scales
@@ -98,6 +103,7 @@ impl ShootingProblem {
         self.scale.values().len()
     }
 
+    /// Number of segments m.
     pub fn segments(&self) -> usize {
         self.segments
     }

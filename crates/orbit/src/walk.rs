@@ -77,6 +77,21 @@ impl BranchWalk {
         }
     }
 
+    /// Goes to the next solution but gives only its frequency and first node.
+    pub(crate) fn step_without_maxima(
+        &mut self,
+        states: &mut Vec<(f64, Vec<f64>)>,
+    ) -> Result<Option<StopReason>, OrbitError> {
+        match self.follower.step(&mut self.problem) {
+            StepOutcome::Accepted => {
+                let current = self.follower.current();
+                states.push((current.parameter(), self.problem.nodes(&current.point).swap_remove(0)));
+                Ok(None)
+            }
+            StepOutcome::Stopped(reason) => Ok(Some(self.stop_reason(reason))),
+        }
+    }
+
     /// Shooting evaluations since the start of the walk.
     #[must_use]
     pub fn evaluations(&self) -> u64 {

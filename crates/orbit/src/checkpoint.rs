@@ -1,0 +1,200 @@
+//! Storing a walk between two steps, and taking it up again with the same bits.
+//!
+//! A walk is stored in two parts: the *checkpoint*, all that the follower knows (a few kilobytes, replaced every time), and the *journal*, the
+//! accepted points by which the follower recognises a stretch that it has walked before (appended to). All numbers are
+//! little-endian, floats by their bits.
+
+use hammerbeam_motion::System;
+use hammerbeam_path::{Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange};
+
+use crate::{
+    BranchWalk, OrbitError, OrbitSettings, Response,
+    shooting::{ShootingProblem, StateScale},
+    solve::integrator,
+    walk::path_settings,
+};
+
+/// First word of a checkpoint; the last digit is the version of the format.
+const MAGIC: u64 = 0x4842_5741_4c4b_0001;
+
+impl BranchWalk {
+    /// All that is needed, beside the journal, to go on from the present point.
+    #[must_use]
+    pub fn checkpoint(&self) -> Vec<u8> {
+        let mut out = Writer::default();
+        let state = self.follower.checkpoint();
+        out.word(MAGIC);
+        out.word(u64::from(self.problem.period_multiple()));
+        out.word(self.problem.segments() as u64);
+        out.floats(self.problem.scale().values());
+        out.point(&state.current);
+        out.point(&state.start);
+        out.word(state.history.used as u64);
+        out.word(state.history.nodes.len() as u64);
+        for node in &state.history.nodes {
+            out.floats(&node.point);
+            out.floats(&node.tangent);
+        }
+        for value in [state.step_length, state.orientation, state.parameter_sign, state.change_ahead] {
+            out.float(value);
+        }
+        let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
+        [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
+        out.bytes
+    }
+
+    /// The points accepted since the journal was taken last, the start first.
+    #[must_use]
+    pub fn take_journal(&mut self) -> Vec<u8> {
+        let mut out = Writer::default();
+        self.journal.drain(..).for_each(|point| out.point(&point));
+        out.bytes
+    }
+
+    /// Takes up a walk from its checkpoint and the whole of its journal.
+    ///
+    /// # Errors
+    /// [`OrbitError::Checkpoint`] if the bytes do not belong to a walk of this system; [`OrbitError::Path`] for an empty range.
+    pub fn resume(
+        system: &System,
+        response: &Response,
+        (checkpoint, journal): (&[u8], &[u8]),
+        range_hz: (f64, f64),
+        settings: &OrbitSettings,
+    ) -> Result<Self, OrbitError> {
+        let mut reader = Reader { bytes: checkpoint };
+        let (problem, state) =
+            read(&mut reader, system, response, settings).ok_or(OrbitError::Checkpoint)??;
+        let range = ParameterRange::new(range_hz.0, range_hz.1)?;
+        let mut follower = Follower::resume(&problem, state, range, path_settings(settings));
+        let mut reader = Reader { bytes: journal };
+        while !reader.bytes.is_empty() {
+            follower.remember(&reader.point().ok_or(OrbitError::Checkpoint)?);
+        }
+        Ok(Self { problem, follower, journal: Vec::new() })
+    }
+}
+
+/// Problem and follower state of a checkpoint; `None` if the bytes do not fit.
+fn read(
+    reader: &mut Reader<'_>,
+    system: &System,
+    response: &Response,
+    settings: &OrbitSettings,
+) -> Option<Result<(ShootingProblem, Checkpoint), OrbitError>> {
+    if reader.word()? != MAGIC {
+        return None;
+    }
+    let period_multiple = u32::try_from(reader.word()?).ok()?;
+    let segments = usize::try_from(reader.word()?).ok()?;
+    let scale = StateScale::from_values(reader.floats()?);
+    if scale.values().len() != 2 * system.dof() {
+        return None;
+    }
+    let integrator = match integrator(system, response, settings) {
+        Ok(integrator) => integrator,
+        Err(error) => return Some(Err(error)),
+    };
+    let (current, start) = (reader.point()?, reader.point()?);
+    let used = usize::try_from(reader.word()?).ok()?;
+    let mut nodes = Vec::new();
+    for _ in 0..reader.word()? {
+        nodes.push(Node { point: reader.floats()?, tangent: reader.floats()? });
+    }
+    let history = History { nodes, used };
+    let state = Checkpoint {
+        current,
+        start,
+        history,
+        step_length: reader.float()?,
+        orientation: reader.float()?,
+        parameter_sign: reader.float()?,
+        change_ahead: reader.float()?,
+        counters: Counters {
+            evaluations: reader.word()?,
+            factorisations: reader.word()?,
+            accepted: reader.word()?,
+            rejected: reader.word()?,
+        },
+        stop: None,
+    };
+    reader.bytes.is_empty().then(|| Ok((ShootingProblem::new(integrator, period_multiple, segments, scale), state)))
+}
+
+#[derive(Default)]
+struct Writer {
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    fn word(&mut self, value: u64) {
+        self.bytes.extend_from_slice(&value.to_le_bytes());
+    }
+
+    fn float(&mut self, value: f64) {
+        self.word(value.to_bits());
+    }
+
+    fn floats(&mut self, values: &[f64]) {
+        self.word(values.len() as u64);
+        values.iter().for_each(|&value| self.float(value));
+    }
+
+    fn point(&mut self, point: &ContinuationPoint) {
+        self.floats(&point.point);
+        self.floats(&point.tangent);
+        for value in [point.arc_length, point.orientation, point.log_determinant] {
+            self.float(value);
+        }
+        self.word(point.signature);
+        self.float(point.correction_norm);
+        self.float(point.residual_norm);
+        let Events { fold, branch_point, signature_change, corner } = point.events;
+        let bits = [fold, branch_point, signature_change, corner];
+        self.word(bits.iter().enumerate().map(|(i, &set)| u64::from(set) << i).sum());
+        self.word(point.evaluations);
+    }
+}
+
+struct Reader<'a> {
+    bytes: &'a [u8],
+}
+
+impl Reader<'_> {
+    fn word(&mut self) -> Option<u64> {
+        let (word, rest) = self.bytes.split_first_chunk::<8>()?;
+        self.bytes = rest;
+        Some(u64::from_le_bytes(*word))
+    }
+
+    fn float(&mut self) -> Option<f64> {
+        self.word().map(f64::from_bits)
+    }
+
+    fn floats(&mut self) -> Option<Vec<f64>> {
+        let length = usize::try_from(self.word()?).ok()?;
+        if length > self.bytes.len() / 8 {
+            return None;
+        }
+        (0..length).map(|_| self.float()).collect()
+    }
+
+    fn point(&mut self) -> Option<ContinuationPoint> {
+        Some(ContinuationPoint {
+            point: self.floats()?,
+            tangent: self.floats()?,
+            arc_length: self.float()?,
+            orientation: self.float()?,
+            log_determinant: self.float()?,
+            signature: self.word()?,
+            correction_norm: self.float()?,
+            residual_norm: self.float()?,
+            events: {
+                let bits = self.word()?;
+                let set = |bit: u64| bits >> bit & 1 == 1;
+                Events { fold: set(0), branch_point: set(1), signature_change: set(2), corner: set(3) }
+            },
+            evaluations: self.word()?,
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! All orbits that can be found at one frequency.
+//!
+//! Three sources, none of which needs a guess: motion that has settled, from several starts; near-returns of motion that has not settled,
+//! which Newton's method takes to unstable orbits; and the crossings of that frequency by the branch of any orbit found within the range.
+
+use hammerbeam_motion::{Stretch, System};
+
+use crate::{
+    BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
+    solve::{integrator, state_scale},
+    start::{attempt, find_start, simulate, starting_states},
+};
+
+/// Periods after which a motion is taken as settled or as never settling.
+const SETTLING: usize = 256;
+/// Periods searched for near-returns.
+const RETURNS: usize = 160;
+/// Near-returns tried per start.
+const TRIED: usize = 8;
+/// Frequencies at which a start of the branch is looked for, as parts of the range.
+const LADDER: [f64; 9] = [0.5, 0.25, 0.75, 0.125, 0.875, 0.375, 0.625, 0.0, 1.0];
+
+/// Finds the orbits of minimal period `period_multiple` at `frequency_hz`: stable before unstable, then largest displacement first.
+///
+/// * `range_hz`: the frequencies within which branches are followed.
+///
+/// # Errors
+/// [`OrbitError::Motion`] if the motion cannot be computed; finding nothing is an empty list.
+pub fn find_orbits(
+    system: &System,
+    response: &Response,
+    (frequency_hz, period_multiple): (f64, u32),
+    range_hz: (f64, f64),
+    settings: &OrbitSettings,
+) -> Result<Vec<PeriodicSolution>, OrbitError> {
+    let mut search = Search { system, response, frequency_hz, period_multiple, settings, found: Vec::new() };
+    for start in starting_states(system, response, frequency_hz, settings)? {
+        search.from_motion(&start)?;
+    }
+    search.from_branches(range_hz)?;
+    let mut found = search.found;
+    found.sort_by(|x, y| {
+        y.stable().cmp(&x.stable()).then(y.maxima.displacement.total_cmp(&x.maxima.displacement))
+    });
+    Ok(found)
+}
+
+struct Search<'a> {
+    system: &'a System,
+    response: &'a Response,
+    frequency_hz: f64,
+    period_multiple: u32,
+    settings: &'a OrbitSettings,
+    found: Vec<PeriodicSolution>,
+}
+
+impl Search<'_> {
+    /// Newton's method from `state`; keeps what is new.
+    fn try_state(&mut self, state: &[f64]) -> Result<(), OrbitError> {
+        let orbit = (self.frequency_hz, self.period_multiple);
+        if let Some(solution) = attempt(self.system, self.response, state, orbit, self.settings)?
+            && !self.knows(&solution)?
+        {
+            self.found.push(solution);
+        }
+        Ok(())
+    }
+
+    /// Whether the orbit is known already, perhaps from another excitation period on.
+    fn knows(&self, solution: &PeriodicSolution) -> Result<bool, OrbitError> {
+        let mut integrator = integrator(self.system, self.response, self.settings)?;
+        let scale = state_scale(self.system, &solution.nodes[0], self.frequency_hz);
+        let mut state = solution.nodes[0].clone();
+        for _ in 0..self.period_multiple {
+            let same = |known: &PeriodicSolution| {
+                let difference: Vec<f64> = known.nodes[0].iter().zip(&state).map(|(a, b)| a - b).collect();
+                scale.norm(&difference) < 1e-6
+            };
+            if self.found.iter().any(same) {
+                return Ok(true);
+            }
+            simulate(&mut integrator, &mut state, self.frequency_hz, 1)?;
+        }
+        Ok(false)
+    }
+
+    /// Where a motion settles, and its near-returns.
+    fn from_motion(&mut self, start: &[f64]) -> Result<(), OrbitError> {
+        let mut integrator = integrator(self.system, self.response, self.settings)?;
+        let mut state = start.to_vec();
+        if self.period_multiple == 1 {
+            self.try_state(start)?;
+        }
+        if simulate(&mut integrator, &mut state, self.frequency_hz, SETTLING).is_err() {
+            return Ok(());
+        }
+        let mut states = vec![state];
+        let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
+        for k in 0..RETURNS {
+            let Ok(next) = integrator.advance(&stretch, &states[k]) else { return Ok(()) };
+            states.push(next);
+        }
+        let scale = state_scale(self.system, &states[0], self.frequency_hz);
+        let lag = self.period_multiple as usize;
+        let distance = |k: usize| {
+            let difference: Vec<f64> = states[k + lag].iter().zip(&states[k]).map(|(a, b)| a - b).collect();
+            scale.norm(&difference)
+        };
+        let mut returns: Vec<(f64, usize)> = (0..states.len() - lag).map(|k| (distance(k), k)).collect();
+        returns.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let tried = if returns[0].0 < 1e-6 { 1 } else { TRIED };
+        for &(_, k) in returns.iter().take(tried) {
+            self.try_state(&states[k])?;
+        }
+        Ok(())
+    }
+
+    /// Crossings of the frequency by branches.
+    fn from_branches(&mut self, range_hz: (f64, f64)) -> Result<(), OrbitError> {
+        let starts = if self.found.is_empty() { self.start_elsewhere(range_hz) } else { self.found.clone() };
+        for start in starts {
+            for side in [Side::Up, Side::Down] {
+                self.crossings(&start, side, range_hz)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn start_elsewhere(&self, (low, high): (f64, f64)) -> Vec<PeriodicSolution> {
+        let start = |part: &f64| {
+            let frequency_hz = low + part * (high - low);
+            find_start(self.system, self.response, frequency_hz, self.period_multiple, self.settings).ok()
+        };
+        LADDER.iter().find_map(start).into_iter().collect()
+    }
+
+    fn crossings(&mut self, start: &PeriodicSolution, side: Side, range_hz: (f64, f64)) -> Result<(), OrbitError> {
+        let range = (range_hz.0.min(self.frequency_hz), range_hz.1.max(self.frequency_hz));
+        let Ok(mut walk) = BranchWalk::new(self.system, self.response, start, side, range, self.settings) else {
+            return Ok(());
+        };
+        let mut rows = Vec::new();
+        let mut before = (start.frequency_hz, start.nodes[0].clone());
+        while let Ok(None) = walk.step_without_maxima(&mut rows) {
+            let Some((frequency, state)) = rows.pop() else { continue };
+            let (from, to) = (before.0 - self.frequency_hz, frequency - self.frequency_hz);
+            if from * to <= 0.0 && from != to {
+                let share = from / (from - to);
+                let guess: Vec<f64> = before.1.iter().zip(&state).map(|(a, b)| a + share * (b - a)).collect();
+                self.try_state(&guess)?;
+            }
+            before = (frequency, state);
+        }
+        Ok(())
+    }
+}
