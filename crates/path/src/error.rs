@@ -63,33 +63,66 @@ pub enum StopReason {
     },
 }
 
+impl std::fmt::Display for StopReason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::RangeEnd => write!(f, "end of the range"),
+            Self::Closed => write!(f, "closed path"),
+            Self::Budget => write!(f, "largest number of points reached"),
+            Self::StepTooShort { parameter, step, residual, doubt } => {
+                write!(
+                    f,
+                    "no step from parameter {parameter}: at step {step:.1e}, residual {residual:.1e}: {doubt}"
+                )
+            }
+            Self::EvaluationFailed { parameter, step, error } => {
+                write!(f, "no step from parameter {parameter}: at step {step:.1e}: {error}")
+            }
+            Self::RunsBack { parameter, met_arc_length } => {
+                write!(
+                    f,
+                    "from parameter {parameter} on a stretch walked before, at arc length {met_arc_length}"
+                )
+            }
+        }
+    }
+}
+
 /// What was wrong with a candidate for the next point; the step is then shortened.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Doubt {
     /// The corrector failed.
+    #[error(transparent)]
     Corrector(CorrectorError),
     /// The tangent turned by more than `max_angle`.
+    #[error("the tangent turns by {angle:.2} rad")]
     Angle {
         /// Angle between the tangents, in radians.
         angle: f64,
     },
     /// The determinant says that the path runs backwards here, and there is no branch point between.
+    #[error("the path runs backwards and there is no branch point between")]
     Reversed,
     /// Chord and tangents do not belong to one smooth arc.
+    #[error("chord and tangents do not belong to one arc, they differ by {defect:.1e}")]
     Defect {
         /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖`.
         defect: f64,
     },
     /// The signature changed within a step longer than `signature_step`.
+    #[error("the signature changes within the step")]
     Signature,
     /// The parameter seems to turn twice between the points.
+    #[error("the parameter turns twice within the step")]
     HiddenFolds,
     /// The candidate lies on a stretch that was already walked.
+    #[error("the stretch at arc length {arc_length} was walked before")]
     Retraced {
         /// Arc length of that stretch.
         arc_length: f64,
     },
     /// A fold or branch point between the points could not be located.
+    #[error("an event within the step was not located")]
     NotLocated,
 }

@@ -79,6 +79,9 @@ struct Attempts {
     most_earlier: usize,
 }
 
+/// So many halvings of a step that meets an old stretch are enough to know that the jump was made earlier.
+const MOST_RETRACED: u32 = 8;
+
 impl Follower {
     /// The point accepted last; the start before the first step.
     #[must_use]
@@ -201,7 +204,7 @@ impl Follower {
 
     fn give_up_if_retraced(&self, doubt: Doubt, step: f64, attempts: Attempts) -> Result<(), StopReason> {
         let Doubt::Retraced { arc_length } = doubt else { return Ok(()) };
-        if step < self.settings.signature_step || attempts.retraced > 8 {
+        if step < self.settings.min_step || attempts.retraced > MOST_RETRACED {
             let parameter = self.state.current.parameter();
             return Err(StopReason::RunsBack { parameter, met_arc_length: arc_length });
         }
