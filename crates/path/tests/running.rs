@@ -3,7 +3,7 @@
 mod support;
 
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, DenseProblem, Direction, EvaluationError, Follower, PathError,
+    Checkpoint, ContinuationPoint, DenseProblem, Direction, EvaluationError, Events, Follower, PathError,
     PathProblem, Settings, StepOutcome, StopReason, follow,
 };
 use support::*;
@@ -81,30 +81,42 @@ fn a_resumed_run_repeats_the_uninterrupted_one_bit_by_bit() {
     }
 }
 
-#[test]
-fn the_problem_is_left_evaluated_at_every_accepted_point() {
-    let mut last = vec![];
+/// Follows `f` and checks at each point that the problem was evaluated last exactly there; returns the events seen.
+fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> Events {
     let seen = std::cell::RefCell::new(vec![]);
     let mut problem = DenseProblem::new(1, |z: &[f64], r: &mut [f64], j: &mut [f64]| {
         seen.replace(z.to_vec());
-        let (value, dx, dl, signature) = rough(z[0], z[1]);
+        let (value, dx, dl, signature) = f(z[0], z[1]);
         r[0] = value;
         j.copy_from_slice(&[dx, dl]);
         signature
     });
-    let mut follower = Follower::start(
-        &mut problem,
-        &[0.0, 0.0],
-        Direction::Increasing,
-        range(-1.0, 1.0),
-        Settings::default(),
-    )
-    .unwrap();
+    let limits = range(-1.0, 1.0);
+    let mut follower =
+        Follower::start(&mut problem, &start, Direction::Increasing, limits, Settings::default()).unwrap();
+    let mut events = Events::default();
     while follower.step(&mut problem) == StepOutcome::Accepted {
-        last = follower.current().point.clone();
-        assert_eq!(*seen.borrow(), last);
+        let point = follower.current();
+        assert_eq!(*seen.borrow(), point.point, "{:?}", point.events);
+        events.fold |= point.events.fold;
+        events.branch_point |= point.events.branch_point;
+        events.signature_change |= point.events.signature_change;
+        events.corner |= point.events.corner;
     }
-    assert_eq!(last[1], 1.0);
+    assert!(matches!(follower.stop_reason(), Some(StopReason::RangeEnd | StopReason::Closed)));
+    events
+}
+
+#[test]
+fn the_problem_is_left_evaluated_at_every_accepted_point() {
+    let circle: Implicit = |x, l| (x * x + l * l - 0.5, 2.0 * x, 2.0 * l, 0);
+    let transcritical: Implicit = |x, l| (l * x - x * x, l - 2.0 * x, x, 0);
+    let corner: Implicit = |x, l| (-x.abs() - l, -x.signum(), -1.0, u64::from(x > 0.0));
+    assert!(events_evaluated_in_place(rough, [0.0, 0.0]).signature_change);
+    assert!(events_evaluated_in_place(circle, [0.5, 0.5]).fold);
+    assert!(events_evaluated_in_place(transcritical, [0.0, -0.77]).branch_point);
+    assert!(events_evaluated_in_place(transcritical, [0.0, -0.5]).branch_point);
+    assert!(events_evaluated_in_place(corner, [-0.5, -0.5]).corner);
 }
 
 #[test]
