@@ -93,7 +93,8 @@ fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> Events {
     });
     let limits = range(-1.0, 1.0);
     let mut follower =
-        Follower::start(&mut problem, &start, Direction::Increasing, limits, Settings::default()).unwrap();
+        Follower::start(&mut problem, &start, Direction::Increasing, limits, Settings::default())
+            .expect("on the path");
     let mut events = Events::default();
     while follower.step(&mut problem) == StepOutcome::Accepted {
         let point = follower.current();
