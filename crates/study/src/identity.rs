@@ -15,6 +15,7 @@ impl Study {
         let value = serde_json::to_value(self).expect("a study is plain data with text keys");
         let mut lines = Vec::new();
         flatten("", &value, &mut lines);
+        lines.sort_unstable();
         lines.join("\n")
     }
 

@@ -1,0 +1,91 @@
+//! A solver without mechanics: branches that are plain curves, for tests of running and storing.
+
+use hammerbeam_orbit::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
+
+use super::{Solver, Walk};
+
+/// One branch for each period multiple of 1 and 2; the harmonic one overhangs.
+pub(crate) struct FakeSolver {
+    pub range_hz: [f64; 2],
+    pub step: f64,
+    /// Length of the states it makes.
+    pub state_length: usize,
+    /// Shooting nodes for each solution.
+    pub segments: usize,
+}
+
+impl Default for FakeSolver {
+    fn default() -> Self {
+        Self { range_hz: [10.0, 20.0], step: 0.01, state_length: 4, segments: 2 }
+    }
+}
+
+impl FakeSolver {
+    /// The solution at arc length `s`: frequency `15 + s + 2 sin s` for the harmonic branch.
+    fn solution(&self, multiple: u32, s: f64) -> PeriodicSolution {
+        let overhang = if multiple == 1 { 2.0 * s.sin() } else { 0.0 };
+        let frequency_hz = (15.0 + s + overhang).clamp(self.range_hz[0], self.range_hz[1]);
+        let displacement = f64::from(multiple) * (1.0 + 0.1 * (0.7 * s).cos());
+        let node = |segment: usize| {
+            (0..self.state_length).map(|i| (s + (segment * self.state_length + i) as f64).sin()).collect()
+        };
+        PeriodicSolution {
+            frequency_hz,
+            period_multiple: multiple,
+            nodes: (0..self.segments).map(node).collect(),
+            floquet_multipliers: vec![[(3.0 * s).sin() * 1.2, 0.25], [0.5, -0.25]],
+            residual: 1e-12,
+            error_estimate: 1e-10,
+            maxima: OrbitMaxima { displacement, acceleration: 10.0 * displacement, ..OrbitMaxima::default() },
+        }
+    }
+}
+
+impl Solver for FakeSolver {
+    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String> {
+        match period_multiple {
+            1 => Ok(self.solution(1, 0.0)),
+            2 => Ok(self.solution(2, frequency_hz - 15.0)),
+            other => Err(format!("no solution of {other} periods")),
+        }
+    }
+
+    fn begin<'a>(&'a self, start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+        let at = if start.period_multiple == 1 { 0.0 } else { start.frequency_hz - 15.0 };
+        let steps = (at / self.step).round() as i64;
+        let direction = if side == Side::Up { 1 } else { -1 };
+        Ok(Box::new(FakeWalk { solver: self, multiple: start.period_multiple, steps, direction }))
+    }
+
+    fn resume<'a>(&'a self, checkpoint: &[u8]) -> Result<Box<dyn Walk + 'a>, String> {
+        let number = |index: usize| {
+            let bytes = checkpoint.get(8 * index..8 * index + 8).ok_or("the checkpoint is too short")?;
+            Ok::<i64, String>(i64::from_le_bytes(bytes.try_into().expect("eight bytes")))
+        };
+        let multiple = u32::try_from(number(0)?).map_err(|error| error.to_string())?;
+        Ok(Box::new(FakeWalk { solver: self, multiple, steps: number(1)?, direction: number(2)? }))
+    }
+}
+
+struct FakeWalk<'a> {
+    solver: &'a FakeSolver,
+    multiple: u32,
+    steps: i64,
+    direction: i64,
+}
+
+impl Walk for FakeWalk<'_> {
+    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Option<StopReason> {
+        self.steps += self.direction;
+        let solution = self.solver.solution(self.multiple, self.steps as f64 * self.solver.step);
+        let frequency_hz = solution.frequency_hz;
+        let fold = self.multiple == 1 && self.steps % 209 == 0;
+        rows.push(BranchRow { solution, events: Events { fold, ..Events::default() } });
+        let [low, high] = self.solver.range_hz;
+        (frequency_hz <= low || frequency_hz >= high).then_some(StopReason::RangeEnd { frequency_hz })
+    }
+
+    fn checkpoint(&self) -> Vec<u8> {
+        [i64::from(self.multiple), self.steps, self.direction].iter().flat_map(|n| n.to_le_bytes()).collect()
+    }
+}

@@ -1,0 +1,114 @@
+//! Following one side of a branch into the store.
+
+use std::time::{Duration, Instant};
+
+use hammerbeam_orbit::{BranchRow, Side, StopReason};
+
+use super::{
+    Observer, Plan, Progress, RunError, Solver, Walk,
+    runner::{Done, Ended},
+};
+use crate::store::{Continuation, Store, StoredReason};
+
+/// Solutions are committed together after this time,
+const COMMIT_AFTER: Duration = Duration::from_millis(500);
+/// or when there are so many of them.
+const COMMIT_AT: usize = 2000;
+
+/// One side of a branch, from where the store has it.
+pub(super) struct Follow<'a> {
+    pub store: &'a mut Store,
+    pub solver: &'a dyn Solver,
+    pub plan: &'a Plan,
+    pub branch: u32,
+    pub period_multiple: u32,
+    pub side: Side,
+}
+
+impl Follow<'_> {
+    /// Follows the side until it ends or the observer says stop.
+    pub(super) fn run(&mut self, done: &mut Done, observer: &mut dyn Observer) -> Result<Ended, RunError> {
+        let mut stored = self.store.walk(self.branch, self.side)?.solutions;
+        let solver = self.solver;
+        let mut walk = self.open(solver)?;
+        loop {
+            let (rows, reason) = self.stretch(walk.as_mut(), stored, done, observer);
+            stored += rows.len() as u64;
+            self.commit(&rows, walk.as_ref(), reason.as_ref())?;
+            if let Some(reason) = reason {
+                observer.walk_ended(self.branch, self.side, &reason);
+                return Ok(Ended::Finished);
+            }
+            if observer.interrupted() {
+                return Ok(Ended::Interrupted);
+            }
+        }
+    }
+
+    /// The walk where the store has left it.
+    fn open<'s>(&self, solver: &'s dyn Solver) -> Result<Box<dyn Walk + 's>, RunError> {
+        let failed = |message| RunError::Walk { branch: self.branch, message };
+        if let Some(checkpoint) = self.store.checkpoint(self.branch, self.side)? {
+            return solver.resume(&checkpoint).map_err(failed);
+        }
+        let start = self.store.solution(self.branch, Side::Up, 0)?;
+        solver.begin(&start, self.side).map_err(failed)
+    }
+
+    /// Solutions to be committed together, and why the walk ended with them if it did.
+    fn stretch(
+        &self,
+        walk: &mut dyn Walk,
+        stored: u64,
+        done: &mut Done,
+        observer: &mut dyn Observer,
+    ) -> (Vec<BranchRow>, Option<StoredReason>) {
+        let begun = Instant::now();
+        let mut rows = Vec::new();
+        loop {
+            if stored + rows.len() as u64 >= self.plan.budget {
+                let reason = StopReason::Budget { solutions: self.plan.budget as usize };
+                return (rows, Some(StoredReason::of(&reason)));
+            }
+            let before = rows.len();
+            let reason = walk.step(&mut rows);
+            self.tell(&rows[before..], done, observer);
+            if let Some(reason) = reason {
+                return (rows, Some(StoredReason::of(&reason)));
+            }
+            if rows.len() >= COMMIT_AT || begun.elapsed() >= COMMIT_AFTER || observer.interrupted() {
+                return (rows, None);
+            }
+        }
+    }
+
+    fn tell(&self, rows: &[BranchRow], done: &mut Done, observer: &mut dyn Observer) {
+        let Some(newest) = rows.last() else { return };
+        let frequency_hz = newest.solution.frequency_hz;
+        done.add(rows.len() as u64, frequency_hz);
+        observer.progress(&Progress {
+            branch: self.branch,
+            period_multiple: self.period_multiple,
+            side: self.side,
+            frequency_hz,
+            new_solutions: done.new_solutions,
+            solutions: done.solutions,
+            fraction: done.fraction(),
+        });
+    }
+
+    fn commit(
+        &mut self,
+        rows: &[BranchRow],
+        walk: &dyn Walk,
+        reason: Option<&StoredReason>,
+    ) -> Result<(), RunError> {
+        let checkpoint = walk.checkpoint();
+        let continuation = match reason {
+            None => Continuation::Checkpoint(&checkpoint),
+            Some(reason) if reason.is_budget() => Continuation::Paused(reason, &checkpoint),
+            Some(reason) => Continuation::Ended(reason),
+        };
+        Ok(self.store.append(self.branch, self.side, rows, continuation)?)
+    }
+}

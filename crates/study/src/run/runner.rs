@@ -1,0 +1,190 @@
+//! The whole run.
+
+use hammerbeam_orbit::Side;
+
+use super::{Observer, Plan, Solver, Target, follow::Follow, known};
+use crate::store::{BranchRecord, Store, StoreError, StoredReason, WalkRecord};
+
+/// How a run came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RunOutcome {
+    /// Everything the study asks for was looked for; what stopped early is told by its reason.
+    Done,
+    /// The observer said stop; the same run goes on when it is started again.
+    Interrupted,
+}
+
+/// Why a run cannot go on.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum RunError {
+    /// The store refuses.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// A stored start or checkpoint is of no use.
+    #[error("branch {branch} cannot be followed: {message}")]
+    Walk { branch: u32, message: String },
+}
+
+/// Whether a walk came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ended {
+    Finished,
+    Interrupted,
+}
+
+/// Runs what is left of a plan.
+///
+/// # Errors
+/// [`RunError`]; what was stored before stays.
+pub fn run(
+    store: &mut Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> Result<RunOutcome, RunError> {
+    let mut done = Done::new(store, plan)?;
+    for (index, target) in plan.targets.iter().enumerate() {
+        done.begin_target(index);
+        let branch = match searched(store, target)? {
+            Some(branch) => branch,
+            None if observer.interrupted() => return Ok(RunOutcome::Interrupted),
+            None => search(store, solver, target, observer)?,
+        };
+        let Some(branch) = branch else { continue };
+        if follow_branch(store, solver, plan, branch, &mut done, observer)? == Ended::Interrupted {
+            return Ok(RunOutcome::Interrupted);
+        }
+    }
+    Ok(RunOutcome::Done)
+}
+
+/// What came of a target before: the branch that began there, if one did; `None` if the search is still to be made.
+fn searched(store: &Store, target: &Target) -> Result<Option<Option<u32>>, RunError> {
+    if let Some((branch, _)) = store.search_outcome(target.period_multiple, target.frequency_hz)? {
+        return Ok(Some(branch));
+    }
+    let there = |branch: &BranchRecord| branch.period_multiple == target.period_multiple;
+    let superfluous = target.only_without_branch && store.branches()?.iter().any(there);
+    Ok(superfluous.then_some(None))
+}
+
+/// Looks for a start; the new branch, if there is one.
+fn search(
+    store: &mut Store,
+    solver: &dyn Solver,
+    target: &Target,
+    observer: &mut dyn Observer,
+) -> Result<Option<u32>, RunError> {
+    observer.searching(target);
+    let outcome = match solver.find_start(target.frequency_hz, target.period_multiple) {
+        Err(message) => message,
+        Ok(start) => match known::branch_of(store, &start)? {
+            Some(branch) => format!("on branch {branch}"),
+            None => {
+                let branch = store.begin_branch(target.frequency_hz, &start)?;
+                observer.branch_begun(branch, &start);
+                return Ok(Some(branch));
+            }
+        },
+    };
+    store.note_search(target.period_multiple, target.frequency_hz, &outcome)?;
+    observer.nothing_found(target, &outcome);
+    Ok(None)
+}
+
+/// Follows both sides of a branch as far as they are not finished.
+fn follow_branch(
+    store: &mut Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+    branch: u32,
+    done: &mut Done,
+    observer: &mut dyn Observer,
+) -> Result<Ended, RunError> {
+    let records = store.branches()?;
+    let record = records.iter().find(|record| record.id == branch).expect("the branch was just stored");
+    let period_multiple = record.period_multiple;
+    for side in [Side::Up, Side::Down] {
+        done.begin_side(side);
+        if is_finished(&store.walk(branch, side)?, plan) {
+            continue;
+        }
+        let up = store.walk(branch, Side::Up)?;
+        if side == Side::Down
+            && let Some(reason) = up.reason.filter(StoredReason::is_closed)
+        {
+            store.append(branch, side, &[], crate::store::Continuation::Ended(&reason))?;
+            continue;
+        }
+        let mut follow = Follow { store, solver, plan, branch, period_multiple, side };
+        if follow.run(done, observer)? == Ended::Interrupted {
+            return Ok(Ended::Interrupted);
+        }
+    }
+    Ok(Ended::Finished)
+}
+
+/// A walk that has used up its budget goes on if the budget has grown.
+fn is_finished(walk: &WalkRecord, plan: &Plan) -> bool {
+    match &walk.reason {
+        None => false,
+        Some(reason) => !reason.is_budget() || walk.solutions >= plan.budget,
+    }
+}
+
+/// Counts of a run, and an estimate of how far it is.
+#[derive(Debug)]
+pub(super) struct Done {
+    pub new_solutions: u64,
+    pub solutions: u64,
+    range_hz: [f64; 2],
+    targets: usize,
+    target: usize,
+    side: Side,
+    reached_hz: Option<[f64; 2]>,
+    fraction: f64,
+}
+
+impl Done {
+    fn new(store: &Store, plan: &Plan) -> Result<Self, StoreError> {
+        let branches = store.branches()?;
+        Ok(Self {
+            new_solutions: 0,
+            solutions: branches.iter().map(|branch| branch.up.solutions + branch.down.solutions).sum(),
+            range_hz: plan.range_hz,
+            targets: plan.targets.iter().filter(|target| !target.only_without_branch).count()
+                + usize::from(plan.targets.iter().any(|target| target.only_without_branch)),
+            target: 0,
+            side: Side::Up,
+            reached_hz: None,
+            fraction: 0.0,
+        })
+    }
+
+    fn begin_target(&mut self, index: usize) {
+        self.target = index.min(self.targets.saturating_sub(1));
+        self.reached_hz = None;
+    }
+
+    fn begin_side(&mut self, side: Side) {
+        self.side = side;
+    }
+
+    pub(super) fn add(&mut self, solutions: u64, frequency_hz: f64) {
+        self.new_solutions += solutions;
+        self.solutions += solutions;
+        let [low, high] = self.reached_hz.unwrap_or([frequency_hz; 2]);
+        self.reached_hz = Some([low.min(frequency_hz), high.max(frequency_hz)]);
+    }
+
+    /// Searches done, and the part of the frequency range that the current branch has covered.
+    pub(super) fn fraction(&mut self) -> f64 {
+        let [low, high] = self.reached_hz.unwrap_or([0.0; 2]);
+        let covered = ((high - low) / (self.range_hz[1] - self.range_hz[0])).clamp(0.0, 1.0);
+        let fraction = (self.target as f64 + covered) / self.targets.max(1) as f64;
+        self.fraction = self.fraction.max(fraction);
+        self.fraction
+    }
+}

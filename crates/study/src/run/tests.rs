@@ -1,0 +1,157 @@
+use std::path::Path;
+
+use tempfile::{TempDir, tempdir};
+
+use super::{fake::FakeSolver, *};
+use crate::{
+    export::export_csv,
+    file::StudyFile,
+    store::{Store, StoreError},
+};
+
+const STUDY: &str = include_str!("../../../../studies/duffing.toml");
+
+fn study_with(response: &str) -> StudyFile {
+    let text = STUDY.replace("[0.08, 0.5]", "[10.0, 20.0]");
+    StudyFile::parse("study.toml", format!("{text}\n{response}")).unwrap()
+}
+
+fn study() -> StudyFile {
+    study_with("[response]\nperiod_multiples = [1, 2, 3]\n")
+}
+
+/// Stops after a number of questions.
+struct StopAfter(usize);
+
+impl Observer for StopAfter {
+    fn interrupted(&mut self) -> bool {
+        self.0 = self.0.saturating_sub(1);
+        self.0 == 0
+    }
+}
+
+fn run_into(folder: &Path, study: &StudyFile, observer: &mut dyn Observer) -> RunOutcome {
+    let mut store = Store::open_for_run(folder, study).unwrap();
+    let outcome = run(&mut store, &FakeSolver::default(), &Plan::of(&study.study), observer).unwrap();
+    store.finish().unwrap();
+    outcome
+}
+
+fn csv(folder: &Path) -> String {
+    let out = tempdir().unwrap();
+    let exported = export_csv(&Store::open(folder).unwrap(), out.path()).unwrap();
+    std::fs::read_to_string(exported.path).unwrap()
+}
+
+fn undisturbed(study: &StudyFile) -> (TempDir, String) {
+    let folder = tempdir().unwrap();
+    assert_eq!(run_into(folder.path(), study, &mut Quiet), RunOutcome::Done);
+    let text = csv(folder.path());
+    (folder, text)
+}
+
+#[test]
+fn rows_run_end_to_end_along_the_branch() {
+    let (_folder, text) = undisturbed(&study_with(""));
+    let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0], crate::export::COLUMNS);
+    assert_eq!((lines[1][2], lines[1][11]), ("10.0", "start"));
+    let last = lines.last().unwrap();
+    assert_eq!((last[2], last[11]), ("20.0", "end"));
+    let events = |name: &str| lines.iter().filter(|line| line[11].contains(name)).count();
+    assert_eq!((events("start"), events("end")), (1, 1));
+    assert_eq!(lines.iter().filter(|line| line[2] == "15.0").count(), 1, "the start of the walks is one row");
+}
+
+#[test]
+fn numbers_read_back_to_the_same_doubles() {
+    let (folder, text) = undisturbed(&study_with(""));
+    let store = Store::open(folder.path()).unwrap();
+    let mut lines = text.lines().skip(1);
+    store
+        .each_row::<StoreError>(&store.branches().unwrap()[0], |row| {
+            let line: Vec<&str> = lines.next().unwrap().split(',').collect();
+            assert_eq!(line[2].parse::<f64>().unwrap().to_bits(), row.frequency_hz.to_bits());
+            assert_eq!(line[8].parse::<f64>().unwrap().to_bits(), row.leading_multiplier[0].to_bits());
+            Ok(())
+        })
+        .unwrap();
+}
+
+#[test]
+fn a_run_interrupted_anywhere_and_resumed_ends_with_the_same_bytes() {
+    let study = study();
+    let (_folder, expected) = undisturbed(&study);
+    for first in [1, 2, 3, 50, 777, 1000, 1601] {
+        let folder = tempdir().unwrap();
+        let mut interruptions = 0;
+        while run_into(folder.path(), &study, &mut StopAfter(first)) == RunOutcome::Interrupted {
+            interruptions += 1;
+            if first < 50 && interruptions > 20 {
+                run_into(folder.path(), &study, &mut Quiet);
+            }
+        }
+        assert!(interruptions > 0);
+        assert_eq!(csv(folder.path()), expected, "interrupted after every {first} questions");
+    }
+}
+
+#[test]
+fn a_finished_run_started_again_computes_nothing() {
+    let study = study();
+    let (folder, expected) = undisturbed(&study);
+    struct NothingNew;
+    impl Observer for NothingNew {
+        fn progress(&mut self, progress: &Progress) {
+            panic!("computed {progress:?}");
+        }
+        fn searching(&mut self, target: &Target) {
+            panic!("searched {target:?}");
+        }
+    }
+    run_into(folder.path(), &study, &mut NothingNew);
+    assert_eq!(csv(folder.path()), expected);
+}
+
+#[test]
+fn starts_on_a_known_branch_begin_no_second_one() {
+    let (folder, _) = undisturbed(&study());
+    let multiples: Vec<u32> =
+        Store::open(folder.path()).unwrap().branches().unwrap().iter().map(|b| b.period_multiple).collect();
+    assert_eq!(multiples, [1, 2]);
+}
+
+#[test]
+fn a_larger_budget_lets_a_paused_walk_go_on_to_the_same_bytes() {
+    let study = study();
+    let (_folder, expected) = undisturbed(&study);
+    let folder = tempdir().unwrap();
+    for budget in [100, 101, 350, 1_000_000] {
+        let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+        let plan = Plan { budget, ..Plan::of(&study.study) };
+        run(&mut store, &FakeSolver::default(), &plan, &mut Quiet).unwrap();
+        let branch = store.branches().unwrap().remove(0);
+        assert_eq!(branch.up.reason.unwrap().is_budget(), budget <= 350);
+        store.finish().unwrap();
+    }
+    let rows = |text: &str| {
+        text.lines().filter(|line| line.starts_with("1,")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(rows(&csv(folder.path())), rows(&expected));
+}
+
+#[test]
+fn progress_counts_and_its_fraction_never_decreases() {
+    struct Watch(f64, u64);
+    impl Observer for Watch {
+        fn progress(&mut self, progress: &Progress) {
+            assert!((self.0..=1.0).contains(&progress.fraction), "{progress:?}");
+            assert!(progress.new_solutions > self.1);
+            (self.0, self.1) = (progress.fraction, progress.new_solutions);
+        }
+    }
+    let mut watch = Watch(0.0, 0);
+    let folder = tempdir().unwrap();
+    run_into(folder.path(), &study(), &mut watch);
+    assert!(watch.0 > 0.2, "{}", watch.0);
+}

@@ -1,0 +1,56 @@
+//! Why a results folder cannot be used.
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// Why a results folder cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum StoreError {
+    /// There is nothing to read.
+    #[error("there are no results in {}", folder.display())]
+    NoResults { folder: PathBuf },
+    /// `results.db` is something else.
+    #[error("{} was not written by hammerbeam", folder.join(super::DATABASE).display())]
+    NotResults { folder: PathBuf },
+    /// The folder holds the results of another study.
+    #[error("{} holds the results of another study; it differs in\n{}", folder.display(), indented(differences))]
+    OtherStudy { folder: PathBuf, differences: Vec<String> },
+    /// The folder was written by a program that stores or computes differently.
+    #[error(
+        "{} was written by hammerbeam {program} with {what} version {found}, this is version {expected}",
+        folder.display()
+    )]
+    OtherVersion { folder: PathBuf, program: String, what: &'static str, found: String, expected: u32 },
+    /// Another run is at work.
+    #[error("another run is writing to {}", folder.display())]
+    Locked { folder: PathBuf },
+    /// Something stored has an impossible size.
+    #[error("the stored {what} has {found} bytes, {expected} are expected")]
+    Damaged { what: &'static str, found: usize, expected: usize },
+    /// The folder cannot be made or written.
+    #[error("cannot write to {}: {source}", folder.display())]
+    Folder { folder: PathBuf, source: io::Error },
+    /// The database refuses.
+    #[error("results database: {0}")]
+    Database(#[from] rusqlite::Error),
+}
+
+impl StoreError {
+    pub(super) fn folder(folder: &Path, source: io::Error) -> Self {
+        Self::Folder { folder: folder.to_owned(), source }
+    }
+
+    /// Whether the user pointed at the wrong folder, as opposed to a disk that refuses.
+    #[must_use]
+    pub fn is_bad_input(&self) -> bool {
+        !matches!(self, Self::Database(_) | Self::Damaged { .. })
+    }
+}
+
+fn indented(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n")
+}

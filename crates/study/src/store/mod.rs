@@ -1,0 +1,177 @@
+//! The results folder: one database with every solution, which survives being killed at any instant.
+//!
+//! `results.db` is written in transactions (write-ahead log), each of which holds some solutions of a walk together
+//! with the checkpoint from which the walk goes on: after a kill, what was committed is there, what was not is
+//! computed again, and both agree to the last bit. `run.lock` is held while a run writes.
+//!
+//! Solutions are keyed by walk and number, so that a walk only ever appends, and read one after the other, so that
+//! no branch has to fit into memory.
+
+mod blob;
+mod error;
+mod lock;
+mod read;
+mod schema;
+mod write;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+use hammerbeam_orbit::{Side, StopReason};
+use rusqlite::{Connection, OpenFlags};
+
+pub use error::StoreError;
+pub use read::{BranchRecord, Row, WalkRecord};
+pub use schema::SCHEMA_VERSION;
+pub(crate) use write::Continuation;
+
+use crate::file::StudyFile;
+use lock::Lock;
+
+/// Name of the database in a results folder.
+pub const DATABASE: &str = "results.db";
+
+/// A results folder, open for reading, or for writing by one run.
+#[derive(Debug)]
+pub struct Store {
+    connection: Connection,
+    folder: PathBuf,
+    lock: Option<Lock>,
+}
+
+/// How a walk ended, as it is stored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredReason {
+    /// `range-end`, `closed`, `budget`, `step-too-short`, `motion`.
+    pub kind: String,
+    /// Where [Hz], if there is a place.
+    pub frequency_hz: Option<f64>,
+    /// In words, with all numbers.
+    pub message: String,
+}
+
+impl Store {
+    /// Opens the results folder of a study for a run, and makes it if it is not there.
+    ///
+    /// # Errors
+    /// [`StoreError`]: the folder belongs to another study or version, another run is writing it, or the disk refuses.
+    /// Nothing is written then.
+    pub fn open_for_run(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
+        let database = folder.join(DATABASE);
+        if database.exists() {
+            schema::check_study(&open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?, folder, file)?;
+        }
+        fs::create_dir_all(folder).map_err(|source| StoreError::folder(folder, source))?;
+        let lock = Lock::take(folder)?;
+        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
+        let mut connection = open(&database, flags)?;
+        schema::check_study(&connection, folder, file)?;
+        connection.pragma_update(None, "journal_mode", "WAL")?;
+        connection.pragma_update(None, "synchronous", "NORMAL")?;
+        schema::create_or_update(&mut connection, file)?;
+        Ok(Self { connection, folder: folder.to_owned(), lock: Some(lock) })
+    }
+
+    /// Opens a results folder for reading.
+    ///
+    /// # Errors
+    /// [`StoreError`]: there are no results, or they are of another version. Nothing is written.
+    pub fn open(folder: &Path) -> Result<Self, StoreError> {
+        let database = folder.join(DATABASE);
+        if !database.is_file() {
+            return Err(StoreError::NoResults { folder: folder.to_owned() });
+        }
+        let connection = open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
+        schema::check_version(&connection, folder)?;
+        Ok(Self { connection, folder: folder.to_owned(), lock: None })
+    }
+
+    /// The results folder.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Leaves one plain file behind and lets the lock go.
+    ///
+    /// # Errors
+    /// The disk refuses; everything is stored all the same.
+    pub fn finish(self) -> Result<(), StoreError> {
+        if self.lock.is_some() {
+            self.connection.pragma_update(None, "journal_mode", "DELETE")?;
+        }
+        self.connection.close().map_err(|(_, error)| error)?;
+        Ok(())
+    }
+}
+
+impl StoredReason {
+    /// The reason, as it is stored.
+    #[must_use]
+    pub fn of(reason: &StopReason) -> Self {
+        let (kind, frequency_hz, message) = match reason {
+            StopReason::RangeEnd { frequency_hz } => {
+                ("range-end", Some(*frequency_hz), format!("end of the frequency range at {frequency_hz} Hz"))
+            }
+            StopReason::Closed => ("closed", None, "the branch came back to its start".to_owned()),
+            StopReason::Budget { solutions } => {
+                ("budget", None, format!("the budget of {solutions} solutions is used up"))
+            }
+            StopReason::StepTooShort { frequency_hz, step, residual } => (
+                "step-too-short",
+                Some(*frequency_hz),
+                format!(
+                    "no acceptable solution beyond {frequency_hz:.6} Hz, last step {step:.1e}, residual {residual:.1e}"
+                ),
+            ),
+            StopReason::Motion { frequency_hz, message } => (
+                "motion",
+                Some(*frequency_hz),
+                format!("the motion could not be computed at {frequency_hz:.6} Hz: {message}"),
+            ),
+            other => ("other", None, format!("{other:?}")),
+        };
+        Self { kind: kind.to_owned(), frequency_hz, message }
+    }
+}
+
+impl StoredReason {
+    /// Whether more budget lets the walk go on.
+    #[must_use]
+    pub fn is_budget(&self) -> bool {
+        self.kind == "budget"
+    }
+
+    /// Whether the branch is closed, so that one walk is all of it.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.kind == "closed"
+    }
+
+    /// Whether the walk ended where it should, and not early.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        self.is_closed() || self.kind == "range-end"
+    }
+}
+
+/// Number of a walk: two for each branch.
+fn walk_id(branch: u32, side: Side) -> i64 {
+    i64::from(branch) * 2 + i64::from(side == Side::Down)
+}
+
+/// Key of the first solution a walk can have; the walk has the 2^32 keys from there.
+fn first_key(walk: i64) -> i64 {
+    walk << 32
+}
+
+fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {
+    let connection = Connection::open_with_flags(database, flags | OpenFlags::SQLITE_OPEN_NO_MUTEX)?;
+    connection.busy_timeout(std::time::Duration::from_secs(5))?;
+    Ok(connection)
+}
+
+#[cfg(test)]
+mod tests;

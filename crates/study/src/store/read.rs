@@ -1,0 +1,212 @@
+//! Reading: branches, their walks, and their solutions one after the other.
+
+use hammerbeam_orbit::{Events, OrbitMaxima, PeriodicSolution, Side};
+use rusqlite::{OptionalExtension, Row as SqlRow, params};
+
+use super::{Store, StoreError, StoredReason, blob, first_key, walk_id, write::unpack_events};
+
+/// A branch of the results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchRecord {
+    /// Number, counted from 1.
+    pub id: u32,
+    /// Orbit period over excitation period.
+    pub period_multiple: u32,
+    /// The walk from the start to higher frequencies at first; its first solution is the start.
+    pub up: WalkRecord,
+    /// The walk from the start to lower frequencies at first.
+    pub down: WalkRecord,
+}
+
+/// One of the two walks of a branch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WalkRecord {
+    /// Number of solutions.
+    pub solutions: u64,
+    /// Why it ended; `None` if it has not.
+    pub reason: Option<StoredReason>,
+}
+
+/// What the tables of a solution show, without its nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Excitation frequency [Hz].
+    pub frequency_hz: f64,
+    /// Maxima over the orbit.
+    pub maxima: OrbitMaxima,
+    /// Events, start and end of the branch included.
+    pub events: Events,
+    /// Whether it is stable.
+    pub stable: bool,
+    /// Multiplier of the largest modulus, the positive one of a pair.
+    pub leading_multiplier: [f64; 2],
+    /// Residual of the shooting equations.
+    pub residual: f64,
+    /// Estimated error.
+    pub error_estimate: f64,
+}
+
+const ROW: &str = "frequency_hz, max_abs_displacement_m, max_abs_acceleration_m_s2, max_contact_force_n,
+    max_impact_velocity_m_s, impulse_n_s, contacts, events, stable, leading_multiplier_re, leading_multiplier_im,
+    residual, error_estimate";
+
+impl Store {
+    /// As long as this is held, everything read is of one moment, even while a run writes.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn snapshot(&self) -> Result<impl Sized + use<'_>, StoreError> {
+        Ok(self.connection.unchecked_transaction()?)
+    }
+
+    /// All branches, in the order in which they were begun.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn branches(&self) -> Result<Vec<BranchRecord>, StoreError> {
+        let mut statement = self.connection.prepare("SELECT id, period_multiple FROM branch ORDER BY id")?;
+        let ids = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        ids.map(|pair| {
+            let (id, period_multiple) = pair?;
+            Ok(BranchRecord {
+                id,
+                period_multiple,
+                up: self.walk(id, Side::Up)?,
+                down: self.walk(id, Side::Down)?,
+            })
+        })
+        .collect()
+    }
+
+    /// A walk of a branch.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn walk(&self, branch: u32, side: Side) -> Result<WalkRecord, StoreError> {
+        let select = "SELECT solutions, stop_kind, stop_frequency_hz, stop_message FROM walk WHERE id = ?1";
+        let read = |row: &SqlRow<'_>| {
+            let kind: Option<String> = row.get(1)?;
+            let reason = match kind {
+                Some(kind) => Some(StoredReason { kind, frequency_hz: row.get(2)?, message: row.get(3)? }),
+                None => None,
+            };
+            Ok(WalkRecord { solutions: row.get::<_, u32>(0)?.into(), reason })
+        };
+        Ok(self.connection.query_row(select, [walk_id(branch, side)], read)?)
+    }
+
+    /// The checkpoint from which a walk goes on, if it has one.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn checkpoint(&self, branch: u32, side: Side) -> Result<Option<Vec<u8>>, StoreError> {
+        let select = "SELECT checkpoint FROM walk WHERE id = ?1";
+        Ok(self.connection.query_row(select, [walk_id(branch, side)], |row| row.get(0))?)
+    }
+
+    /// What came of the search for a start, if it was made: the branch, or `None` with the reason.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn search_outcome(
+        &self,
+        period_multiple: u32,
+        frequency_hz: f64,
+    ) -> Result<Option<(Option<u32>, String)>, StoreError> {
+        let select = "SELECT branch, outcome FROM search WHERE period_multiple = ?1 AND frequency_hz = ?2";
+        let read = |row: &SqlRow<'_>| Ok((row.get(0)?, row.get(1)?));
+        Ok(self.connection.query_row(select, params![period_multiple, frequency_hz], read).optional()?)
+    }
+
+    /// Hands over the rows of a branch end to end: the down side reversed, the start, the up side.
+    ///
+    /// # Errors
+    /// The database refuses, or `take` does.
+    pub fn each_row<E: From<StoreError>>(
+        &self,
+        branch: &BranchRecord,
+        mut take: impl FnMut(Row) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let total = branch.up.solutions + branch.down.solutions;
+        let mut place = 0;
+        for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
+            self.each_row_of_walk(walk_id(branch.id, side), order, |mut row| {
+                row.events.start = place == 0;
+                row.events.end = place + 1 == total;
+                place += 1;
+                take(row)
+            })?;
+        }
+        Ok(())
+    }
+
+    fn each_row_of_walk<E: From<StoreError>>(
+        &self,
+        walk: i64,
+        order: &str,
+        mut take: impl FnMut(Row) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let select = format!("SELECT {ROW} FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
+        let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
+        let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
+        let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
+        while let Some(row) = rows.next().map_err(failed)? {
+            take(read_row(row).map_err(failed)?)?;
+        }
+        Ok(())
+    }
+
+    /// A stored solution of a walk with its nodes; number 0 of the up side is the start.
+    ///
+    /// # Errors
+    /// There is no such solution, or it is damaged.
+    pub fn solution(&self, branch: u32, side: Side, number: u32) -> Result<PeriodicSolution, StoreError> {
+        let select = format!(
+            "SELECT {ROW}, segments, state_length, multiplier_count, multipliers, nodes,
+            (SELECT period_multiple FROM branch WHERE id = ?2) FROM solution WHERE id = ?1"
+        );
+        let key = first_key(walk_id(branch, side)) + i64::from(number);
+        let mut statement = self.connection.prepare_cached(&select)?;
+        let mut rows = statement.query(params![key, branch])?;
+        let row = rows.next()?.ok_or(rusqlite::Error::QueryReturnedNoRows)?;
+        read_solution(row)
+    }
+}
+
+fn read_row(row: &SqlRow<'_>) -> rusqlite::Result<Row> {
+    Ok(Row {
+        frequency_hz: row.get(0)?,
+        maxima: OrbitMaxima {
+            displacement: row.get(1)?,
+            acceleration: row.get(2)?,
+            contact_force: row.get(3)?,
+            impact_velocity: row.get(4)?,
+            impulse: row.get(5)?,
+            contacts: row.get(6)?,
+        },
+        events: unpack_events(row.get(7)?),
+        stable: row.get(8)?,
+        leading_multiplier: [row.get(9)?, row.get(10)?],
+        residual: row.get(11)?,
+        error_estimate: row.get(12)?,
+    })
+}
+
+fn read_solution(row: &SqlRow<'_>) -> Result<PeriodicSolution, StoreError> {
+    let shown = read_row(row)?;
+    let size = |column| row.get::<_, u32>(column).map(|size| size as usize);
+    let (segments, state_length, multipliers) = (size(13)?, size(14)?, size(15)?);
+    let multiplier_bytes: Vec<u8> = row.get(16)?;
+    let node_bytes: Vec<u8> = row.get(17)?;
+    let pairs = blob::unpack("multipliers", &multiplier_bytes, 2 * multipliers)?;
+    let nodes = blob::unpack("nodes", &node_bytes, segments * state_length)?;
+    Ok(PeriodicSolution {
+        frequency_hz: shown.frequency_hz,
+        period_multiple: row.get(18)?,
+        nodes: nodes.chunks(state_length.max(1)).map(<[f64]>::to_vec).collect(),
+        floquet_multipliers: pairs.chunks(2).map(|pair| [pair[0], pair[1]]).collect(),
+        residual: shown.residual,
+        error_estimate: shown.error_estimate,
+        maxima: shown.maxima,
+    })
+}

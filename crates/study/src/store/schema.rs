@@ -1,0 +1,170 @@
+//! Tables of the database, and whose they are.
+
+use std::path::Path;
+
+use rusqlite::{Connection, OptionalExtension, params};
+
+use super::StoreError;
+use crate::{
+    file::StudyFile,
+    identity::{DATA_VERSION, differences},
+};
+
+/// Version of the tables.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// Marks a database as ours: "HmBm".
+const APPLICATION_ID: i64 = 0x486d_426d;
+
+const TABLES: &str = "
+CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+CREATE TABLE search (
+    period_multiple INTEGER NOT NULL,
+    frequency_hz REAL NOT NULL,
+    outcome TEXT NOT NULL,
+    branch INTEGER REFERENCES branch (id),
+    PRIMARY KEY (period_multiple, frequency_hz)
+) WITHOUT ROWID;
+CREATE TABLE branch (
+    id INTEGER PRIMARY KEY,
+    period_multiple INTEGER NOT NULL
+);
+CREATE TABLE walk (
+    id INTEGER PRIMARY KEY,
+    branch INTEGER NOT NULL REFERENCES branch (id),
+    side TEXT NOT NULL CHECK (side IN ('up', 'down')),
+    solutions INTEGER NOT NULL,
+    stop_kind TEXT,
+    stop_frequency_hz REAL,
+    stop_message TEXT,
+    checkpoint BLOB
+);
+CREATE TABLE solution (
+    id INTEGER PRIMARY KEY,
+    frequency_hz REAL NOT NULL,
+    max_abs_displacement_m REAL NOT NULL,
+    max_abs_acceleration_m_s2 REAL NOT NULL,
+    max_contact_force_n REAL NOT NULL,
+    max_impact_velocity_m_s REAL NOT NULL,
+    impulse_n_s REAL NOT NULL,
+    contacts INTEGER NOT NULL,
+    events INTEGER NOT NULL,
+    stable INTEGER NOT NULL,
+    leading_multiplier_re REAL NOT NULL,
+    leading_multiplier_im REAL NOT NULL,
+    residual REAL NOT NULL,
+    error_estimate REAL NOT NULL,
+    segments INTEGER NOT NULL,
+    state_length INTEGER NOT NULL,
+    multiplier_count INTEGER NOT NULL,
+    multipliers BLOB NOT NULL,
+    nodes BLOB NOT NULL
+);
+";
+
+/// Refuses the database of another study or version; an empty one is nobody's yet.
+pub(super) fn check_study(
+    connection: &Connection,
+    folder: &Path,
+    file: &StudyFile,
+) -> Result<(), StoreError> {
+    if is_empty(connection, folder)? {
+        return Ok(());
+    }
+    check_version(connection, folder)?;
+    if about(connection, "identity")? == file.study.identity() {
+        return Ok(());
+    }
+    let there = about(connection, "canonical")?;
+    Err(StoreError::OtherStudy {
+        folder: folder.to_owned(),
+        differences: differences(&there, &file.study.canonical(), 12),
+    })
+}
+
+/// Refuses a database that this program does not understand.
+pub(super) fn check_version(connection: &Connection, folder: &Path) -> Result<(), StoreError> {
+    let id: i64 = connection
+        .query_row("PRAGMA application_id", [], |row| row.get(0))
+        .map_err(|error| not_ours(error, folder))?;
+    if id != APPLICATION_ID {
+        return Err(StoreError::NotResults { folder: folder.to_owned() });
+    }
+    for (key, what, expected) in
+        [("schema_version", "storage", SCHEMA_VERSION), ("data_version", "data", DATA_VERSION)]
+    {
+        let found = about(connection, key)?;
+        if found != expected.to_string() {
+            let program = about(connection, "program")?;
+            return Err(StoreError::OtherVersion {
+                folder: folder.to_owned(),
+                program,
+                what,
+                found,
+                expected,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn is_empty(connection: &Connection, folder: &Path) -> Result<bool, StoreError> {
+    let tables: i64 = connection
+        .query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get(0))
+        .map_err(|error| not_ours(error, folder))?;
+    Ok(tables == 0)
+}
+
+/// A file that is no database at all was not written by us.
+fn not_ours(error: rusqlite::Error, folder: &Path) -> StoreError {
+    match error.sqlite_error_code() {
+        Some(rusqlite::ErrorCode::NotADatabase) => StoreError::NotResults { folder: folder.to_owned() },
+        _ => error.into(),
+    }
+}
+
+fn about(connection: &Connection, key: &str) -> Result<String, StoreError> {
+    let value = connection.query_row("SELECT value FROM about WHERE key = ?1", [key], |row| row.get(0));
+    Ok(value.optional()?.unwrap_or_default())
+}
+
+/// Makes the tables if they are not there, all at once, and notes the text of the study.
+pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) -> Result<(), StoreError> {
+    let transaction = connection.transaction()?;
+    let tables: i64 = transaction.query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get(0))?;
+    if tables == 0 {
+        transaction.pragma_update(None, "application_id", APPLICATION_ID)?;
+        transaction.execute_batch(TABLES)?;
+        let fixed = [
+            ("schema_version", SCHEMA_VERSION.to_string()),
+            ("data_version", DATA_VERSION.to_string()),
+            ("program", env!("CARGO_PKG_VERSION").to_owned()),
+            ("identity", file.study.identity()),
+            ("canonical", file.study.canonical()),
+        ];
+        for (key, value) in fixed {
+            note(&transaction, key, &value)?;
+        }
+    }
+    note(&transaction, "title", &file.study.title)?;
+    note(&transaction, "study", &file.text)?;
+    transaction.commit()?;
+    Ok(())
+}
+
+fn note(connection: &Connection, key: &str, value: &str) -> Result<(), StoreError> {
+    let changed = "INSERT INTO about (key, value) VALUES (?1, ?2)
+        ON CONFLICT (key) DO UPDATE SET value = excluded.value WHERE value <> excluded.value";
+    connection.execute(changed, params![key, value])?;
+    Ok(())
+}
+
+impl super::Store {
+    /// Something noted about the study: `title`, `study` (its text), `program`, `identity`.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn about(&self, key: &str) -> Result<String, StoreError> {
+        about(&self.connection, key)
+    }
+}

@@ -1,0 +1,156 @@
+//! Writing: each call is one transaction.
+
+use hammerbeam_orbit::{BranchRow, Events, PeriodicSolution, Side};
+use rusqlite::{Transaction, params};
+
+use super::{Store, StoreError, StoredReason, blob, first_key, walk_id};
+
+/// The leading part of the state of a walk.
+#[derive(Debug, Clone, Copy)]
+pub enum Continuation<'a> {
+    /// The walk goes on from this checkpoint.
+    Checkpoint(&'a [u8]),
+    /// The walk has ended, for good.
+    Ended(&'a StoredReason),
+    /// The walk has ended, but can go on from this checkpoint if its budget grows.
+    Paused(&'a StoredReason, &'a [u8]),
+}
+
+impl Store {
+    /// Notes that nothing new was found, and why.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn note_search(
+        &mut self,
+        period_multiple: u32,
+        frequency_hz: f64,
+        outcome: &str,
+    ) -> Result<(), StoreError> {
+        let insert = "INSERT INTO search (period_multiple, frequency_hz, outcome) VALUES (?1, ?2, ?3)";
+        self.connection.execute(insert, params![period_multiple, frequency_hz, outcome])?;
+        Ok(())
+    }
+
+    /// Begins a branch with its start, found in a search at `frequency_hz`.
+    ///
+    /// # Returns
+    /// The number of the branch, counted from 1.
+    /// # Errors
+    /// The database refuses.
+    pub fn begin_branch(&mut self, frequency_hz: f64, start: &PeriodicSolution) -> Result<u32, StoreError> {
+        let transaction = self.connection.transaction()?;
+        let newest: Option<u32> =
+            transaction.query_row("SELECT max(id) FROM branch", [], |row| row.get(0))?;
+        let branch = newest.unwrap_or(0) + 1;
+        let multiple = start.period_multiple;
+        transaction
+            .execute("INSERT INTO branch (id, period_multiple) VALUES (?1, ?2)", params![branch, multiple])?;
+        let search =
+            "INSERT INTO search (period_multiple, frequency_hz, outcome, branch) VALUES (?1, ?2, ?3, ?4)";
+        transaction.execute(search, params![multiple, frequency_hz, "new branch", branch])?;
+        for (side, name, solutions) in [(Side::Up, "up", 1), (Side::Down, "down", 0)] {
+            let insert = "INSERT INTO walk (id, branch, side, solutions) VALUES (?1, ?2, ?3, ?4)";
+            transaction.execute(insert, params![walk_id(branch, side), branch, name, solutions])?;
+        }
+        insert_solution(&transaction, first_key(walk_id(branch, Side::Up)), start, Events::default())?;
+        transaction.commit()?;
+        Ok(branch)
+    }
+
+    /// Appends solutions to a walk, together with how it goes on.
+    ///
+    /// # Errors
+    /// The database refuses; nothing is appended then.
+    pub fn append(
+        &mut self,
+        branch: u32,
+        side: Side,
+        rows: &[BranchRow],
+        continuation: Continuation<'_>,
+    ) -> Result<(), StoreError> {
+        let walk = walk_id(branch, side);
+        let transaction = self.connection.transaction()?;
+        let stored: i64 =
+            transaction.query_row("SELECT solutions FROM walk WHERE id = ?1", [walk], |row| row.get(0))?;
+        for (row, key) in rows.iter().zip(first_key(walk) + stored..) {
+            insert_solution(&transaction, key, &row.solution, row.events)?;
+        }
+        let (reason, checkpoint) = match continuation {
+            Continuation::Checkpoint(checkpoint) => (None, Some(checkpoint)),
+            Continuation::Ended(reason) => (Some(reason), None),
+            Continuation::Paused(reason, checkpoint) => (Some(reason), Some(checkpoint)),
+        };
+        let update =
+            "UPDATE walk SET solutions = ?2, checkpoint = ?3, stop_kind = ?4, stop_frequency_hz = ?5,
+            stop_message = ?6 WHERE id = ?1";
+        let values = params![
+            walk,
+            stored + rows.len() as i64,
+            checkpoint,
+            reason.map(|reason| &reason.kind),
+            reason.and_then(|reason| reason.frequency_hz),
+            reason.map(|reason| &reason.message),
+        ];
+        transaction.execute(update, values)?;
+        transaction.commit()?;
+        Ok(())
+    }
+}
+
+fn insert_solution(
+    transaction: &Transaction<'_>,
+    key: i64,
+    solution: &PeriodicSolution,
+    events: Events,
+) -> Result<(), StoreError> {
+    let insert = "INSERT INTO solution VALUES
+        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19)";
+    let maxima = &solution.maxima;
+    let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or([0.0, 0.0]);
+    let state_length = solution.nodes.first().map_or(0, Vec::len);
+    transaction.prepare_cached(insert)?.execute(params![
+        key,
+        solution.frequency_hz,
+        maxima.displacement,
+        maxima.acceleration,
+        maxima.contact_force,
+        maxima.impact_velocity,
+        maxima.impulse,
+        maxima.contacts,
+        pack_events(events),
+        solution.stable(),
+        re,
+        im.abs(),
+        solution.residual,
+        solution.error_estimate,
+        solution.nodes.len() as i64,
+        state_length as i64,
+        solution.floquet_multipliers.len() as i64,
+        blob::pack(solution.floquet_multipliers.iter().flatten()),
+        blob::pack(solution.nodes.iter().flatten()),
+    ])?;
+    Ok(())
+}
+
+/// Events as bits; start and end follow from the place in the branch and are not stored.
+fn pack_events(events: Events) -> u32 {
+    [events.fold, events.flip, events.neimark_sacker, events.branch_point, events.grazing]
+        .iter()
+        .enumerate()
+        .map(|(bit, set)| u32::from(*set) << bit)
+        .sum()
+}
+
+/// The events of those bits.
+pub(super) fn unpack_events(bits: u32) -> Events {
+    let set = |bit: u32| bits >> bit & 1 == 1;
+    Events {
+        fold: set(0),
+        flip: set(1),
+        neimark_sacker: set(2),
+        branch_point: set(3),
+        grazing: set(4),
+        ..Events::default()
+    }
+}
