@@ -150,7 +150,7 @@ impl ExactIntegrator {
         step.set_free_motion(&self.drive, &self.outputs, &run.state);
         self.guess(run);
         let scale = self.step.active.iter().map(|&e| self.ranges(run, e).0).fold(0.0, f64::max);
-        self.step.solve(&self.laws, f64::EPSILON * scale).ok()?;
+        self.step.solve(&self.laws, 8.0 * f64::EPSILON * scale).ok()?;
         self.next_state.clear();
         self.next_state.extend_from_slice(&run.state);
         self.step.advance_state(&self.blocks, &mut self.next_state);
@@ -194,8 +194,10 @@ impl ExactIntegrator {
         let magnitude = self.drive.magnitude(output);
         let (mut displacement, mut velocity) = (magnitude, magnitude * self.drive.circular_frequency());
         for i in 0..n {
-            displacement += (o.row[i] * run.state[i]).abs() + (o.row[n + i] * run.state[n + i]).abs();
-            velocity += (o.velocity_row[i] * run.state[i]).abs() + (o.velocity_row[n + i] * run.state[n + i]).abs();
+            let (p, s) = (run.state[i], run.state[n + i]);
+            let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
+            displacement += (o.row[i] * p).abs().max(o.value_bound[i] * norm);
+            velocity += o.first_bound[i] * norm;
         }
         (displacement, velocity)
     }
@@ -226,7 +228,10 @@ impl ExactIntegrator {
             self.observation = Some(observation);
         }
         run.state.copy_from_slice(&self.next_state);
-        run.time = if length >= end - run.time { end } else { run.time + length };
+        run.time += length;
+        if end - run.time <= 4.0 * f64::EPSILON * end {
+            run.time = end;
+        }
         run.proposal = length * (0.8 * error.powf(-1.0 / NODES as f64)).clamp(0.3, 3.0);
         Ok(())
     }

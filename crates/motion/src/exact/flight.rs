@@ -41,6 +41,11 @@ impl ExactIntegrator {
                 time = (time + step).min(horizon);
             }
         }
+        if horizon - time <= 4.0 * f64::EPSILON * end {
+            // A contact that closes with the end of the stretch belongs to the next one.
+            touch = None;
+            time = horizon;
+        }
         self.place(run, time);
         if let Some(observation) = &mut self.observation {
             observation.flight(run.time, time, &self.flight_start);
@@ -147,7 +152,11 @@ impl ExactIntegrator {
             let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
             second += output.second_bound[i] * norm;
             third += output.third_bound[i] * norm;
-            magnitude += (output.row[i] * p).abs() + (output.row[n + i] * s).abs();
+            // What rounds is what the sum is made of, also where it passes through zero.
+            magnitude += (output.row[i] * p).abs().max(output.value_bound[i] * norm);
+            if self.blocks.stiffness[i] == 0.0 {
+                magnitude += (output.row[i] * s).abs() * until;
+            }
         }
         let level = self.laws[element].contacts().iter().map(|c| c.level.abs()).fold(0.0, f64::max);
         ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }

@@ -13,7 +13,11 @@ pub(crate) struct Output {
     pub acceleration_row: Vec<f64>,
     /// Part of the support displacement [-].
     pub support_ratio: f64,
-    /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the second derivative.
+    /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the value, as far as its stiffness bounds it.
+    pub value_bound: Vec<f64>,
+    /// The same for the first derivative.
+    pub first_bound: Vec<f64>,
+    /// The same for the second derivative.
     pub second_bound: Vec<f64>,
     /// The same for the third derivative.
     pub third_bound: Vec<f64>,
@@ -31,7 +35,18 @@ impl Output {
         let second_bound = energy_factors(blocks, &acceleration_row);
         let third_bound = energy_factors(blocks, &jerk_row);
         let fourth_bound = energy_factors(blocks, &blocks.row_times_system(&jerk_row));
-        Self { row, velocity_row, acceleration_row, support_ratio, second_bound, third_bound, fourth_bound }
+        let (value_bound, first_bound) = (energy_factors(blocks, &row), energy_factors(blocks, &velocity_row));
+        Self {
+            row,
+            velocity_row,
+            acceleration_row,
+            support_ratio,
+            value_bound,
+            first_bound,
+            second_bound,
+            third_bound,
+            fourth_bound,
+        }
     }
 }
 

@@ -26,10 +26,12 @@ impl ExactIntegrator {
         let mut first: Option<(usize, f64)> = None;
         for (a, &element) in step.active.iter().enumerate() {
             let Some(contact) = self.closed_contact(run, element) else { continue };
+            // A contact may have been closed within the rounding margin before its time.
+            let margin = self.bounds(run, element, run.time + step.weights.length).margin;
             let penetration: Vec<f64> = (0..NODES)
-                .map(|k| contact.sign * (step.displacement[a * NODES + k] - contact.level))
+                .map(|k| contact.sign * (step.displacement[a * NODES + k] - contact.level) + margin)
                 .collect();
-            let end = contact.sign * (self.jet_at_step_end(element).value - contact.level);
+            let end = contact.sign * (self.jet_at_step_end(element).value - contact.level) + margin;
             let Some(s) = self.release_variable(&penetration, end) else { continue };
             let time = step.grading().map(s).0 * step.weights.length;
             if first.is_none_or(|(_, earlier)| time < earlier) {
