@@ -1,2 +1,36 @@
-//! The `hammerbeam` command.
-fn main() {}
+//! The `hammerbeam` command: flags, terminal text and exit codes around the study crate.
+
+mod args;
+mod commands;
+mod failure;
+mod figures;
+mod interrupt;
+mod output;
+mod progress;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use output::Output;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let output = Output { json: arguments.json };
+    let result = match &arguments.command {
+        Command::New(options) => commands::new::run(options, output),
+        Command::Check(options) => commands::check::run(options, output),
+        Command::Modes(options) => commands::modes::run(options, output),
+        Command::Run(options) => commands::run::run(options, output),
+        Command::Orbit(options) => commands::orbit::run(options, output),
+        Command::Export(options) => commands::export::run(options, output),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            output.failure(&failure);
+            failure.exit_code()
+        }
+    }
+}

@@ -112,7 +112,7 @@ mod tests {
             ("2.1e11", "2.1000000001e11"),
             ("\"below\"", "\"above\""),
             ("[1, 2, 3]", "[1, 2]"),
-            ("[response]", "[continuation]\ntolerance = 1e-10\n[response]"),
+            ("[response]", "[continuation]\ntolerance = 1e-11\n[response]"),
         ] {
             assert_ne!(identity_with(old, new), identity(), "{old} -> {new}");
         }

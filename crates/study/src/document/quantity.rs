@@ -189,7 +189,7 @@ pub(crate) const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Inclu
 /// Step along a branch.
 pub(crate) const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Tolerance of the solver.
-pub(crate) const TOLERANCE: Quantity = Quantity::new("", Including(1e-12), Including(1e-4));
+pub(crate) const TOLERANCE: Quantity = Quantity::new("", Including(1e-13), Including(1e-4));
 
 #[cfg(test)]
 mod tests {

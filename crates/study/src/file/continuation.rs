@@ -31,7 +31,7 @@ pub enum Segments {
 }
 
 /// Steps over the frequency range by default.
-const DEFAULT_STEPS: f64 = 2000.0;
+const DEFAULT_STEPS: f64 = 5000.0;
 
 pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<Continuation> {
     let table = match root.optional("continuation") {
@@ -40,7 +40,7 @@ pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<
     };
     let key = |key| table.as_ref().and_then(|table| table.optional(key));
     let step = key("max_step_hz").map(|value| value.number(&quantity::STEP));
-    let tolerance = key("tolerance").map_or(Some(1e-9), |value| value.number(&quantity::TOLERANCE));
+    let tolerance = key("tolerance").map_or(Some(1e-10), |value| value.number(&quantity::TOLERANCE));
     let segments = key("segments").map_or(Some(Segments::Auto), |value| read_segments(&value));
     let budget = key("budget_solutions").map_or(Some(200_000), |value| value.whole(1, 100_000_000));
     if let Some(table) = table {

@@ -68,7 +68,7 @@ fn what_is_not_said_has_its_default() {
     assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.0)));
     assert_eq!((study.excitation.order, study.excitation.phase_rad), (1, 0.0));
     assert_eq!(study.response, Response { point: "a".into(), period_multiples: vec![1] });
-    assert_eq!(study.continuation.max_step_hz, 0.0005);
+    assert_eq!(study.continuation.max_step_hz, 0.0002);
     assert_eq!(study.continuation.segments, Segments::Auto);
 }
 

@@ -5,6 +5,7 @@ mod load;
 mod structure;
 
 use hammerbeam_motion::{System, SystemError};
+use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, ReducedModel, StructureError};
 
 use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
@@ -15,18 +16,9 @@ pub struct Model {
     /// The equations of motion.
     pub system: System,
     /// What is observed.
-    pub response: ResponsePoint,
+    pub response: Response,
     /// Eigenfrequencies of all stages.
     pub tables: ModeTables,
-}
-
-/// The observed displacement `y = shape . q + support_ratio u`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ResponsePoint {
-    /// Displacement per modal coordinate [kg^-1/2].
-    pub shape: Vec<f64>,
-    /// Displacement per unit support displacement [-].
-    pub support_ratio: f64,
 }
 
 impl Model {
@@ -63,9 +55,9 @@ fn interface(study: &Study) -> Vec<String> {
     names
 }
 
-fn response_point(study: &Study, model: &ReducedModel) -> ResponsePoint {
+fn response_point(study: &Study, model: &ReducedModel) -> Response {
     let point = model.point(&study.response.point).expect("the study knows the names of its structure");
-    ResponsePoint { shape: point.shape.clone(), support_ratio: point.support_ratio }
+    Response { shape: point.shape.clone(), support_ratio: point.support_ratio }
 }
 
 /// Displacements longer than the beam are in the wrong unit.

@@ -54,16 +54,21 @@ impl Solver for FakeSolver {
         let at = if start.period_multiple == 1 { 0.0 } else { start.frequency_hz - 15.0 };
         let steps = (at / self.step).round() as i64;
         let direction = if side == Side::Up { 1 } else { -1 };
-        Ok(Box::new(FakeWalk { solver: self, multiple: start.period_multiple, steps, direction }))
+        let multiple = start.period_multiple;
+        Ok(Box::new(FakeWalk { solver: self, multiple, steps, direction, journal: Vec::new(), walked: 0 }))
     }
 
-    fn resume<'a>(&'a self, checkpoint: &[u8]) -> Result<Box<dyn Walk + 'a>, String> {
+    fn resume<'a>(&'a self, checkpoint: &[u8], journal: &[u8]) -> Result<Box<dyn Walk + 'a>, String> {
         let number = |index: usize| {
             let bytes = checkpoint.get(8 * index..8 * index + 8).ok_or("the checkpoint is too short")?;
             Ok::<i64, String>(i64::from_le_bytes(bytes.try_into().expect("eight bytes")))
         };
         let multiple = u32::try_from(number(0)?).map_err(|error| error.to_string())?;
-        Ok(Box::new(FakeWalk { solver: self, multiple, steps: number(1)?, direction: number(2)? }))
+        let (steps, direction, walked) = (number(1)?, number(2)?, number(3)?);
+        if journal.len() as i64 != walked {
+            return Err(format!("the journal has {} steps, {walked} were walked", journal.len()));
+        }
+        Ok(Box::new(FakeWalk { solver: self, multiple, steps, direction, journal: Vec::new(), walked }))
     }
 }
 
@@ -72,20 +77,29 @@ struct FakeWalk<'a> {
     multiple: u32,
     steps: i64,
     direction: i64,
+    journal: Vec<u8>,
+    walked: i64,
 }
 
 impl Walk for FakeWalk<'_> {
-    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Option<StopReason> {
+    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String> {
         self.steps += self.direction;
+        self.walked += 1;
+        self.journal.push(1);
         let solution = self.solver.solution(self.multiple, self.steps as f64 * self.solver.step);
         let frequency_hz = solution.frequency_hz;
         let fold = self.multiple == 1 && self.steps % 209 == 0;
         rows.push(BranchRow { solution, events: Events { fold, ..Events::default() } });
         let [low, high] = self.solver.range_hz;
-        (frequency_hz <= low || frequency_hz >= high).then_some(StopReason::RangeEnd { frequency_hz })
+        Ok((frequency_hz <= low || frequency_hz >= high).then_some(StopReason::RangeEnd { frequency_hz }))
     }
 
     fn checkpoint(&self) -> Vec<u8> {
-        [i64::from(self.multiple), self.steps, self.direction].iter().flat_map(|n| n.to_le_bytes()).collect()
+        let numbers = [i64::from(self.multiple), self.steps, self.direction, self.walked];
+        numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+    }
+
+    fn take_journal(&mut self) -> Vec<u8> {
+        std::mem::take(&mut self.journal)
     }
 }

@@ -8,7 +8,7 @@ use super::{
     Observer, Plan, Progress, RunError, Solver, Walk,
     runner::{Done, Ended},
 };
-use crate::store::{Continuation, Store, StoredReason};
+use crate::store::{Continuation, Memory, Store, StoredReason};
 
 /// Solutions are committed together after this time,
 const COMMIT_AFTER: Duration = Duration::from_millis(500);
@@ -32,9 +32,9 @@ impl Follow<'_> {
         let solver = self.solver;
         let mut walk = self.open(solver)?;
         loop {
-            let (rows, reason) = self.stretch(walk.as_mut(), stored, done, observer);
+            let (rows, reason) = self.stretch(walk.as_mut(), stored, done, observer)?;
             stored += rows.len() as u64;
-            self.commit(&rows, walk.as_ref(), reason.as_ref())?;
+            self.commit(&rows, walk.as_mut(), reason.as_ref())?;
             if let Some(reason) = reason {
                 observer.walk_ended(self.branch, self.side, &reason);
                 return Ok(Ended::Finished);
@@ -47,12 +47,17 @@ impl Follow<'_> {
 
     /// The walk where the store has left it.
     fn open<'s>(&self, solver: &'s dyn Solver) -> Result<Box<dyn Walk + 's>, RunError> {
-        let failed = |message| RunError::Walk { branch: self.branch, message };
-        if let Some(checkpoint) = self.store.checkpoint(self.branch, self.side)? {
-            return solver.resume(&checkpoint).map_err(failed);
+        if let Some(memory) = self.store.checkpoint(self.branch, self.side)? {
+            return solver
+                .resume(&memory.checkpoint, &memory.journal)
+                .map_err(|message| self.failed(message));
         }
         let start = self.store.solution(self.branch, Side::Up, 0)?;
-        solver.begin(&start, self.side).map_err(failed)
+        solver.begin(&start, self.side).map_err(|message| self.failed(message))
+    }
+
+    fn failed(&self, message: String) -> RunError {
+        RunError::Walk { branch: self.branch, message }
     }
 
     /// Solutions to be committed together, and why the walk ended with them if it did.
@@ -62,22 +67,22 @@ impl Follow<'_> {
         stored: u64,
         done: &mut Done,
         observer: &mut dyn Observer,
-    ) -> (Vec<BranchRow>, Option<StoredReason>) {
+    ) -> Result<(Vec<BranchRow>, Option<StoredReason>), RunError> {
         let begun = Instant::now();
         let mut rows = Vec::new();
         loop {
             if stored + rows.len() as u64 >= self.plan.budget {
                 let reason = StopReason::Budget { solutions: self.plan.budget as usize };
-                return (rows, Some(StoredReason::of(&reason)));
+                return Ok((rows, Some(StoredReason::of(&reason))));
             }
             let before = rows.len();
-            let reason = walk.step(&mut rows);
+            let reason = walk.step(&mut rows).map_err(|message| self.failed(message))?;
             self.tell(&rows[before..], done, observer);
             if let Some(reason) = reason {
-                return (rows, Some(StoredReason::of(&reason)));
+                return Ok((rows, Some(StoredReason::of(&reason))));
             }
             if rows.len() >= COMMIT_AT || begun.elapsed() >= COMMIT_AFTER || observer.interrupted() {
-                return (rows, None);
+                return Ok((rows, None));
             }
         }
     }
@@ -100,13 +105,14 @@ impl Follow<'_> {
     fn commit(
         &mut self,
         rows: &[BranchRow],
-        walk: &dyn Walk,
+        walk: &mut dyn Walk,
         reason: Option<&StoredReason>,
     ) -> Result<(), RunError> {
-        let checkpoint = walk.checkpoint();
+        let (checkpoint, journal) = (walk.checkpoint(), walk.take_journal());
+        let memory = Memory { checkpoint: &checkpoint, journal: &journal };
         let continuation = match reason {
-            None => Continuation::Checkpoint(&checkpoint),
-            Some(reason) if reason.is_budget() => Continuation::Paused(reason, &checkpoint),
+            None => Continuation::GoesOn(memory),
+            Some(reason) if reason.is_budget() => Continuation::Paused(reason, memory),
             Some(reason) => Continuation::Ended(reason),
         };
         Ok(self.store.append(self.branch, self.side, rows, continuation)?)

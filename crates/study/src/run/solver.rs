@@ -18,16 +18,24 @@ pub trait Solver {
 
     /// The walk that a checkpoint was taken of; it goes on as if it had never been left.
     ///
+    /// * `journal`: everything [`Walk::take_journal`] gave, end to end.
+    ///
     /// # Errors
     /// Why it cannot go on, in words.
-    fn resume<'a>(&'a self, checkpoint: &[u8]) -> Result<Box<dyn Walk + 'a>, String>;
+    fn resume<'a>(&'a self, checkpoint: &[u8], journal: &[u8]) -> Result<Box<dyn Walk + 'a>, String>;
 }
 
 /// A walk along one side of a branch.
 pub trait Walk {
     /// Appends the next solutions in the order of the path; `Some` when the walk has ended.
-    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Option<StopReason>;
+    ///
+    /// # Errors
+    /// Why there is neither a solution nor an end, in words.
+    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String>;
 
-    /// All that is needed to go on from here.
+    /// All that is needed to go on from here, besides the journal; replaces the last one.
     fn checkpoint(&self) -> Vec<u8>;
+
+    /// What the walk has to remember of the solutions since the journal was taken last.
+    fn take_journal(&mut self) -> Vec<u8>;
 }

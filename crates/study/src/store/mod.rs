@@ -25,7 +25,7 @@ use rusqlite::{Connection, OpenFlags};
 pub use error::StoreError;
 pub use read::{BranchRecord, Row, WalkRecord};
 pub use schema::SCHEMA_VERSION;
-pub(crate) use write::Continuation;
+pub(crate) use write::{Continuation, Memory};
 
 use crate::file::StudyFile;
 use lock::Lock;
@@ -44,7 +44,7 @@ pub struct Store {
 /// How a walk ended, as it is stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredReason {
-    /// `range-end`, `closed`, `budget`, `step-too-short`, `motion`.
+    /// `range-end`, `closed`, `budget`, `step-too-short`, `runs-back`, `motion`.
     pub kind: String,
     /// Where [Hz], if there is a place.
     pub frequency_hz: Option<f64>,
@@ -124,6 +124,13 @@ impl StoredReason {
                 Some(*frequency_hz),
                 format!(
                     "no acceptable solution beyond {frequency_hz:.6} Hz, last step {step:.1e}, residual {residual:.1e}"
+                ),
+            ),
+            StopReason::RunsBack { frequency_hz, met_arc_length } => (
+                "runs-back",
+                Some(*frequency_hz),
+                format!(
+                    "at {frequency_hz:.6} Hz every step led back to a stretch already walked, at arc length {met_arc_length:.6}"
                 ),
             ),
             StopReason::Motion { frequency_hz, message } => (

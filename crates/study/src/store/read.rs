@@ -27,6 +27,15 @@ pub struct WalkRecord {
     pub reason: Option<StoredReason>,
 }
 
+/// What a walk needs to go on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredMemory {
+    /// Its newest checkpoint.
+    pub checkpoint: Vec<u8>,
+    /// The whole of its journal.
+    pub journal: Vec<u8>,
+}
+
 /// What the tables of a solution show, without its nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
@@ -95,13 +104,23 @@ impl Store {
         Ok(self.connection.query_row(select, [walk_id(branch, side)], read)?)
     }
 
-    /// The checkpoint from which a walk goes on, if it has one.
+    /// The checkpoint and the journal from which a walk goes on, if it does.
     ///
     /// # Errors
     /// The database refuses.
-    pub fn checkpoint(&self, branch: u32, side: Side) -> Result<Option<Vec<u8>>, StoreError> {
+    pub fn checkpoint(&self, branch: u32, side: Side) -> Result<Option<StoredMemory>, StoreError> {
+        let walk = walk_id(branch, side);
         let select = "SELECT checkpoint FROM walk WHERE id = ?1";
-        Ok(self.connection.query_row(select, [walk_id(branch, side)], |row| row.get(0))?)
+        let checkpoint: Option<Vec<u8>> = self.connection.query_row(select, [walk], |row| row.get(0))?;
+        let Some(checkpoint) = checkpoint else { return Ok(None) };
+        let mut journal = Vec::new();
+        let mut statement =
+            self.connection.prepare("SELECT bytes FROM journal WHERE walk = ?1 ORDER BY id")?;
+        let mut pieces = statement.query([walk])?;
+        while let Some(piece) = pieces.next()? {
+            journal.extend_from_slice(piece.get_ref(0)?.as_blob().map_err(rusqlite::Error::from)?);
+        }
+        Ok(Some(StoredMemory { checkpoint, journal }))
     }
 
     /// What came of the search for a start, if it was made: the branch, or `None` with the reason.

@@ -39,6 +39,11 @@ CREATE TABLE walk (
     stop_message TEXT,
     checkpoint BLOB
 );
+CREATE TABLE journal (
+    id INTEGER PRIMARY KEY,
+    walk INTEGER NOT NULL REFERENCES walk (id),
+    bytes BLOB NOT NULL
+);
 CREATE TABLE solution (
     id INTEGER PRIMARY KEY,
     frequency_hz REAL NOT NULL,

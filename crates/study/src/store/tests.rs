@@ -3,7 +3,7 @@ use tempfile::tempdir;
 use hammerbeam_orbit::{BranchRow, Events, OrbitMaxima, PeriodicSolution};
 
 use super::*;
-use crate::store::Continuation;
+use crate::store::{Continuation, Memory};
 
 const STUDY: &str = include_str!("../../../../studies/duffing.toml");
 
@@ -40,10 +40,13 @@ fn a_solution_comes_back_with_every_bit() {
     let branch = store.begin_branch(0.2, &solution(0.2)).unwrap();
     let events = Events { fold: true, grazing: true, ..Events::default() };
     let row = BranchRow { solution: solution(0.3), events };
-    store.append(branch, Side::Up, &[row], Continuation::Checkpoint(b"here")).unwrap();
+    let memory = |checkpoint, journal| Continuation::GoesOn(Memory { checkpoint, journal });
+    store.append(branch, Side::Up, &[row], memory(b"there", b"fi")).unwrap();
+    store.append(branch, Side::Up, &[], memory(b"here", b"rst")).unwrap();
     assert_eq!(store.solution(branch, Side::Up, 0).unwrap(), solution(0.2));
     assert_eq!(store.solution(branch, Side::Up, 1).unwrap(), solution(0.3));
-    assert_eq!(store.checkpoint(branch, Side::Up).unwrap().unwrap(), b"here");
+    let memory = store.checkpoint(branch, Side::Up).unwrap().unwrap();
+    assert_eq!((&memory.checkpoint[..], &memory.journal[..]), (&b"here"[..], &b"first"[..]));
     let mut labels = Vec::new();
     store
         .each_row::<StoreError>(&store.branches().unwrap()[0], |row| {

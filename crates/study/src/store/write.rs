@@ -5,15 +5,24 @@ use rusqlite::{Transaction, params};
 
 use super::{Store, StoreError, StoredReason, blob, first_key, walk_id};
 
-/// The leading part of the state of a walk.
+/// How a walk goes on.
 #[derive(Debug, Clone, Copy)]
 pub enum Continuation<'a> {
-    /// The walk goes on from this checkpoint.
-    Checkpoint(&'a [u8]),
-    /// The walk has ended, for good.
+    /// From here.
+    GoesOn(Memory<'a>),
+    /// Not at all.
     Ended(&'a StoredReason),
-    /// The walk has ended, but can go on from this checkpoint if its budget grows.
-    Paused(&'a StoredReason, &'a [u8]),
+    /// From here, if its budget grows.
+    Paused(&'a StoredReason, Memory<'a>),
+}
+
+/// All that a walk needs to go on.
+#[derive(Debug, Clone, Copy)]
+pub struct Memory<'a> {
+    /// Replaces the last one.
+    pub checkpoint: &'a [u8],
+    /// Appended to what there is.
+    pub journal: &'a [u8],
 }
 
 impl Store {
@@ -76,18 +85,19 @@ impl Store {
         for (row, key) in rows.iter().zip(first_key(walk) + stored..) {
             insert_solution(&transaction, key, &row.solution, row.events)?;
         }
-        let (reason, checkpoint) = match continuation {
-            Continuation::Checkpoint(checkpoint) => (None, Some(checkpoint)),
+        let (reason, memory) = match continuation {
+            Continuation::GoesOn(memory) => (None, Some(memory)),
             Continuation::Ended(reason) => (Some(reason), None),
-            Continuation::Paused(reason, checkpoint) => (Some(reason), Some(checkpoint)),
+            Continuation::Paused(reason, memory) => (Some(reason), Some(memory)),
         };
+        keep_journal(&transaction, walk, memory)?;
         let update =
             "UPDATE walk SET solutions = ?2, checkpoint = ?3, stop_kind = ?4, stop_frequency_hz = ?5,
             stop_message = ?6 WHERE id = ?1";
         let values = params![
             walk,
             stored + rows.len() as i64,
-            checkpoint,
+            memory.map(|memory| memory.checkpoint),
             reason.map(|reason| &reason.kind),
             reason.and_then(|reason| reason.frequency_hz),
             reason.map(|reason| &reason.message),
@@ -96,6 +106,23 @@ impl Store {
         transaction.commit()?;
         Ok(())
     }
+}
+
+/// Appends to the journal of a walk, or throws it away when the walk has ended.
+fn keep_journal(
+    transaction: &Transaction<'_>,
+    walk: i64,
+    memory: Option<Memory<'_>>,
+) -> Result<(), StoreError> {
+    match memory {
+        None => transaction.execute("DELETE FROM journal WHERE walk = ?1", [walk])?,
+        Some(memory) if memory.journal.is_empty() => 0,
+        Some(memory) => {
+            let insert = "INSERT INTO journal (walk, bytes) VALUES (?1, ?2)";
+            transaction.execute(insert, params![walk, memory.journal])?
+        }
+    };
+    Ok(())
 }
 
 fn insert_solution(

@@ -1,0 +1,106 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+const AFTER: &str =
+    "Exit codes: 0 done, 1 no result, 2 bad input, 130 interrupted (what is finished is kept).";
+
+/// Steady states of structures that hit things.
+///
+/// Describe a linear structure with stops, gaps and local springs in a study file, and compute all of its periodic
+/// responses over the excitation frequency, stable and unstable.
+#[derive(Debug, Parser)]
+#[command(name = "hammerbeam", version, after_help = AFTER, arg_required_else_help = true)]
+pub struct Arguments {
+    /// Print one JSON document on standard output and nothing else there
+    #[arg(long, global = true)]
+    pub json: bool,
+
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Write a commented starter study into a folder
+    New(NewOptions),
+    /// Read and validate a study, and print what was understood
+    Check(StudyOptions),
+    /// Print the eigenfrequencies: unreduced, of the reduction basis, and reduced
+    Modes(StudyOptions),
+    /// Compute everything a study asks for into a results folder; started again, it goes on where it was
+    Run(RunOptions),
+    /// Compute the periodic solutions at one frequency
+    Orbit(OrbitOptions),
+    /// Write stored results for other programs
+    Export(ExportOptions),
+}
+
+#[derive(Debug, Args)]
+pub struct NewOptions {
+    /// Folder, made if it is not there; study.toml is written into it
+    pub folder: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct StudyOptions {
+    /// Study file
+    pub study: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Results folder, made if it is not there; one that holds part of the same study is continued
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Number of threads; branches are followed one after the other so far, and the results do not depend on it
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: u16,
+}
+
+#[derive(Debug, Args)]
+pub struct OrbitOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Excitation frequency
+    #[arg(long, value_name = "HZ", value_parser = positive)]
+    pub frequency: f64,
+
+    /// Orbit period over excitation period; solutions of a shorter period are not given
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub period_multiple: u32,
+}
+
+#[derive(Debug, Args)]
+pub struct ExportOptions {
+    /// Results folder
+    pub results: PathBuf,
+
+    /// Format; csv writes branches.csv, one row per solution
+    #[arg(long, value_enum)]
+    pub format: Format,
+
+    /// Folder to write into [default: RESULTS/export]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Format {
+    /// Comma-separated values
+    Csv,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("must be a finite number of hertz, more than 0".to_owned()),
+    }
+}

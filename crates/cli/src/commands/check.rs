@@ -1,0 +1,172 @@
+//! `hammerbeam check`: what the program understood of a study.
+
+use std::f64::consts::TAU;
+
+use hammerbeam_study::{
+    Model, Study, StudyFile,
+    file::{
+        Approach, Beam, ExcitationKind, FixedTo, Load, Lumped, Place, Reduction, ReductionMethod, Side, Stop,
+        StopLaw, Structure,
+    },
+};
+use serde_json::{Value, json};
+
+use crate::{args::StudyOptions, failure::Failure, output::Output};
+
+pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read(&options.study)?;
+    let model = Model::build(&file)?;
+    output.give(&document(&file.study, &model), || text(&file.study, &model));
+    Ok(())
+}
+
+/// Eigenfrequencies of the equations of motion [Hz].
+fn eigenfrequencies_hz(model: &Model) -> Vec<f64> {
+    model.system.model().natural_frequencies.iter().map(|w| w / TAU).collect()
+}
+
+fn document(study: &Study, model: &Model) -> Value {
+    json!({
+        "title": study.title,
+        "identity": study.identity(),
+        "degrees_of_freedom": model.system.dof(),
+        "eigenfrequencies_hz": eigenfrequencies_hz(model),
+        "frequency_hz": study.excitation.frequency_hz,
+        "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
+        "response_point": study.response.point,
+        "period_multiples": study.response.period_multiples,
+        "study": study,
+    })
+}
+
+fn text(study: &Study, model: &Model) -> String {
+    let mut lines = Vec::new();
+    if !study.title.is_empty() {
+        lines.push(study.title.clone());
+    }
+    lines.push(match &study.structure {
+        Structure::Beam(beam) => beam_text(beam),
+        Structure::Lumped(lumped) => lumped_text(lumped),
+    });
+    lines.push(format!("reduction    {}", reduction_text(&study.reduction, model.system.dof())));
+    let frequencies: Vec<String> =
+        eigenfrequencies_hz(model).iter().take(8).map(|f| format!("{f:.6}")).collect();
+    let more = if model.system.dof() > 8 { ", ..." } else { "" };
+    lines.push(format!("modes        {}{more} Hz", frequencies.join(", ")));
+    lines.push(format!("excitation   {}", excitation_text(study)));
+    lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
+    lines.extend(study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop))));
+    let multiples: Vec<String> = study.response.period_multiples.iter().map(u32::to_string).collect();
+    lines.push(format!(
+        "response     point {}, period multiples {}",
+        study.response.point,
+        multiples.join(", ")
+    ));
+    let continuation = &study.continuation;
+    lines.push(format!(
+        "continuation steps of at most {} Hz, tolerance {:e}, at most {} solutions on each side of a start",
+        continuation.max_step_hz, continuation.tolerance, continuation.budget_solutions
+    ));
+    lines.join("\n")
+}
+
+fn beam_text(beam: &Beam) -> String {
+    let mut text = format!(
+        "structure    beam of {} m, EI {:.6} N m^2, {:.6} kg/m, {} elements, left end {}, right end {}",
+        beam.length_m,
+        beam.youngs_modulus_pa * beam.section.second_moment_m4,
+        beam.density_kg_m3 * beam.section.area_m2,
+        beam.elements,
+        word(&beam.left),
+        word(&beam.right),
+    );
+    for point in &beam.points {
+        text.push_str(&format!("\npoint        {} at {} m, {} kg", point.name, point.at_m, point.mass_kg));
+    }
+    text
+}
+
+fn lumped_text(lumped: &Lumped) -> String {
+    let masses: Vec<String> =
+        lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, mass.mass_kg)).collect();
+    format!(
+        "structure    masses {}; {} springs, {} dampers",
+        masses.join(", "),
+        lumped.springs.len(),
+        lumped.dampers.len()
+    )
+}
+
+fn reduction_text(reduction: &Reduction, dof: usize) -> String {
+    match reduction.method {
+        ReductionMethod::None => format!("none, {dof} modes"),
+        _ => format!("{}, cut-off {} Hz, {dof} modes left", word(&reduction.method), reduction.cut_off_hz),
+    }
+}
+
+fn excitation_text(study: &Study) -> String {
+    let excitation = &study.excitation;
+    let [low, high] = excitation.frequency_hz;
+    let what = match &excitation.kind {
+        ExcitationKind::SupportMotion { at, amplitude_m } => {
+            format!("support motion at {}, amplitude {amplitude_m} m", at.join(", "))
+        }
+        ExcitationKind::Force { at, amplitude_n } => format!("force at {at}, amplitude {amplitude_n} N"),
+    };
+    format!("{what}, {low} to {high} Hz, order {}, phase {} rad", excitation.order, excitation.phase_rad)
+}
+
+fn load_text(load: &Load) -> String {
+    match load {
+        Load::Gravity { acceleration_m_s2 } => format!("gravity, {acceleration_m_s2} m/s^2"),
+        Load::Force { at, amplitude_n, order, phase_rad } => {
+            format!("force at {at}, {amplitude_n} N, order {order}, phase {phase_rad} rad")
+        }
+        Load::SupportMotion { amplitude_m, order, phase_rad } => {
+            format!("support motion, {amplitude_m} m, order {order}, phase {phase_rad} rad")
+        }
+    }
+}
+
+fn stop_text(stop: &Stop) -> String {
+    let place = match &stop.place {
+        Place::At { point, fixed_to: FixedTo::Support } => {
+            format!("at {point}, riding on the moving support")
+        }
+        Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
+        Place::Between { first, second } => format!("between {first} and {second}"),
+    };
+    let law = match stop.law {
+        StopLaw::Hertz { stiffness, approach, side } => {
+            format!("Hertz contact {}, {:e} N/m^1.5, {}", side_text(side), stiffness.value(), rest(approach))
+        }
+        StopLaw::Linear { stiffness_n_m, approach, side } => {
+            format!("linear spring {}, {stiffness_n_m} N/m, {}", side_text(side), rest(approach))
+        }
+        StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
+            "linear springs on both sides, {stiffness_n_m} N/m, gaps {gap_above_m} m above and {gap_below_m} m below ({})",
+            word(&gap_measured)
+        ),
+        StopLaw::Cubic { stiffness_n_m3 } => format!("cubic spring, {stiffness_n_m3} N/m^3"),
+    };
+    format!("\"{}\" {place}: {law}", stop.name)
+}
+
+fn side_text(side: Side) -> &'static str {
+    match side {
+        Side::Above => "above",
+        Side::Below => "below",
+    }
+}
+
+fn rest(approach: Approach) -> String {
+    match approach {
+        Approach::Gap { gap_m, measured } => format!("gap {gap_m} m ({})", word(&measured)),
+        Approach::Preload { preload_n } => format!("preload {preload_n} N"),
+    }
+}
+
+/// The word of the study file for a choice.
+fn word(choice: &impl serde::Serialize) -> String {
+    serde_json::to_value(choice).ok().and_then(|value| value.as_str().map(str::to_owned)).unwrap_or_default()
+}

@@ -1,0 +1,8 @@
+//! One file per command.
+
+pub mod check;
+pub mod export;
+pub mod modes;
+pub mod new;
+pub mod orbit;
+pub mod run;

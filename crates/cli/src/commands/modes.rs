@@ -1,0 +1,66 @@
+//! `hammerbeam modes`: eigenfrequencies before and after the reduction.
+
+use hammerbeam_structure::ModeTables;
+use hammerbeam_study::{Model, StudyFile};
+use serde_json::{Value, json};
+
+use crate::{args::StudyOptions, failure::Failure, output::Output};
+
+/// Rows of the table that are always shown, when there are so many.
+const SHOWN: usize = 12;
+
+pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read(&options.study)?;
+    let model = Model::build(&file)?;
+    output.give(&document(&model.tables), || text(&model.tables));
+    Ok(())
+}
+
+fn document(tables: &ModeTables) -> Value {
+    let errors: Vec<f64> = tables.frequency_errors.iter().map(|error| error.relative).collect();
+    let flexibility = |error: &hammerbeam_structure::FlexibilityError| json!({ "point": error.point, "full_m_n": error.full, "reduced_m_n": error.reduced, "relative": error.relative });
+    json!({
+        "clamped_hz": tables.clamped_hz,
+        "free_interface_hz": tables.free_interface_hz,
+        "reduced_hz": tables.reduced_hz,
+        "fixed_interface_hz": tables.fixed_interface_hz,
+        "reduced_relative_error": errors,
+        "static_flexibility": tables.flexibility_errors.iter().map(flexibility).collect::<Vec<_>>(),
+    })
+}
+
+fn text(tables: &ModeTables) -> String {
+    let interface = if tables.fixed_interface_hz.is_empty() {
+        ("free interface", &tables.free_interface_hz)
+    } else {
+        ("fixed interface", &tables.fixed_interface_hz)
+    };
+    let mut lines = vec![
+        "Eigenfrequencies in Hz; clamped means as supported, with the moving support held still.".to_owned(),
+        format!("mode {:>16} {:>16} {:>16} {:>12}", "clamped", interface.0, "reduced", "error"),
+    ];
+    let rows = tables.reduced_hz.len().max(interface.1.len()).max(SHOWN).min(tables.clamped_hz.len());
+    let cell =
+        |values: &[f64], row: usize| values.get(row).map_or(String::new(), |value| format!("{value:.6}"));
+    for row in 0..rows {
+        let error =
+            tables.frequency_errors.get(row).map_or(String::new(), |e| format!("{:+.2e}", e.relative));
+        lines.push(format!(
+            "{:>4} {:>16} {:>16} {:>16} {error:>12}",
+            row + 1,
+            cell(&tables.clamped_hz, row),
+            cell(interface.1, row),
+            cell(&tables.reduced_hz, row),
+        ));
+    }
+    if rows < tables.clamped_hz.len() {
+        lines.push(format!("  and {} more unreduced modes, with --json", tables.clamped_hz.len() - rows));
+    }
+    for error in &tables.flexibility_errors {
+        lines.push(format!(
+            "static flexibility at {}: {:.6e} m/N unreduced, {:.6e} m/N reduced, error {:+.2e}",
+            error.point, error.full, error.reduced, error.relative
+        ));
+    }
+    lines.join("\n")
+}

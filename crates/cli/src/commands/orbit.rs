@@ -1,0 +1,82 @@
+//! `hammerbeam orbit`: the periodic solutions at one frequency.
+
+use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_study::{Model, OrbitSolver, StudyFile};
+use serde_json::{Value, json};
+
+use crate::{args::OrbitOptions, failure::Failure, output::Output};
+
+pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read(&options.study)?;
+    let model = Model::build(&file)?;
+    let solver = OrbitSolver::new(&model, &file.study);
+    let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
+    let found = solver.find_orbits(frequency_hz, multiple).map_err(Failure::NoResult)?;
+    let Some((first, others)) = found.split_first() else {
+        return Err(Failure::NoResult(format!(
+            "no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz"
+        )));
+    };
+    output.give(&document(first, others), || text(first, others, &file.study.response.point));
+    Ok(())
+}
+
+fn document(first: &PeriodicSolution, others: &[PeriodicSolution]) -> Value {
+    let mut document = quantities(first);
+    document["others"] = others.iter().map(quantities).collect();
+    document
+}
+
+fn quantities(solution: &PeriodicSolution) -> Value {
+    let maxima = &solution.maxima;
+    json!({
+        "frequency_hz": solution.frequency_hz,
+        "period_multiple": solution.period_multiple,
+        "max_abs_displacement_m": maxima.displacement,
+        "max_abs_acceleration_m_s2": maxima.acceleration,
+        "max_contact_force_n": maxima.contact_force,
+        "max_impact_velocity_m_s": maxima.impact_velocity,
+        "impulse_n_s": maxima.impulse,
+        "contacts": maxima.contacts,
+        "floquet_multipliers": solution.floquet_multipliers,
+        "stable": solution.stable(),
+        "residual": solution.residual,
+        "error_estimate": solution.error_estimate,
+    })
+}
+
+fn text(first: &PeriodicSolution, others: &[PeriodicSolution], point: &str) -> String {
+    let shown: Vec<String> =
+        std::iter::once(first).chain(others).map(|solution| solution_text(solution, point)).collect();
+    let count = match shown.len() {
+        1 => "One periodic solution was found.".to_owned(),
+        count => format!("{count} periodic solutions were found."),
+    };
+    format!("{count}\n\n{}", shown.join("\n\n"))
+}
+
+fn solution_text(solution: &PeriodicSolution, point: &str) -> String {
+    let maxima = &solution.maxima;
+    let multipliers: Vec<String> = solution.floquet_multipliers.iter().take(4).map(|m| complex(*m)).collect();
+    let more = if solution.floquet_multipliers.len() > 4 { ", ..." } else { "" };
+    [
+        format!(
+            "{} Hz, period {} excitation period(s), {}",
+            solution.frequency_hz,
+            solution.period_multiple,
+            if solution.stable() { "stable" } else { "unstable" }
+        ),
+        format!("  maximum displacement of {point}   {:.9e} m", maxima.displacement),
+        format!("  maximum acceleration of {point}   {:.9e} m/s^2", maxima.acceleration),
+        format!("  maximum contact force       {:.9e} N", maxima.contact_force),
+        format!("  maximum impact velocity     {:.9e} m/s", maxima.impact_velocity),
+        format!("  contacts in an orbit period {}", maxima.contacts),
+        format!("  Floquet multipliers         {}{more}", multipliers.join(", ")),
+        format!("  residual                    {:.1e}", solution.residual),
+    ]
+    .join("\n")
+}
+
+fn complex([re, im]: [f64; 2]) -> String {
+    if im == 0.0 { format!("{re:.6}") } else { format!("{re:.6}{im:+.6}i") }
+}

@@ -1,0 +1,157 @@
+//! `hammerbeam run`: everything a study asks for, into one results folder.
+
+use std::time::{Duration, Instant};
+
+use hammerbeam_study::{
+    Model, OrbitSolver, Store, Study, StudyFile,
+    run::{Plan, RunOutcome},
+    store::{StoredReason, WalkRecord},
+    summary::{BranchSummary, Peak, summarise},
+};
+use serde_json::{Value, json};
+
+use crate::{
+    args::RunOptions, failure::Failure, figures, interrupt::Interrupt, output::Output, progress::Terminal,
+};
+
+pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read(&options.study)?;
+    let model = Model::build(&file)?;
+    let mut store = Store::open_for_run(&options.out, &file)?;
+    let solver = OrbitSolver::new(&model, &file.study);
+    let mut terminal = Terminal::new(Interrupt::listen()?);
+    let begun = Instant::now();
+    let outcome = hammerbeam_study::run::run(&mut store, &solver, &Plan::of(&file.study), &mut terminal);
+    terminal.clear();
+    let outcome = outcome?;
+    let branches = summarise(&store)?;
+    let summary = Summary { study: &file.study, folder: options.out.display().to_string(), branches };
+    let result = match outcome {
+        RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
+        RunOutcome::Done if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
+        RunOutcome::Done => {
+            let figures = figures::draw(&store, file.study.excitation.frequency_hz)?;
+            output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
+            Ok(())
+        }
+    };
+    store.finish()?;
+    result
+}
+
+/// What came of a run.
+struct Summary<'a> {
+    study: &'a Study,
+    folder: String,
+    branches: Vec<BranchSummary>,
+}
+
+impl Summary<'_> {
+    fn solutions(&self) -> u64 {
+        self.branches.iter().map(|branch| branch.solutions).sum()
+    }
+
+    fn interrupted(&self) -> String {
+        format!(
+            "interrupted; {} solutions are kept in {}, the same command goes on from there",
+            self.solutions(),
+            self.folder
+        )
+    }
+
+    fn nothing(&self) -> String {
+        let [low, high] = self.study.excitation.frequency_hz;
+        format!("no periodic solution was found between {low} and {high} Hz")
+    }
+
+    fn document(&self, figures: &[String]) -> Value {
+        json!({
+            "results": self.folder,
+            "title": self.study.title,
+            "solutions": self.solutions(),
+            "branches": self.branches.iter().map(branch_document).collect::<Vec<_>>(),
+            "figures": figures,
+        })
+    }
+
+    fn text(&self, figures: &[String], elapsed: Duration) -> String {
+        let mut lines = vec![format!(
+            "{} solutions on {} branch(es) in {}, after {:.1} s",
+            self.solutions(),
+            self.branches.len(),
+            self.folder,
+            elapsed.as_secs_f64()
+        )];
+        lines.extend(self.branches.iter().map(branch_text));
+        lines.push(format!("figures: {}", figures.join(", ")));
+        lines.join("\n")
+    }
+}
+
+fn branch_document(branch: &BranchSummary) -> Value {
+    let walk = |walk: &WalkRecord| {
+        json!({
+            "solutions": walk.solutions,
+            "stop_reason": walk.reason.as_ref().map(|reason| reason.kind.as_str()),
+            "stop_frequency_hz": walk.reason.as_ref().and_then(|reason| reason.frequency_hz),
+            "stop_message": walk.reason.as_ref().map(|reason| reason.message.as_str()),
+        })
+    };
+    let peak = |peak: &Peak| {
+        json!({
+            "frequency_hz": peak.frequency_hz,
+            "max_abs_displacement_m": peak.max_abs_displacement_m,
+            "stable": peak.stable,
+        })
+    };
+    json!({
+        "branch": branch.record.id,
+        "period_multiple": branch.record.period_multiple,
+        "solutions": branch.solutions,
+        "stable_solutions": branch.stable,
+        "frequency_hz": branch.range_hz,
+        "folds": branch.folds,
+        "flips": branch.flips,
+        "neimark_sackers": branch.neimark_sackers,
+        "branch_points": branch.branch_points,
+        "grazings": branch.grazings,
+        "peaks": branch.peaks.iter().map(peak).collect::<Vec<_>>(),
+        "up": walk(&branch.record.up),
+        "down": walk(&branch.record.down),
+    })
+}
+
+fn branch_text(branch: &BranchSummary) -> String {
+    let [low, high] = branch.range_hz;
+    let mut lines = vec![
+        format!(
+            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} Hz, {} of them stable",
+            branch.record.id, branch.record.period_multiple, branch.solutions, branch.stable
+        ),
+        format!(
+            "  folds {}, flips {}, Neimark-Sacker points {}, branch points {}, grazings {}",
+            branch.folds, branch.flips, branch.neimark_sackers, branch.branch_points, branch.grazings
+        ),
+    ];
+    let mut peaks = branch.peaks.clone();
+    peaks.sort_by(|a, b| b.max_abs_displacement_m.total_cmp(&a.max_abs_displacement_m));
+    for peak in peaks.iter().take(6) {
+        let stability = if peak.stable { "stable" } else { "unstable" };
+        lines.push(format!(
+            "  peak at {:.4} Hz, {:.4e} m, {stability}",
+            peak.frequency_hz, peak.max_abs_displacement_m
+        ));
+    }
+    for (side, walk) in [("up", &branch.record.up), ("down", &branch.record.down)] {
+        lines.push(format!("  {side} side: {}", stop_text(walk.reason.as_ref())));
+    }
+    lines.join("\n")
+}
+
+fn stop_text(reason: Option<&StoredReason>) -> String {
+    match reason {
+        None => "not finished".to_owned(),
+        Some(reason) if reason.is_complete() => reason.message.clone(),
+        Some(reason) => format!("stopped early: {}", reason.message),
+    }
+}

@@ -1,0 +1,84 @@
+//! Why a command does not end well, and with which exit code.
+
+use std::process::ExitCode;
+
+use hammerbeam_study::{Report, StoreError, StudyError, export::ExportError, run::RunError};
+
+/// Why a command does not end well.
+#[derive(Debug)]
+pub enum Failure {
+    /// A study file with faults.
+    Study(Report),
+    /// Anything else the user gave that is not right.
+    BadInput(String),
+    /// There is nothing to give.
+    NoResult(String),
+    /// The user stopped it.
+    Interrupted(String),
+    /// The machine refuses.
+    Other(anyhow::Error),
+}
+
+impl Failure {
+    /// Exit code, as a number.
+    pub fn code(&self) -> u8 {
+        match self {
+            Self::NoResult(_) | Self::Other(_) => 1,
+            Self::Study(_) | Self::BadInput(_) => 2,
+            Self::Interrupted(_) => 130,
+        }
+    }
+
+    /// Exit code of the process.
+    pub fn exit_code(&self) -> ExitCode {
+        ExitCode::from(self.code())
+    }
+
+    /// What to tell, without colours.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Study(report) => report.to_string(),
+            Self::BadInput(message) | Self::NoResult(message) | Self::Interrupted(message) => message.clone(),
+            Self::Other(error) => format!("{error:#}"),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Invalid(report) => Self::Study(report),
+            other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
+        if error.is_bad_input() { Self::BadInput(error.to_string()) } else { Self::Other(error.into()) }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Store(error) => error.into(),
+            other => Self::Other(other.into()),
+        }
+    }
+}
+
+impl From<ExportError> for Failure {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Store(error) => error.into(),
+            other => Self::Other(other.into()),
+        }
+    }
+}
+
+impl From<anyhow::Error> for Failure {
+    fn from(error: anyhow::Error) -> Self {
+        Self::Other(error)
+    }
+}

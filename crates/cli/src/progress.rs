@@ -1,0 +1,77 @@
+//! The progress bar of a run; nothing is shown when standard error is not a terminal.
+
+use std::time::Instant;
+
+use hammerbeam_study::run::{Observer, Progress, Target};
+use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
+
+use crate::interrupt::Interrupt;
+
+/// Resolution of the bar.
+const LENGTH: u64 = 10_000;
+
+/// Shows a run on the terminal and stops it on Ctrl-C.
+pub struct Terminal {
+    bar: ProgressBar,
+    interrupt: Interrupt,
+    begun: Instant,
+    first_fraction: Option<f64>,
+}
+
+impl Terminal {
+    /// A bar on standard error.
+    pub fn new(interrupt: Interrupt) -> Self {
+        let bar = ProgressBar::new(LENGTH);
+        let style = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {msg}");
+        bar.set_style(style.expect("the template is constant").progress_chars("=> "));
+        Self { bar, interrupt, begun: Instant::now(), first_fraction: None }
+    }
+
+    /// Takes the bar away.
+    pub fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+
+    /// Solutions so far, their rate, where, and how long it still takes.
+    fn message(&mut self, progress: &Progress) -> String {
+        let elapsed = self.begun.elapsed();
+        let rate = progress.new_solutions as f64 / elapsed.as_secs_f64().max(1e-3);
+        let first = *self.first_fraction.get_or_insert(progress.fraction);
+        let gained = progress.fraction - first;
+        let left = if gained > 1e-3 {
+            let left = elapsed.mul_f64(((1.0 - progress.fraction) / gained).min(1e6));
+            format!("{} left", HumanDuration(left))
+        } else {
+            "time left not known yet".to_owned()
+        };
+        format!(
+            "{} solutions, {}/s  {:.4} Hz on branch {} (period {})  {left}",
+            HumanCount(progress.solutions),
+            HumanCount(rate as u64),
+            progress.frequency_hz,
+            progress.branch,
+            progress.period_multiple,
+        )
+    }
+}
+
+impl Observer for Terminal {
+    fn searching(&mut self, target: &Target) {
+        let multiple = target.period_multiple;
+        self.bar.set_message(format!("looking for period {multiple} at {:.4} Hz", target.frequency_hz));
+        self.bar.tick();
+    }
+
+    fn progress(&mut self, progress: &Progress) {
+        if self.bar.is_hidden() {
+            return;
+        }
+        let message = self.message(progress);
+        self.bar.set_position((progress.fraction * LENGTH as f64) as u64);
+        self.bar.set_message(message);
+    }
+
+    fn interrupted(&mut self) -> bool {
+        self.interrupt.raised()
+    }
+}

@@ -1,0 +1,103 @@
+//! The numerics of the orbit crate, as a run needs them.
+
+use hammerbeam_orbit::{
+    BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    find_orbits, find_start,
+};
+
+use crate::{
+    Model,
+    file::{self, Study},
+    run::{Solver, Walk},
+};
+
+/// Periodic solutions of one model and their branches.
+#[derive(Debug)]
+pub struct OrbitSolver<'m> {
+    model: &'m Model,
+    range_hz: (f64, f64),
+    settings: OrbitSettings,
+    budget: usize,
+}
+
+impl<'m> OrbitSolver<'m> {
+    /// For a study and its model.
+    #[must_use]
+    pub fn new(model: &'m Model, study: &Study) -> Self {
+        let [low, high] = study.excitation.frequency_hz;
+        Self {
+            model,
+            range_hz: (low, high),
+            settings: settings(&study.continuation),
+            budget: study.continuation.budget_solutions,
+        }
+    }
+
+    /// All periodic solutions of minimal period `period_multiple` that are found at a frequency: stable ones first,
+    /// then the largest maximum displacement.
+    ///
+    /// # Errors
+    /// Why the search failed, in words.
+    pub fn find_orbits(
+        &self,
+        frequency_hz: f64,
+        period_multiple: u32,
+    ) -> Result<Vec<PeriodicSolution>, String> {
+        let orbit = (frequency_hz, period_multiple);
+        let settings = OrbitSettings { max_solutions: self.budget, ..self.settings };
+        find_orbits(&self.model.system, self.response(), orbit, self.range_hz, &settings)
+            .map_err(|error| error.to_string())
+    }
+
+    fn response(&self) -> &Response {
+        &self.model.response
+    }
+}
+
+fn settings(continuation: &file::Continuation) -> OrbitSettings {
+    OrbitSettings {
+        max_step_hz: continuation.max_step_hz,
+        tolerance: continuation.tolerance,
+        segments: match continuation.segments {
+            file::Segments::Auto => Segments::Automatic,
+            file::Segments::Given(count) => Segments::Fixed(count as usize),
+        },
+        // The run itself keeps the budget of a walk, so that it can be raised later.
+        max_solutions: usize::MAX,
+        ..OrbitSettings::default()
+    }
+}
+
+impl Solver for OrbitSolver<'_> {
+    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String> {
+        find_start(&self.model.system, self.response(), frequency_hz, period_multiple, &self.settings)
+            .map_err(|error| error.to_string())
+    }
+
+    fn begin<'a>(&'a self, start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+        let system = &self.model.system;
+        let walk = BranchWalk::new(system, self.response(), start, side, self.range_hz, &self.settings);
+        Ok(Box::new(walk.map_err(|error| error.to_string())?))
+    }
+
+    fn resume<'a>(&'a self, checkpoint: &[u8], journal: &[u8]) -> Result<Box<dyn Walk + 'a>, String> {
+        let stored = (checkpoint, journal);
+        let walk =
+            BranchWalk::resume(&self.model.system, self.response(), stored, self.range_hz, &self.settings);
+        Ok(Box::new(walk.map_err(|error| error.to_string())?))
+    }
+}
+
+impl Walk for BranchWalk {
+    fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String> {
+        self.step(rows).map_err(|error| error.to_string())
+    }
+
+    fn checkpoint(&self) -> Vec<u8> {
+        self.checkpoint()
+    }
+
+    fn take_journal(&mut self) -> Vec<u8> {
+        self.take_journal()
+    }
+}
