@@ -11,7 +11,7 @@ use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
     shooting::{ShootingProblem, StateScale},
     solve::integrator,
-    walk::path_settings,
+    walk::{hertz_per_norm, path_settings},
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
@@ -63,10 +63,11 @@ impl BranchWalk {
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let mut reader = Reader { bytes: checkpoint };
+        let length = hertz_per_norm(range_hz);
         let (problem, state) =
-            read(&mut reader, system, response, settings).ok_or(OrbitError::Checkpoint)??;
+            read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let mut follower = Follower::resume(&problem, state, range, path_settings(settings));
+        let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
         let mut reader = Reader { bytes: journal };
         while !reader.bytes.is_empty() {
             follower.remember(&reader.point().ok_or(OrbitError::Checkpoint)?);
@@ -80,7 +81,7 @@ fn read(
     reader: &mut Reader<'_>,
     system: &System,
     response: &Response,
-    settings: &OrbitSettings,
+    (settings, length): (&OrbitSettings, f64),
 ) -> Option<Result<(ShootingProblem, Checkpoint), OrbitError>> {
     if reader.word()? != MAGIC {
         return None;
@@ -118,7 +119,7 @@ fn read(
         },
         stop: None,
     };
-    reader.bytes.is_empty().then(|| Ok((ShootingProblem::new(integrator, period_multiple, segments, scale), state)))
+    reader.bytes.is_empty().then(|| Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
 }
 
 #[derive(Default)]

@@ -12,9 +12,9 @@ pub enum Segments {
 
 /// Settings of orbits and branches.
 ///
-/// Lengths of a path are measured in `ds^2 = df^2 + |dz|^2`, f in hertz and `|dz|` the change of the orbit's state in the energy
-/// norm `sqrt(sum w_i^2 q_i^2 + q_i'^2)`, relative to the norm of the start, in hertz too: a change as large as the
-/// start's motion counts like one hertz.
+/// Lengths of a path are measured in `ds^2 = df^2 + (F |dz|)^2`, f in hertz, `|dz|` the change of the orbit's state in the energy
+/// norm `sqrt(sum w_i^2 q_i^2 + q_i'^2)` relative to the norm of the start, and F a hundredth of the frequency range: a change as large as
+/// the start's motion counts like a hundredth of the range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrbitSettings {
     /// Largest change of frequency from one solution to the next [Hz].
@@ -27,6 +27,14 @@ pub struct OrbitSettings {
     pub segments: Segments,
     /// Most solutions on one side of a branch.
     pub max_solutions: usize,
+}
+
+impl OrbitSettings {
+    /// The defaults with the longest step that suits a frequency range: a five-thousandth of it.
+    #[must_use]
+    pub fn for_range((low, high): (f64, f64)) -> Self {
+        Self { max_step_hz: (high - low) / 5000.0, ..Self::default() }
+    }
 }
 
 impl Default for OrbitSettings {

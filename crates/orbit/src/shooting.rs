@@ -73,7 +73,13 @@ pub(crate) struct ShootingProblem {
 }
 
 impl ShootingProblem {
-    pub fn new(integrator: ExactIntegrator, period_multiple: u32, segments: usize, scale: StateScale) -> Self {
+    /// * `hertz_per_norm`: how many hertz of arc length a change of the orbit by its own size counts.
+    pub fn new(
+        integrator: ExactIntegrator,
+        (period_multiple, segments): (u32, usize),
+        scale: StateScale,
+        hertz_per_norm: f64,
+    ) -> Self {
         let size = scale.values().len();
         let mut identity = vec![0.0; size * size];
         (0..size).for_each(|i| identity[i * size + i] = 1.0);
@@ -83,7 +89,10 @@ impl ShootingProblem {
             period_multiple,
             segments,
             // The orbit counts once, whatever the number of nodes.
-            weights: (0..segments * size).map(|_| 1.0 / segments as f64).chain([1.0]).collect(),
+            weights: (0..segments * size)
+                .map(|_| hertz_per_norm * hertz_per_norm / segments as f64)
+                .chain([1.0])
+                .collect(),
             residual: vec![0.0; segments * size],
             segment_matrices: vec![vec![0.0; size * size]; segments],
             products: vec![identity; segments + 1],

@@ -167,7 +167,7 @@ pub(crate) fn orbit_near(
     settings: &OrbitSettings,
 ) -> Result<(PeriodicSolution, ShootingProblem), OrbitError> {
     let scale = state_scale(integrator.system(), state, frequency_hz);
-    let mut problem = ShootingProblem::new(integrator, period_multiple, segments, scale);
+    let mut problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, 1.0);
     let nodes = nodes_from(problem.integrator(), state, frequency_hz, period_multiple, segments)?;
     let mut point = problem.point(&nodes, frequency_hz);
     let correction = correct(&mut problem, &mut point, settings)?;

@@ -39,14 +39,15 @@ impl BranchWalk {
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
         let segments = segment_count(start, settings);
         let nodes = nodes_from(&mut integrator, &start.nodes[0], frequency, multiple, segments)?;
-        let mut problem = ShootingProblem::new(integrator, multiple, segments, scale);
+        let length = hertz_per_norm(range_hz);
+        let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
         let point = problem.point(&nodes, frequency);
         let direction = match side {
             Side::Up => Direction::Increasing,
             Side::Down => Direction::Decreasing,
         };
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let follower = Follower::start(&mut problem, &point, direction, range, path_settings(settings))?;
+        let follower = Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
         let journal = vec![follower.current().clone()];
         Ok(Self { problem, follower, journal })
     }
@@ -131,15 +132,25 @@ impl BranchWalk {
     }
 }
 
-/// Settings of the path from those of the orbits.
-pub(crate) fn path_settings(settings: &OrbitSettings) -> Settings {
+/// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
+pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
+    (high - low) / 100.0
+}
+
+/// Settings of the path from those of the orbits; `length` is [`hertz_per_norm`].
+pub(crate) fn path_settings(settings: &OrbitSettings, length: f64) -> Settings {
+    let default = Settings::default();
     Settings {
         initial_step: 0.1 * settings.max_step_hz,
         max_parameter_step: settings.max_step_hz,
         max_step_length: 2.0 * settings.max_step_hz,
-        correction_tolerance: settings.tolerance,
+        min_step: default.min_step * length,
+        correction_tolerance: settings.tolerance * length,
+        correction_floor: default.correction_floor * length,
+        sheet_distance: default.sheet_distance * length,
+        signature_step: default.signature_step * length,
         max_points: settings.max_solutions as u64,
-        ..Settings::default()
+        ..default
     }
 }
 

@@ -46,7 +46,6 @@
 //! # Ok::<(), hammerbeam_structure::StructureError>(())
 //! ```
 
-#![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets")]
 
 mod beam;
 mod damping;
