@@ -69,10 +69,17 @@ impl BranchWalk {
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
         let mut reader = Reader { bytes: journal };
+        let length = follower.current().point.len();
+        let mut points = Vec::new();
         while !reader.bytes.is_empty() {
-            follower.remember(&reader.point().ok_or(OrbitError::Checkpoint)?);
+            let point = reader.point().ok_or(OrbitError::Checkpoint)?;
+            // What was walked with fewer segments is not in the memory of the present follower.
+            if point.point.len() == length {
+                points.push(point);
+            }
         }
-        Ok(Self { problem, follower, journal: Vec::new() })
+        points.iter().for_each(|point| follower.remember(point));
+        Ok(Self { problem, follower, journal: Vec::new(), settings: *settings, range_hz })
     }
 }
 

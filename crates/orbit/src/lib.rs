@@ -5,6 +5,7 @@ mod eigenvalues;
 mod error;
 mod find;
 mod free;
+mod resegment;
 mod settings;
 mod shooting;
 mod solution;

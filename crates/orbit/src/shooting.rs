@@ -56,6 +56,7 @@ pub(crate) struct ShootingProblem {
     period_multiple: u32,
     segments: usize,
     scale: StateScale,
+    hertz_per_norm: f64,
     weights: Vec<f64>,
     residual: Vec<f64>,
     /// `G_k` by rows, scaled.
@@ -80,31 +81,44 @@ impl ShootingProblem {
         scale: StateScale,
         hertz_per_norm: f64,
     ) -> Self {
-        let size = scale.values().len();
-        let mut identity = vec![0.0; size * size];
-        (0..size).for_each(|i| identity[i * size + i] = 1.0);
         let contacts = integrator.touches().len();
-        Self {
+        let mut problem = Self {
             integrator,
             period_multiple,
             segments,
-            // The orbit counts once, whatever the number of nodes.
-            weights: (0..segments * size)
-                .map(|_| hertz_per_norm * hertz_per_norm / segments as f64)
-                .chain([1.0])
-                .collect(),
-            residual: vec![0.0; segments * size],
-            segment_matrices: vec![vec![0.0; size * size]; segments],
-            products: vec![identity; segments + 1],
-            by_frequency: vec![vec![0.0; size]; segments],
-            frequency_sums: vec![vec![0.0; size]; segments + 1],
-            condensed: vec![0.0; (size + 1) * (size + 1)],
+            scale,
+            hertz_per_norm,
+            weights: Vec::new(),
+            residual: Vec::new(),
+            segment_matrices: Vec::new(),
+            products: Vec::new(),
+            by_frequency: Vec::new(),
+            frequency_sums: Vec::new(),
+            condensed: Vec::new(),
             border: Vec::new(),
             lu: DenseLu::new(),
             touches: vec![0; contacts],
             failure: None,
-            scale,
-        }
+        };
+        problem.set_segments(segments);
+        problem
+    }
+
+    /// Cuts the orbit anew; the problem must be evaluated again.
+    pub fn set_segments(&mut self, segments: usize) {
+        let size = self.node_size();
+        let mut identity = vec![0.0; size * size];
+        (0..size).for_each(|i| identity[i * size + i] = 1.0);
+        // The orbit counts once, whatever the number of nodes.
+        let weight = self.hertz_per_norm * self.hertz_per_norm / segments as f64;
+        self.segments = segments;
+        self.weights = (0..segments * size).map(|_| weight).chain([1.0]).collect();
+        self.residual = vec![0.0; segments * size];
+        self.segment_matrices = vec![vec![0.0; size * size]; segments];
+        self.products = vec![identity; segments + 1];
+        self.by_frequency = vec![vec![0.0; size]; segments];
+        self.frequency_sums = vec![vec![0.0; size]; segments + 1];
+        self.condensed = vec![0.0; (size + 1) * (size + 1)];
     }
 
     /// Entries of a node, 2n.

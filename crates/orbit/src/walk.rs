@@ -19,6 +19,8 @@ pub struct BranchWalk {
     pub(crate) follower: Follower,
     /// Accepted points since the last [`BranchWalk::take_journal`].
     pub(crate) journal: Vec<ContinuationPoint>,
+    pub(crate) settings: OrbitSettings,
+    pub(crate) range_hz: (f64, f64),
 }
 
 impl BranchWalk {
@@ -49,7 +51,7 @@ impl BranchWalk {
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let follower = Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
         let journal = vec![follower.current().clone()];
-        Ok(Self { problem, follower, journal })
+        Ok(Self { problem, follower, journal, settings: *settings, range_hz })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -67,14 +69,32 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
     pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
-        match self.follower.step(&mut self.problem) {
-            StepOutcome::Accepted => {
+        match self.advance()? {
+            None => {
                 let row = self.row()?;
                 self.journal.push(self.follower.current().clone());
                 rows.push(row);
                 Ok(None)
             }
-            StepOutcome::Stopped(reason) => Ok(Some(self.stop_reason(reason))),
+            Some(reason) => Ok(Some(self.stop_reason(reason))),
+        }
+    }
+
+    /// Goes to the next point of the path, with more segments if it does not go on with the present ones.
+    fn advance(&mut self) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
+        use hammerbeam_path::StopReason::{EvaluationFailed, StepTooShort};
+        loop {
+            match self.follower.step(&mut self.problem) {
+                StepOutcome::Accepted => return Ok(None),
+                StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
+                    if self.settings.segments == Segments::Automatic =>
+                {
+                    if !self.resegment()? {
+                        return Ok(Some(reason));
+                    }
+                }
+                StepOutcome::Stopped(reason) => return Ok(Some(reason)),
+            }
         }
     }
 
@@ -83,13 +103,13 @@ impl BranchWalk {
         &mut self,
         states: &mut Vec<(f64, Vec<f64>)>,
     ) -> Result<Option<StopReason>, OrbitError> {
-        match self.follower.step(&mut self.problem) {
-            StepOutcome::Accepted => {
+        match self.advance()? {
+            None => {
                 let current = self.follower.current();
                 states.push((current.parameter(), self.problem.nodes(&current.point).swap_remove(0)));
                 Ok(None)
             }
-            StepOutcome::Stopped(reason) => Ok(Some(self.stop_reason(reason))),
+            Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
     }
 

@@ -1,0 +1,66 @@
+//! A walk that is stored and taken up again goes on with the same bits.
+
+use faer::Mat;
+use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::HertzStop};
+use hammerbeam_orbit::{
+    BranchRow, BranchWalk, OrbitError, OrbitSettings, Response, Segments, Side, find_start,
+};
+use hammerbeam_structure::{PointOutput, ReducedModel};
+
+/// Unit mass on a spring, `w = 1`, damping ratio 0.02, with a Hertz stop at a gap, driven by a force.
+fn oscillator() -> (System, Response) {
+    let model = ReducedModel {
+        natural_frequencies: vec![1.0],
+        damping: Mat::from_fn(1, 1, |_, _| 0.04),
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+        support: None,
+        uniform_acceleration: vec![1.0],
+    };
+    let force =
+        HarmonicForce { shape: vec![1.0], harmonic: Harmonic { order: 1, amplitude: 0.2, phase: 0.0 } };
+    let load = Load { support: Vec::new(), forces: vec![force] };
+    let law = Law::Hertz(HertzStop::with_gap(20.0, 0.5).unwrap());
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let system = System::new(model, &load, vec![stop]).unwrap();
+    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+}
+
+const RANGE: (f64, f64) = (0.1, 0.4);
+
+/// Walks to the end, storing and resuming after every `pieces` steps.
+fn walk(settings: &OrbitSettings, pieces: usize) -> Vec<BranchRow> {
+    let (system, response) = oscillator();
+    let start = find_start(&system, &response, 0.12, 1, settings).unwrap();
+    let mut walk = BranchWalk::new(&system, &response, &start, Side::Up, RANGE, settings).unwrap();
+    let (mut rows, mut journal) = (Vec::new(), Vec::new());
+    for step in 1.. {
+        if walk.step(&mut rows).unwrap().is_some() {
+            break;
+        }
+        if step % pieces == 0 {
+            journal.extend(walk.take_journal());
+            let checkpoint = walk.checkpoint();
+            walk = BranchWalk::resume(&system, &response, (&checkpoint, &journal), RANGE, settings).unwrap();
+        }
+    }
+    rows
+}
+
+#[test]
+fn a_resumed_walk_has_the_bits_of_an_undisturbed_one() {
+    for segments in [Segments::Automatic, Segments::Fixed(4)] {
+        let settings = OrbitSettings { segments, ..OrbitSettings::for_range((0.0, 1.5)) };
+        let undisturbed = walk(&settings, usize::MAX);
+        assert!(undisturbed.iter().any(|row| row.events.fold), "the resonance overhangs");
+        assert!(undisturbed.len() > 200);
+        assert!(undisturbed == walk(&settings, 7));
+    }
+}
+
+#[test]
+fn bytes_of_another_system_are_refused() {
+    let (system, response) = oscillator();
+    let settings = OrbitSettings::for_range(RANGE);
+    let found = BranchWalk::resume(&system, &response, (&[1, 2, 3], &[]), RANGE, &settings);
+    assert_eq!(found.err(), Some(OrbitError::Checkpoint));
+}
