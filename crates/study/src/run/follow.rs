@@ -4,10 +4,7 @@ use std::time::{Duration, Instant};
 
 use hammerbeam_orbit::{BranchRow, Side, StopReason};
 
-use super::{
-    Observer, Plan, Progress, RunError, Solver, Walk,
-    runner::{Done, Ended},
-};
+use super::{Observer, Plan, Progress, RunError, Solver, Walk, done::Done, runner::Ended};
 use crate::store::{Continuation, Memory, Store, StoredReason};
 
 /// Solutions are committed together after this time,

@@ -4,6 +4,7 @@
 //! branch its up side and then its down side. Whatever the store already holds is skipped, so a resumed run does
 //! exactly what is left of the same work.
 
+mod done;
 mod follow;
 mod known;
 mod plan;

@@ -2,8 +2,8 @@
 
 use hammerbeam_orbit::Side;
 
-use super::{Observer, Plan, Solver, Target, follow::Follow, known};
-use crate::store::{BranchRecord, Store, StoreError, StoredReason, WalkRecord};
+use super::{Observer, Plan, Solver, Target, done::Done, follow::Follow, known};
+use crate::store::{Store, StoreError, StoredReason, WalkRecord};
 
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,7 +46,7 @@ pub fn run(
 ) -> Result<RunOutcome, RunError> {
     let mut done = Done::new(store, plan)?;
     for (index, target) in plan.targets.iter().enumerate() {
-        done.begin_target(index);
+        done.begin_target(plan, index);
         let branch = match searched(store, target)? {
             Some(branch) => branch,
             None if observer.interrupted() => return Ok(RunOutcome::Interrupted),
@@ -65,9 +65,19 @@ fn searched(store: &Store, target: &Target) -> Result<Option<Option<u32>>, RunEr
     if let Some((branch, _)) = store.search_outcome(target.period_multiple, target.frequency_hz)? {
         return Ok(Some(branch));
     }
-    let there = |branch: &BranchRecord| branch.period_multiple == target.period_multiple;
-    let superfluous = target.only_without_branch && store.branches()?.iter().any(there);
+    let superfluous = target.only_if_not_covered && is_covered(store, target)?;
     Ok(superfluous.then_some(None))
+}
+
+/// Whether a branch of the target's multiple passes its frequency.
+fn is_covered(store: &Store, target: &Target) -> Result<bool, RunError> {
+    for branch in store.branches()?.iter().filter(|branch| branch.period_multiple == target.period_multiple) {
+        let [low, high] = store.frequency_span(branch)?;
+        if (low..=high).contains(&target.frequency_hz) {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 /// Looks for a start; the new branch, if there is one.
@@ -107,7 +117,6 @@ fn follow_branch(
     let record = records.iter().find(|record| record.id == branch).expect("the branch was just stored");
     let period_multiple = record.period_multiple;
     for side in [Side::Up, Side::Down] {
-        done.begin_side(side);
         if is_finished(&store.walk(branch, side)?, plan) {
             continue;
         }
@@ -131,60 +140,5 @@ fn is_finished(walk: &WalkRecord, plan: &Plan) -> bool {
     match &walk.reason {
         None => false,
         Some(reason) => !reason.is_budget() || walk.solutions >= plan.budget,
-    }
-}
-
-/// Counts of a run, and an estimate of how far it is.
-#[derive(Debug)]
-pub(super) struct Done {
-    pub new_solutions: u64,
-    pub solutions: u64,
-    range_hz: [f64; 2],
-    targets: usize,
-    target: usize,
-    side: Side,
-    reached_hz: Option<[f64; 2]>,
-    fraction: f64,
-}
-
-impl Done {
-    fn new(store: &Store, plan: &Plan) -> Result<Self, StoreError> {
-        let branches = store.branches()?;
-        Ok(Self {
-            new_solutions: 0,
-            solutions: branches.iter().map(|branch| branch.up.solutions + branch.down.solutions).sum(),
-            range_hz: plan.range_hz,
-            targets: plan.targets.iter().filter(|target| !target.only_without_branch).count()
-                + usize::from(plan.targets.iter().any(|target| target.only_without_branch)),
-            target: 0,
-            side: Side::Up,
-            reached_hz: None,
-            fraction: 0.0,
-        })
-    }
-
-    fn begin_target(&mut self, index: usize) {
-        self.target = index.min(self.targets.saturating_sub(1));
-        self.reached_hz = None;
-    }
-
-    fn begin_side(&mut self, side: Side) {
-        self.side = side;
-    }
-
-    pub(super) fn add(&mut self, solutions: u64, frequency_hz: f64) {
-        self.new_solutions += solutions;
-        self.solutions += solutions;
-        let [low, high] = self.reached_hz.unwrap_or([frequency_hz; 2]);
-        self.reached_hz = Some([low.min(frequency_hz), high.max(frequency_hz)]);
-    }
-
-    /// Searches done, and the part of the frequency range that the current branch has covered.
-    pub(super) fn fraction(&mut self) -> f64 {
-        let [low, high] = self.reached_hz.unwrap_or([0.0; 2]);
-        let covered = ((high - low) / (self.range_hz[1] - self.range_hz[0])).clamp(0.0, 1.0);
-        let fraction = (self.target as f64 + covered) / self.targets.max(1) as f64;
-        self.fraction = self.fraction.max(fraction);
-        self.fraction
     }
 }

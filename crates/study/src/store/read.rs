@@ -87,6 +87,17 @@ impl Store {
         .collect()
     }
 
+    /// Lowest and highest frequency of a branch [Hz].
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn frequency_span(&self, branch: &BranchRecord) -> Result<[f64; 2], StoreError> {
+        let select = "SELECT min(frequency_hz), max(frequency_hz) FROM solution WHERE id >= ?1 AND id < ?2";
+        let first = walk_id(branch.id, Side::Up);
+        let keys = params![first_key(first), first_key(first + 2)];
+        Ok(self.connection.query_row(select, keys, |row| Ok([row.get(0)?, row.get(1)?]))?)
+    }
+
     /// A walk of a branch.
     ///
     /// # Errors
