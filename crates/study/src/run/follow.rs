@@ -8,7 +8,7 @@ use super::{Observer, Plan, Progress, RunError, Solver, Walk, done::Done, runner
 use crate::store::{Continuation, Memory, Store, StoredReason};
 
 /// Solutions are committed together after this time,
-const COMMIT_AFTER: Duration = Duration::from_millis(500);
+const COMMIT_AFTER: Duration = Duration::from_millis(200);
 /// or when there are so many of them.
 const COMMIT_AT: usize = 2000;
 

@@ -1,0 +1,203 @@
+//! Bad input: exit code 2, a message with line and key, and nothing written.
+
+mod common;
+
+use common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success};
+
+/// Every command that reads a study refuses it in the same words, and the folder stays as it was.
+#[track_caller]
+fn assert_refused(workshop: &Workshop, parts: &[&str]) {
+    let before = workshop.listing();
+    for arguments in [
+        &["check", "study.toml"][..],
+        &["modes", "study.toml"],
+        &["run", "study.toml", "--out", "results"],
+        &["orbit", "study.toml", "--frequency", "30"],
+    ] {
+        assert_bad_input(&workshop.hammerbeam(arguments), parts);
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
+}
+
+/// The beam with one piece of text replaced is refused at the line of the replacement.
+#[track_caller]
+fn assert_beam_refused(old: &str, new: &str, parts: &[&str]) {
+    let line = BEAM[..BEAM.find(old).unwrap()].matches('\n').count() + 1;
+    let place = format!("study.toml:{line}:");
+    assert_refused(&Workshop::changed(BEAM, old, new), &[&[place.as_str()], parts].concat());
+}
+
+#[test]
+fn unknown_key() {
+    let parts = ["unknown key `elemnts`", "structure.elemnts", "did you mean `elements`?"];
+    assert_beam_refused("elements = 44", "elemnts = 44", &parts);
+}
+
+#[test]
+fn missing_key() {
+    let workshop = Workshop::changed(BEAM, "density_kg_m3 = 7800.0\n", "");
+    let table = BEAM[..BEAM.find("[structure]").unwrap()].matches('\n').count() + 1;
+    let place = format!("study.toml:{table}:1");
+    assert_refused(&workshop, &[&place, "`density_kg_m3` is missing in [structure]"]);
+}
+
+#[test]
+fn wrong_type() {
+    let parts = ["`length_m` must be a number, found the string \"long\"", "structure.length_m"];
+    assert_beam_refused("length_m = 0.2579822", "length_m = \"long\"", &parts);
+}
+
+#[test]
+fn not_a_number() {
+    let parts = ["`modal_ratio` is NaN", "damping.modal_ratio", "numbers must be finite"];
+    assert_beam_refused("modal_ratio = 0.015", "modal_ratio = nan", &parts);
+}
+
+#[test]
+fn infinite_value() {
+    let parts = ["`amplitude_m` is inf m", "excitation.amplitude_m", "numbers must be finite"];
+    assert_beam_refused("amplitude_m = 0.5015e-3", "amplitude_m = inf", &parts);
+}
+
+#[test]
+fn negative_value_where_it_makes_no_sense() {
+    let parts = ["`mass_kg` is -0.03756 kg", "structure.point[0].mass_kg", "allowed: 0 to"];
+    assert_beam_refused("mass_kg = 0.03756", "mass_kg = -0.03756", &parts);
+}
+
+#[test]
+fn negative_gap() {
+    let parts = ["`gap_m` is -0.001 m", "stop[0].gap_m", "`preload_n`"];
+    assert_beam_refused("gap_m = 0.0", "gap_m = -1e-3", &parts);
+}
+
+#[test]
+fn youngs_modulus_of_210() {
+    let parts = ["`youngs_modulus_pa` is 210 Pa", "is the unit Pa?", "210 GPa is 2.1e11 Pa"];
+    assert_beam_refused("youngs_modulus_pa = 2.1e11", "youngs_modulus_pa = 210", &parts);
+}
+
+#[test]
+fn point_off_the_beam() {
+    let parts =
+        ["`at_m` is 0.3 m, which is off the beam", "structure.point[0].at_m", "allowed: 0 to 0.2579822 m"];
+    assert_beam_refused("at_m = 0.2432157", "at_m = 0.3", &parts);
+}
+
+#[test]
+fn stop_at_an_unknown_point() {
+    let parts = ["`at` is \"contakt\"", "stop[0].at", "did you mean \"contact\"?"];
+    assert_beam_refused("at = \"contact\"", "at = \"contakt\"", &parts);
+}
+
+#[test]
+fn empty_frequency_range() {
+    let parts = ["`frequency_hz` is [19, 19], which is empty", "excitation.frequency_hz"];
+    assert_beam_refused("[19.0, 110.0]", "[19.0, 19.0]", &parts);
+}
+
+#[test]
+fn reversed_frequency_range() {
+    let parts = ["`frequency_hz` is [110, 19], which is reversed", "[low, high] with low < high"];
+    assert_beam_refused("[19.0, 110.0]", "[110.0, 19.0]", &parts);
+}
+
+#[test]
+fn cut_off_below_the_first_mode() {
+    let parts = ["the cut-off frequency is 10 Hz", "reduction.cut_off_hz", "allowed: more than 30.5"];
+    assert_beam_refused("cut_off_hz = 1000.0", "cut_off_hz = 10.0", &parts);
+}
+
+#[test]
+fn text_that_is_not_toml() {
+    assert_beam_refused("title = ", "title ", &["not TOML"]);
+}
+
+#[test]
+fn study_that_is_not_there() {
+    let workshop = Workshop::with("");
+    assert_bad_input(
+        &workshop.hammerbeam(&["check", "nowhere.toml"]),
+        &["cannot read the study nowhere.toml"],
+    );
+}
+
+/// Makes a small results folder of the two masses: the run is short because the range is.
+fn with_results() -> Workshop {
+    let workshop = Workshop::changed(TWO_MASSES, "[3.0, 14.0]", "[13.5, 14.0]");
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    workshop
+}
+
+#[test]
+fn results_folder_of_another_study() {
+    let workshop = with_results();
+    let study = std::fs::read_to_string(workshop.path("study.toml")).unwrap();
+    std::fs::write(workshop.path("study.toml"), study.replace("mass_kg = 0.5", "mass_kg = 0.6")).unwrap();
+    let before = workshop.listing();
+    let output = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
+    assert_bad_input(
+        &output,
+        &["results holds the results of another study", "mass_kg: 0.5 there, 0.6 here"],
+    );
+    assert_eq!(workshop.listing(), before);
+}
+
+#[test]
+fn results_folder_stays_valid_with_another_title_and_budget() {
+    let workshop = with_results();
+    let rows = workshop.csv("results");
+    let study = std::fs::read_to_string(workshop.path("study.toml")).unwrap();
+    let study =
+        study.replace("title = \"Two", "title = \"2") + "\n[continuation]\nbudget_solutions = 100000\n";
+    std::fs::write(workshop.path("study.toml"), study).unwrap();
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    assert_eq!(workshop.csv("results"), rows);
+}
+
+#[test]
+fn results_folder_that_someone_else_wrote() {
+    let workshop = Workshop::with(TWO_MASSES);
+    std::fs::create_dir(workshop.path("results")).unwrap();
+    std::fs::write(workshop.path("results/results.db"), "not a database").unwrap();
+    let before = workshop.listing();
+    for arguments in
+        [&["run", "study.toml", "--out", "results"][..], &["export", "results", "--format", "csv"]]
+    {
+        assert_bad_input(&workshop.hammerbeam(arguments), &["was not written by hammerbeam"]);
+    }
+    assert_eq!(workshop.listing(), before);
+}
+
+#[test]
+fn export_of_a_folder_without_results() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let before = workshop.listing();
+    let output = workshop.hammerbeam(&["export", "results", "--format", "csv"]);
+    assert_bad_input(&output, &["there are no results in results"]);
+    assert_eq!(workshop.listing(), before);
+}
+
+#[test]
+fn new_does_not_overwrite_a_study() {
+    let workshop = Workshop::with("mine");
+    let before = workshop.listing();
+    assert_bad_input(&workshop.hammerbeam(&["new", "."]), &["already there and is not overwritten"]);
+    assert_eq!(workshop.listing(), before);
+}
+
+#[test]
+fn flags_out_of_range() {
+    let workshop = Workshop::with(TWO_MASSES);
+    for arguments in [
+        &["orbit", "study.toml", "--frequency", "-3"][..],
+        &["orbit", "study.toml", "--frequency", "nan"],
+        &["orbit", "study.toml", "--frequency", "30", "--period-multiple", "0"],
+        &["run", "study.toml", "--out", "results", "--jobs", "0"],
+        &["run", "study.toml"],
+        &["export", "results", "--format", "xls"],
+        &["juggle"],
+    ] {
+        assert_bad_input(&workshop.hammerbeam(arguments), &["error: "]);
+    }
+}

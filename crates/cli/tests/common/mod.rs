@@ -1,0 +1,103 @@
+//! What the tests of the command share.
+
+#![allow(dead_code, reason = "every test file uses its own part")]
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Output,
+};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+/// A beam with a stop, as in the studies folder.
+pub const BEAM: &str = include_str!("../../../../studies/beam-with-stop.toml");
+/// Two masses with a one-sided spring: a whole run takes a few seconds.
+pub const TWO_MASSES: &str = include_str!("../../../../studies/two-masses.toml");
+
+/// A folder with a study file in it.
+pub struct Workshop {
+    folder: TempDir,
+}
+
+impl Workshop {
+    pub fn with(study: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("study.toml"), study).unwrap();
+        Self { folder }
+    }
+
+    /// A study with one piece of text replaced.
+    #[track_caller]
+    pub fn changed(study: &str, old: &str, new: &str) -> Self {
+        assert!(study.contains(old), "{old} is not in the study");
+        Self::with(&study.replacen(old, new, 1))
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// Runs the command in the folder.
+    pub fn hammerbeam(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap()
+    }
+
+    pub fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::cargo_bin("hammerbeam").unwrap();
+        command.current_dir(self.folder.path()).args(arguments);
+        command
+    }
+
+    /// Exported branches of a results folder.
+    pub fn csv(&self, results: &str) -> String {
+        let export = self.hammerbeam(&["export", results, "--format", "csv", "--out", "exported"]);
+        assert_success(&export);
+        fs::read_to_string(self.path("exported/branches.csv")).unwrap()
+    }
+
+    /// All files below the folder with their contents.
+    pub fn listing(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let mut files = Vec::new();
+        collect(self.folder.path(), &mut files);
+        files.sort();
+        files
+    }
+}
+
+fn collect(folder: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.push((path.clone(), Vec::new()));
+            collect(&path, files);
+        } else {
+            files.push((path.clone(), fs::read(&path).unwrap()));
+        }
+    }
+}
+
+pub fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+pub fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[track_caller]
+pub fn assert_success(output: &Output) {
+    assert!(output.status.success(), "{:?}\n{}\n{}", output.status, stdout(output), stderr(output));
+}
+
+/// Exit code 2, every part in the message, nothing on standard output.
+#[track_caller]
+pub fn assert_bad_input(output: &Output, parts: &[&str]) {
+    let message = stderr(output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert_eq!(stdout(output), "");
+    for part in parts {
+        assert!(message.contains(part), "\"{part}\" is missing in:\n{message}");
+    }
+}

@@ -1,0 +1,140 @@
+//! Running, killing, resuming and exporting with the real command.
+
+mod common;
+
+use std::{
+    fs,
+    process::{Command, Stdio},
+    thread::sleep,
+    time::{Duration, Instant, SystemTime, UNIX_EPOCH},
+};
+
+use common::{TWO_MASSES, Workshop, assert_success, stderr, stdout};
+
+const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// Columns that scripts rely on, in this order.
+const FIXED: &str = "branch,period_multiple,frequency_hz,max_abs_displacement_m,max_abs_acceleration_m_s2,\
+    max_contact_force_n,max_impact_velocity_m_s,contacts,leading_multiplier_re,leading_multiplier_im,stable,event";
+
+/// Exported rows of an undisturbed run, and how long it took.
+fn undisturbed() -> (String, Duration) {
+    let workshop = Workshop::with(TWO_MASSES);
+    let begun = Instant::now();
+    assert_success(&workshop.hammerbeam(&RUN));
+    (workshop.csv("results"), begun.elapsed())
+}
+
+/// Ten numbers from 0 to 1 that differ from run to run of the test.
+fn random_parts() -> Vec<f64> {
+    let mut seed = SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as u64;
+    let mut next = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64
+    };
+    (0..10).map(|_| next()).collect()
+}
+
+#[test]
+fn killed_at_ten_random_instants_and_resumed_it_ends_with_the_same_bytes() {
+    let (expected, duration) = undisturbed();
+    let workshop = Workshop::with(TWO_MASSES);
+    let parts = random_parts();
+    let mut killed = 0;
+    for part in &parts {
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+            .args(RUN)
+            .current_dir(workshop.path(""))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        sleep(duration.mul_f64(0.25 * part));
+        killed += usize::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert_success(&workshop.hammerbeam(&RUN));
+    assert!(killed >= 3, "only {killed} of the runs were still at work when they were killed: {parts:?}");
+    assert!(workshop.csv("results") == expected, "the rows differ after kills at {parts:?}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_keeps_what_is_finished_and_exits_with_130() {
+    let (expected, duration) = undisturbed();
+    let workshop = Workshop::with(TWO_MASSES);
+    let child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+        .args(RUN)
+        .current_dir(workshop.path(""))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    sleep(duration.mul_f64(0.5));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(stderr(&output).contains("solutions are kept in results"), "{}", stderr(&output));
+    let kept = workshop.csv("results").lines().count();
+    assert!(kept > 10 && kept < expected.lines().count(), "{kept} rows");
+    assert_success(&workshop.hammerbeam(&RUN));
+    assert!(workshop.csv("results") == expected);
+}
+
+#[test]
+fn exported_rows_have_the_fixed_columns_and_run_end_to_end() {
+    let (csv, _) = undisturbed();
+    let mut lines = csv.lines();
+    assert!(lines.next().unwrap().starts_with(FIXED));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let event = |index: usize| rows[index][11];
+    assert!(event(0).contains("start") && event(rows.len() - 1).contains("end"));
+    assert!(rows.iter().all(|row| row[10] == "true" || row[10] == "false"));
+    assert!(rows.iter().all(|row| row[9].parse::<f64>().unwrap() >= 0.0), "the positive one of a pair");
+    assert!(rows.iter().any(|row| row[11].contains("fold")));
+    let ends: Vec<f64> =
+        [&rows[0], &rows[rows.len() - 1]].iter().map(|row| row[2].parse().unwrap()).collect();
+    assert!(
+        ends.contains(&3.0) && ends.contains(&14.0),
+        "branches are cut exactly at the ends, not at {ends:?}"
+    );
+}
+
+#[test]
+fn without_a_terminal_a_run_says_only_its_summary() {
+    let workshop = Workshop::changed(TWO_MASSES, "[3.0, 14.0]", "[13.5, 14.0]");
+    let output = workshop.hammerbeam(&RUN);
+    assert_success(&output);
+    assert_eq!(stderr(&output), "");
+    assert!(stdout(&output).contains("solutions on 1 branch(es) in results"));
+    for figure in ["response_displacement.svg", "response_displacement.png", "response_acceleration.svg"] {
+        assert!(fs::metadata(workshop.path("results").join(figure)).unwrap().len() > 1000, "{figure}");
+    }
+}
+
+#[test]
+fn two_runs_do_not_write_one_folder() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let mut first = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+        .args(RUN)
+        .current_dir(workshop.path(""))
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    while !workshop.path("results/results.db").exists() {
+        sleep(Duration::from_millis(5));
+    }
+    common::assert_bad_input(&workshop.hammerbeam(&RUN), &["another run is writing to results"]);
+    first.kill().unwrap();
+    first.wait().unwrap();
+}
+
+#[test]
+fn the_starter_study_checks_and_runs() {
+    let workshop = Workshop::with("");
+    assert_success(&workshop.hammerbeam(&["new", "starter"]));
+    assert_success(&workshop.hammerbeam(&["check", "starter/study.toml"]));
+    assert_success(&workshop.hammerbeam(&["run", "starter/study.toml", "--out", "starter/results"]));
+    assert!(workshop.csv("starter/results").lines().count() > 100);
+}
