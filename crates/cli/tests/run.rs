@@ -17,9 +17,14 @@ const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 const FIXED: &str = "branch,period_multiple,frequency_hz,max_abs_displacement_m,max_abs_acceleration_m_s2,\
     max_contact_force_n,max_impact_velocity_m_s,contacts,leading_multiplier_re,leading_multiplier_im,stable,event";
 
+/// The two masses in steps so small that a run takes some seconds and commits many times.
+fn long_study() -> String {
+    format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.0005\n")
+}
+
 /// Exported rows of an undisturbed run, and how long it took.
-fn undisturbed() -> (String, Duration) {
-    let workshop = Workshop::with(TWO_MASSES);
+fn undisturbed(study: &str) -> (String, Duration) {
+    let workshop = Workshop::with(study);
     let begun = Instant::now();
     assert_success(&workshop.hammerbeam(&RUN));
     (workshop.csv("results"), begun.elapsed())
@@ -37,8 +42,8 @@ fn random_parts() -> Vec<f64> {
 
 #[test]
 fn killed_at_ten_random_instants_and_resumed_it_ends_with_the_same_bytes() {
-    let (expected, duration) = undisturbed();
-    let workshop = Workshop::with(TWO_MASSES);
+    let (expected, duration) = undisturbed(&long_study());
+    let workshop = Workshop::with(&long_study());
     let parts = random_parts();
     let mut killed = 0;
     for part in &parts {
@@ -62,8 +67,8 @@ fn killed_at_ten_random_instants_and_resumed_it_ends_with_the_same_bytes() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_what_is_finished_and_exits_with_130() {
-    let (expected, duration) = undisturbed();
-    let workshop = Workshop::with(TWO_MASSES);
+    let (expected, duration) = undisturbed(&long_study());
+    let workshop = Workshop::with(&long_study());
     let child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
         .args(RUN)
         .current_dir(workshop.path(""))
@@ -84,7 +89,7 @@ fn ctrl_c_keeps_what_is_finished_and_exits_with_130() {
 
 #[test]
 fn exported_rows_have_the_fixed_columns_and_run_end_to_end() {
-    let (csv, _) = undisturbed();
+    let (csv, _) = undisturbed(TWO_MASSES);
     let mut lines = csv.lines();
     assert!(lines.next().unwrap().starts_with(FIXED));
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();

@@ -32,4 +32,6 @@ pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
 
 #[cfg(test)]
+mod documentation;
+#[cfg(test)]
 mod tests;
