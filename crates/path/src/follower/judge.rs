@@ -21,6 +21,8 @@ pub(super) enum Finding {
 
 /// Roots of the slope of `λ` this close to an end of the step (share of the step) belong to that end.
 const EDGE: f64 = 0.02;
+/// A slope that falls inside a step to this share of its smaller end value is looked at more closely.
+const DIP: f64 = 0.5;
 /// No second look for two folds in a step shorter than this many times the rounding of a point.
 const NOISE: f64 = 100.0;
 
@@ -65,14 +67,17 @@ impl Follower {
         if defect > allowed { Err(Doubt::Defect { defect }) } else { Ok(()) }
     }
 
-    /// The cubic Hermite polynomial of `λ` over the step must not turn twice.
+    /// The cubic Hermite polynomial of `λ` over the step must neither turn twice nor come near to it.
     fn check_hidden_folds(&self, step: f64) -> Result<(), Doubt> {
         if step < NOISE * self.settings.correction_floor {
             return Ok(());
         }
         let slope = self.parameter_slope();
         let same_sign = slope.start * slope.end > 0.0;
-        if same_sign && slope.inner_roots() == 2 { Err(Doubt::HiddenFolds) } else { Ok(()) }
+        // The slope is a difference of parameters over the step: what rounding leaves of it means nothing.
+        let rounding = 64.0 * f64::EPSILON * self.trial.parameter().abs() / step;
+        let hidden = slope.inner_roots() == 2 || (slope.least() > rounding && slope.dips());
+        if same_sign && hidden { Err(Doubt::HiddenFolds) } else { Ok(()) }
     }
 
     /// Slope `dλ/dσ` of the Hermite polynomial through base and trial.
@@ -113,6 +118,20 @@ impl ParameterSlope {
         }
         let pivot = -0.5 * (b + discriminant.sqrt().copysign(b));
         [pivot / a, self.start / pivot].iter().filter(|u| (EDGE..=1.0 - EDGE).contains(*u)).count()
+    }
+
+    /// The smaller end value, in magnitude.
+    fn least(self) -> f64 {
+        self.start.abs().min(self.end.abs())
+    }
+
+    /// Whether the slope falls inside the step to less than [`DIP`] of its smaller end value: it may be zero twice there.
+    fn dips(self) -> bool {
+        let a = 3.0 * (self.start + self.end - 2.0 * self.chord);
+        let b = 6.0 * self.chord - 4.0 * self.start - 2.0 * self.end;
+        let place = -0.5 * b / a;
+        let inside = (EDGE..=1.0 - EDGE).contains(&place);
+        inside && self.at(place) * self.start.signum() < DIP * self.least()
     }
 
     /// The place where the slope changes its sign, as a share of the step, if its ends differ in sign.
