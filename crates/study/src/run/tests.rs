@@ -155,3 +155,20 @@ fn progress_counts_and_its_fraction_never_decreases() {
     run_into(folder.path(), &study(), &mut watch);
     assert!(watch.0 > 0.2, "{}", watch.0);
 }
+
+/// States of six modes and four shooting segments; a real run also keeps a journal, which is thrown away at the end.
+#[test]
+fn a_hundred_thousand_solutions_take_less_than_200_megabytes() {
+    let study = study_with("");
+    let folder = tempdir().unwrap();
+    let solver = FakeSolver { step: 1e-4, state_length: 12, segments: 4, ..FakeSolver::default() };
+    let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+    let plan = Plan { budget: 50_000, ..Plan::of(&study.study) };
+    run(&mut store, &solver, &plan, &mut Quiet).unwrap();
+    store.finish().unwrap();
+    let rows = export_csv(&Store::open(folder.path()).unwrap(), folder.path()).unwrap().rows;
+    let size = std::fs::metadata(folder.path().join("results.db")).unwrap().len();
+    assert!(rows > 70_000, "{rows} rows");
+    let of_100_000 = size as f64 / rows as f64 * 1e5;
+    assert!(of_100_000 < 100e6, "{of_100_000:.3e} bytes");
+}
