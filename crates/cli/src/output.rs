@@ -1,5 +1,7 @@
 //! Standard output: text, or one JSON document.
 
+use std::io::Write;
+
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -18,9 +20,9 @@ impl Output {
         if self.json {
             let document =
                 serde_json::to_string_pretty(document).expect("results are plain data with text keys");
-            anstream::println!("{document}");
+            print(&document);
         } else {
-            anstream::println!("{}", text().trim_end());
+            print(text().trim_end());
         }
     }
 
@@ -32,9 +34,14 @@ impl Output {
             other => anstream::eprintln!("error: {}", other.message()),
         }
         if self.json {
-            anstream::println!("{:#}", json!({ "error": document(failure) }));
+            print(&format!("{:#}", json!({ "error": document(failure) })));
         }
     }
+}
+
+/// Prints a text; a reader that has gone away (`| head`) is no failure.
+fn print(text: &str) {
+    let _ = writeln!(anstream::stdout(), "{text}");
 }
 
 /// A failure for programs: message, exit code, and the faults of a study with their places.

@@ -1,11 +1,14 @@
 //! The progress bar of a run; nothing is shown when standard error is not a terminal.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use hammerbeam_study::run::{Observer, Progress, Target};
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::interrupt::Interrupt;
+
+/// Time between two changes of the bar.
+const CHANGE: Duration = Duration::from_millis(100);
 
 /// Resolution of the bar.
 const LENGTH: u64 = 10_000;
@@ -14,17 +17,17 @@ const LENGTH: u64 = 10_000;
 pub struct Terminal {
     bar: ProgressBar,
     interrupt: Interrupt,
-    begun: Instant,
-    first_fraction: Option<f64>,
+    changed: Instant,
+    first: Option<(Instant, f64)>,
 }
 
 impl Terminal {
     /// A bar on standard error.
     pub fn new(interrupt: Interrupt) -> Self {
         let bar = ProgressBar::new(LENGTH);
-        let style = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {msg}");
+        let style = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {wide_msg}");
         bar.set_style(style.expect("the template is constant").progress_chars("=> "));
-        Self { bar, interrupt, begun: Instant::now(), first_fraction: None }
+        Self { bar, interrupt, changed: Instant::now(), first: None }
     }
 
     /// Takes the bar away.
@@ -34,9 +37,9 @@ impl Terminal {
 
     /// Solutions so far, their rate, where, and how long it still takes.
     fn message(&mut self, progress: &Progress) -> String {
-        let elapsed = self.begun.elapsed();
-        let rate = progress.new_solutions as f64 / elapsed.as_secs_f64().max(1e-3);
-        let first = *self.first_fraction.get_or_insert(progress.fraction);
+        let (begun, first) = *self.first.get_or_insert((Instant::now(), progress.fraction));
+        let elapsed = begun.elapsed();
+        let rate = progress.new_solutions as f64 / elapsed.as_secs_f64().max(0.1);
         let gained = progress.fraction - first;
         let left = if gained > 1e-3 {
             let left = elapsed.mul_f64(((1.0 - progress.fraction) / gained).min(1e6));
@@ -63,9 +66,10 @@ impl Observer for Terminal {
     }
 
     fn progress(&mut self, progress: &Progress) {
-        if self.bar.is_hidden() {
+        if self.bar.is_hidden() || self.changed.elapsed() < CHANGE {
             return;
         }
+        self.changed = Instant::now();
         let message = self.message(progress);
         self.bar.set_position((progress.fraction * LENGTH as f64) as u64);
         self.bar.set_message(message);

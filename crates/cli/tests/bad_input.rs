@@ -1,4 +1,5 @@
 //! Bad input: exit code 2, a message with line and key, and nothing written.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 

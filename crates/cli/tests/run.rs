@@ -1,4 +1,5 @@
 //! Running, killing, resuming and exporting with the real command.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
 

@@ -55,7 +55,7 @@ impl<'a> Value<'a> {
     /// A finite number within the range of the quantity.
     pub(crate) fn number(&self, quantity: &Quantity) -> Option<f64> {
         let number = match self.value {
-            DeValue::Integer(number) => integer(number)? as f64,
+            DeValue::Integer(number) => integer(number).map_or(f64::INFINITY, |number| number as f64),
             DeValue::Float(number) => float(number),
             _ => return self.wrong_type("a number"),
         };
@@ -166,7 +166,7 @@ impl<'a> Value<'a> {
     }
 }
 
-/// The integer, `None` if it does not fit (the parser has refused it then).
+/// The integer, `None` if it has more than 64 bits.
 fn integer(number: &DeInteger<'_>) -> Option<i64> {
     i64::from_str_radix(number.as_str(), number.radix()).ok()
 }

@@ -32,6 +32,12 @@ impl Names {
         self.points.iter().map(String::as_str).chain(self.ends.iter().map(|(name, _)| *name)).collect()
     }
 
+    /// Ends of a beam that are clamped or pinned.
+    pub(super) fn held_ends(&self) -> Vec<&str> {
+        let held = self.ends.iter().filter(|(_, end)| end.is_some_and(End::holds_displacement));
+        held.map(|(name, _)| *name).collect()
+    }
+
     /// The first point or mass.
     pub(super) fn first(&self) -> Option<&str> {
         self.points.first().map(String::as_str)

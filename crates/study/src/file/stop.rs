@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::document::{Reading, Table, Value};
+use crate::document::{Reading, Table};
 
 use super::{Excitation, StopLaw, names::Names, stop_law};
 
@@ -90,7 +90,7 @@ fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -
 fn read_place(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Place> {
     let Some(between) = table.optional("between") else {
         let point = table.required("at").and_then(|value| names.point(&value));
-        let fixed_to = read_fixed_to(table, excitation);
+        let fixed_to = read_fixed_to(table, names, excitation);
         return Some(Place::At { point: point?, fixed_to: fixed_to? });
     };
     for key in ["at", "fixed_to"] {
@@ -103,27 +103,25 @@ fn read_place(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>)
     Some(Place::Between { first, second })
 }
 
-/// The moving support by its name, or "space"; by default the moving support if there is one.
-fn read_fixed_to(table: &Table<'_>, excitation: Option<&Excitation>) -> Option<FixedTo> {
-    let supports = excitation.map_or(&[][..], Excitation::moving_supports);
-    let riding = if supports.is_empty() { FixedTo::Space } else { FixedTo::Support };
+/// A moving support by its name, or what stands still; by default the moving support if there is one.
+fn read_fixed_to(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<FixedTo> {
+    let moving = excitation.map_or(&[][..], Excitation::moving_supports);
+    let riding = if moving.is_empty() { FixedTo::Space } else { FixedTo::Support };
     let Some(value) = table.optional("fixed_to") else { return Some(riding) };
     let name = value.text()?;
-    if supports.iter().any(|support| support == name) {
+    if moving.iter().any(|support| support == name) {
         return Some(FixedTo::Support);
     }
-    if excitation.is_some() && name != "space" && name != "ground" {
-        refuse_carrier(&value, name, supports);
+    let mut known: Vec<&str> = moving.iter().map(String::as_str).collect();
+    known.extend(
+        ["space", "ground"]
+            .iter()
+            .chain(&names.held_ends())
+            .filter(|still| !moving.iter().any(|m| m == *still)),
+    );
+    if excitation.is_some() && !known.contains(&name) {
+        value.unknown_word(name, "a support, \"space\" or \"ground\"", &known);
         return None;
     }
     Some(FixedTo::Space)
-}
-
-fn refuse_carrier(value: &Value<'_>, name: &str, supports: &[String]) {
-    let mut known: Vec<&str> = supports.iter().map(String::as_str).collect();
-    known.push("space");
-    if !known.contains(&"ground") {
-        known.push("ground");
-    }
-    value.unknown_word(name, "a moving support, \"space\" or \"ground\"", &known);
 }

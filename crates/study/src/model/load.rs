@@ -3,7 +3,26 @@
 use hammerbeam_motion::{Harmonic, HarmonicForce, Load};
 use hammerbeam_structure::ReducedModel;
 
-use crate::file::{self, ExcitationKind, Study};
+use crate::file::{self, ExcitationKind, Study, StudyError, StudyFile};
+
+/// Refuses forces on points that cannot move.
+pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyError> {
+    let of_excitation = match &file.study.excitation.kind {
+        ExcitationKind::Force { at, .. } => Some(("excitation.at".to_owned(), at)),
+        ExcitationKind::SupportMotion { .. } => None,
+    };
+    let of_loads = file.study.loads.iter().enumerate().filter_map(|(index, load)| match load {
+        file::Load::Force { at, .. } => Some((format!("load[{index}].at"), at)),
+        _ => None,
+    });
+    for (key, at) in of_excitation.into_iter().chain(of_loads) {
+        if shape(model, at).iter().all(|entry| *entry == 0.0) {
+            let message = format!("a force at \"{at}\" does nothing: its motion is prescribed or held");
+            return Err(file.fault(&key, message, vec!["allowed: a point that can move".into()]));
+        }
+    }
+    Ok(())
+}
 
 /// All that drives the structure.
 pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {

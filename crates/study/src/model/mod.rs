@@ -31,6 +31,7 @@ impl Model {
         let study = &file.study;
         let interface = interface(study);
         let reduced = structure::reduce(study, &interface).map_err(|error| structure_fault(file, &error))?;
+        load::check(file, &reduced.model)?;
         let load = load::load(study, &reduced.model);
         let elements = element::elements(file, &reduced.model, &load)?;
         let response = response_point(study, &reduced.model);

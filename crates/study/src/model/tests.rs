@@ -78,6 +78,42 @@ fn a_stop_at_a_held_point_cannot_act() {
 }
 
 #[test]
+fn a_force_on_a_held_point_is_refused() {
+    let load = "[[load]]\nkind = \"force\"\nat = \"left\"\namplitude_n = 1.0\norder = 2\n";
+    assert_refused(build(&format!("{PAPER}\n{load}")), &["a force at \"left\" does nothing", "load[0].at"]);
+}
+
+#[test]
+fn a_stop_on_a_support_that_stands_still_is_fixed_in_space() {
+    let fixed_to = |name: &str| {
+        let text = PAPER.replacen("right = \"free\"", "right = \"pinned\"", 1);
+        build(&text.replacen("fixed_to = \"left\"", &format!("fixed_to = \"{name}\""), 1)).unwrap()
+    };
+    assert_eq!(fixed_to("right").system.elements(), fixed_to("space").system.elements());
+    assert_ne!(fixed_to("left").system.elements(), fixed_to("space").system.elements());
+}
+
+/// Whatever is done to a study, the answer is a model or at least one fault, and never a panic.
+#[test]
+fn a_spoilt_study_always_has_a_fault() {
+    let junk =
+        ["", "-1", "0", "1e400", "99999999999999999999", "\"word\"", "[]", "[1, \"a\"]", "{}", "true", "nan"];
+    for study in [PAPER, include_str!("../../../../studies/two-masses.toml")] {
+        for line in study.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+            let key = line.split('=').next().unwrap();
+            let spoilt = junk.map(|value| format!("{key}= {value}"));
+            for new in spoilt.iter().map(String::as_str).chain([""]) {
+                match build(&study.replacen(line, new, 1)) {
+                    Err(StudyError::Invalid(report)) => assert!(!report.problems.is_empty(), "{new}"),
+                    Err(other) => panic!("{other}"),
+                    Ok(_) => {}
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_lumped_structure_is_not_reduced() {
     let text = include_str!("../../../../studies/duffing.toml");
     let text = format!("{text}\n[reduction]\nmethod = \"free-interface\"\ncut_off_hz = 10.0\n");
