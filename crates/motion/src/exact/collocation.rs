@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 use faer::{Mat, Side};
 
 /// Force nodes in a step.
-pub(crate) const NODES: usize = 8;
+pub(crate) const NODES: usize = 12;
 /// Terms of the power series; with [`REACH`] they reach rounding.
 pub(crate) const TERMS: usize = 34;
 /// Largest `h max(sqrt(k) + c)` for which the power series serve.

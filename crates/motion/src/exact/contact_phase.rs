@@ -21,6 +21,14 @@ use super::{
 };
 use crate::Contact;
 
+/// Power of the step length with which the error of a step falls.
+const TAIL_ORDER: f64 = NODES as f64 - 1.5;
+/// A step that ends at the release is tried if the release is expected within this many proposed steps.
+const RELEASE_REACH: f64 = 3.0;
+/// Other steps go at most this part of the way to the expected release.
+const SMOOTH_REACH: f64 = 0.6;
+/// Relative tail of a step of half a contact from the touch on, for the first guess of the length.
+const HALF_CONTACT_TAIL: f64 = 0.02;
 /// Looks at an open contact within one force step.
 const MAX_LOOKS: usize = 1000;
 
@@ -34,7 +42,9 @@ impl ExactIntegrator {
         let touched = run.touched.take();
         let grading = self.first_grading(run, touched);
         let remaining = end - run.time;
-        if let Some((element, time)) = self.expected_release(run)
+        let expected = self.expected_release(run);
+        if let Some((element, time)) = expected
+            && (run.proposal == 0.0 || time <= RELEASE_REACH * run.proposal)
             && let ReleaseStep::Solved(error) = self.release(run, element, time, grading, remaining)
             && self.first_touch_in_step(run).is_none()
         {
@@ -43,6 +53,10 @@ impl ExactIntegrator {
             return Ok(());
         }
         let mut length = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, touched, remaining) };
+        if let Some((_, time)) = expected {
+            // A smooth step keeps away from the half-integer power at the release.
+            length = length.min(SMOOTH_REACH * time);
+        }
         loop {
             length = length.min(remaining);
             if length < 1e-16 * end || length.is_nan() {
@@ -53,7 +67,7 @@ impl ExactIntegrator {
                 continue;
             };
             if error > 1.0 {
-                length = self.step.weights.length * (0.8 * error.powf(-1.0 / NODES as f64)).clamp(0.1, 0.7);
+                length = self.step.weights.length * (0.9 * error.powf(-1.0 / TAIL_ORDER)).clamp(0.1, 0.8);
                 continue;
             }
             if let Some(touch) = self.first_touch_in_step(run) {
@@ -114,7 +128,8 @@ impl ExactIntegrator {
     /// A first guess of the step length: half a contact after a touch, else a part of the period of the loaded contact.
     fn first_length(&self, run: &Run, touched: Option<usize>, remaining: f64) -> f64 {
         if let Some(element) = touched {
-            return self.half_contact(run, element).min(remaining);
+            let share = (0.5 * self.largest_tail() / HALF_CONTACT_TAIL).powf(1.0 / TAIL_ORDER).min(1.0);
+            return (share * self.half_contact(run, element)).min(remaining);
         }
         let stiffest = |&e: &usize| {
             let slope = self.laws[e].force(self.output_jet(run, e, run.time).value).slope;
@@ -212,7 +227,12 @@ impl ExactIntegrator {
             step.weights.length * self.mobility[element][element] * tail / velocity.max(f64::MIN_POSITIVE)
         };
         let largest = (0..step.active.len()).map(of_element).fold(0.0, f64::max);
-        largest / (10.0 * self.settings.tolerance.sqrt())
+        largest / self.largest_tail()
+    }
+
+    /// The bound of the file header.
+    fn largest_tail(&self) -> f64 {
+        10.0 * self.settings.tolerance.sqrt()
     }
 
     /// Moves the run to the end of the solved step.
@@ -232,7 +252,7 @@ impl ExactIntegrator {
         if end - run.time <= 4.0 * f64::EPSILON * end {
             run.time = end;
         }
-        run.proposal = length * (0.8 * error.powf(-1.0 / NODES as f64)).clamp(0.3, 3.0);
+        run.proposal = length * (0.9 * error.powf(-1.0 / TAIL_ORDER)).clamp(0.3, 4.0);
         Ok(())
     }
 
