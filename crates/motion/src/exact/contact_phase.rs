@@ -162,25 +162,32 @@ impl ExactIntegrator {
         let step = &mut self.step;
         step.grading = Some(grading);
         step.start = run.time;
-        step.set_free_motion(&self.drive, &self.outputs, &run.state);
+        step.set_free_motion(&self.series, &self.drive, &self.outputs, &run.state);
         self.guess(run);
         let scale = self.step.active.iter().map(|&e| self.ranges(run, e).0).fold(0.0, f64::max);
         self.step.solve(&self.laws, 8.0 * f64::EPSILON * scale).ok()?;
+        if self.step.weights.complete {
+            self.set_next_state(run);
+        }
+        Some(self.error(run))
+    }
+
+    /// State at the end of the solved step.
+    fn set_next_state(&mut self, run: &Run) {
         self.next_state.clear();
         self.next_state.extend_from_slice(&run.state);
         self.step.advance_state(&self.blocks, &mut self.next_state);
-        Some(self.error(run))
     }
 
     fn set_weights(&mut self, length: f64, grading: Grading) {
         let Self { blocks, series, step, cache, outputs, inputs, .. } = self;
         if length <= series.reach() {
-            return series.weights(blocks, &step.active, grading, length, &mut step.weights);
+            return series.prepare(&step.active, grading, length, &mut step.weights);
         }
         let exponent = length.log2().floor() as i32;
         let length = 2f64.powi(exponent);
         if length <= series.reach() {
-            return series.weights(blocks, &step.active, grading, length, &mut step.weights);
+            return series.prepare(&step.active, grading, length, &mut step.weights);
         }
         let make = || StepWeights::by_quadrature(blocks, outputs, inputs, &step.active, grading, length);
         step.weights.clone_from(cache.entry((step.active.clone(), grading, exponent)).or_insert_with(make));
@@ -238,6 +245,11 @@ impl ExactIntegrator {
     /// Moves the run to the end of the solved step.
     fn accept(&mut self, run: &mut Run, end: f64, error: f64) -> Result<(), MotionError> {
         let length = self.step.weights.length;
+        if !self.step.weights.complete {
+            let grading = self.step.grading();
+            self.series.complete(&self.blocks, &self.step.active, grading, &mut self.step.weights);
+            self.set_next_state(run);
+        }
         if let Some(sensitivity) = &mut run.sensitivity {
             let done = self.step.advance_sensitivity(&self.drive, &self.outputs, sensitivity);
             done.map_err(|_| MotionError::StepTooShort { time: run.time, step: length })?;
@@ -256,15 +268,9 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Jet of an element's displacement at the end of the solved step, apart from the direct part of the forces.
-    pub(super) fn jet_at_step_end(&self, element: usize) -> Jet {
-        let o = &self.outputs[element];
-        let mut jet = self.drive.jet(element, o, self.step.start + self.step.weights.length);
-        for (i, &x) in self.next_state.iter().enumerate() {
-            jet.value += o.row[i] * x;
-            jet.slope += o.velocity_row[i] * x;
-        }
-        jet
+    /// Jet of the displacement of the a-th active element at the end of the solved step, apart from the direct part of the forces.
+    pub(super) fn jet_at_step_end(&self, a: usize) -> Jet {
+        self.step.end_jet(a, &self.series, &self.drive, &self.outputs, &self.next_state)
     }
 
     /// The first open contact that closes within the solved step, and when.

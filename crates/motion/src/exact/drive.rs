@@ -142,6 +142,22 @@ impl Drive {
         }
     }
 
+    /// Particular part of output `index` (with the row `output`) at `time`.
+    pub fn value(&self, index: usize, output: &Output, time: f64) -> f64 {
+        let mut sum = 0.0;
+        for order in &self.orders {
+            let rotation = self.rotation(order, time);
+            let amplitude = order.outputs[index].0;
+            sum += amplitude.re * rotation.re - amplitude.im * rotation.im;
+        }
+        let n = output.row.len() / 2;
+        for load in &self.secular {
+            let state = load.response(time).state;
+            sum += output.row[load.block] * state[0] + output.row[n + load.block] * state[1];
+        }
+        sum
+    }
+
     /// Particular part of output `index` (with the row `output`) and its derivatives at `time`.
     pub fn jet(&self, index: usize, output: &Output, time: f64) -> Jet {
         let mut jet = Jet::default();

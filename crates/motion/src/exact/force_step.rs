@@ -6,11 +6,11 @@
 use super::{
     block::Blocks,
     collocation::{Grading, NODES},
-    drive::Drive,
+    drive::{Drive, Jet},
     lu::SmallLu,
     output::Output,
     sensitivity::Sensitivity,
-    weights::StepWeights,
+    weights::{Readings, Series, StepWeights},
 };
 use crate::Law;
 
@@ -31,9 +31,18 @@ pub(crate) struct ForceStep {
     pub force: Vec<f64>,
     pub slope: Vec<f64>,
     free: Vec<f64>,
+    readings: Vec<Readings>,
     correction: Vec<f64>,
     lu: SmallLu,
     work: Vec<f64>,
+}
+
+fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
+    let mut values = [0.0; NODES];
+    for (row, &entry) in rows.chunks_exact(NODES).zip(state) {
+        values.iter_mut().zip(row).for_each(|(value, weight)| *value += weight * entry);
+    }
+    values
 }
 
 /// The forces of a step were not found.
@@ -51,20 +60,42 @@ impl ForceStep {
         self.grading.unwrap_or(Grading::Smooth)
     }
 
-    /// Displacements at the nodes if no force acted in the step.
-    pub fn set_free_motion(&mut self, drive: &Drive, outputs: &[Output], state: &[f64]) {
+    /// Displacements at the nodes if no force acted in the step that starts from `state`.
+    pub fn set_free_motion(&mut self, series: &Series, drive: &Drive, outputs: &[Output], state: &[f64]) {
         self.free.clear();
+        self.readings.clear();
         for (a, &e) in self.active.iter().enumerate() {
-            let rows = &self.weights.rows[a];
-            let mut free = [0.0; NODES];
-            for (row, &entry) in rows.chunks_exact(NODES).zip(state) {
-                (0..NODES).for_each(|k| free[k] += row[k] * entry);
-            }
-            for k in 0..NODES {
-                free[k] += drive.jet(e, &outputs[e], self.start + self.node_time(k)).value;
+            let mut free = if self.weights.complete {
+                rows_times_state(&self.weights.rows[a], state)
+            } else {
+                let readings = series.readings(e, state, self.weights.length);
+                self.readings.push(readings);
+                series.free_values(&readings, self.grading(), self.weights.length)
+            };
+            for (k, value) in free.iter_mut().enumerate() {
+                *value += drive.value(e, &outputs[e], self.start + self.node_time(k));
             }
             self.free.extend_from_slice(&free);
         }
+    }
+
+    /// Value and slope of the a-th active element at the end of the solved step from `state`, without the direct part of forces.
+    pub fn end_jet(&self, a: usize, series: &Series, drive: &Drive, outputs: &[Output], next_state: &[f64]) -> Jet {
+        let e = self.active[a];
+        let mut jet = drive.jet(e, &outputs[e], self.start + self.weights.length);
+        if self.weights.complete {
+            for (i, &x) in next_state.iter().enumerate() {
+                jet.value += outputs[e].row[i] * x;
+                jet.slope += outputs[e].velocity_row[i] * x;
+            }
+            return jet;
+        }
+        let step = (self.grading(), self.weights.length);
+        let (value, slope) =
+            series.end_values((e, &self.readings[a]), step, (self.active.as_slice(), self.force.as_slice()));
+        jet.value += value;
+        jet.slope += slope;
+        jet
     }
 
     /// Solves for the displacements from the guess in `displacement`. `scale` is a length below which corrections are rounding.

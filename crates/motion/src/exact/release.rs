@@ -31,7 +31,7 @@ impl ExactIntegrator {
             let penetration: Vec<f64> = (0..NODES)
                 .map(|k| contact.sign * (step.displacement[a * NODES + k] - contact.level) + margin)
                 .collect();
-            let end = contact.sign * (self.jet_at_step_end(element).value - contact.level) + margin;
+            let end = contact.sign * (self.jet_at_step_end(a).value - contact.level) + margin;
             let Some(s) = self.release_variable(&penetration, end) else { continue };
             let time = step.grading().map(s).0 * step.weights.length;
             if first.is_none_or(|(_, earlier)| time < earlier) {
@@ -109,10 +109,11 @@ impl ExactIntegrator {
         }
         let grading = if half_integer { Grading::Release } else { grading };
         let tolerance = self.settings.tolerance.powf(1.0 / contact.onset_exponent);
+        let a = self.step.active.iter().position(|&e| e == element).unwrap_or_default();
         let mut length = time.min(remaining);
         for _ in 0..12 {
             let Some(error) = self.attempt(run, length, grading) else { break };
-            let jet = self.jet_at_step_end(element);
+            let jet = self.jet_at_step_end(a);
             let (penetration, rate) = (contact.sign * (jet.value - contact.level), contact.sign * jet.slope);
             if rate >= 0.0 || error > 1.0 {
                 break;

@@ -27,7 +27,12 @@ pub(crate) struct StepWeights {
     pub convolution: Vec<[f64; NODES * NODES]>,
     /// `P` of each active element, `[j * 2n + i]`.
     pub to_state: Vec<Vec<f64>>,
+    /// Whether more than the convolution has been made.
+    pub complete: bool,
 }
+
+/// `C (A/rate)^m x` of one output, from `m = 0` on.
+pub(crate) type Readings = [f64; TERMS + 1];
 
 /// What the weights are made of: powers of the system on the rows and columns of the elements.
 #[derive(Debug, Clone)]
@@ -124,30 +129,16 @@ impl Series {
             .unwrap_or(TERMS)
     }
 
-    /// Matrices of a step within the reach; `active` lists elements.
-    pub fn weights(&self, blocks: &Blocks, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
+    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`Series::complete`].
+    pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
         let rule = grading.rule();
-        let size = 2 * blocks.count();
         let z = length * self.rate;
         let terms = Self::terms(z);
-        into.resize(active.len(), size);
-        into.length = length;
-        into.set_propagators(blocks, length);
         let count = self.columns.len();
+        into.length = length;
+        into.complete = false;
+        into.convolution.resize(active.len() * active.len(), [0.0; NODES * NODES]);
         for (a, &e) in active.iter().enumerate() {
-            self.node_rows(e, rule.c, z, terms, &mut into.rows[a]);
-            let to_state = &mut into.to_state[a];
-            to_state.fill(0.0);
-            let mut factor = length;
-            for m in 0..terms {
-                let column = &self.columns[e][m];
-                for j in 0..NODES {
-                    let weight = factor * rule.at_end[m][j];
-                    let target = &mut to_state[j * size..(j + 1) * size];
-                    target.iter_mut().zip(column).for_each(|(t, c)| *t += weight * c);
-                }
-                factor *= z;
-            }
             for (b, &f) in active.iter().enumerate() {
                 let convolution = &mut into.convolution[a * active.len() + b];
                 convolution.fill(0.0);
@@ -161,15 +152,91 @@ impl Series {
         }
     }
 
+    /// Completes a prepared step: `E`, `X` and `P`.
+    pub fn complete(&self, blocks: &Blocks, active: &[usize], grading: Grading, step: &mut StepWeights) {
+        let rule = grading.rule();
+        let size = 2 * blocks.count();
+        let length = step.length;
+        let z = length * self.rate;
+        let terms = Self::terms(z);
+        step.resize(active.len(), size);
+        step.set_propagators(blocks, length);
+        step.complete = true;
+        for (a, &e) in active.iter().enumerate() {
+            self.node_rows(e, rule.c, z, terms, &mut step.rows[a]);
+            let to_state = &mut step.to_state[a];
+            to_state.fill(0.0);
+            let mut factor = length;
+            for m in 0..terms {
+                let column = &self.columns[e][m];
+                for j in 0..NODES {
+                    let weight = factor * rule.at_end[m][j];
+                    let target = &mut to_state[j * size..(j + 1) * size];
+                    target.iter_mut().zip(column).for_each(|(t, c)| *t += weight * c);
+                }
+                factor *= z;
+            }
+        }
+    }
+
+    /// Row of output `o` and its derivatives read from `state`: `C (A/rate)^m x`.
+    pub fn readings(&self, output: usize, state: &[f64], length: f64) -> Readings {
+        let terms = Self::terms(length * self.rate) + 1;
+        let mut readings = [0.0; TERMS + 1];
+        for (reading, row) in readings.iter_mut().zip(&self.rows[output]).take(terms) {
+            *reading = row.iter().zip(state).map(|(r, x)| r * x).sum();
+        }
+        readings
+    }
+
+    /// Free motion at the nodes of a step from the readings at its start, apart from the particular part.
+    pub fn free_values(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let mut values = [0.0; NODES];
+        for m in (0..Self::terms(z)).rev() {
+            let share = z / (m + 1) as f64;
+            (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
+        }
+        values
+    }
+
+    /// Value and slope of output `o` at the end of a step, apart from the particular part.
+    pub fn end_values(
+        &self,
+        (output, readings): (usize, &Readings),
+        (grading, length): (Grading, f64),
+        (active, force): (&[usize], &[f64]),
+    ) -> (f64, f64) {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let (mut value, mut slope) = (0.0, 0.0);
+        let (mut power, mut factor) = (1.0, length);
+        let count = self.columns.len();
+        for m in 0..Self::terms(z) {
+            value += power * readings[m];
+            slope += power * readings[m + 1];
+            power *= z / (m + 1) as f64;
+            for (a, &e) in active.iter().enumerate() {
+                let force = &force[a * NODES..(a + 1) * NODES];
+                let moment = factor * rule.at_end[m].iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+                let markov = &self.markov[output * count + e];
+                value += markov[m] * moment;
+                slope += markov[m + 1] * moment;
+            }
+            factor *= z;
+        }
+        (value, slope * self.rate)
+    }
+
     fn node_rows(&self, element: usize, c: [f64; NODES], z: f64, terms: usize, rows: &mut [f64]) {
         rows.fill(0.0);
         let mut powers = [1.0; NODES];
         for m in 0..terms {
-            for (i, &entry) in self.rows[element][m].iter().enumerate() {
-                let target = &mut rows[i * NODES..(i + 1) * NODES];
-                (0..NODES).for_each(|k| target[k] += powers[k] * entry);
+            for (target, &entry) in rows.chunks_exact_mut(NODES).zip(&self.rows[element][m]) {
+                target.iter_mut().zip(&powers).for_each(|(t, p)| *t += p * entry);
             }
-            (0..NODES).for_each(|k| powers[k] *= z * c[k] / (m + 1) as f64);
+            powers.iter_mut().zip(&c).for_each(|(p, c)| *p *= z * c / (m + 1) as f64);
         }
     }
 }
@@ -199,7 +266,7 @@ impl StepWeights {
         length: f64,
     ) -> Self {
         let (n, rule) = (blocks.count(), grading.rule());
-        let mut weights = Self { length, ..Self::default() };
+        let mut weights = Self { length, complete: true, ..Self::default() };
         weights.resize(active.len(), 2 * n);
         weights.set_propagators(blocks, length);
         weights.convolution.iter_mut().for_each(|w| w.fill(0.0));
