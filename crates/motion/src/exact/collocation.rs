@@ -11,14 +11,14 @@
 
 use std::sync::OnceLock;
 
-use faer::{Mat, Side};
+use faer::{Mat, Side, linalg::solvers::DenseSolveCore};
 
 /// Force nodes in a step.
 pub(crate) const NODES: usize = 12;
 /// Terms of the power series; with [`REACH`] they reach rounding.
-pub(crate) const TERMS: usize = 34;
+pub(crate) const TERMS: usize = 50;
 /// Largest `h max(sqrt(k) + c)` for which the power series serve.
-pub(crate) const REACH: f64 = 4.0;
+pub(crate) const REACH: f64 = 8.0;
 
 /// How the force behaves at the ends of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -79,6 +79,12 @@ pub(crate) struct Rule {
     pub coefficients: [[f64; NODES]; NODES],
     /// Lagrange polynomials at [`FINE`]` + 1` equal steps of the variable, indexed `[place][node]`.
     pub fine: Vec<[f64; NODES]>,
+    /// `c_k/c'(s_k)`: how far s moves at node k if the step becomes longer by a small part of itself.
+    pub lag: [f64; NODES],
+    /// `d l_j/ds` at `s_k`, indexed `[k][j]`.
+    derivative: [[f64; NODES]; NODES],
+    /// Bernstein coefficients from nodal values, indexed `[coefficient][node]`.
+    to_bernstein: [[f64; NODES]; NODES],
     recurrence: Recurrence,
 }
 
@@ -96,7 +102,7 @@ impl Rule {
             let values = recurrence.values(s[node]);
             (0..NODES).for_each(|degree| coefficients[degree][node] = weights[node] * values[degree]);
         }
-        let mut rule = Self { s, c, at_nodes: Vec::new(), at_end: Vec::new(), coefficients, fine: Vec::new(), recurrence };
+        let mut rule = Self { s, c, at_nodes: Vec::new(), at_end: Vec::new(), coefficients, fine: Vec::new(), lag: s.map(|s| grading.map(s).0 / grading.map(s).1), derivative: derivative(&s), to_bernstein: to_bernstein(&s), recurrence };
         rule.fine = (0..=FINE).map(|i| rule.lagrange(i as f64 / FINE as f64)).collect();
         let moments = |end: f64| rule.moments(grading, end, &fine);
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
@@ -123,11 +129,51 @@ impl Rule {
         moments
     }
 
+    /// Derivative by s of a polynomial at the nodes, from its values there.
+    pub fn derivative(&self, values: &[f64; NODES]) -> [f64; NODES] {
+        self.derivative.map(|row| dot(&row, values))
+    }
+
+    /// Bernstein coefficients of a polynomial from the first node to the end of the step, from its values at the nodes.
+    pub fn bernstein(&self, values: &[f64; NODES]) -> [f64; NODES] {
+        self.to_bernstein.map(|row| dot(&row, values))
+    }
+
     /// Lagrange polynomials at `s`.
     pub fn lagrange(&self, s: f64) -> [f64; NODES] {
         let values = self.recurrence.values(s);
         std::array::from_fn(|node| (0..NODES).map(|d| self.coefficients[d][node] * values[d]).sum())
     }
+}
+
+fn dot(x: &[f64; NODES], y: &[f64; NODES]) -> f64 {
+    x.iter().zip(y).map(|(a, b)| a * b).sum()
+}
+
+/// Derivatives of the Lagrange polynomials at their nodes: `(w_j/w_k)/(s_k - s_j)` with the barycentric weights w.
+fn derivative(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
+    let weight = |j: usize| (0..NODES).filter(|&i| i != j).map(|i| 1.0 / (s[j] - s[i])).product::<f64>();
+    let weights: [f64; NODES] = std::array::from_fn(weight);
+    let mut matrix = [[0.0; NODES]; NODES];
+    for k in 0..NODES {
+        for j in (0..NODES).filter(|&j| j != k) {
+            matrix[k][j] = weights[j] / weights[k] / (s[k] - s[j]);
+            matrix[k][k] -= matrix[k][j];
+        }
+    }
+    matrix
+}
+
+/// The inverse of `binomial(n, i) x_k^i (1 - x_k)^(n - i)`, `n = NODES - 1`, where x runs from 0 at the first node to 1 at the end.
+fn to_bernstein(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
+    let degree = NODES - 1;
+    let binomial = |i: usize| (0..i).map(|m| (degree - m) as f64 / (m + 1) as f64).product::<f64>();
+    let x = s.map(|s_k| (s_k - s[0]) / (1.0 - s[0]));
+    let values = Mat::from_fn(NODES, NODES, |k, i| {
+        binomial(i) * x[k].powi(i as i32) * (1.0 - x[k]).powi((degree - i) as i32)
+    });
+    let inverse = values.partial_piv_lu().inverse();
+    std::array::from_fn(|i| std::array::from_fn(|k| inverse[(i, k)]))
 }
 
 /// Three-term recurrence of the orthonormal polynomials of a weight on [0, 1].

@@ -1,107 +1,78 @@
-//! Steps while forces act, with control of their error.
+//! Steps while forces act, with control of their error (`step_error.rs`).
 //!
-//! Over a step the force `F` and its slope `f'` of each active element are expanded in the orthonormal polynomials of the step. With
-//! `|F|_tail` and `|f'|_tail` the two highest coefficients added, `G = C A B` the mobility, and `D`, `V` the ranges of the relative displacement
-//! and velocity that the present state can reach, the step is accepted if
-//!
-//! `h G (|F|_tail + D |f'|_tail) / V <= 10 sqrt(tolerance)`.
-//!
-//! The left side is the relative error of the collocation polynomial; at the end of the step, on Gauss nodes, state and
-//! sensitivities have about its square.
+//! A contact that is struck and left takes two steps: one from the touch to about its middle, one from there to the release, each
+//! graded towards its end. Where that is too coarse, steps between them go as far as their error allows.
 
 use super::{
     ExactIntegrator, MotionError,
-    clearance::{Look, look},
     collocation::{Grading, NODES},
-    drive::Jet,
+    event::{Event, Solved},
     flight::{Touch, clearance_of},
-    release::ReleaseStep,
     run::Run,
-    weights::StepWeights,
 };
 use crate::Contact;
 
-/// Power of the step length with which the error of a step falls.
-const TAIL_ORDER: f64 = NODES as f64 - 1.5;
-/// A step that ends at the release is tried if the release is expected within this many proposed steps.
-const RELEASE_REACH: f64 = 3.0;
-/// Other steps go at most this part of the way to the expected release.
-const SMOOTH_REACH: f64 = 0.6;
-/// Relative tail of a step of half a contact from the touch on, for the first guess of the length.
-const HALF_CONTACT_TAIL: f64 = 0.02;
-/// Looks at an open contact within one force step.
-const MAX_LOOKS: usize = 1000;
+/// Tries of one step before it is given up.
+const MAX_TRIES: usize = 60;
+
+/// A step about to be tried.
+#[derive(Debug, Clone, Copy)]
+struct Aim {
+    length: f64,
+    event: Option<Event>,
+    /// Length to fall back to if the event does not come [s].
+    otherwise: f64,
+}
+
+/// What became of a try.
+enum Tried {
+    Accepted { error: f64, event: Option<Event> },
+    Again(Aim),
+    /// A contact closes at the start of the step.
+    ClosesNow(Touch),
+}
 
 impl ExactIntegrator {
     /// Takes one accepted step with forces, up to a release, a touch, the end of the stretch, or as far as the error allows.
     pub(super) fn contact_phase(&mut self, run: &mut Run, end: f64) -> Result<(), MotionError> {
-        if self.open_what_leaves(run, end) {
+        self.note_start(run, end);
+        if self.open_what_leaves(run) {
             return Ok(());
         }
         self.set_active(run);
         let touched = run.touched.take();
-        let grading = self.first_grading(run, touched);
         let remaining = end - run.time;
-        let expected = self.expected_release(run);
-        if let Some((element, time)) = expected
-            && (run.proposal == 0.0 || time <= RELEASE_REACH * run.proposal)
-            && let ReleaseStep::Solved(error) = self.release(run, element, time, grading, remaining)
-            && self.first_touch_in_step(run).is_none()
-        {
-            self.accept(run, end, error)?;
-            run.closed[element] = None;
-            return Ok(());
-        }
-        let mut length = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, touched, remaining) };
-        if let Some((_, time)) = expected {
-            // A smooth step keeps away from the half-integer power at the release.
-            length = length.min(SMOOTH_REACH * time);
-        }
-        loop {
-            length = length.min(remaining);
-            if length < 1e-16 * end || length.is_nan() {
-                return Err(MotionError::StepTooShort { time: run.time, step: length });
+        let mut aim = self.first_aim(run, touched, remaining);
+        for _ in 0..MAX_TRIES {
+            if aim.length < 1e-16 * end || aim.length.is_nan() {
+                break;
             }
-            let Some(error) = self.attempt(run, length, grading) else {
-                length *= 0.25;
-                continue;
-            };
-            if error > 1.0 {
-                length = self.step.weights.length * (0.9 * error.powf(-1.0 / TAIL_ORDER)).clamp(0.1, 0.8);
-                continue;
-            }
-            if let Some(touch) = self.first_touch_in_step(run) {
-                if touch.1 < self.step.weights.length * (1.0 - 1e-12) && touch.1 > 0.0 {
-                    length = touch.1;
-                    continue;
+            match self.try_step(run, touched, aim, remaining) {
+                Tried::Again(next) => aim = next,
+                Tried::ClosesNow(touch) => {
+                    self.close(run, touch);
+                    return Ok(());
                 }
-                self.accept(run, end, error)?;
-                self.close(run, touch.0);
-                return Ok(());
-            }
-            match self.first_release(run) {
-                None => return self.accept(run, end, error),
-                Some((element, time)) => match self.release(run, element, time, grading, remaining) {
-                    ReleaseStep::Solved(error) => {
-                        self.accept(run, end, error)?;
-                        run.closed[element] = None;
-                        return Ok(());
-                    }
-                    ReleaseStep::Shorter(shorter) => length = shorter,
-                },
+                Tried::Accepted { error, event } => {
+                    self.accept(run, end, error);
+                    self.happen(run, event);
+                    return Ok(());
+                }
             }
         }
+        Err(MotionError::StepTooShort { time: run.time, step: aim.length })
     }
 
     /// Opens contacts that have left the stop within rounding; true if no force acts any more.
-    fn open_what_leaves(&self, run: &mut Run, end: f64) -> bool {
+    fn open_what_leaves(&self, run: &mut Run) -> bool {
         for element in 0..self.laws.len() {
             let Some(contact) = self.closed_contact(run, element) else { continue };
             if run.touched == Some(element) {
                 continue;
             }
-            let jet = clearance_of(self.output_jet(run, element, run.time), contact.level, contact.sign);
-            if jet.slope > 0.0 && jet.value >= -self.bounds(run, element, end).margin {
+            let start = run.start[element];
+            let jet = clearance_of(start.jet, contact.level, contact.sign);
+            if jet.slope > 0.0 && jet.value >= -run.slack * jet.slope - start.margin {
                 run.closed[element] = None;
             }
         }
@@ -118,216 +89,138 @@ impl ExactIntegrator {
         self.step.active.extend(active);
     }
 
-    fn first_grading(&self, run: &Run, touched: Option<usize>) -> Grading {
-        match touched.and_then(|element| self.closed_contact(run, element)) {
-            Some(contact) if contact.onset_exponent.fract() != 0.0 => Grading::Touch,
-            _ => Grading::Smooth,
+    /// How a step is graded; a step from a touch that ends with a release cannot be.
+    fn grading(&self, run: &Run, touched: Option<usize>, event: Option<Event>) -> Option<Grading> {
+        let half_integer = |element: usize| {
+            self.closed_contact(run, element).is_some_and(|contact| contact.onset_exponent.fract() != 0.0)
+        };
+        let from_touch = touched.is_some_and(half_integer);
+        let to_release = matches!(event, Some(Event::Release(element)) if half_integer(element));
+        match (from_touch, to_release) {
+            (false, false) => Some(Grading::Smooth),
+            (true, false) => Some(Grading::Touch),
+            (false, true) => Some(Grading::Release),
+            (true, true) => None,
         }
     }
 
-    /// A first guess of the step length: half a contact after a touch, else a part of the period of the loaded contact.
-    fn first_length(&self, run: &Run, touched: Option<usize>, remaining: f64) -> f64 {
-        if let Some(element) = touched {
-            let share = (0.5 * self.largest_tail() / HALF_CONTACT_TAIL).powf(1.0 / TAIL_ORDER).min(1.0);
-            return (share * self.half_contact(run, element)).min(remaining);
+    /// The first try: to the release where it is expected within reach, else as far as the last step's error allows.
+    fn first_aim(&self, run: &Run, touched: Option<usize>, remaining: f64) -> Aim {
+        let known = run.release.filter(|known| known.1 > run.time && run.closed[known.0].is_some());
+        let forecast = match known {
+            Some((element, time)) => Some((element, time - run.time)),
+            None => self.first_forecast(run, touched),
+        };
+        let proposal = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };
+        let Some((element, time)) = forecast else {
+            return Aim { length: proposal.min(remaining), event: None, otherwise: 0.0 };
+        };
+        let proposal = if run.proposal > 0.0 { proposal } else { 0.5 * time };
+        let event = Some(Event::Release(element));
+        let whole = self.grading(run, touched, event).is_some();
+        if whole && (time <= 1.4 * proposal || run.proposal == 0.0) && time <= 1.2 * remaining {
+            return Aim { length: time.min(remaining), event, otherwise: proposal.min(remaining) };
         }
+        let shorter = if time < 2.0 * proposal { 0.5 * time } else { proposal };
+        Aim { length: shorter.min(remaining), event: None, otherwise: 0.0 }
+    }
+
+    /// A first guess of the step length: a part of the period of the loaded contact.
+    fn first_length(&self, run: &Run, remaining: f64) -> f64 {
         let stiffest = |&e: &usize| {
-            let slope = self.laws[e].force(self.output_jet(run, e, run.time).value).slope;
+            let slope = self.laws[e].force(run.start[e].jet.value).slope;
             (self.mobility[e][e] * slope.abs()).sqrt()
         };
-        let rate = self.step.active.iter().map(stiffest).fold(8.0 / remaining, f64::max);
-        0.5 / rate
+        let rate = self.step.active.iter().map(stiffest).fold(2.0 / remaining, f64::max);
+        1.5 / rate
     }
 
-    /// About half the duration of a contact that has just closed.
-    ///
-    /// With the speed v and `f = K p^e`, energy gives the depth `p = ((e + 1)/2 v^2/(K G))^(1/(e+1))`, the duration about `1.5 p/v`;
-    /// a soft touch is turned by the free acceleration a after `v/a`.
-    fn half_contact(&self, run: &Run, element: usize) -> f64 {
-        let Some(contact) = self.closed_contact(run, element) else { return f64::INFINITY };
-        let jet = clearance_of(self.output_jet(run, element, run.time), contact.level, contact.sign);
-        let (speed, exponent, probe) = (-jet.slope, contact.onset_exponent, 1e-6);
-        let force = self.laws[element].force(contact.level + contact.sign * probe).value.abs();
-        let coefficient = force / probe.powf(exponent) * self.mobility[element][element];
-        let depth = (0.5 * (exponent + 1.0) * speed * speed / coefficient).powf(1.0 / (exponent + 1.0));
-        let stopped = 1.5 * depth / speed;
-        let turned = if jet.curvature > 0.0 { speed / jet.curvature } else { f64::INFINITY };
-        if stopped > 0.0 { stopped.min(turned) } else { 1e-3 / self.series.reach().recip() }
-    }
-
-    /// Solves a step of about `length` (shorter where the lengths are discrete); its error relative to the tolerance.
-    pub(super) fn attempt(&mut self, run: &Run, length: f64, grading: Grading) -> Option<f64> {
-        self.counts.solves += 1;
-        self.set_weights(length, grading);
-        let step = &mut self.step;
-        step.grading = Some(grading);
-        step.start = run.time;
-        step.set_free_motion(&self.series, &self.drive, &self.outputs, &run.state);
-        self.guess(run);
-        let scale = self.step.active.iter().map(|&e| self.ranges(run, e).0).fold(0.0, f64::max);
-        self.step.solve(&self.laws, 8.0 * f64::EPSILON * scale).ok()?;
-        if self.step.weights.complete {
-            self.set_next_state(run);
-        }
-        Some(self.error(run))
-    }
-
-    /// State at the end of the solved step.
-    fn set_next_state(&mut self, run: &Run) {
-        self.next_state.clear();
-        self.next_state.extend_from_slice(&run.state);
-        self.step.advance_state(&self.blocks, &mut self.next_state);
-    }
-
-    fn set_weights(&mut self, length: f64, grading: Grading) {
-        let Self { blocks, series, step, cache, outputs, inputs, .. } = self;
-        if length <= series.reach() {
-            return series.prepare(&step.active, grading, length, &mut step.weights);
-        }
-        let exponent = length.log2().floor() as i32;
-        let length = 2f64.powi(exponent);
-        if length <= series.reach() {
-            return series.prepare(&step.active, grading, length, &mut step.weights);
-        }
-        let make = || StepWeights::by_quadrature(blocks, outputs, inputs, &step.active, grading, length);
-        step.weights.clone_from(cache.entry((step.active.clone(), grading, exponent)).or_insert_with(make));
-    }
-
-    /// First guess of the displacements: the present motion continued.
-    fn guess(&mut self, run: &Run) {
-        self.step.displacement.clear();
-        for a in 0..self.step.active.len() {
-            let element = self.step.active[a];
-            let mut jet = self.output_jet(run, element, run.time);
-            for &other in &self.step.active {
-                let displacement = self.output_jet(run, other, run.time).value;
-                jet.curvature += self.mobility[element][other] * self.laws[other].force(displacement).value;
-            }
-            for k in 0..NODES {
-                let t = self.step.node_time(k);
-                self.step.displacement.push(jet.value + t * (jet.slope + 0.5 * t * jet.curvature));
-            }
-        }
-    }
-
-    /// Ranges of displacement and velocity that an output can reach from the present state.
-    fn ranges(&self, run: &Run, output: usize) -> (f64, f64) {
-        let (n, o) = (self.blocks.count(), &self.outputs[output]);
-        let magnitude = self.drive.magnitude(output);
-        let (mut displacement, mut velocity) = (magnitude, magnitude * self.drive.circular_frequency());
-        for i in 0..n {
-            let (p, s) = (run.state[i], run.state[n + i]);
-            let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
-            displacement += (o.row[i] * p).abs().max(o.value_bound[i] * norm);
-            velocity += o.first_bound[i] * norm;
-        }
-        (displacement, velocity)
-    }
-
-    /// Error of the solved step by the formula of the file header, relative to its bound.
-    fn error(&self, run: &Run) -> f64 {
-        let step = &self.step;
-        let of_element = |a: usize| {
-            let element = step.active[a];
-            let (displacement, velocity) = self.ranges(run, element);
-            let tail = step.tail(&step.force, a) + displacement * step.tail(&step.slope, a);
-            step.weights.length * self.mobility[element][element] * tail / velocity.max(f64::MIN_POSITIVE)
+    fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: Aim, remaining: f64) -> Tried {
+        let free = |length: f64| Tried::Again(Aim { length, event: None, otherwise: 0.0 });
+        let to = |event: Event, length: f64| Tried::Again(Aim { length, event: Some(event), otherwise: 0.5 * length });
+        let Some(grading) = self.grading(run, touched, aim.event) else { return free(aim.otherwise) };
+        let solved = match aim.event {
+            Some(event) => self.locate(run, event, grading, aim.length, remaining),
+            None => self.attempt(run, aim.length, grading, false).map(|error| Solved { error, at_event: false }),
         };
-        let largest = (0..step.active.len()).map(of_element).fold(0.0, f64::max);
-        largest / self.largest_tail()
+        let Some(Solved { error, at_event }) = solved else {
+            run.release = None;
+            return free(if aim.event.is_some() { aim.otherwise } else { 0.5 * self.step.weights.length });
+        };
+        let length = self.step.weights.length;
+        let event = aim.event.filter(|_| at_event);
+        let release = match event {
+            Some(Event::Release(element)) => Some((element, length)),
+            _ => self.first_release(run, None),
+        };
+        if error > 1.0 {
+            let shorter = length * self.growth(error).clamp(0.1, 0.7);
+            let Some((element, time)) = release else { return free(shorter) };
+            // Where the step passed the release its error says little.
+            let news = run.release.is_none();
+            run.release = Some((element, run.time + time));
+            let whole = news && self.grading(run, touched, Some(Event::Release(element))).is_some();
+            if whole && event.is_none() {
+                return to(Event::Release(element), time);
+            }
+            return free(if event.is_some() { 0.5 * time } else { shorter.min(0.5 * time) });
+        }
+        if let Some((touch, time)) = self.first_touch_in_step(run, event)
+            && time < length * (1.0 - 1e-9)
+        {
+            if time <= 1e-12 * length {
+                return Tried::ClosesNow(touch);
+            }
+            return to(Event::Touch(touch), time);
+        }
+        if let Some((element, time)) = self.first_release(run, event.map(Event::element))
+            && time < length * (1.0 - 1e-9)
+        {
+            return to(Event::Release(element), time);
+        }
+        let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
+        if error > 1.0 {
+            run.release = release.map(|(element, time)| (element, run.time + time)).or(run.release);
+            return free(length * self.growth(error).clamp(0.1, 0.7));
+        }
+        Tried::Accepted { error, event }
     }
 
-    /// The bound of the file header.
-    fn largest_tail(&self) -> f64 {
-        10.0 * self.settings.tolerance.sqrt()
+    /// By how much the length may change for an error relative to its bound.
+    fn growth(&self, error: f64) -> f64 {
+        0.8 * error.powf(-1.0 / NODES as f64)
+    }
+
+    /// Opens or closes the contact that ended a step.
+    fn happen(&mut self, run: &mut Run, event: Option<Event>) {
+        run.slack = 0.0;
+        match event {
+            None => {}
+            Some(Event::Touch(touch)) => self.close(run, touch),
+            Some(Event::Release(element)) => {
+                run.closed[element] = None;
+                run.slack = 1e-7 * self.step.weights.length;
+            }
+        }
     }
 
     /// Moves the run to the end of the solved step.
-    fn accept(&mut self, run: &mut Run, end: f64, error: f64) -> Result<(), MotionError> {
+    fn accept(&mut self, run: &mut Run, end: f64, error: f64) {
         let length = self.step.weights.length;
-        if !self.step.weights.complete {
-            let grading = self.step.grading();
-            self.series.complete(&self.blocks, &self.step.active, grading, &mut self.step.weights);
-            self.set_next_state(run);
-        }
+        self.step.weights.set_propagators(&self.blocks, length);
         if let Some(sensitivity) = &mut run.sensitivity {
-            let done = self.step.advance_sensitivity(&self.drive, &self.outputs, sensitivity);
-            done.map_err(|_| MotionError::StepTooShort { time: run.time, step: length })?;
+            self.step.advance_sensitivity(sensitivity);
         }
         self.counts.steps += 1;
         if let Some(mut observation) = self.observation.take() {
             self.observe_step(run, &mut observation);
             self.observation = Some(observation);
         }
-        run.state.copy_from_slice(&self.next_state);
+        self.step.advance_state(&self.series, &mut run.state);
         run.time += length;
         if end - run.time <= 4.0 * f64::EPSILON * end {
             run.time = end;
         }
-        run.proposal = length * (0.9 * error.powf(-1.0 / TAIL_ORDER)).clamp(0.3, 4.0);
-        Ok(())
-    }
-
-    /// Jet of the displacement of the a-th active element at the end of the solved step, apart from the direct part of the forces.
-    pub(super) fn jet_at_step_end(&self, a: usize) -> Jet {
-        self.step.end_jet(a, &self.series, &self.drive, &self.outputs, &self.next_state)
-    }
-
-    /// The first open contact that closes within the solved step, and when.
-    fn first_touch_in_step(&self, run: &Run) -> Option<(Touch, f64)> {
-        let mut first: Option<(Touch, f64)> = None;
-        for element in 0..self.laws.len() {
-            if run.closed[element].is_some() {
-                continue;
-            }
-            for contact in 0..self.laws[element].contacts().len() {
-                if let Some(time) = self.touch_in_step(run, element, contact)
-                    && first.is_none_or(|(_, earlier)| time < earlier)
-                {
-                    first = Some((Touch { element, contact }, time));
-                }
-            }
-        }
-        first
-    }
-
-    /// When an open contact closes within the solved step, by the certified steps of a flight with the forces in the bound.
-    fn touch_in_step(&self, run: &Run, element: usize, contact: usize) -> Option<f64> {
-        let c = self.laws[element].contacts()[contact];
-        let length = self.step.weights.length;
-        let mut bounds = self.bounds(run, element, run.time + length);
-        bounds.second += self.forced_bound(element);
-        bounds.third = f64::INFINITY;
-        let mut time = 0.0;
-        let mut jet = self.output_jet(run, element, run.time);
-        for _ in 0..MAX_LOOKS {
-            let step = match look(clearance_of(jet, c.level, c.sign), bounds) {
-                Look::Contact => return Some(time),
-                Look::FreeFor(step) => step,
-                Look::MinimumAhead { at, .. } => at,
-            };
-            // A touch too slow to resolve carries no force: pass it by.
-            time += step.max(1e-9 * length);
-            if time >= length {
-                return None;
-            }
-            jet = self.jet_in_step(&run.state, element, time);
-        }
-        None
-    }
-
-    /// Bound on the relative acceleration that the forces of the step cause.
-    fn forced_bound(&self, element: usize) -> f64 {
-        let (n, step, output) = (self.blocks.count(), &self.step, &self.outputs[element]);
-        let of_active = |a: usize| {
-            let other = step.active[a];
-            let nodal = step.force[a * NODES..(a + 1) * NODES].iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            let input = &self.inputs[other];
-            let energy = |i: usize| (self.blocks.stiffness[i] * input[i].powi(2) + input[n + i].powi(2)).sqrt();
-            let later: f64 = (0..n).map(|i| output.second_bound[i] * energy(i)).sum();
-            // Between Gauss nodes the polynomial exceeds them by little; twice is safe.
-            2.0 * nodal * (self.mobility[element][other].abs() + step.weights.length * later)
-        };
-        (0..step.active.len()).map(of_active).sum()
+        run.proposal = length * self.growth(error).clamp(0.3, 5.0);
     }
 }

@@ -4,19 +4,19 @@
 //! by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`.
 
 use super::{
-    block::Blocks,
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
-    lu::SmallLu,
+    lu::{FixedLu, SmallLu},
     output::Output,
-    sensitivity::Sensitivity,
+    sensitivity::{ColumnTail, Sensitivity},
     weights::{Readings, Series, StepWeights},
 };
 use crate::Law;
 
-/// Newton's method has converged when the last correction is this small against the largest penetration: it converges
-/// quadratically, so what is left is below rounding.
-const CONVERGED: f64 = 1e-8;
+/// Newton's method has converged when what is left is this small against the range of the displacements.
+const CONVERGED: f64 = 1e-15;
+/// Slower convergence than this calls for a new factorisation.
+const FACTORISE_ABOVE: f64 = 0.03;
 const MAX_ITERATIONS: usize = 30;
 
 /// Forces of a step and what they were solved with. Node values are indexed `[a * NODES + k]` with the a-th active element.
@@ -34,6 +34,7 @@ pub(crate) struct ForceStep {
     readings: Vec<Readings>,
     correction: Vec<f64>,
     lu: SmallLu,
+    fixed_lu: FixedLu<NODES>,
     work: Vec<f64>,
 }
 
@@ -79,36 +80,40 @@ impl ForceStep {
         }
     }
 
-    /// Value and slope of the a-th active element at the end of the solved step from `state`, without the direct part of forces.
-    pub fn end_jet(&self, a: usize, series: &Series, drive: &Drive, outputs: &[Output], next_state: &[f64]) -> Jet {
-        let e = self.active[a];
-        let mut jet = drive.jet(e, &outputs[e], self.start + self.weights.length);
-        if self.weights.complete {
-            for (i, &x) in next_state.iter().enumerate() {
-                jet.value += outputs[e].row[i] * x;
-                jet.slope += outputs[e].velocity_row[i] * x;
-            }
-            return jet;
+    /// An output and its derivatives at the end of the solved step from `state`, apart from the direct part of the forces.
+    pub fn end_jet(&self, output: usize, series: &Series, outputs: &[Output], state: &[f64]) -> Jet {
+        let active = self.active.iter().position(|&e| e == output);
+        if !self.weights.complete {
+            let step = (self.grading(), self.weights.length);
+            let loads = (self.active.as_slice(), self.force.as_slice());
+            return match active {
+                Some(a) => series.end_jet((output, &self.readings[a]), step, loads),
+                None => series.end_jet((output, &series.readings(output, state, self.weights.length)), step, loads),
+            };
         }
-        let step = (self.grading(), self.weights.length);
-        let (value, slope) =
-            series.end_values((e, &self.readings[a]), step, (self.active.as_slice(), self.force.as_slice()));
-        jet.value += value;
-        jet.slope += slope;
-        jet
+        let mut end = state.to_vec();
+        self.advance_state(series, &mut end);
+        let o = &outputs[output];
+        let read = |row: &[f64]| row.iter().zip(&end).map(|(r, x)| r * x).sum();
+        Jet { value: read(&o.row), slope: read(&o.velocity_row), curvature: read(&o.acceleration_row) }
     }
 
     /// Solves for the displacements from the guess in `displacement`. `scale` is a length below which corrections are rounding.
+    ///
+    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with.
     pub fn solve(&mut self, laws: &[Law], scale: f64) -> Result<(), NotSolved> {
         let size = self.free.len();
         self.force.resize(size, 0.0);
         self.slope.resize(size, 0.0);
         self.correction.resize(size, 0.0);
         self.evaluate(laws);
+        let (mut previous, mut fresh) = (f64::INFINITY, true);
         for _ in 0..MAX_ITERATIONS {
             self.fill_defect();
-            self.factorise()?;
-            self.lu.solve(&mut self.correction, 1);
+            if fresh {
+                self.factorise()?;
+            }
+            self.solve_correction();
             let (mut largest, mut range) = (0.0_f64, 0.0_f64);
             for i in 0..size {
                 self.displacement[i] -= self.correction[i];
@@ -119,11 +124,25 @@ impl ForceStep {
                 return Err(NotSolved);
             }
             self.evaluate(laws);
-            if largest <= CONVERGED * range || largest <= scale {
+            // What is left after this correction: its square after a fresh matrix, else as before times the rate.
+            let rate = if fresh { largest / range } else { largest / previous };
+            if largest * rate <= CONVERGED * range || largest <= scale {
                 return Ok(());
             }
+            fresh = rate > FACTORISE_ABOVE;
+            previous = largest;
         }
         Err(NotSolved)
+    }
+
+    fn solve_correction(&mut self) {
+        if let [_] = self.active.as_slice() {
+            let mut right: [f64; NODES] = std::array::from_fn(|k| self.correction[k]);
+            self.fixed_lu.solve(&mut right);
+            self.correction.copy_from_slice(&right);
+        } else {
+            self.lu.solve(&mut self.correction, 1);
+        }
     }
 
     fn evaluate(&mut self, laws: &[Law]) {
@@ -155,6 +174,17 @@ impl ForceStep {
     /// Factorises `I - W f'`.
     fn factorise(&mut self) -> Result<(), NotSolved> {
         let (count, weights, slope) = (self.active.len(), &self.weights, &self.slope);
+        if count == 1 {
+            let convolution = &weights.convolution[0];
+            let mut matrix = [[0.0; NODES]; NODES];
+            for (k, (row, from)) in matrix.iter_mut().zip(convolution.chunks_exact(NODES)).enumerate() {
+                for ((entry, w), s) in row.iter_mut().zip(from).zip(slope) {
+                    *entry = -w * s;
+                }
+                row[k] += 1.0;
+            }
+            return self.fixed_lu.factorise(matrix).ok_or(NotSolved);
+        }
         let size = count * NODES;
         let fill = |matrix: &mut [f64]| {
             for a in 0..count {
@@ -174,25 +204,29 @@ impl ForceStep {
     }
 
     /// State at the end of the step.
-    pub fn advance_state(&self, blocks: &Blocks, state: &mut [f64]) {
-        let n = blocks.count();
+    pub fn advance_state(&self, series: &Series, state: &mut [f64]) {
+        let n = state.len() / 2;
         for (i, propagator) in self.weights.propagators.iter().enumerate() {
             (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
         }
-        for a in 0..self.active.len() {
-            for (j, column) in self.weights.to_state[a].chunks_exact(2 * n).enumerate() {
-                let force = self.force[a * NODES + j];
-                state.iter_mut().zip(column).for_each(|(x, p)| *x += p * force);
+        for (a, &element) in self.active.iter().enumerate() {
+            let force = &self.force[a * NODES..(a + 1) * NODES];
+            if !self.weights.complete {
+                series.add_force(element, (self.grading(), self.weights.length), force, state);
+                continue;
+            }
+            for (x, weights) in state.iter_mut().zip(self.weights.to_state[a].chunks_exact(NODES)) {
+                *x += weights.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
             }
         }
     }
 
-    /// Takes the sensitivities over the step.
-    pub fn advance_sensitivity(
+    /// Solves for the sensitivities `dF = f' (I - W f')^-1 (X V + d r_particular)` of the forces.
+    pub fn solve_sensitivity(
         &mut self,
         drive: &Drive,
         outputs: &[Output],
-        sensitivity: &mut Sensitivity,
+        sensitivity: &Sensitivity,
     ) -> Result<(), NotSolved> {
         self.factorise()?;
         let columns = sensitivity.columns();
@@ -208,15 +242,55 @@ impl ForceStep {
                     drive.output_by_frequency(e, &outputs[e], time);
             }
         }
-        self.lu.solve(&mut self.work, columns);
+        if self.active.len() == 1 {
+            self.fixed_lu.solve_rows(&mut self.work, columns);
+        } else {
+            self.lu.solve(&mut self.work, columns);
+        }
         for (row, slope) in self.work.chunks_exact_mut(columns).zip(&self.slope) {
             row.iter_mut().for_each(|value| *value *= slope);
         }
-        sensitivity.propagate(&self.weights.propagators);
-        for a in 0..self.active.len() {
-            sensitivity.add(&self.weights.to_state[a], &self.work[a * NODES * columns..(a + 1) * NODES * columns]);
-        }
         Ok(())
+    }
+
+    /// Takes the sensitivities over the step, once those of its forces are solved for.
+    pub fn advance_sensitivity(&self, sensitivity: &mut Sensitivity) {
+        let columns = sensitivity.columns();
+        sensitivity.propagate(&self.weights.propagators);
+        for (a, to_state) in self.weights.to_state.iter().enumerate().take(self.active.len()) {
+            sensitivity.add(to_state, &self.work[a * NODES * columns..(a + 1) * NODES * columns]);
+        }
+    }
+
+    /// Tail and largest value of each sensitivity of the force of the a-th active element, once solved for, and the largest velocity
+    /// before the step.
+    pub fn sensitivity_tails(&self, a: usize, sensitivity: &Sensitivity) -> Vec<ColumnTail> {
+        let columns = sensitivity.columns();
+        let coefficients = &self.grading().rule().coefficients;
+        let mut tails = sensitivity.velocity_norms();
+        let mut sums = vec![[0.0; 2]; columns];
+        let work = &self.work[a * NODES * columns..(a + 1) * NODES * columns];
+        for (k, row) in work.chunks_exact(columns).enumerate() {
+            let (high, low) = (coefficients[NODES - 1][k], coefficients[NODES - 2][k]);
+            for ((sums, tail), value) in sums.iter_mut().zip(&mut tails).zip(row) {
+                sums[0] += high * value;
+                sums[1] += low * value;
+                tail.largest = tail.largest.max(value.abs());
+            }
+        }
+        tails.iter_mut().zip(&sums).for_each(|(tail, sums)| tail.tail = sums[0].abs() + sums[1].abs());
+        tails.truncate(sensitivity.frequency_column() + 1);
+        tails
+    }
+
+    /// Moves the displacements of the last solution to a step whose length differs by the part `change`.
+    pub fn shift_guess(&mut self, change: f64) {
+        let rule = self.grading().rule();
+        for values in self.displacement.chunks_exact_mut(NODES) {
+            let nodal: [f64; NODES] = std::array::from_fn(|k| values[k]);
+            let slope = rule.derivative(&nodal);
+            (0..NODES).for_each(|k| values[k] += slope[k] * rule.lag[k] * change);
+        }
     }
 
     /// Value of a polynomial over the step, given at the nodes of the a-th active element, at `s` in [0, 1].
@@ -226,10 +300,10 @@ impl ForceStep {
     }
 
     /// The two highest coefficients of the orthonormal expansion of nodal values, in magnitude, added.
-    pub fn tail(&self, values: &[f64], a: usize) -> f64 {
+    pub fn tail(&self, values: &[f64]) -> f64 {
         let coefficients = &self.grading().rule().coefficients;
-        let coefficient = |degree: usize| {
-            (0..NODES).map(|k| coefficients[degree][k] * values[a * NODES + k]).sum::<f64>().abs()
+        let coefficient = |degree: usize| -> f64 {
+            coefficients[degree].iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs()
         };
         coefficient(NODES - 1) + coefficient(NODES - 2)
     }

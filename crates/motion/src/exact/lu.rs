@@ -71,6 +71,97 @@ impl SmallLu {
     }
 }
 
+/// `P A = L U` of an N x N matrix: loops of fixed length, which the compiler turns into vectors.
+#[derive(Debug, Clone)]
+pub(crate) struct FixedLu<const N: usize> {
+    upper: [[f64; N]; N],
+    lower: [[f64; N]; N],
+    inverse: [f64; N],
+    pivots: [usize; N],
+}
+
+impl<const N: usize> Default for FixedLu<N> {
+    fn default() -> Self {
+        Self { upper: [[0.0; N]; N], lower: [[0.0; N]; N], inverse: [0.0; N], pivots: [0; N] }
+    }
+}
+
+impl<const N: usize> FixedLu<N> {
+    /// Factorises a matrix given by rows; `None` if it is singular.
+    #[must_use]
+    pub fn factorise(&mut self, matrix: [[f64; N]; N]) -> Option<()> {
+        self.upper = matrix;
+        for k in 0..N {
+            let pivot = (k + 1..N).fold(k, |best, row| {
+                if self.upper[row][k].abs() > self.upper[best][k].abs() { row } else { best }
+            });
+            self.pivots[k] = pivot;
+            if pivot != k {
+                self.upper.swap(k, pivot);
+                self.lower.swap(k, pivot);
+            }
+            let top = self.upper[k];
+            if top[k] == 0.0 || !top[k].is_finite() {
+                return None;
+            }
+            self.inverse[k] = 1.0 / top[k];
+            // Entries left of the diagonal are not read again: whole groups of four are cheaper than exact lengths.
+            let first = k & !3;
+            for i in k + 1..N {
+                let factor = self.upper[i][k] * self.inverse[k];
+                self.lower[i][k] = factor;
+                for (entry, above) in self.upper[i][first..].iter_mut().zip(&top[first..]) {
+                    *entry -= factor * above;
+                }
+            }
+        }
+        Some(())
+    }
+
+    /// Solves in place.
+    pub fn solve(&self, right: &mut [f64; N]) {
+        self.pivots.iter().enumerate().for_each(|(k, &pivot)| right.swap(k, pivot));
+        for k in 0..N {
+            let known = right[k];
+            for i in k + 1..N {
+                right[i] -= self.lower[i][k] * known;
+            }
+        }
+        for k in (0..N).rev() {
+            let known = right[k] * self.inverse[k];
+            right[k] = known;
+            for i in 0..k {
+                right[i] -= self.upper[i][k] * known;
+            }
+        }
+    }
+
+    /// Solves in place for `columns` right-hand sides stored row by row (`[row * columns + column]`).
+    pub fn solve_rows(&self, right: &mut [f64], columns: usize) {
+        for (k, &pivot) in self.pivots.iter().enumerate() {
+            if pivot != k {
+                let (upper, lower) = right.split_at_mut(pivot * columns);
+                upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
+            }
+        }
+        for i in 1..N {
+            let (known, open) = right.split_at_mut(i * columns);
+            let target = &mut open[..columns];
+            for (source, factor) in known.chunks_exact(columns).zip(&self.lower[i]) {
+                target.iter_mut().zip(source).for_each(|(t, s)| *t -= factor * s);
+            }
+        }
+        for i in (0..N).rev() {
+            let (open, known) = right.split_at_mut((i + 1) * columns);
+            let target = &mut open[i * columns..];
+            for (source, factor) in known.chunks_exact(columns).zip(&self.upper[i][i + 1..]) {
+                target.iter_mut().zip(source).for_each(|(t, s)| *t -= factor * s);
+            }
+            target.iter_mut().for_each(|t| *t *= self.inverse[i]);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,6 +178,23 @@ mod tests {
                 let sum: f64 = (0..3).map(|k| matrix[row * 3 + k] * x[k * 2 + column]).sum();
                 assert!((sum - expected[column]).abs() < 1e-14);
             }
+        }
+    }
+
+    #[test]
+    fn fixed_and_variable_sizes_agree() {
+        let matrix: [[f64; 6]; 6] =
+            std::array::from_fn(|i| std::array::from_fn(|j| ((i * 7 + j * j * 3 + i * i * j + 5) % 11) as f64 - 4.0));
+        let (mut fixed, mut variable) = (FixedLu::default(), SmallLu::default());
+        fixed.factorise(matrix).unwrap();
+        variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();
+        let mut single = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
+        let (mut rows, mut expected) = (single.to_vec(), single.to_vec());
+        fixed.solve(&mut single);
+        fixed.solve_rows(&mut rows, 1);
+        variable.solve(&mut expected, 1);
+        for i in 0..6 {
+            assert!((single[i] - expected[i]).abs() < 1e-12 && (rows[i] - expected[i]).abs() < 1e-12);
         }
     }
 

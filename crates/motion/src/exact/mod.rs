@@ -8,11 +8,13 @@
 //! | `drive.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
-//! | `collocation.rs`, `weights.rs`, `force_step.rs` | one step with forces |
-//! | `contact_phase.rs`, `release.rs` | steps from touch to release, with error control |
+//! | `collocation.rs`, `weights.rs`, `force_step.rs`, `attempt.rs`, `step_error.rs` | one step with forces |
+//! | `contact_phase.rs`, `event.rs`, `touching.rs` | steps from touch to release, with error control |
+//! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 
+mod attempt;
 mod block;
 mod clearance;
 mod collocation;
@@ -20,15 +22,19 @@ mod contact_phase;
 mod decouple;
 mod drive;
 mod flight;
+mod event;
 mod force_step;
+mod forecast;
 mod lu;
 mod maxima;
 mod output;
-mod release;
+mod polynomial;
 mod run;
 mod sampling;
 mod secular;
 mod sensitivity;
+mod step_error;
+mod touching;
 mod weights;
 
 use std::collections::HashMap;
@@ -70,13 +76,13 @@ pub enum MotionError {
 /// Settings of the exact integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactSettings {
-    /// Bound on the error of each force step, relative to the scales of the stretch; see `contact_phase.rs` for the formula.
+    /// Bound on the error of each force step, relative to the scales of the stretch; see `step_error.rs` for the formula.
     pub tolerance: f64,
 }
 
 impl Default for ExactSettings {
     fn default() -> Self {
-        Self { tolerance: 1e-12 }
+        Self { tolerance: 1e-11 }
     }
 }
 
@@ -106,6 +112,10 @@ pub struct ExactIntegrator {
     series: Series,
     /// `C A B`: relative acceleration of output e per force of element f, `[e][f]`.
     mobility: Vec<Vec<f64>>,
+    /// Rate of each block, `sqrt(k) + c` [1/s].
+    rates: Vec<f64>,
+    /// Part of each block in the mobility of each element, `[e][i]`.
+    shares: Vec<Vec<f64>>,
     has_contacts: bool,
     counts: ExactCounts,
     drive: Drive,
@@ -114,7 +124,6 @@ pub struct ExactIntegrator {
     cache: HashMap<(Vec<usize>, Grading, i32), StepWeights>,
     flight_start: Vec<f64>,
     propagators: Vec<Propagator>,
-    next_state: Vec<f64>,
     touches: Vec<u32>,
     observation: Option<maxima::Observation>,
     closed_throughout: u64,
@@ -146,6 +155,15 @@ impl ExactIntegrator {
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
         let mobility =
             outputs.iter().map(|o| inputs.iter().map(|b| dot(&o.velocity_row, b)).collect()).collect();
+        let n = blocks.count();
+        let share = |o: &Output, b: &[f64], i: usize| o.velocity_row[i] * b[i] + o.velocity_row[n + i] * b[n + i];
+        let shares = outputs.iter().zip(&inputs).map(|(o, b)| {
+            let parts: Vec<f64> = (0..n).map(|i| share(o, b, i).abs()).collect();
+            let total: f64 = parts.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+            parts.into_iter().map(|part| part / total).collect()
+        });
+        let shares = shares.collect();
+        let rates = blocks.stiffness.iter().zip(&blocks.damping).map(|(k, c)| k.sqrt() + c.abs()).collect();
         let laws: Vec<Law> = system.elements().iter().map(|e| e.law).collect();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.0 };
         Ok(Self {
@@ -155,6 +173,8 @@ impl ExactIntegrator {
             touches: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
             system,
             settings,
+            rates,
+            shares,
             blocks,
             laws,
             outputs,
@@ -166,7 +186,6 @@ impl ExactIntegrator {
             cache: HashMap::new(),
             flight_start: Vec::new(),
             propagators: Vec::new(),
-            next_state: Vec::new(),
             observation: None,
             closed_throughout: 0,
         })
@@ -238,6 +257,8 @@ impl ExactIntegrator {
         run.time = 0.0;
         run.proposal = 0.0;
         run.touched = None;
+        run.slack = 0.0;
+        run.release = None;
         run.state.resize(2 * n, 0.0);
         self.blocks.from_modal(state, &mut run.state);
         self.drive.add_state(0.0, -1.0, &mut run.state);
@@ -300,6 +321,8 @@ impl ExactIntegrator {
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
         run.proposal = 0.0;
+        run.release = None;
+        run.slack = 0.0;
         let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();
         self.touches[before + touch.contact] += 1;
     }

@@ -7,6 +7,17 @@ use super::{
     collocation::NODES,
 };
 
+/// Of one column of sensitivities in a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ColumnTail {
+    /// Largest velocity before the step.
+    pub velocity: f64,
+    /// Largest sensitivity of the force.
+    pub largest: f64,
+    /// Tail of the sensitivity of the force.
+    pub tail: f64,
+}
+
 /// The matrix `V` of 2n rows: a column per initial state, one for the frequency, and padding to a multiple of four.
 ///
 /// Rows are contiguous, so every inner loop runs along a row.
@@ -71,13 +82,27 @@ impl Sensitivity {
 
     /// Adds `P dF` for one element.
     pub fn add(&mut self, to_state: &[f64], force: &[f64]) {
-        let (rows, columns) = (self.rows, self.columns);
-        for (i, row) in self.values.chunks_exact_mut(columns).enumerate() {
-            for (j, source) in force.chunks_exact(columns).enumerate() {
-                let weight = to_state[j * rows + i];
+        let columns = self.columns;
+        for (row, weights) in self.values.chunks_exact_mut(columns).zip(to_state.chunks_exact(NODES)) {
+            for (source, weight) in force.chunks_exact(columns).zip(weights) {
                 row.iter_mut().zip(source).for_each(|(v, f)| *v += weight * f);
             }
         }
+    }
+
+    /// Largest velocity of each column.
+    pub fn velocity_norms(&self) -> Vec<ColumnTail> {
+        let mut norms = vec![ColumnTail::default(); self.columns];
+        for row in self.values.chunks_exact(self.columns).skip(self.rows / 2) {
+            norms.iter_mut().zip(row).for_each(|(norm, value)| norm.velocity = norm.velocity.max(value.abs()));
+        }
+        norms
+    }
+
+    /// `sqrt(k p^2 + s^2)` of block i in a column.
+    pub fn energy_norm(&self, i: usize, column: usize, stiffness: f64) -> f64 {
+        let (p, s) = (self.values[i * self.columns + column], self.values[(self.rows / 2 + i) * self.columns + column]);
+        (stiffness * p * p + s * s).sqrt()
     }
 
     /// Adds to the frequency column.

@@ -8,6 +8,7 @@
 use super::{
     block::{Blocks, Propagator},
     collocation::{Grading, NODES, REACH, TERMS, gauss_legendre},
+    drive::Jet,
     output::Output,
 };
 
@@ -25,14 +26,14 @@ pub(crate) struct StepWeights {
     pub rows: Vec<NodeRows>,
     /// `W`, indexed `[a * active + b][k * NODES + j]`.
     pub convolution: Vec<[f64; NODES * NODES]>,
-    /// `P` of each active element, `[j * 2n + i]`.
+    /// `P` of each active element, `[i * NODES + j]`.
     pub to_state: Vec<Vec<f64>>,
     /// Whether more than the convolution has been made.
     pub complete: bool,
 }
 
 /// `C (A/rate)^m x` of one output, from `m = 0` on.
-pub(crate) type Readings = [f64; TERMS + 1];
+pub(crate) type Readings = [f64; TERMS + 2];
 
 /// What the weights are made of: powers of the system on the rows and columns of the elements.
 #[derive(Debug, Clone)]
@@ -129,7 +130,8 @@ impl Series {
             .unwrap_or(TERMS)
     }
 
-    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`Series::complete`].
+    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
+    /// [`Series::complete`].
     pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
         let rule = grading.rule();
         let z = length * self.rate;
@@ -152,37 +154,45 @@ impl Series {
         }
     }
 
-    /// Completes a prepared step: `E`, `X` and `P`.
-    pub fn complete(&self, blocks: &Blocks, active: &[usize], grading: Grading, step: &mut StepWeights) {
+    /// Completes a prepared step: `X` and `P`.
+    pub fn complete(&self, active: &[usize], grading: Grading, step: &mut StepWeights) {
         let rule = grading.rule();
-        let size = 2 * blocks.count();
+        let size = self.columns[0][0].len();
         let length = step.length;
         let z = length * self.rate;
         let terms = Self::terms(z);
         step.resize(active.len(), size);
-        step.set_propagators(blocks, length);
         step.complete = true;
         for (a, &e) in active.iter().enumerate() {
             self.node_rows(e, rule.c, z, terms, &mut step.rows[a]);
             let to_state = &mut step.to_state[a];
             to_state.fill(0.0);
             let mut factor = length;
-            for m in 0..terms {
-                let column = &self.columns[e][m];
-                for j in 0..NODES {
-                    let weight = factor * rule.at_end[m][j];
-                    let target = &mut to_state[j * size..(j + 1) * size];
-                    target.iter_mut().zip(column).for_each(|(t, c)| *t += weight * c);
+            for (column, at_end) in self.columns[e].iter().zip(&rule.at_end[..terms]) {
+                let weights = at_end.map(|weight| factor * weight);
+                for (target, &entry) in to_state.chunks_exact_mut(NODES).zip(column) {
+                    target.iter_mut().zip(&weights).for_each(|(t, w)| *t += w * entry);
                 }
                 factor *= z;
             }
         }
     }
 
+    /// Adds `P F` of one element to a state.
+    pub fn add_force(&self, element: usize, (grading, length): (Grading, f64), force: &[f64], state: &mut [f64]) {
+        let z = length * self.rate;
+        let mut factor = length;
+        for (column, at_end) in self.columns[element].iter().zip(&grading.rule().at_end[..Self::terms(z)]) {
+            let weight = factor * at_end.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+            state.iter_mut().zip(column).for_each(|(x, c)| *x += weight * c);
+            factor *= z;
+        }
+    }
+
     /// Row of output `o` and its derivatives read from `state`: `C (A/rate)^m x`.
     pub fn readings(&self, output: usize, state: &[f64], length: f64) -> Readings {
-        let terms = Self::terms(length * self.rate) + 1;
-        let mut readings = [0.0; TERMS + 1];
+        let terms = Self::terms(length * self.rate) + 2;
+        let mut readings = [0.0; TERMS + 2];
         for (reading, row) in readings.iter_mut().zip(&self.rows[output]).take(terms) {
             *reading = row.iter().zip(state).map(|(r, x)| r * x).sum();
         }
@@ -201,32 +211,30 @@ impl Series {
         values
     }
 
-    /// Value and slope of output `o` at the end of a step, apart from the particular part.
-    pub fn end_values(
+    /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the direct part of the forces.
+    pub fn end_jet(
         &self,
         (output, readings): (usize, &Readings),
         (grading, length): (Grading, f64),
         (active, force): (&[usize], &[f64]),
-    ) -> (f64, f64) {
+    ) -> Jet {
         let rule = grading.rule();
         let z = length * self.rate;
-        let (mut value, mut slope) = (0.0, 0.0);
+        let mut sums = [0.0; 3];
         let (mut power, mut factor) = (1.0, length);
         let count = self.columns.len();
         for m in 0..Self::terms(z) {
-            value += power * readings[m];
-            slope += power * readings[m + 1];
+            (0..3).for_each(|d| sums[d] += power * readings[m + d]);
             power *= z / (m + 1) as f64;
             for (a, &e) in active.iter().enumerate() {
                 let force = &force[a * NODES..(a + 1) * NODES];
                 let moment = factor * rule.at_end[m].iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
                 let markov = &self.markov[output * count + e];
-                value += markov[m] * moment;
-                slope += markov[m + 1] * moment;
+                (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
             }
             factor *= z;
         }
-        (value, slope * self.rate)
+        Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
     }
 
     fn node_rows(&self, element: usize, c: [f64; NODES], z: f64, terms: usize, rows: &mut [f64]) {
@@ -250,7 +258,7 @@ impl StepWeights {
         self.convolution.resize(active * active, [0.0; NODES * NODES]);
     }
 
-    fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
+    pub fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
         self.propagators.clear();
         let pairs = blocks.stiffness.iter().zip(&blocks.damping);
         self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, length)));
@@ -282,8 +290,8 @@ impl StepWeights {
                         let [aa, bb, cc, dd] = integrals[j];
                         let (p, s) = (aa * beta + bb * phi, cc * beta + dd * phi);
                         if node == NODES {
-                            weights.to_state[b][j * 2 * n + i] = p;
-                            weights.to_state[b][j * 2 * n + n + i] = s;
+                            weights.to_state[b][i * NODES + j] = p;
+                            weights.to_state[b][(n + i) * NODES + j] = s;
                             continue;
                         }
                         for (a, &e) in active.iter().enumerate() {

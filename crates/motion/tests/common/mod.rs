@@ -1,8 +1,16 @@
-//! Systems shared by the tests.
+//! Systems and comparisons shared by the tests of the exact integrator.
 #![allow(dead_code, reason = "each test file uses some of them")]
+#![allow(clippy::unwrap_used, reason = "helpers of tests")]
+
+use std::f64::consts::TAU;
 
 use faer::Mat;
-use hammerbeam_motion::{Harmonic, Law, Load, LocalElement, System, law::HertzStop};
+use hammerbeam_motion::{
+    Flow, Harmonic, Law, Load, LocalElement, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    general::{GeneralSettings, advance},
+    law::HertzStop,
+};
 use hammerbeam_structure::{PointOutput, ReducedModel, SupportInput};
 
 /// The six-dof beam of the reference table "In modal coordinates of the reduced clamped beam".
@@ -10,9 +18,9 @@ pub fn beam_model(damping_ratio: f64) -> ReducedModel {
     let frequencies = [17.49546, 137.27615, 414.31135, 843.22742, 1538.84987, 3945.26664];
     let shape = vec![3.719882, 1.767674, 1.071971, 0.656816, 0.374580, 1.326146];
     let inertia = vec![0.326581, -0.160943, 0.092436, -0.064797, 0.065038, -0.029896];
-    let natural_frequencies: Vec<f64> = frequencies.iter().map(|f| std::f64::consts::TAU * f).collect();
+    let natural_frequencies: Vec<f64> = frequencies.iter().map(|f| TAU * f).collect();
     ReducedModel {
-        damping: Mat::from_fn(6, 6, |i, j| if i == j { 2.0 * damping_ratio * natural_frequencies[i] } else { 0.0 }),
+        damping: modal_damping(&natural_frequencies, damping_ratio),
         natural_frequencies,
         points: vec![PointOutput { name: "contact".into(), shape, support_ratio: 1.0 }],
         support: Some(SupportInput { inertia, damping: vec![0.0; 6] }),
@@ -20,19 +28,139 @@ pub fn beam_model(damping_ratio: f64) -> ReducedModel {
     }
 }
 
+/// Diagonal damping matrix of one damping ratio for all modes.
+pub fn modal_damping(natural_frequencies: &[f64], ratio: f64) -> Mat<f64> {
+    let n = natural_frequencies.len();
+    Mat::from_fn(n, n, |i, j| if i == j { 2.0 * ratio * natural_frequencies[i] } else { 0.0 })
+}
+
 /// The beam with a stop below the contact point that rides on the support.
 pub fn beam_with(damping_ratio: f64, law: Law) -> System {
     let model = beam_model(damping_ratio);
-    let shape = model.points[0].shape.iter().map(|phi| -phi).collect();
-    let load = Load {
-        support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }],
-        ..Load::default()
-    };
-    let element = LocalElement { name: "stop".into(), shape, support_ratio: 0.0, law };
-    System::new(model, &load, vec![element]).unwrap()
+    let shape: Vec<f64> = model.points[0].shape.iter().map(|phi| -phi).collect();
+    let load =
+        Load { support: vec![Harmonic { order: 1, amplitude: 0.5015e-3, phase: 0.0 }], ..Load::default() };
+    System::new(model, &load, vec![element(&shape, 0.0, law)]).unwrap()
 }
 
 /// The beam of the paper.
 pub fn paper_beam() -> System {
-    beam_with(0.015, Law::Hertz(HertzStop::with_gap(4.5e9, 0.0).unwrap()))
+    beam_with(0.015, hertz(4.5e9, 0.0))
+}
+
+/// A uniform clamped-free beam of `n` modes, the first at 17.5 Hz, with a stop near its end that rides on the shaken support.
+pub fn uniform_beam(n: usize) -> System {
+    let root = |i: usize| if i == 0 { 1.875_104 } else { std::f64::consts::PI * (i as f64 + 0.5) };
+    let natural_frequencies: Vec<f64> =
+        (0..n).map(|i| TAU * 17.5 * (root(i) / root(0)).powi(2)).collect();
+    let shape: Vec<f64> = (0..n).map(|i| 3.0 * (0.05 * root(i)).cos() * if i % 2 == 0 { -1.0 } else { 1.0 }).collect();
+    let inertia: Vec<f64> = (0..n).map(|i| 0.33 / (i as f64 + 1.0).powi(2)).collect();
+    let model = ReducedModel {
+        damping: modal_damping(&natural_frequencies, 0.015),
+        natural_frequencies,
+        points: vec![],
+        support: Some(SupportInput { inertia, damping: vec![0.0; n] }),
+        uniform_acceleration: vec![0.0; n],
+    };
+    let load = Load { support: vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.0 }], ..Load::default() };
+    System::new(model, &load, vec![element(&shape, 0.0, hertz(1e8, 0.0))]).unwrap()
+}
+
+/// A model without support motion.
+pub fn model(natural_frequencies: &[f64], damping: Mat<f64>) -> ReducedModel {
+    ReducedModel {
+        natural_frequencies: natural_frequencies.to_vec(),
+        damping,
+        points: vec![],
+        support: None,
+        uniform_acceleration: vec![0.0; natural_frequencies.len()],
+    }
+}
+
+pub fn diagonal(values: &[f64]) -> Mat<f64> {
+    Mat::from_fn(values.len(), values.len(), |i, j| if i == j { values[i] } else { 0.0 })
+}
+
+/// A Hertz stop with a gap.
+pub fn hertz(stiffness: f64, gap: f64) -> Law {
+    Law::Hertz(HertzStop::with_gap(stiffness, gap).unwrap())
+}
+
+pub fn element(shape: &[f64], support_ratio: f64, law: Law) -> LocalElement {
+    LocalElement { name: "stop".into(), shape: shape.to_vec(), support_ratio, law }
+}
+
+pub fn integrator(system: &System) -> ExactIntegrator {
+    ExactIntegrator::new(system.clone(), ExactSettings::default()).unwrap()
+}
+
+/// The state after `cycles` cycles from rest, stretch by stretch of one cycle, and `part` of a further one.
+pub fn settled(system: &System, frequency_hz: f64, cycles: u32, part: f64) -> Vec<f64> {
+    let mut exact = integrator(system);
+    let mut state = vec![0.0; 2 * system.dof()];
+    for _ in 0..cycles {
+        state = exact.advance(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, &state).unwrap();
+    }
+    if part > 0.0 {
+        state = exact.advance(&Stretch { frequency_hz, start: 0.0, end: part }, &state).unwrap();
+    }
+    state
+}
+
+/// Relative differences of two flows; displacements are scaled by the eigenfrequencies to velocities, norms are the largest entries.
+#[derive(Debug, Clone, Copy)]
+pub struct Difference {
+    pub state: f64,
+    pub by_state: f64,
+    pub by_frequency: f64,
+}
+
+impl Difference {
+    pub fn largest(&self) -> f64 {
+        self.state.max(self.by_state).max(self.by_frequency)
+    }
+}
+
+/// Compares two flows of a system over a stretch.
+pub fn difference(system: &System, stretch: &Stretch, found: &Flow, expected: &Flow) -> Difference {
+    let n = system.dof();
+    let slowest = TAU * stretch.frequency_hz;
+    let scale = |i: usize| if i < n { system.model().natural_frequencies[i].max(slowest) } else { 1.0 };
+    let of = |value: &dyn Fn(&Flow, usize) -> f64, count: usize| {
+        let (mut error, mut norm) = (0.0_f64, f64::MIN_POSITIVE);
+        for index in 0..count {
+            let gap = (value(found, index) - value(expected, index)).abs();
+            error = if gap.is_nan() { f64::INFINITY } else { error.max(gap) };
+            norm = norm.max(value(expected, index).abs());
+        }
+        error / norm
+    };
+    let entry = |flow: &Flow, index: usize| {
+        let (i, j) = (index / (2 * n), index % (2 * n));
+        flow.by_state[(i, j)] * scale(i) / scale(j)
+    };
+    Difference {
+        state: of(&|flow, i| flow.state[i] * scale(i), 2 * n),
+        by_state: of(&entry, 4 * n * n),
+        by_frequency: of(&|flow, i| flow.by_frequency[i] * scale(i), 2 * n),
+    }
+}
+
+/// Asserts that both integrators find the same flow to `bound`; the number of contacts that closed.
+///
+/// Both run at a fine tolerance: what each step leaves, the contacts that follow amplify by up to a few hundred. Without sensitivities
+/// the steps are longer.
+pub fn assert_agreement(system: &System, stretch: &Stretch, state: &[f64], bound: f64, what: &str) -> u32 {
+    let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-12 }).unwrap();
+    let found = exact.flow(stretch, state).unwrap_or_else(|error| panic!("{what}: {error}"));
+    let general = |tolerance| advance(system, stretch, state, &GeneralSettings::with_tolerance(tolerance));
+    // Where the finest tolerance is below rounding, the next one does.
+    let expected = general(1e-13).or_else(|_| general(1e-12)).unwrap().flow;
+    let error = difference(system, stretch, &found, &expected);
+    assert!(error.largest() <= bound, "{what}: {error:?}, touches {:?}", exact.touches());
+    let alone = exact.advance(stretch, state).unwrap();
+    let alone = Flow { state: alone, ..found.clone() };
+    let error = difference(system, stretch, &alone, &found);
+    assert!(error.state <= 10.0 * bound, "{what}: with and without sensitivities {error:?}");
+    exact.touches().iter().sum()
 }

@@ -1,0 +1,86 @@
+//! Solving one step with forces, and its error.
+
+use super::{
+    ExactIntegrator,
+    collocation::{Grading, NODES},
+    run::{ElementStart, Run},
+    weights::StepWeights,
+};
+
+impl ExactIntegrator {
+    /// Notes what is known of every element at the start of a step.
+    pub(super) fn note_start(&self, run: &mut Run, end: f64) {
+        run.start.clear();
+        for element in 0..self.laws.len() {
+            let start = ElementStart {
+                jet: self.output_jet(run, element, run.time),
+                margin: self.bounds(run, element, end).margin,
+                velocity: self.velocity_range(run, element),
+            };
+            run.start.push(start);
+        }
+    }
+
+    /// Solves a step of about `length` (shorter where the lengths are discrete); its error see `step_error.rs`.
+    ///
+    /// * `again`: the last step solved had the same start and grading, and about the same length.
+    pub(super) fn attempt(&mut self, run: &Run, length: f64, grading: Grading, again: bool) -> Option<f64> {
+        self.counts.solves += 1;
+        let before = self.step.weights.length;
+        self.set_weights(length, grading);
+        let step = &mut self.step;
+        step.grading = Some(grading);
+        step.start = run.time;
+        step.set_free_motion(&self.series, &self.drive, &self.outputs, &run.state);
+        if again {
+            step.shift_guess(step.weights.length / before - 1.0);
+        } else {
+            self.guess(run);
+        }
+        let margin = self.step.active.iter().map(|&e| run.start[e].margin).fold(0.0, f64::max);
+        self.step.solve(&self.laws, margin).ok()?;
+        Some(self.state_error(run))
+    }
+
+    fn set_weights(&mut self, length: f64, grading: Grading) {
+        let Self { blocks, series, step, cache, outputs, inputs, .. } = self;
+        let exponent = length.log2().floor() as i32;
+        let dyadic = 2f64.powi(exponent);
+        if length <= series.reach() || dyadic <= series.reach() {
+            let length = if length <= series.reach() { length } else { dyadic };
+            return series.prepare(&step.active, grading, length, &mut step.weights);
+        }
+        let make = || StepWeights::by_quadrature(blocks, outputs, inputs, &step.active, grading, dyadic);
+        step.weights.clone_from(cache.entry((step.active.clone(), grading, exponent)).or_insert_with(make));
+    }
+
+    /// First guess of the displacements: the present motion continued.
+    ///
+    /// `r + r' t + r'' t^2/2 + G f' r' t^3/6` with the forces in `r''`; after a touch the force sets in with the power e instead, and
+    /// `r + r' t + r'' t^2/2 + G f(r + r' t) t^2/((e + 1)(e + 2))`.
+    fn guess(&mut self, run: &Run) {
+        self.step.displacement.clear();
+        for a in 0..self.step.active.len() {
+            let element = self.step.active[a];
+            let law = self.laws[element];
+            let mobility = self.mobility[element][element];
+            let mut jet = run.start[element].jet;
+            let stiffness = mobility * law.force(jet.value).slope * jet.slope;
+            for &other in &self.step.active {
+                let force = self.laws[other].force(run.start[other].jet.value).value;
+                jet.curvature += self.mobility[element][other] * force;
+            }
+            let onset = self.closed_contact(run, element).map(|contact| contact.onset_exponent);
+            for k in 0..NODES {
+                let t = self.step.node_time(k);
+                let mut guess = jet.value + t * (jet.slope + 0.5 * t * jet.curvature);
+                if let (Grading::Touch, Some(e)) = (self.step.grading(), onset) {
+                    guess += mobility * law.force(jet.value + jet.slope * t).value * t * t / ((e + 1.0) * (e + 2.0));
+                } else {
+                    guess += stiffness * t * t * t / 6.0;
+                }
+                self.step.displacement.push(guess);
+            }
+        }
+    }
+}

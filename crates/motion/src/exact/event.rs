@@ -1,0 +1,150 @@
+//! Steps that end exactly where a contact opens or closes.
+//!
+//! The length of the step is found by Newton's method on the distance that falls to zero at its end: the penetration of the contact that
+//! opens, the clearance of one that closes. A relative error d of the length leaves `d^exponent` of the contact's effect on the
+//! sensitivities, and less in the state.
+
+use super::{
+    ExactIntegrator,
+    collocation::{Grading, NODES},
+    drive::Jet,
+    flight::{Touch, clearance_of},
+    polynomial::first_below,
+    run::Run,
+};
+
+/// Tries of the length of one step; three are usual.
+const MAX_TRIES: usize = 8;
+
+/// What ends a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Event {
+    /// The closed contact of this element opens.
+    Release(usize),
+    /// An open contact closes.
+    Touch(Touch),
+}
+
+impl Event {
+    pub fn element(self) -> usize {
+        match self {
+            Self::Release(element) => element,
+            Self::Touch(touch) => touch.element,
+        }
+    }
+}
+
+/// A solved step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Solved {
+    /// Error relative to its bound.
+    pub error: f64,
+    /// Whether the step ends with its event, not with the stretch.
+    pub at_event: bool,
+}
+
+impl ExactIntegrator {
+    /// Solves the step that ends with `event`, at about `length`; `None` if it does not get there.
+    pub(super) fn locate(
+        &mut self,
+        run: &Run,
+        event: Event,
+        grading: Grading,
+        length: f64,
+        remaining: f64,
+    ) -> Option<Solved> {
+        let exponent = self.contact_of(run, event).onset_exponent;
+        let accuracy = self.settings.tolerance.powf(1.0 / exponent);
+        let mut length = length.min(remaining);
+        let mut last = false;
+        for tries in 0..MAX_TRIES {
+            let error = self.attempt(run, length, grading, tries > 0)?;
+            if self.step.weights.length != length {
+                return None;
+            }
+            if last {
+                return Some(Solved { error, at_event: true });
+            }
+            let change = time_to_zero(self.distance_at_end(run, event), length)?;
+            if change.abs() <= accuracy * length {
+                return Some(Solved { error, at_event: true });
+            }
+            if length == remaining && change > 0.0 {
+                return Some(Solved { error, at_event: false });
+            }
+            // Newton's method with the curvature: the next error is below the power 2.5 of this one.
+            last = change.abs() <= 0.3 * accuracy.powf(0.4) * length && length + change < remaining;
+            length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
+        }
+        None
+    }
+
+    fn contact_of(&self, run: &Run, event: Event) -> crate::Contact {
+        let contact = match event {
+            Event::Release(element) => run.closed[element].unwrap_or(0),
+            Event::Touch(touch) => touch.contact,
+        };
+        self.laws[event.element()].contacts()[contact]
+    }
+
+    /// Penetration (release) or clearance (touch) at the end of the solved step, and its derivatives.
+    fn distance_at_end(&self, run: &Run, event: Event) -> Jet {
+        let contact = self.contact_of(run, event);
+        let clearance = clearance_of(self.jet_at_step_end(run, event.element()), contact.level, contact.sign);
+        match event {
+            Event::Touch(_) => clearance,
+            Event::Release(_) => clearance_of(clearance, 0.0, 1.0),
+        }
+    }
+
+    /// An output and its derivatives at the end of the solved step.
+    fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
+        let end = self.step.start + self.step.weights.length;
+        let jet = |output: usize| {
+            let (own, driven) = (
+                self.step.end_jet(output, &self.series, &self.outputs, &run.state),
+                self.drive.jet(output, &self.outputs[output], end),
+            );
+            Jet {
+                value: own.value + driven.value,
+                slope: own.slope + driven.slope,
+                curvature: own.curvature + driven.curvature,
+            }
+        };
+        let mut found = jet(output);
+        for &other in &self.step.active {
+            let displacement = if other == output { found.value } else { jet(other).value };
+            found.curvature += self.mobility[output][other] * self.laws[other].force(displacement).value;
+        }
+        found
+    }
+
+    /// The first closed contact, other than `except`, that opens within the solved step, and when.
+    pub(super) fn first_release(&self, run: &Run, except: Option<usize>) -> Option<(usize, f64)> {
+        let rule = self.step.grading().rule();
+        let of_active = |(a, &element): (usize, &usize)| {
+            let contact = self.closed_contact(run, element).filter(|_| except != Some(element))?;
+            let penetration: [f64; NODES] =
+                std::array::from_fn(|k| contact.sign * (self.step.displacement[a * NODES + k] - contact.level));
+            let deepest = penetration.iter().fold(0.0_f64, |deepest, p| deepest.max(p.abs()));
+            let margin = 1e-9 * deepest + run.start[element].margin;
+            let s = first_below(&rule.bernstein(&penetration), rule.s[0], margin)?;
+            Some((element, self.step.grading().map(s).0 * self.step.weights.length))
+        };
+        self.step.active.iter().enumerate().filter_map(of_active).min_by(|x, y| x.1.total_cmp(&y.1))
+    }
+}
+
+/// Time until a falling distance is zero, from its value and derivatives; `None` if it is not falling or turns before.
+fn time_to_zero(distance: Jet, length: f64) -> Option<f64> {
+    let Jet { value, slope, curvature } = distance;
+    if slope >= 0.0 || slope.is_nan() {
+        return None;
+    }
+    let discriminant = slope * slope - 2.0 * curvature * value;
+    if discriminant <= 0.0 {
+        // A turn ahead may be an effect of the curvature's change over a long way.
+        return Some(-value / slope).filter(|change| change.abs() < 0.5 * length);
+    }
+    Some(2.0 * value / (discriminant.sqrt() - slope))
+}

@@ -1,0 +1,117 @@
+//! The error of a solved step.
+//!
+//! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF` are expanded in the orthonormal
+//! polynomials of the step, up to the degree `m = NODES - 1`; the tail of a function is the magnitude of its two highest
+//! coefficients added. With the mobility `G = C A B` and the largest relative velocity `V` that the present state can reach,
+//!
+//! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . h^2 G tail(f'))` if that is larger,
+//!
+//! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step, so the state at the end has
+//! about its square, and the share `S` of the blocks that are not smooth over the step has the error itself. Blocks so fast that the nodes
+//! do not resolve their part `U` in the force leave that part. The step is accepted if
+//!
+//! `T <= 2 sqrt(tolerance)`, `T S <= 10 tolerance` and `U <= 10 tolerance`,
+//!
+//! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
+//! divided by the eigenfrequency).
+
+use super::{ExactIntegrator, collocation::NODES, run::Run};
+
+/// Parts of blocks in the polynomials below this are rounding.
+const NEGLIGIBLE: f64 = 1e-14;
+
+impl ExactIntegrator {
+    /// Largest velocity that an output can reach from the present state.
+    pub(super) fn velocity_range(&self, run: &Run, output: usize) -> f64 {
+        let o = &self.outputs[output];
+        let driven = self.drive.magnitude(output) * self.drive.circular_frequency();
+        driven + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(run, i)).sum::<f64>()
+    }
+
+    fn energy_norm(&self, run: &Run, block: usize) -> f64 {
+        let (p, s) = (run.state[block], run.state[self.blocks.count() + block]);
+        (self.blocks.stiffness[block] * p * p + s * s).sqrt()
+    }
+
+    /// Error of the state at the end of the solved step, relative to its bound, to the power that makes it go like `h^NODES`.
+    pub(super) fn state_error(&self, run: &Run) -> f64 {
+        let of_element = |(a, &element): (usize, &usize)| {
+            let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
+            let impulse = step.weights.length * self.mobility[element][element];
+            let velocity = run.start[element].velocity.max(f64::MIN_POSITIVE);
+            let tail = impulse * step.tail(&step.force[nodes.clone()]) / velocity;
+            let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]);
+            let stiffest = step.slope[nodes].iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
+            let bounds = &self.outputs[element].value_bound;
+            let unresolved = self.unresolved(|i| bounds[i] * self.energy_norm(run, i));
+            let unresolved = impulse * stiffest * unresolved / velocity;
+            self.relative_to_bound(tail.max((tail * dual).sqrt()), self.fast_share(element), unresolved)
+        };
+        self.step.active.iter().enumerate().map(of_element).fold(0.0, f64::max)
+    }
+
+    fn relative_to_bound(&self, tail: f64, fast_share: f64, unresolved: f64) -> f64 {
+        let tolerance = self.settings.tolerance;
+        let linear = (tail * fast_share).max(unresolved) / (10.0 * tolerance);
+        (tail / (2.0 * tolerance.sqrt())).max(linear.sqrt())
+    }
+
+    /// `S`: part of the mobility of an element whose blocks are not smooth over the step.
+    ///
+    /// A block that turns by z over the step has about `(z/4)^m/m!` of its response in the polynomial of degree m, and never more than `1/z`.
+    fn fast_share(&self, element: usize) -> f64 {
+        let share = |(rate, share): (&f64, &f64)| {
+            let z = rate * self.step.weights.length;
+            share * highest_part(z, NODES - 1).min(z.recip())
+        };
+        self.rates.iter().zip(&self.shares[element]).map(share).sum()
+    }
+
+    /// Sum of `amplitude(i)` over the blocks, each times what of it the nodes do not resolve.
+    fn unresolved(&self, amplitude: impl Fn(usize) -> f64) -> f64 {
+        let part = |(i, rate): (usize, &f64)| {
+            let part = highest_part(rate * self.step.weights.length, 2 * NODES);
+            if part > NEGLIGIBLE { part * amplitude(i) } else { 0.0 }
+        };
+        self.rates.iter().enumerate().map(part).sum()
+    }
+
+    /// Solves for the sensitivities of the forces of the solved step; their error, 0 if none are wanted, `None` if the step is singular.
+    pub(super) fn sensitivity_error(&mut self, run: &Run) -> Option<f64> {
+        let Some(sensitivity) = &run.sensitivity else { return Some(0.0) };
+        if !self.step.weights.complete {
+            self.series.complete(&self.step.active, self.step.grading(), &mut self.step.weights);
+        }
+        self.step.solve_sensitivity(&self.drive, &self.outputs, sensitivity).ok()?;
+        let slowest = self.drive.circular_frequency();
+        let frequencies = &self.system.model().natural_frequencies;
+        let scale = |column: usize| frequencies.get(column).map_or(1.0, |w| w.max(slowest));
+        let stiffest = self.step.slope.iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
+        let (mut tail, mut unresolved, mut norm, mut share, mut by_frequency) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+        for (a, &element) in self.step.active.iter().enumerate() {
+            share = share.max(self.fast_share(element));
+            let bounds = &self.outputs[element].value_bound;
+            let impulse = self.step.weights.length * self.mobility[element][element].sqrt();
+            for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
+                let amplitude = |i: usize| bounds[i] * sensitivity.energy_norm(i, column, self.blocks.stiffness[i]);
+                let lost = impulse * stiffest * self.unresolved(amplitude);
+                let size = found.velocity + impulse * found.largest;
+                if column == sensitivity.frequency_column() {
+                    by_frequency = by_frequency.max(impulse * found.tail / size.max(f64::MIN_POSITIVE));
+                    continue;
+                }
+                tail = tail.max(impulse * found.tail / scale(column));
+                unresolved = unresolved.max(lost / scale(column));
+                norm = norm.max(size / scale(column));
+            }
+        }
+        let norm = norm.max(f64::MIN_POSITIVE);
+        Some(self.relative_to_bound((tail / norm).max(by_frequency), share, unresolved / norm))
+    }
+}
+
+/// About the part of `exp(i z t)` over a step in the polynomial of that degree: `(z/4)^degree/degree!`, at most 1.
+fn highest_part(z: f64, degree: usize) -> f64 {
+    let factorial: f64 = (1..=degree).map(|k| k as f64).product();
+    ((0.25 * z).powi(degree as i32) / factorial).min(1.0)
+}

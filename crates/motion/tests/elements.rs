@@ -1,0 +1,212 @@
+//! The exact integrator against the general one: kinds of elements, loads and modes, and several elements at once.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{assert_agreement, diagonal, element, hertz, model, settled};
+use faer::Mat;
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    general::{GeneralSettings, advance},
+    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+};
+use hammerbeam_structure::{ReducedModel, SupportInput};
+
+const BOUND: f64 = 1e-9;
+const FREQUENCIES: [f64; 4] = [TAU * 7.0, TAU * 31.0, TAU * 90.0, TAU * 260.0];
+const TIP: [f64; 4] = [2.0, -1.6, 1.3, -0.9];
+const MIDDLE: [f64; 4] = [0.7, 1.1, -0.4, -1.2];
+
+/// Four modes, lightly damped unless said otherwise, on a support that can move.
+fn structure(damping: Mat<f64>) -> ReducedModel {
+    let support = SupportInput { inertia: vec![0.4, 0.2, -0.1, 0.05], damping: vec![0.3, -0.2, 0.4, 0.1] };
+    ReducedModel { support: Some(support), ..model(&FREQUENCIES, damping) }
+}
+
+fn light() -> Mat<f64> {
+    common::modal_damping(&FREQUENCIES, 0.02)
+}
+
+fn coupled() -> Mat<f64> {
+    let damper = [0.8, -0.9, 1.1, 0.7];
+    Mat::from_fn(4, 4, |i, j| 9.0 * damper[i] * damper[j] + if i == j { 0.02 * FREQUENCIES[i] } else { 0.0 })
+}
+
+fn force(shape: &[f64], order: u32, amplitude: f64, phase: f64) -> HarmonicForce {
+    HarmonicForce { shape: shape.to_vec(), harmonic: Harmonic { order, amplitude, phase } }
+}
+
+/// Several orders and phases of support motion and forces, with gravity.
+fn rich_load() -> Load {
+    Load {
+        support: vec![
+            Harmonic { order: 1, amplitude: 1.2e-3, phase: 0.4 },
+            Harmonic { order: 3, amplitude: 1e-4, phase: -1.0 },
+        ],
+        forces: vec![
+            force(&[0.5, 0.3, 0.2, 0.1], 0, -1.5, 0.0),
+            force(&MIDDLE, 2, 1.5, 2.0),
+            force(&TIP, 1, 2.0, -0.7),
+        ],
+    }
+}
+
+fn negative(shape: [f64; 4]) -> [f64; 4] {
+    shape.map(|phi| -phi)
+}
+
+fn check(model: ReducedModel, load: &Load, elements: Vec<LocalElement>, what: &str) -> u32 {
+    let system = System::new(model, load, elements).unwrap();
+    let frequency_hz = 11.0;
+    let state = settled(&system, frequency_hz, 12, 0.15);
+    let stretch = Stretch { frequency_hz, start: 0.15, end: 1.15 };
+    assert_agreement(&system, &stretch, &state, BOUND, what)
+}
+
+/// Every law, with stops on either side, riding on the support, fixed in space, or taking part of its motion.
+#[test]
+fn every_law_agrees_on_either_side_and_any_support() {
+    let laws = [
+        hertz(1e8, 0.0),
+        hertz(1e7, 5e-4),
+        Law::Hertz(HertzStop::with_preload(1e7, 2.0).unwrap()),
+        Law::Linear(LinearStop::with_gap(1e5, 3e-4).unwrap()),
+        Law::Linear(LinearStop::with_preload(3e4, 5.0).unwrap()),
+        Law::TwoSided(TwoSidedStop::new(1e5, 1e-3, 2e-3).unwrap()),
+        Law::Cubic(CubicSpring::new(1e9).unwrap()),
+        Law::Cubic(CubicSpring::new(-1e5).unwrap()),
+    ];
+    for law in laws {
+        for (shape, support_ratio) in [(TIP, 0.0), (negative(TIP), 0.0), (TIP, 1.0), (negative(TIP), -0.6)] {
+            for damping in [light(), coupled()] {
+                let what = format!("{law:?} {shape:?} {support_ratio}");
+                let elements = vec![element(&shape, support_ratio, law)];
+                let contacts = check(structure(damping), &rich_load(), elements, &what);
+                assert!(contacts > 0 || law.contacts().is_empty(), "{what}: no contact");
+            }
+        }
+    }
+}
+
+#[test]
+fn several_elements_at_once_agree() {
+    let cubic = Law::Cubic(CubicSpring::new(3e8).unwrap());
+    let between: Vec<f64> = TIP.iter().zip(&MIDDLE).map(|(a, b)| a - b).collect();
+    let cases = [
+        ("two sides of one point", vec![
+            element(&TIP, 0.0, hertz(1e8, 5e-4)),
+            element(&negative(TIP), 0.0, hertz(1e7, 1e-3)),
+        ]),
+        ("two points", vec![element(&TIP, 0.0, hertz(1e8, 2e-4)), element(&MIDDLE, 1.0, hertz(1e8, 1e-4))]),
+        ("a cubic spring and a Hertz stop", vec![element(&TIP, 0.0, cubic), element(&TIP, 0.0, hertz(1e8, 2e-4))]),
+        ("between two points", vec![element(&between, 0.0, hertz(1e8, 2e-4))]),
+        ("four laws", vec![
+            element(&TIP, 0.0, hertz(1e7, 5e-4)),
+            element(&MIDDLE, 0.0, Law::Linear(LinearStop::with_gap(1e5, 2e-4).unwrap())),
+            element(&between, 0.0, cubic),
+            element(&MIDDLE, 1.0, Law::TwoSided(TwoSidedStop::new(2e4, 5e-4, 5e-4).unwrap())),
+        ]),
+    ];
+    for (what, elements) in cases {
+        for damping in [light(), coupled()] {
+            assert!(check(structure(damping), &rich_load(), elements.clone(), what) > 0, "{what}: no contact");
+        }
+    }
+}
+
+/// Both close and open at the same instants.
+#[test]
+fn two_equal_stops_act_as_one_of_twice_the_stiffness() {
+    let frequency_hz = 11.0;
+    for damping in [light(), coupled()] {
+        let with = |elements| System::new(structure(damping.clone()), &rich_load(), elements).unwrap();
+        let one = with(vec![element(&TIP, 0.0, hertz(2e8, 2e-4))]);
+        let two = with(vec![element(&TIP, 0.0, hertz(1e8, 2e-4)), element(&TIP, 0.0, hertz(1e8, 2e-4))]);
+        let state = settled(&one, frequency_hz, 12, 0.15);
+        let stretch = Stretch { frequency_hz, start: 0.15, end: 1.15 };
+        let (mut one, mut two) = (common::integrator(&one), common::integrator(&two));
+        let expected = one.flow(&stretch, &state).unwrap();
+        let found = two.flow(&stretch, &state).unwrap();
+        let error = common::difference(two.system(), &stretch, &found, &expected);
+        assert!(error.largest() < BOUND, "{error:?}");
+        assert!(one.touches()[0] > 0 && two.touches() == [one.touches()[0]; 2], "{:?}", two.touches());
+    }
+}
+
+fn bouncing(frequencies: [f64; 4], damping: [f64; 4]) -> System {
+    let structure = ReducedModel {
+        natural_frequencies: frequencies.to_vec(),
+        damping: diagonal(&damping),
+        ..structure(light())
+    };
+    System::new(structure, &rich_load(), vec![element(&negative(TIP), 0.0, hertz(1e7, 1e-4))]).unwrap()
+}
+
+const START: [f64; 8] = [1e-3, -1e-4, 1e-5, 0.0, 0.02, 0.01, 0.0, 0.0];
+const BOUNCES: Stretch = Stretch { frequency_hz: 11.0, start: 0.1, end: 1.4 };
+
+#[test]
+fn every_kind_of_damping_agrees() {
+    let [a, b, c, d] = FREQUENCIES;
+    let cases = [
+        ("undamped", [0.0; 4]),
+        ("critically damped", [2.0 * a, 2.0 * b, 0.1 * c, 2.0 * d]),
+        ("nearly critical", [2.0 * a * (1.0 + 1e-9), 2.0 * b * (1.0 - 1e-9), 0.1 * c, 0.1 * d]),
+        ("overdamped", [3.0 * a, 4.0 * b, 50.0 * c, 0.1 * d]),
+    ];
+    for (what, damping) in cases {
+        let contacts = assert_agreement(&bouncing(FREQUENCIES, damping), &BOUNCES, &START, BOUND, what);
+        assert!(contacts > 0, "{what}: no contact");
+    }
+}
+
+/// States only: the general integrator measures its errors by the sensitivities met so far, and the velocities of a
+/// rigid-body displacement are exactly zero up to the first contact.
+#[test]
+fn rigid_body_modes_agree() {
+    let [_, b, c, d] = FREQUENCIES;
+    let cases = [
+        ("rigid", [0.0, b, c, d], [0.0, 0.1 * b, 0.1 * c, 0.1 * d]),
+        ("damped rigid", [0.0, b, c, d], [5.0, 0.1 * b, 0.1 * c, 0.1 * d]),
+        ("two rigid", [0.0, 0.0, c, d], [0.0, 3.0, 0.1 * c, 0.1 * d]),
+    ];
+    for (what, frequencies, damping) in cases {
+        let system = bouncing(frequencies, damping);
+        let mut exact = common::integrator(&system);
+        let found = exact.advance(&BOUNCES, &START).unwrap();
+        assert!(exact.touches()[0] > 0, "{what}: no contact");
+        let settings = GeneralSettings::with_tolerance(1e-12).state_only();
+        let expected = advance(&system, &BOUNCES, &START, &settings).unwrap().flow.state;
+        for i in 0..8 {
+            let bound = if i < 4 { 1e-12 } else { 1e-10 };
+            assert!((found[i] - expected[i]).abs() < bound, "{what}: {} against {}", found[i], expected[i]);
+        }
+    }
+}
+
+/// Loads on, and very near, undamped eigenfrequencies.
+#[test]
+fn loads_on_eigenfrequencies_agree() {
+    let frequency_hz = 11.0;
+    for offset in [0.0, 1e-12, 1e-8, -3e-5, 1e-3] {
+        for damping in [0.0, 1e-3, 1e-9] {
+            let mut frequencies = FREQUENCIES;
+            frequencies[1] = TAU * frequency_hz * 3.0 * (1.0 + offset);
+            frequencies[0] = TAU * frequency_hz * (1.0 - offset);
+            let structure = ReducedModel {
+                natural_frequencies: frequencies.to_vec(),
+                damping: diagonal(&[damping; 4]),
+                ..structure(light())
+            };
+            let elements = vec![element(&TIP, 0.3, hertz(1e7, 1e-3))];
+            let system = System::new(structure, &rich_load(), elements).unwrap();
+            let state = [1e-4, -1e-4, 1e-5, 0.0, 0.02, 0.01, 0.0, 0.0];
+            let stretch = Stretch { frequency_hz, start: 0.2, end: 2.4 };
+            let contacts =
+                assert_agreement(&system, &stretch, &state, BOUND, &format!("offset {offset:e}, damping {damping:e}"));
+            assert!(contacts > 0);
+        }
+    }
+}
