@@ -124,6 +124,8 @@ pub enum StopReason {
         step: f64,
         /// Residual of the last attempt.
         residual: f64,
+        /// What was wrong with it.
+        doubt: String,
     },
     /// However short the step, the path went on along a stretch that was already walked.
     RunsBack {

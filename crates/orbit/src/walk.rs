@@ -137,8 +137,8 @@ impl BranchWalk {
         match reason {
             hammerbeam_path::StopReason::RangeEnd => StopReason::RangeEnd { frequency_hz },
             hammerbeam_path::StopReason::Closed => StopReason::Closed,
-            hammerbeam_path::StopReason::StepTooShort { parameter, step, residual, .. } => {
-                StopReason::StepTooShort { frequency_hz: parameter, step, residual }
+            hammerbeam_path::StopReason::StepTooShort { parameter, step, residual, doubt } => {
+                StopReason::StepTooShort { frequency_hz: parameter, step, residual, doubt: doubt.to_string() }
             }
             hammerbeam_path::StopReason::RunsBack { parameter, met_arc_length } => {
                 StopReason::RunsBack { frequency_hz: parameter, met_arc_length }

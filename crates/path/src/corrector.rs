@@ -49,6 +49,10 @@ pub(crate) struct Limits {
     pub tolerance: f64,
     /// The same when corrections stop shrinking: rounding.
     pub loose_tolerance: f64,
+    /// The same when besides the residual is down to [`Self::residual_floor`]: beside a branch point, where the matrix is
+    /// nearly singular, rounding of the residual leaves large corrections.
+    pub singular_tolerance: f64,
+    pub residual_floor: f64,
     pub residual_tolerance: f64,
     pub max_iterations: u32,
     /// Bound of the total displacement of the prediction.
@@ -125,7 +129,9 @@ impl Candidate {
             self.check_turn(limits)?;
             let size = self.correction_norm;
             let stagnant = size > 0.5 * last;
-            if size <= limits.tolerance || (stagnant && size <= limits.loose_tolerance) {
+            let at_floor = self.residual_norm <= limits.residual_floor;
+            let loose = if at_floor { limits.singular_tolerance } else { limits.loose_tolerance };
+            if size <= limits.tolerance || (stagnant && size <= loose) {
                 return self.finish(problem, limits);
             }
             self.displacement += size;

@@ -70,6 +70,9 @@ pub struct Settings {
     pub correction_floor: f64,
     /// Bound of the residual `max |R_i|` of an accepted point.
     pub residual_tolerance: f64,
+    /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more (beside a branch
+    /// point), `‖d‖ ≤ h / 100` is enough.
+    pub residual_floor: f64,
     /// Most evaluations of one correction.
     pub max_iterations: u32,
     /// Sheets at least this far apart are told apart: the corrector may move a prediction by
@@ -95,6 +98,7 @@ impl Default for Settings {
             correction_tolerance: 1e-9,
             correction_floor: 1e-12,
             residual_tolerance: 1e-6,
+            residual_floor: 1e-13,
             max_iterations: 6,
             sheet_distance: 1e-5,
             signature_step: 1e-6,
@@ -137,6 +141,7 @@ impl Settings {
             ("correction_tolerance", self.correction_tolerance),
             ("correction_floor", self.correction_floor),
             ("residual_tolerance", self.residual_tolerance),
+            ("residual_floor", self.residual_floor),
             ("sheet_distance", self.sheet_distance),
             ("signature_step", self.signature_step),
             ("fold_tolerance", self.fold_tolerance),

@@ -35,6 +35,8 @@ impl Follower {
         Limits {
             tolerance: self.settings.tolerance_at(step),
             loose_tolerance: self.settings.loose_tolerance_at(step),
+            singular_tolerance: self.settings.loose_tolerance_at(step).max(0.01 * step),
+            residual_floor: self.settings.residual_floor,
             residual_tolerance: self.settings.residual_tolerance,
             max_iterations: self.settings.max_iterations,
             max_displacement: self.settings.allowed_displacement(step),

@@ -106,6 +106,8 @@ impl Follower {
         Limits {
             tolerance: self.settings.tolerance_at(length),
             loose_tolerance: self.settings.correction_floor.max(0.01 * length),
+            singular_tolerance: self.settings.correction_floor.max(0.01 * length),
+            residual_floor: self.settings.residual_floor,
             residual_tolerance: self.settings.residual_tolerance,
             max_iterations: self.settings.max_iterations,
             max_displacement: length,

@@ -103,6 +103,8 @@ fn start_limits(settings: &Settings) -> Limits {
     Limits {
         tolerance: settings.tolerance_at(0.0),
         loose_tolerance: settings.correction_tolerance,
+        singular_tolerance: settings.correction_tolerance,
+        residual_floor: settings.residual_floor,
         residual_tolerance: settings.residual_tolerance,
         max_iterations: 5 * settings.max_iterations,
         max_displacement: f64::INFINITY,

@@ -119,11 +119,11 @@ impl StoredReason {
             StopReason::Budget { solutions } => {
                 ("budget", None, format!("the budget of {solutions} solutions is used up"))
             }
-            StopReason::StepTooShort { frequency_hz, step, residual } => (
+            StopReason::StepTooShort { frequency_hz, step, residual, doubt } => (
                 "step-too-short",
                 Some(*frequency_hz),
                 format!(
-                    "no acceptable solution beyond {frequency_hz:.6} Hz, last step {step:.1e}, residual {residual:.1e}"
+                    "no acceptable solution beyond {frequency_hz:.6} Hz, last step {step:.1e}, residual {residual:.1e}: {doubt}"
                 ),
             ),
             StopReason::RunsBack { frequency_hz, met_arc_length } => (
