@@ -221,7 +221,12 @@ impl Drive {
             + self.secular.iter().map(|load| load.fourth_bound(output, until)).sum::<f64>()
     }
 
-    /// Largest value that the particular part of output `index` can take, for rounding margins.
+    /// Largest value that the part of resonant loads in an output can take until `until`, for rounding margins.
+    pub fn secular_magnitude(&self, output: &Output, until: f64) -> f64 {
+        self.secular.iter().map(|load| load.magnitude(output, until)).sum()
+    }
+
+    /// Largest value that the steady part of output `index` can take, for rounding margins.
     pub fn magnitude(&self, index: usize) -> f64 {
         self.orders.iter().map(|order| order.outputs[index].0.norm()).sum()
     }

@@ -24,7 +24,7 @@ impl ExactIntegrator {
         self.flight_start.clear();
         self.flight_start.extend_from_slice(&run.state);
         let horizon = end - run.time;
-        let mut time = 0.0;
+        let mut time = if self.has_contacts { 0.0 } else { horizon };
         let mut touch = None;
         if self.has_contacts {
             let mut looks = 0;
@@ -146,7 +146,7 @@ impl ExactIntegrator {
         let output = &self.outputs[element];
         let n = self.blocks.count();
         let (mut second, mut third) = self.drive.bounds(element, output, until);
-        let mut magnitude = self.drive.magnitude(element);
+        let mut magnitude = self.drive.magnitude(element) + self.drive.secular_magnitude(output, until);
         for i in 0..n {
             let (p, s) = (run.state[i], run.state[n + i]);
             let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();

@@ -97,6 +97,16 @@ impl SecularLoad {
         ([column(0), column(1)], [column(2), column(3)])
     }
 
+    /// Bound on the part that `output` reads, until `until`.
+    pub fn magnitude(&self, output: &Output, until: f64) -> f64 {
+        let n = output.row.len() / 2;
+        let [beta, phi] = self.input.map(c64::norm);
+        let root = self.stiffness.sqrt();
+        let speed = (root * beta + phi) * until;
+        let displacement = (beta * until + 0.5 * phi * until * until).min(speed / root);
+        output.row[self.block].abs() * displacement + output.row[n + self.block].abs() * speed
+    }
+
     /// Bounds on the second and third derivative of the part that `output` reads, until `until`.
     pub fn bounds(&self, output: &Output, until: f64) -> (f64, f64) {
         let [second, third, _] = self.derivative_bounds(output, until);

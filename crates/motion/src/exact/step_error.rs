@@ -2,7 +2,8 @@
 //!
 //! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF` are expanded in the orthonormal
 //! polynomials of the step, up to the degree `m = NODES - 1`; the tail of a function is the magnitude of its two highest
-//! coefficients added. With the mobility `G = C A B` and the largest relative velocity `V` that the present state can reach,
+//! coefficients added. With the mobility `G = C A B` and the largest relative velocity `V` that the present state can reach, or that the load
+//! gives it in the step,
 //!
 //! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . h^2 G tail(f'))` if that is larger,
 //!
@@ -15,7 +16,7 @@
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency).
 
-use super::{ExactIntegrator, collocation::NODES, run::Run};
+use super::{ExactIntegrator, collocation::NODES, run::{ElementStart, Run}};
 
 /// Parts of blocks in the polynomials below this are rounding.
 const NEGLIGIBLE: f64 = 1e-14;
@@ -38,7 +39,9 @@ impl ExactIntegrator {
         let of_element = |(a, &element): (usize, &usize)| {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
             let impulse = step.weights.length * self.mobility[element][element];
-            let velocity = run.start[element].velocity.max(f64::MIN_POSITIVE);
+            let ElementStart { jet, velocity, .. } = run.start[element];
+            let driven = jet.slope.abs() + jet.curvature.abs() * step.weights.length;
+            let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let tail = impulse * step.tail(&step.force[nodes.clone()]) / velocity;
             let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]);
             let stiffest = step.slope[nodes].iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
