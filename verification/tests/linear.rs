@@ -199,6 +199,7 @@ fn preloaded_stop_that_never_opens_only_adds_its_stiffness() {
         let impulse = mean * STIFFNESS / row.solution.frequency_hz;
         assert_abs_diff_eq!(row.solution.maxima.impulse, impulse, epsilon = TOLERANCE * impulse);
         assert_eq!(row.solution.maxima.contacts, 1);
+        assert_multipliers(&row.solution, (together / MASS).sqrt());
     }
 }
 
