@@ -17,6 +17,10 @@ const SETTLING: usize = 256;
 const RETURNS: usize = 160;
 /// Near-returns tried per start.
 const TRIED: usize = 8;
+/// Steps of the branches followed are this many times longer than those of a run,
+const COARSER: f64 = 4.0;
+/// and end after so many solutions on either side.
+const MOST_SOLUTIONS: usize = 5000;
 /// Frequencies at which a start of the branch is looked for, as parts of the range.
 const LADDER: [f64; 9] = [0.5, 0.25, 0.75, 0.125, 0.875, 0.375, 0.625, 0.0, 1.0];
 
@@ -33,7 +37,8 @@ pub fn find_orbits(
     range_hz: (f64, f64),
     settings: &OrbitSettings,
 ) -> Result<Vec<PeriodicSolution>, OrbitError> {
-    let mut search = Search { system, response, frequency_hz, period_multiple, settings, found: Vec::new() };
+    let mut search =
+        Search { system, response, frequency_hz, period_multiple, settings, found: Vec::new(), followed: Vec::new() };
     for start in starting_states(system, response, frequency_hz, settings)? {
         search.from_motion(&start)?;
     }
@@ -52,22 +57,27 @@ struct Search<'a> {
     period_multiple: u32,
     settings: &'a OrbitSettings,
     found: Vec<PeriodicSolution>,
+    /// Whether the branch of each orbit found has been followed.
+    followed: Vec<bool>,
 }
 
 impl Search<'_> {
-    /// Newton's method from `state`; keeps what is new.
-    fn try_state(&mut self, state: &[f64]) -> Result<(), OrbitError> {
+    /// Newton's method from `state`; the place of the orbit in the list, to which it is added if it is new.
+    fn try_state(&mut self, state: &[f64]) -> Result<Option<usize>, OrbitError> {
         let orbit = (self.frequency_hz, self.period_multiple);
-        if let Some(solution) = attempt(self.system, self.response, state, orbit, self.settings)?
-            && !self.knows(&solution)?
-        {
+        let Some(solution) = attempt(self.system, self.response, state, orbit, self.settings)? else {
+            return Ok(None);
+        };
+        let known = self.place(&solution)?;
+        if known.is_none() {
             self.found.push(solution);
+            self.followed.push(false);
         }
-        Ok(())
+        Ok(known.or(Some(self.found.len() - 1)))
     }
 
-    /// Whether the orbit is known already, perhaps from another excitation period on.
-    fn knows(&self, solution: &PeriodicSolution) -> Result<bool, OrbitError> {
+    /// Where the orbit is in the list, perhaps from another excitation period on.
+    fn place(&self, solution: &PeriodicSolution) -> Result<Option<usize>, OrbitError> {
         let mut integrator = integrator(self.system, self.response, self.settings)?;
         let scale = state_scale(self.system, &solution.nodes[0], self.frequency_hz);
         let mut state = solution.nodes[0].clone();
@@ -76,12 +86,12 @@ impl Search<'_> {
                 let difference: Vec<f64> = known.nodes[0].iter().zip(&state).map(|(a, b)| a - b).collect();
                 scale.norm(&difference) < 1e-6
             };
-            if self.found.iter().any(same) {
-                return Ok(true);
+            if let Some(place) = self.found.iter().position(same) {
+                return Ok(Some(place));
             }
             simulate(&mut integrator, &mut state, self.frequency_hz, 1)?;
         }
-        Ok(false)
+        Ok(None)
     }
 
     /// Where a motion settles, and its near-returns.
@@ -115,15 +125,24 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Crossings of the frequency by branches.
+    /// Crossings of the frequency by the branches of all orbits found, those found on the way included.
     fn from_branches(&mut self, range_hz: (f64, f64)) -> Result<(), OrbitError> {
-        let starts = if self.found.is_empty() { self.start_elsewhere(range_hz) } else { self.found.clone() };
-        for start in starts {
-            for side in [Side::Up, Side::Down] {
-                self.crossings(&start, side, range_hz)?;
+        if self.found.is_empty() {
+            for start in self.start_elsewhere(range_hz) {
+                self.follow(&start, range_hz)?;
             }
         }
+        while let Some(next) = self.followed.iter().position(|followed| !followed) {
+            self.followed[next] = true;
+            let start = self.found[next].clone();
+            self.follow(&start, range_hz)?;
+        }
         Ok(())
+    }
+
+    fn follow(&mut self, start: &PeriodicSolution, range_hz: (f64, f64)) -> Result<(), OrbitError> {
+        self.crossings(start, Side::Up, range_hz)?;
+        self.crossings(start, Side::Down, range_hz)
     }
 
     fn start_elsewhere(&self, (low, high): (f64, f64)) -> Vec<PeriodicSolution> {
@@ -136,7 +155,13 @@ impl Search<'_> {
 
     fn crossings(&mut self, start: &PeriodicSolution, side: Side, range_hz: (f64, f64)) -> Result<(), OrbitError> {
         let range = (range_hz.0.min(self.frequency_hz), range_hz.1.max(self.frequency_hz));
-        let Ok(mut walk) = BranchWalk::new(self.system, self.response, start, side, range, self.settings) else {
+        // Crossings are corrected once found: the walk itself may be coarse, and is bounded.
+        let settings = OrbitSettings {
+            max_step_hz: COARSER * self.settings.max_step_hz,
+            max_solutions: self.settings.max_solutions.min(MOST_SOLUTIONS),
+            ..*self.settings
+        };
+        let Ok(mut walk) = BranchWalk::new(self.system, self.response, start, side, range, &settings) else {
             return Ok(());
         };
         let mut rows = Vec::new();
@@ -147,7 +172,9 @@ impl Search<'_> {
             if from * to <= 0.0 && from != to {
                 let share = from / (from - to);
                 let guess: Vec<f64> = before.1.iter().zip(&state).map(|(a, b)| a + share * (b - a)).collect();
-                self.try_state(&guess)?;
+                if let Some(place) = self.try_state(&guess)? {
+                    self.followed[place] = true;
+                }
             }
             before = (frequency, state);
         }

@@ -184,11 +184,19 @@ fn product_of_the_multipliers_is_exp_of_minus_t_times_the_trace_of_the_damping()
     }
 }
 
-/// `q'' + C q' + diag(w^2) q = b`: multipliers are `exp(lambda T)` with the eigenvalues of `[0 W; -W -C]`, `W = diag(w)`,
-/// displacements scaled with `W`.
 #[test]
 fn multipliers_of_a_linear_system_are_exp_of_its_eigenvalues_times_the_period() {
-    let (system, response) = chain();
+    assert_exponentials(&chain(false));
+}
+
+#[test]
+fn multipliers_beside_a_stop_out_of_reach_are_those_of_the_linear_system() {
+    assert_exponentials(&chain(true));
+}
+
+/// `q'' + C q' + diag(w^2) q = b`: multipliers are `exp(lambda T)` with the eigenvalues of `[0 W; -W -C]`, `W = diag(w)`,
+/// displacements scaled with `W`.
+fn assert_exponentials((system, response): &(System, Response)) {
     let (model, n) = (system.model(), system.dof());
     let w = &model.natural_frequencies;
     let first_order = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
@@ -213,10 +221,9 @@ fn multipliers_of_a_linear_system_are_exp_of_its_eigenvalues_times_the_period() 
                 })
                 .collect();
             for segments in [1, 4, 16] {
-                let orbit =
-                    find_start(&system, &response, frequency_hz, 1, &with_segments(segments)).unwrap();
+                let orbit = find_start(system, response, frequency_hz, 1, &with_segments(segments)).unwrap();
                 let over_one = PeriodicSolution { period_multiple, ..orbit };
-                let found = recomputed(&system, &response, &over_one, &with_segments(segments));
+                let found = recomputed(system, response, &over_one, &with_segments(segments));
                 let error = difference(&found.floquet_multipliers, &expected);
                 // Sine and cosine of angles up to 130, and the eigenvalues of both matrices.
                 assert!(

@@ -49,7 +49,8 @@ pub(crate) struct Series {
 
 impl Series {
     pub fn new(blocks: &Blocks, outputs: &[Output], inputs: &[Vec<f64>]) -> Self {
-        let rate = blocks.fastest_rate().max(f64::MIN_POSITIVE.sqrt());
+        // Powers of a rigid block end by themselves; they only need a scale.
+        let rate = blocks.fastest_rate().max(1e-6);
         let scaled = |values: Vec<f64>| values.into_iter().map(|value| value / rate).collect::<Vec<f64>>();
         let powers = |first: &Vec<f64>, next: &dyn Fn(&[f64]) -> Vec<f64>| {
             let mut list = vec![first.clone()];
@@ -119,15 +120,14 @@ impl Series {
         values.map(|value| value * self.rate.powi(derivative as i32))
     }
 
-    /// Terms needed at `z = h rate`.
+    /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
     fn terms(z: f64) -> usize {
         let mut term = 1.0;
-        (1..TERMS)
-            .find(|&m| {
-                term *= z / m as f64;
-                term < 1e-18
-            })
-            .unwrap_or(TERMS)
+        let beyond = (1..TERMS - 4).find(|&m| {
+            term *= z / m as f64;
+            term < 1e-18
+        });
+        beyond.map_or(TERMS - 2, |m| m + 2)
     }
 
     /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and

@@ -48,8 +48,8 @@ pub fn beam() -> (System, Response) {
     (system, Response { shape: point.shape, support_ratio: point.support_ratio })
 }
 
-/// Three masses in a row with springs, and dampers that couple the modes; a force on the last, and a stop out of its reach.
-pub fn chain() -> (System, Response) {
+/// Three masses in a row with springs, and dampers that couple the modes; a force on the last, and a stop out of its reach or none.
+pub fn chain(with_stop: bool) -> (System, Response) {
     let mass = |name: &str, mass: f64| LumpedMass { name: name.into(), mass };
     let link =
         |from: &str, to: &str, constant: f64| Connection { between: [from.into(), to.into()], constant };
@@ -64,7 +64,8 @@ pub fn chain() -> (System, Response) {
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: last.shape.clone(), harmonic }] };
     let law = Law::Linear(LinearStop::with_gap(1000.0, 1.0).unwrap());
     let stop = LocalElement { name: "stop".into(), shape: last.shape.clone(), support_ratio: 0.0, law };
-    let system = System::new(model, &load, vec![stop]).unwrap();
+    let elements = if with_stop { vec![stop] } else { vec![] };
+    let system = System::new(model, &load, elements).unwrap();
     (system, Response { shape: last.shape, support_ratio: 0.0 })
 }
 
