@@ -9,6 +9,7 @@ use super::{
     lu::{FixedLu, SmallLu},
     output::Output,
     sensitivity::{ColumnTail, Sensitivity},
+    step_error::Tail,
     weights::{Readings, Series, StepWeights},
 };
 use crate::Law;
@@ -268,17 +269,19 @@ impl ForceStep {
         let columns = sensitivity.columns();
         let coefficients = &self.grading().rule().coefficients;
         let mut tails = sensitivity.velocity_norms();
-        let mut sums = vec![[0.0; 2]; columns];
+        let mut sums = vec![[0.0; 4]; columns];
         let work = &self.work[a * NODES * columns..(a + 1) * NODES * columns];
         for (k, row) in work.chunks_exact(columns).enumerate() {
-            let (high, low) = (coefficients[NODES - 1][k], coefficients[NODES - 2][k]);
+            let weights = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| coefficients[degree][k]);
             for ((sums, tail), value) in sums.iter_mut().zip(&mut tails).zip(row) {
-                sums[0] += high * value;
-                sums[1] += low * value;
+                sums.iter_mut().zip(&weights).for_each(|(sum, weight)| *sum += weight * value);
                 tail.largest = tail.largest.max(value.abs());
             }
         }
-        tails.iter_mut().zip(&sums).for_each(|(tail, sums)| tail.tail = sums[0].abs() + sums[1].abs());
+        for (column, sums) in tails.iter_mut().zip(&sums) {
+            let [first, second, third, fourth] = sums.map(f64::abs);
+            column.tail = Tail { highest: first + second, middle: third + fourth };
+        }
         tails.truncate(sensitivity.frequency_column() + 1);
         tails
     }
@@ -299,12 +302,13 @@ impl ForceStep {
         (0..NODES).map(|k| lagrange[k] * values[a * NODES + k]).sum()
     }
 
-    /// The two highest coefficients of the orthonormal expansion of nodal values, in magnitude, added.
-    pub fn tail(&self, values: &[f64]) -> f64 {
+    /// How the orthonormal expansion of nodal values ends.
+    pub fn tail(&self, values: &[f64]) -> Tail {
         let coefficients = &self.grading().rule().coefficients;
-        let coefficient = |degree: usize| -> f64 {
-            coefficients[degree].iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs()
+        let pair = |degree: usize| -> f64 {
+            let of = |row: &[f64; NODES]| row.iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs();
+            of(&coefficients[degree]) + of(&coefficients[degree - 1])
         };
-        coefficient(NODES - 1) + coefficient(NODES - 2)
+        Tail { highest: pair(NODES - 1), middle: pair(NODES / 2) }
     }
 }

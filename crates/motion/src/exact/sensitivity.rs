@@ -5,6 +5,7 @@ use faer::Mat;
 use super::{
     block::{Blocks, Propagator},
     collocation::NODES,
+    step_error::Tail,
 };
 
 /// Of one column of sensitivities in a step.
@@ -15,7 +16,7 @@ pub(crate) struct ColumnTail {
     /// Largest sensitivity of the force.
     pub largest: f64,
     /// Tail of the sensitivity of the force.
-    pub tail: f64,
+    pub tail: Tail,
 }
 
 /// The matrix `V` of 2n rows: a column per initial state, one for the frequency, and padding to a multiple of four.

@@ -2,21 +2,51 @@
 //!
 //! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF` are expanded in the orthonormal
 //! polynomials of the step, up to the degree `m = NODES - 1`; the tail of a function is the magnitude of its two highest
-//! coefficients added. With the mobility `G = C A B` and the largest relative velocity `V` that the present state can reach, or that the load
-//! gives it in the step,
+//! coefficients added, its decay D the tail over the same at half the degree. With the mobility `G = C A B` and the largest relative
+//! velocity `V` that the present state can reach, or that the load gives it in the step,
 //!
 //! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . h^2 G tail(f'))` if that is larger,
 //!
 //! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step, so the state at the end has
-//! about its square, and the share `S` of the blocks that are not smooth over the step has the error itself. Blocks so fast that the nodes
-//! do not resolve their part `U` in the force leave that part. The step is accepted if
+//! about its square; `T D^2`, the force in the polynomials of twice the degree, if that is larger: near a half-integer power
+//! outside the step the coefficients fall slowly. Of the share `S` of the blocks that are not smooth over the step it has the
+//! error itself, and blocks so fast that the nodes do not resolve their part `U` in the force leave that part. The step is accepted if
 //!
-//! `T <= 2 sqrt(tolerance)`, `T S <= 10 tolerance` and `U <= 10 tolerance`,
+//! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency).
 
 use super::{ExactIntegrator, collocation::NODES, run::{ElementStart, Run}};
+
+/// How the expansion of a function over a step ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Tail {
+    /// The two highest coefficients, in magnitude, added.
+    pub highest: f64,
+    /// The same at half the degree.
+    pub middle: f64,
+}
+
+impl Tail {
+    /// Part that is left at twice the degree.
+    fn decay(self) -> f64 {
+        (self.highest / self.middle.max(f64::MIN_POSITIVE)).min(1.0).powi(2)
+    }
+}
+
+/// Relative errors of a step by the file header.
+#[derive(Debug, Clone, Copy, Default)]
+struct Errors {
+    /// `T`.
+    tail: f64,
+    /// `T D^2`.
+    slow: f64,
+    /// `S`.
+    fast_share: f64,
+    /// `U`.
+    unresolved: f64,
+}
 
 /// Parts of blocks in the polynomials below this are rounding.
 const NEGLIGIBLE: f64 = 1e-14;
@@ -42,21 +72,26 @@ impl ExactIntegrator {
             let ElementStart { jet, velocity, .. } = run.start[element];
             let driven = jet.slope.abs() + jet.curvature.abs() * step.weights.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
-            let tail = impulse * step.tail(&step.force[nodes.clone()]) / velocity;
-            let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]);
+            let force = step.tail(&step.force[nodes.clone()]);
+            let tail = impulse * force.highest / velocity;
+            let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]).highest;
             let stiffest = step.slope[nodes].iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
             let bounds = &self.outputs[element].value_bound;
             let unresolved = self.unresolved(|i| bounds[i] * self.energy_norm(run, i));
-            let unresolved = impulse * stiffest * unresolved / velocity;
-            self.relative_to_bound(tail.max((tail * dual).sqrt()), self.fast_share(element), unresolved)
+            self.relative_to_bound(Errors {
+                tail: tail.max((tail * dual).sqrt()),
+                slow: tail * force.decay(),
+                fast_share: self.fast_share(element),
+                unresolved: impulse * stiffest * unresolved / velocity,
+            })
         };
         self.step.active.iter().enumerate().map(of_element).fold(0.0, f64::max)
     }
 
-    fn relative_to_bound(&self, tail: f64, fast_share: f64, unresolved: f64) -> f64 {
-        let tolerance = self.settings.tolerance;
-        let linear = (tail * fast_share).max(unresolved) / (10.0 * tolerance);
-        (tail / (2.0 * tolerance.sqrt())).max(linear.sqrt())
+    fn relative_to_bound(&self, errors: Errors) -> f64 {
+        let square = errors.tail.powi(2).max(errors.slow) / 4.0;
+        let linear = (errors.tail * errors.fast_share).max(errors.unresolved) / 10.0;
+        (square.max(linear) / self.settings.tolerance).sqrt()
     }
 
     /// `S`: part of the mobility of an element whose blocks are not smooth over the step.
@@ -90,26 +125,31 @@ impl ExactIntegrator {
         let frequencies = &self.system.model().natural_frequencies;
         let scale = |column: usize| frequencies.get(column).map_or(1.0, |w| w.max(slowest));
         let stiffest = self.step.slope.iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
-        let (mut tail, mut unresolved, mut norm, mut share, mut by_frequency) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut errors, mut by_frequency, mut norm) = (Errors::default(), Errors::default(), f64::MIN_POSITIVE);
         for (a, &element) in self.step.active.iter().enumerate() {
-            share = share.max(self.fast_share(element));
+            let fast_share = self.fast_share(element);
             let bounds = &self.outputs[element].value_bound;
             let impulse = self.step.weights.length * self.mobility[element][element].sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let amplitude = |i: usize| bounds[i] * sensitivity.energy_norm(i, column, self.blocks.stiffness[i]);
-                let lost = impulse * stiffest * self.unresolved(amplitude);
                 let size = found.velocity + impulse * found.largest;
-                if column == sensitivity.frequency_column() {
-                    by_frequency = by_frequency.max(impulse * found.tail / size.max(f64::MIN_POSITIVE));
-                    continue;
-                }
-                tail = tail.max(impulse * found.tail / scale(column));
-                unresolved = unresolved.max(lost / scale(column));
-                norm = norm.max(size / scale(column));
+                let (scale, into) = if column == sensitivity.frequency_column() {
+                    (size.max(f64::MIN_POSITIVE), &mut by_frequency)
+                } else {
+                    norm = norm.max(size / scale(column));
+                    (scale(column), &mut errors)
+                };
+                let tail = impulse * found.tail.highest / scale;
+                into.tail = into.tail.max(tail);
+                into.slow = into.slow.max(tail * found.tail.decay());
+                into.fast_share = into.fast_share.max(fast_share);
+                into.unresolved = into.unresolved.max(impulse * stiffest * self.unresolved(amplitude) / scale);
             }
         }
-        let norm = norm.max(f64::MIN_POSITIVE);
-        Some(self.relative_to_bound((tail / norm).max(by_frequency), share, unresolved / norm))
+        errors.tail /= norm;
+        errors.slow /= norm;
+        errors.unresolved /= norm;
+        Some(self.relative_to_bound(errors).max(self.relative_to_bound(by_frequency)))
     }
 }
 
