@@ -70,7 +70,7 @@ fn laws() -> Vec<Law> {
 }
 
 const SHAPE: [f64; 3] = [-1.4, 1.1, -0.9];
-const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.85 };
+const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
 const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
 
 /// Every law at several supports, coupled and uncoupled dampers, a rigid-body mode, and several elements.
