@@ -5,12 +5,18 @@
 //! `k = l_1 l_2`. The null space of `A^2 + c A + k I` is the invariant plane of the pair, well determined even where
 //! its eigenvectors merge (critical damping). With any `s` in the plane and `p = (A + c I) s`, `A p = -k s` and
 //! `A s = p - c s`: the block of `block.rs`.
+//!
+//! In a stiff structure the squares in that null space cost the slow pairs their digits; Newton's method on the equations of
+//! the plane (`plane.rs`), each row of its own size, brings them back.
 
 use faer::{Mat, c64};
 use faer::linalg::solvers::DenseSolveCore;
 use hammerbeam_structure::ReducedModel;
 
-use super::block::{Blocks, Transform};
+use super::{
+    block::{Blocks, Transform},
+    plane::InvariantPlane,
+};
 
 /// Damping entries below this fraction of the diagonal do not couple modes (rounding of a projection).
 const COUPLING: f64 = 1e-13;
@@ -45,14 +51,28 @@ impl Blocks {
         for group in &groups {
             decouple(model, group, &mut blocks, &mut from_blocks)?;
         }
-        let to_blocks = from_blocks.partial_piv_lu().inverse();
-        let condition = equilibrated_condition(&from_blocks, &to_blocks);
+        let rates: Vec<f64> = (0..n).map(|mode| rate(model, mode)).collect();
+        let (to_blocks, condition) = inverse(&from_blocks, &rates);
         if condition.is_nan() || condition > CONDITION {
             return Err(MergedModes { condition });
         }
         blocks.transform = Some(Transform { from_blocks, to_blocks });
         Ok(blocks)
     }
+}
+
+/// Inverse of `S`, and its condition number with displacements scaled to velocities and columns to length one.
+fn inverse(from_blocks: &Mat<f64>, rates: &[f64]) -> (Mat<f64>, f64) {
+    let size = from_blocks.nrows();
+    let row_scale = |i: usize| rates.get(i).copied().unwrap_or(1.0);
+    let rows = Mat::from_fn(size, size, |i, j| from_blocks[(i, j)] * row_scale(i));
+    let lengths: Vec<f64> = (0..size).map(|j| rows.col(j).norm_l2()).collect();
+    let scaled = Mat::from_fn(size, size, |i, j| rows[(i, j)] / lengths[j]);
+    let mut inverse = scaled.partial_piv_lu().inverse();
+    let condition = (0..size).map(|j| inverse.row(j).norm_l2()).fold(0.0, f64::max);
+    let defect = Mat::<f64>::identity(size, size) - &scaled * &inverse;
+    inverse = &inverse + &inverse * &defect;
+    (Mat::from_fn(size, size, |i, j| inverse[(i, j)] / lengths[i] * row_scale(j)), condition)
 }
 
 /// Connected components of the modes under the damping matrix.
@@ -91,15 +111,21 @@ fn decouple(
         let copies = pairs.iter().filter(same).count();
         taken.push((stiffness, damping));
         let (p, s) = plane(&system, stiffness, damping, copy, copies)?;
+        let displacements = |values: &[f64]| (0..m).map(|k| values[k] / rate[k]).collect::<Vec<f64>>();
+        let mut plane =
+            InvariantPlane { stiffness, damping, p: displacements(&p), s: displacements(&s) };
+        if copies == 1 {
+            plane.refine(model, group);
+        }
         let block = group[slot];
-        blocks.stiffness[block] = stiffness;
-        blocks.damping[block] = damping;
-        for (column, values) in [(block, p), (n + block, s)] {
+        blocks.stiffness[block] = plane.stiffness;
+        blocks.damping[block] = plane.damping;
+        for (column, values) in [(block, plane.column_p()), (n + block, plane.column_s())] {
             for i in 0..2 * n {
                 from_blocks[(i, column)] = 0.0;
             }
             for k in 0..m {
-                from_blocks[(group[k], column)] = values[k] / rate[k];
+                from_blocks[(group[k], column)] = values[k];
                 from_blocks[(n + group[k], column)] = values[m + k];
             }
         }
@@ -134,7 +160,7 @@ fn eigenvalue_pairs(system: &Mat<f64>) -> Result<Vec<(f64, f64)>, MergedModes> {
     let mut pairs: Vec<(f64, f64)> =
         eigenvalues.iter().filter(|l| l.im > 0.0).map(|l| (l.norm_sqr(), -2.0 * l.re)).collect();
     let mut real: Vec<f64> = eigenvalues.iter().filter(|l| l.im == 0.0).map(|l| l.re).collect();
-    real.iter_mut().filter(|l| l.abs() < 1e-13 * scale).for_each(|l| *l = 0.0);
+    real.iter_mut().filter(|l| l.abs() < 1e-15 * scale).for_each(|l| *l = 0.0);
     real.sort_by(f64::total_cmp);
     pairs.extend(real.chunks_exact(2).map(|pair| (pair[0] * pair[1], -(pair[0] + pair[1]))));
     pairs.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1)));
@@ -173,9 +199,4 @@ fn independence((p, s): &(Vec<f64>, Vec<f64>)) -> f64 {
     let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
     let cosine = dot(p, s) / (dot(p, p) * dot(s, s)).sqrt();
     (1.0 - cosine * cosine).max(0.0).sqrt()
-}
-
-/// Condition number of the columns scaled to length one.
-fn equilibrated_condition(matrix: &Mat<f64>, inverse: &Mat<f64>) -> f64 {
-    (0..matrix.ncols()).map(|j| matrix.col(j).norm_l2() * inverse.row(j).norm_l2()).fold(0.0, f64::max)
 }

@@ -4,7 +4,7 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `block.rs`, `decouple.rs` | the structure as independent second-order blocks |
+//! | `block.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
 //! | `drive.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
@@ -28,6 +28,7 @@ mod forecast;
 mod lu;
 mod maxima;
 mod output;
+mod plane;
 mod polynomial;
 mod run;
 mod sampling;
