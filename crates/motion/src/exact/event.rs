@@ -16,6 +16,10 @@ use super::{
 /// Tries of the length of one step; three are usual.
 const MAX_TRIES: usize = 8;
 
+/// Accuracy of the length, relative to the power of the tolerance that the exponent of the contact asks for: slow contacts weigh
+/// their ends more, and another try is cheap.
+const RELATIVE_ACCURACY: f64 = 0.02;
+
 /// What ends a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
@@ -54,7 +58,7 @@ impl ExactIntegrator {
         remaining: f64,
     ) -> Option<Solved> {
         let exponent = self.contact_of(run, event).onset_exponent;
-        let accuracy = self.settings.tolerance.powf(1.0 / exponent);
+        let accuracy = (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON);
         let mut length = length.min(remaining);
         let mut last = false;
         for tries in 0..MAX_TRIES {

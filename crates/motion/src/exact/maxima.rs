@@ -89,6 +89,8 @@ struct Peak {
     force: Vec<f64>,
 }
 
+/// Parabolas by which the largest value of a polynomial is closed in.
+const PARABOLAS: usize = 6;
 /// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as smooth as steps are.
 const BETWEEN_NODES: f64 = 1.5;
 
@@ -237,14 +239,24 @@ impl ExactIntegrator {
             *entry = row.iter().zip(values).map(|(l, v)| l * v).sum::<f64>().abs();
         }
         let best = (0..=FINE).fold(0, |best, i| if table[i] > table[best] { i } else { best });
-        if best == 0 || best == FINE {
-            return (table[best], best as f64 / FINE as f64);
+        // Successive parabolas through the best place and its neighbours, from half an interval beyond an end of the step inwards.
+        let width = 1.0 / FINE as f64;
+        let value = |s: f64| rule.lagrange(s).iter().zip(values).map(|(l, v)| l * v).sum::<f64>().abs();
+        let middle = (best as f64 * width).clamp(0.5 * width, 1.0 - 0.5 * width);
+        let mut points = [(middle - width).max(0.0), middle, (middle + width).min(1.0)].map(|s| (s, value(s)));
+        let mut largest = (table[best], best as f64 * width);
+        for _ in 0..PARABOLAS {
+            let Some(s) = vertex(points) else { break };
+            let s = s.clamp(0.0, 1.0);
+            let next = (s, value(s));
+            if next.1 > largest.0 {
+                largest = (next.1, s);
+            }
+            // Keep the three points around the best.
+            let worst = (0..3).fold(0, |w, k| if points[k].1 < points[w].1 { k } else { w });
+            points[worst] = next;
         }
-        // Vertex of the parabola through the best place and its neighbours.
-        let (before, here, after) = (table[best - 1], table[best], table[best + 1]);
-        let curvature = before - 2.0 * here + after;
-        let shift = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
-        (here - 0.25 * (before - after) * shift, (best as f64 + shift) / FINE as f64)
+        largest
     }
 
     /// Largest magnitude of displacement (0) or acceleration (2) of the response point over a flight, not below `best`.
@@ -273,6 +285,14 @@ impl ExactIntegrator {
 pub(crate) fn closed_bits(run: &Run) -> u64 {
     let closed = run.closed.iter().take(64).enumerate().filter(|(_, contact)| contact.is_some());
     closed.map(|(element, _)| 1 << element).sum()
+}
+
+/// Place of the maximum of the parabola through three points, if it has one.
+fn vertex([(a, at_a), (b, at_b), (c, at_c)]: [(f64, f64); 3]) -> Option<f64> {
+    let (left, right) = ((at_b - at_a) / (b - a), (at_c - at_b) / (c - b));
+    let curvature = (right - left) / (c - a);
+    let place = 0.5 * (a + b) - 0.5 * left / curvature;
+    (curvature < 0.0 && place.is_finite()).then_some(place)
 }
 
 /// A function of the time of a flight: an output or its second derivative.
