@@ -70,12 +70,18 @@ impl BranchWalk {
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
     pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
         match self.advance()? {
-            None => {
-                let row = self.row()?;
-                self.journal.push(self.follower.current().clone());
-                rows.push(row);
-                Ok(None)
-            }
+            None => match self.row() {
+                Ok(row) => {
+                    self.journal.push(self.follower.current().clone());
+                    rows.push(row);
+                    Ok(None)
+                }
+                Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
+                    let frequency_hz = self.follower.current().parameter();
+                    Ok(Some(StopReason::Motion { frequency_hz, message: error.to_string() }))
+                }
+                Err(error) => Err(error),
+            },
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
     }
