@@ -92,6 +92,8 @@ impl ExactIntegrator {
                     Look::FreeFor(_) => {}
                     Look::MinimumAhead { at, convex } => {
                         let (step, hit) = self.minimum(run, time, (element, contact), (at, convex), bounds);
+                        // The other elements are looked at from here.
+                        self.place(run, time);
                         if step < free {
                             (free, touch) = (step, if hit { touching } else { None });
                             *past = !hit;
