@@ -1,4 +1,51 @@
 //! Periodic orbits by multiple shooting, their Floquet multipliers and their branches.
+//!
+//! An orbit of N excitation periods is a fixed point of the flow over N cycles. [`find_start`] and [`find_orbits`] find orbits without a guess:
+//! from motion that settles, from near-returns of motion that does not, and along branches. A [`BranchWalk`] follows a branch, one
+//! [`BranchRow`] at a time: the solution, its multipliers, its maxima on the continuous motion, and what happens there. It is driven from
+//! outside, so whoever drives it can show progress, stop, store it between two steps and take it up again with the same bits.
+//!
+//! | file | idea |
+//! |---|---|
+//! | `shooting.rs` | the equations of multiple shooting, condensed to the first node; made for the path crate |
+//! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
+//! | `start.rs`, `find.rs` | the first orbit of a branch; all orbits at one frequency |
+//! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
+//! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
+//! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
+//! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
+//!
+//! # Stability
+//! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of the segments, so they do not depend
+//! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle. Folds, branch points and grazing are
+//! located as rows of their own. Flips and Neimark-Sacker points are not located yet: stability changes between two rows there.
+//!
+//! # Example
+//! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.
+//! ```
+//! use hammerbeam_motion::{Harmonic, HarmonicForce, Load, System};
+//! use hammerbeam_orbit::{OrbitSettings, Response, find_start};
+//! use hammerbeam_structure::{Connection, Damping, GROUND, Lumped, LumpedMass, Reduction};
+//!
+//! let to_ground = |constant| Connection { between: ["mass".into(), GROUND.into()], constant };
+//! let oscillator = Lumped {
+//!     masses: vec![LumpedMass { name: "mass".into(), mass: 1.0 }],
+//!     springs: vec![to_ground(1.0)],
+//!     dampers: vec![to_ground(0.1)],
+//! };
+//! let model = oscillator.structure()?.reduce(&Reduction::None, &Damping::none(), &[])?.model;
+//! let mass = model.point("mass").expect("every mass is a point").clone();
+//! let force = HarmonicForce { shape: mass.shape.clone(), harmonic: Harmonic { order: 1, amplitude: 0.5, phase: 0.0 } };
+//! let system = System::new(model, &Load { support: vec![], forces: vec![force] }, vec![])?;
+//!
+//! let response = Response { shape: mass.shape, support_ratio: mass.support_ratio };
+//! let frequency_hz = 1.0 / std::f64::consts::TAU;
+//! let orbit = find_start(&system, &response, frequency_hz, 1, &OrbitSettings::default())?;
+//! assert!((orbit.maxima.displacement - 5.0).abs() < 1e-8);
+//! let [re, im] = orbit.floquet_multipliers[0];
+//! assert!((re.hypot(im) - (-0.05 / frequency_hz).exp()).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod checkpoint;
 mod eigenvalues;

@@ -1,4 +1,35 @@
 //! Studies: the study file, the model it describes, running it, and the store of its results.
+//!
+//! | room | what it knows |
+//! |---|---|
+//! | `document` | TOML tables that are asked for their keys, quantities with their ranges, all faults at once and where they stand |
+//! | [`file`] | one file per table of the study file: its keys and their meaning |
+//! | `model` | from what the file says to the equations of motion |
+//! | `identity` | what makes a study the same study, so that a results folder is continued or refused |
+//! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
+//! | `orbit_solver` | these traits, served by the orbit crate |
+//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows |
+//! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
+//!
+//! A run is a loop over searches that the study alone decides. Everything it finishes is in the store before it goes on, and what is in the store is
+//! skipped, so a run that was killed does exactly what is left, with the same bits.
+//!
+//! # Example
+//! ```
+//! let text = r#"
+//!     [structure]
+//!     kind = "lumped"
+//!     mass = [{ name = "mass", mass_kg = -1.0 }]
+//!
+//!     [excitation]
+//!     kind = "force"
+//!     at = "mass"
+//!     amplitude_n = 1.0
+//!     frequency_hz = [0.1, 1.0]
+//! "#;
+//! let fault = hammerbeam_study::StudyFile::parse("study.toml", text.to_owned()).expect_err("a negative mass");
+//! assert!(fault.to_string().contains("mass_kg"), "{fault}");
+//! ```
 
 mod document;
 pub mod export;
