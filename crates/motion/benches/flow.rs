@@ -32,7 +32,9 @@ fn sensitivities(criterion: &mut Criterion) {
             bencher.iter(|| exact.flow(&stretch, &state).unwrap());
         });
         group.bench_function(BenchmarkId::new("general", frequency_hz), |bencher| {
-            bencher.iter(|| advance(&system, &stretch, &state, &GeneralSettings::with_tolerance(GENERAL)).unwrap());
+            bencher.iter(|| {
+                advance(&system, &stretch, &state, &GeneralSettings::with_tolerance(GENERAL)).unwrap()
+            });
         });
     }
     group.finish();

@@ -64,11 +64,16 @@ impl System {
     /// See [`SystemError`].
     pub fn new(model: ReducedModel, load: &Load, elements: Vec<LocalElement>) -> Result<Self, SystemError> {
         check(&model, load, &elements)?;
-        let mut orders: Vec<u32> =
-            load.support.iter().chain(load.forces.iter().map(|force| &force.harmonic)).map(|h| h.order).collect();
+        let mut orders: Vec<u32> = load
+            .support
+            .iter()
+            .chain(load.forces.iter().map(|force| &force.harmonic))
+            .map(|h| h.order)
+            .collect();
         orders.sort_unstable();
         orders.dedup();
-        let of_order = |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
+        let of_order =
+            |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
         let support = orders
             .iter()
             .map(|&order| load.support.iter().map(|harmonic| of_order(order, harmonic)).sum())
@@ -76,7 +81,8 @@ impl System {
         let force_of = |order: u32, mode: usize| {
             load.forces.iter().map(|force| of_order(order, &force.harmonic) * force.shape[mode]).sum()
         };
-        let forces = orders.iter().map(|&order| (0..model.dof()).map(|i| force_of(order, i)).collect()).collect();
+        let forces =
+            orders.iter().map(|&order| (0..model.dof()).map(|i| force_of(order, i)).collect()).collect();
         Ok(Self { model, elements, orders, support, forces })
     }
 

@@ -46,7 +46,13 @@ fn stretches_that_start_and_end_inside_contacts_agree() {
             let end = exact.advance(&stretch, &state).unwrap();
             if closed(&state) || closed(&end) {
                 compared += 1;
-                assert_agreement(&system, &stretch, &state, BOUND, &format!("{frequency_hz} Hz, part {part}"));
+                assert_agreement(
+                    &system,
+                    &stretch,
+                    &state,
+                    BOUND,
+                    &format!("{frequency_hz} Hz, part {part}"),
+                );
             }
             state = end;
         }

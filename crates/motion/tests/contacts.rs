@@ -55,7 +55,8 @@ fn the_bilinear_oscillator_returns_after_its_period() {
 fn a_mass_bounces_under_gravity_as_in_closed_form() {
     let (gravity, height, stiffness) = (9.81, 0.05_f64, 1e5_f64);
     let system = oscillator(0.0, 0.0, gravity, vec![linear(stiffness, height)]);
-    let (fall, speed, w) = ((2.0 * height / gravity).sqrt(), (2.0 * gravity * height).sqrt(), stiffness.sqrt());
+    let (fall, speed, w) =
+        ((2.0 * height / gravity).sqrt(), (2.0 * gravity * height).sqrt(), stiffness.sqrt());
     let contact = (TAU - 2.0 * (speed * w / gravity).atan()) / w;
     let period = 2.0 * fall + contact;
     for bounces in [1, 2, 7] {
@@ -86,7 +87,12 @@ fn energy_is_kept_through_bounces_on_stiff_and_soft_hertz_stops() {
             let phase = |piece: i32| f64::from(piece) * 0.0137;
             let stretch = Stretch { frequency_hz: 1.0, start: phase(piece), end: phase(piece + 1) };
             state = exact.advance(&stretch, &state).unwrap();
-            assert_close(&[energy(&state) / 0.125], &[1.0], 1e-10, &format!("stiffness {stiffness:e}, energy after piece {piece}, {:?}", exact.counts()));
+            assert_close(
+                &[energy(&state) / 0.125],
+                &[1.0],
+                1e-10,
+                &format!("stiffness {stiffness:e}, energy after piece {piece}, {:?}", exact.counts()),
+            );
         }
     }
 }
@@ -131,10 +137,15 @@ fn a_damped_mass_comes_to_rest_on_a_stop() {
         let mut state = vec![0.0, 0.0];
         for second in 0..60 {
             let second = f64::from(second);
-            state = exact.advance(&Stretch { frequency_hz: 1.0, start: second, end: second + 1.0 }, &state).unwrap();
+            state = exact
+                .advance(&Stretch { frequency_hz: 1.0, start: second, end: second + 1.0 }, &state)
+                .unwrap();
         }
         // The load alone would drive the mass at some metres per second: that is the scale of the errors.
-        assert!((law.force(state[0]).value + 9.81).abs() < 1e-6 && state[1].abs() < 1e-8, "{law:?}: {state:?}");
+        assert!(
+            (law.force(state[0]).value + 9.81).abs() < 1e-6 && state[1].abs() < 1e-8,
+            "{law:?}: {state:?}"
+        );
         assert!(exact.counts().steps < 30_000, "{:?}", exact.counts());
     }
 }
@@ -143,10 +154,12 @@ fn a_damped_mass_comes_to_rest_on_a_stop() {
 #[test]
 fn symmetric_contacts_on_two_stops_keep_the_symmetry() {
     let structure = model(&[30.0, 200.0], diagonal(&[0.5, 2.0]));
-    let push = HarmonicForce { shape: vec![1.0, 0.0], harmonic: Harmonic { order: 1, amplitude: 2.0, phase: 0.0 } };
+    let push =
+        HarmonicForce { shape: vec![1.0, 0.0], harmonic: Harmonic { order: 1, amplitude: 2.0, phase: 0.0 } };
     let load = Load { support: vec![], forces: vec![push] };
     // The second mode rocks: a symmetric motion does not excite it.
-    let stops = vec![element(&[1.0, 0.7], 0.0, hertz(1e7, 1e-4)), element(&[1.0, -0.7], 0.0, hertz(1e7, 1e-4))];
+    let stops =
+        vec![element(&[1.0, 0.7], 0.0, hertz(1e7, 1e-4)), element(&[1.0, -0.7], 0.0, hertz(1e7, 1e-4))];
     let system = System::new(structure, &load, stops).unwrap();
     let mut exact = integrator(&system);
     let mut state = vec![0.0, 0.0, 0.1, 0.0];
@@ -210,7 +223,11 @@ fn slow_touches_and_releases_do_not_stall() {
             let stretch = Stretch { frequency_hz: 10.0, start: 0.0, end: 1.0 };
             let flow = exact.flow(&stretch, &[0.0, speed]).unwrap();
             assert!(flow.state.iter().all(|value| value.is_finite()));
-            assert!(exact.counts().steps < 200 && exact.counts().looks < 2000, "{speed:e}: {:?}", exact.counts());
+            assert!(
+                exact.counts().steps < 200 && exact.counts().looks < 2000,
+                "{speed:e}: {:?}",
+                exact.counts()
+            );
         }
     }
 }

@@ -5,7 +5,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, element, hertz, model, modal_damping};
+use common::{assert_agreement, element, hertz, modal_damping, model};
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Load, Stretch, System,
@@ -22,11 +22,24 @@ fn exponential(frequencies: &[f64], damping: &Mat<f64>, time: f64) -> Mat<f64> {
     let (n, rates) = (frequencies.len(), rates(frequencies, time));
     let matrix = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
         (true, true) => 0.0,
-        (true, false) => if i == j - n { rates[i] } else { 0.0 },
-        (false, true) => if i - n == j { -frequencies[j].powi(2) / rates[j] } else { 0.0 },
+        (true, false) => {
+            if i == j - n {
+                rates[i]
+            } else {
+                0.0
+            }
+        }
+        (false, true) => {
+            if i - n == j {
+                -frequencies[j].powi(2) / rates[j]
+            } else {
+                0.0
+            }
+        }
         (false, false) => -damping[(i - n, j - n)],
     });
-    let norm = (0..2 * n).map(|i| (0..2 * n).map(|j| matrix[(i, j)].abs()).sum::<f64>()).fold(0.0, f64::max) * time;
+    let norm =
+        (0..2 * n).map(|i| (0..2 * n).map(|j| matrix[(i, j)].abs()).sum::<f64>()).fold(0.0, f64::max) * time;
     let squarings = (norm / 0.25).log2().ceil().max(0.0) as i32;
     let scaled = &matrix * faer::Scale(time / 2f64.powi(squarings));
     let mut sum = Mat::<f64>::identity(2 * n, 2 * n);
@@ -91,7 +104,10 @@ fn point_dampers_from_light_to_heavy_keep_ten_digits() {
                 let damping = dampers(&frequencies, 0.01, strength, &shapes);
                 for time in [1e-4, 3e-3, 0.05] {
                     let error = error(&frequencies, &damping, time);
-                    assert!(error < 1e-10, "{modes} modes, {dampers_count} dampers of {strength:e}, {time:e} s: {error:e}");
+                    assert!(
+                        error < 1e-10,
+                        "{modes} modes, {dampers_count} dampers of {strength:e}, {time:e} s: {error:e}"
+                    );
                 }
             }
         }
@@ -120,7 +136,11 @@ fn stiff_spectra_keep_ten_digits() {
 fn equal_and_critical_and_rigid_modes_keep_ten_digits() {
     let cases: [(&str, Vec<f64>, Mat<f64>); 4] = [
         ("equal frequencies", vec![50.0, 50.0], dampers(&[50.0, 50.0], 0.02, 4.0, &[vec![1.0, 0.8]])),
-        ("critical", vec![50.0, 50.0, 300.0], dampers(&[50.0, 50.0, 300.0], 0.0, 100.0, &[vec![0.6, 0.8, 0.0]])),
+        (
+            "critical",
+            vec![50.0, 50.0, 300.0],
+            dampers(&[50.0, 50.0, 300.0], 0.0, 100.0, &[vec![0.6, 0.8, 0.0]]),
+        ),
         ("rigid", vec![0.0, 40.0, 300.0], dampers(&[0.0, 40.0, 300.0], 0.01, 20.0, &[vec![1.0, -0.5, 0.4]])),
         ("heavy", vec![20.0, 40.0, 300.0], dampers(&[20.0, 40.0, 300.0], 0.01, 5e3, &[vec![1.0, -0.5, 0.4]])),
     ];
@@ -143,7 +163,8 @@ fn contacts_of_damped_structures_agree_with_the_general_integrator() {
             shape: shapes[0].clone(),
             harmonic: Harmonic { order, amplitude, phase },
         };
-        let load = Load { support: vec![], forces: vec![push(1, 8.0, 0.3), push(2, 5.0, -1.0), push(0, 1.0, 0.0)] };
+        let load =
+            Load { support: vec![], forces: vec![push(1, 8.0, 0.3), push(2, 5.0, -1.0), push(0, 1.0, 0.0)] };
         let stop = element(&[1.8, -1.5, 1.4, -1.2, 1.1], 0.0, hertz(1e8, 1e-4));
         let system = System::new(model(&frequencies, damping), &load, vec![stop]).unwrap();
         let state = [0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.02, 0.01, 0.0, 0.0];

@@ -95,23 +95,32 @@ fn several_elements_at_once_agree() {
     let cubic = Law::Cubic(CubicSpring::new(3e8).unwrap());
     let between: Vec<f64> = TIP.iter().zip(&MIDDLE).map(|(a, b)| a - b).collect();
     let cases = [
-        ("two sides of one point", vec![
-            element(&TIP, 0.0, hertz(1e8, 5e-4)),
-            element(&negative(TIP), 0.0, hertz(1e7, 1e-3)),
-        ]),
+        (
+            "two sides of one point",
+            vec![element(&TIP, 0.0, hertz(1e8, 5e-4)), element(&negative(TIP), 0.0, hertz(1e7, 1e-3))],
+        ),
         ("two points", vec![element(&TIP, 0.0, hertz(1e8, 2e-4)), element(&MIDDLE, 1.0, hertz(1e8, 1e-4))]),
-        ("a cubic spring and a Hertz stop", vec![element(&TIP, 0.0, cubic), element(&TIP, 0.0, hertz(1e8, 2e-4))]),
+        (
+            "a cubic spring and a Hertz stop",
+            vec![element(&TIP, 0.0, cubic), element(&TIP, 0.0, hertz(1e8, 2e-4))],
+        ),
         ("between two points", vec![element(&between, 0.0, hertz(1e8, 2e-4))]),
-        ("four laws", vec![
-            element(&TIP, 0.0, hertz(1e7, 5e-4)),
-            element(&MIDDLE, 0.0, Law::Linear(LinearStop::with_gap(1e5, 2e-4).unwrap())),
-            element(&between, 0.0, cubic),
-            element(&MIDDLE, 1.0, Law::TwoSided(TwoSidedStop::new(2e4, 5e-4, 5e-4).unwrap())),
-        ]),
+        (
+            "four laws",
+            vec![
+                element(&TIP, 0.0, hertz(1e7, 5e-4)),
+                element(&MIDDLE, 0.0, Law::Linear(LinearStop::with_gap(1e5, 2e-4).unwrap())),
+                element(&between, 0.0, cubic),
+                element(&MIDDLE, 1.0, Law::TwoSided(TwoSidedStop::new(2e4, 5e-4, 5e-4).unwrap())),
+            ],
+        ),
     ];
     for (what, elements) in cases {
         for damping in [light(), coupled()] {
-            assert!(check(structure(damping), &rich_load(), elements.clone(), what) > 0, "{what}: no contact");
+            assert!(
+                check(structure(damping), &rich_load(), elements.clone(), what) > 0,
+                "{what}: no contact"
+            );
         }
     }
 }
@@ -204,8 +213,13 @@ fn loads_on_eigenfrequencies_agree() {
             let system = System::new(structure, &rich_load(), elements).unwrap();
             let state = [1e-4, -1e-4, 1e-5, 0.0, 0.02, 0.01, 0.0, 0.0];
             let stretch = Stretch { frequency_hz, start: 0.2, end: 2.4 };
-            let contacts =
-                assert_agreement(&system, &stretch, &state, BOUND, &format!("offset {offset:e}, damping {damping:e}"));
+            let contacts = assert_agreement(
+                &system,
+                &stretch,
+                &state,
+                BOUND,
+                &format!("offset {offset:e}, damping {damping:e}"),
+            );
             assert!(contacts > 0);
         }
     }

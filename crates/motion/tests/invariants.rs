@@ -41,10 +41,8 @@ fn three_modes(frequency: f64, coupled: bool, elements: Vec<hammerbeam_motion::L
         modal + if coupled { 3.0 * damper[i] * damper[j] } else { 0.0 }
     });
     let support = SupportInput { inertia: vec![0.8, -0.3, 0.1], damping: vec![0.4, 0.1, -0.2] };
-    let model = ReducedModel {
-        support: Some(support),
-        ..model(&[frequency, TAU * 23.0, TAU * 111.0], damping)
-    };
+    let model =
+        ReducedModel { support: Some(support), ..model(&[frequency, TAU * 23.0, TAU * 111.0], damping) };
     let force = |shape: &[f64], order, amplitude, phase| HarmonicForce {
         shape: shape.to_vec(),
         harmonic: Harmonic { order, amplitude, phase },
@@ -79,7 +77,10 @@ fn sensitivities_agree_with_differences() {
     let mut systems = Vec::new();
     for law in laws() {
         for support_ratio in [0.0, 1.0, -0.6] {
-            systems.push((format!("{law:?} {support_ratio}"), three_modes(TAU * 3.5, true, vec![element(&SHAPE, support_ratio, law)])));
+            systems.push((
+                format!("{law:?} {support_ratio}"),
+                three_modes(TAU * 3.5, true, vec![element(&SHAPE, support_ratio, law)]),
+            ));
         }
         systems.push((format!("{law:?} rigid"), three_modes(0.0, false, vec![element(&SHAPE, 0.0, law)])));
     }
@@ -89,11 +90,17 @@ fn sensitivities_agree_with_differences() {
         let found = flow(&system, &STRETCH, &STATE, 1e-12);
         for j in 0..6 {
             let column: Vec<f64> = (0..6).map(|i| found.by_state[(i, j)]).collect();
-            check_jacobian(&column, if j < 3 { 2e-9 } else { 1e-7 }, 3e-5, &format!("{what}, column {j}"), |step| {
-                let mut state = STATE;
-                state[j] += step;
-                flow(&system, &STRETCH, &state, 1e-13).state
-            });
+            check_jacobian(
+                &column,
+                if j < 3 { 2e-9 } else { 1e-7 },
+                3e-5,
+                &format!("{what}, column {j}"),
+                |step| {
+                    let mut state = STATE;
+                    state[j] += step;
+                    flow(&system, &STRETCH, &state, 1e-13).state
+                },
+            );
         }
         check_jacobian(&found.by_frequency, 3e-7, 3e-5, &format!("{what}, frequency"), |step| {
             let frequency_hz = STRETCH.frequency_hz + step;
@@ -111,7 +118,10 @@ fn contacts_leave_volumes_alone() {
             let trace: f64 = (0..3).map(|i| system.model().damping[(i, i)]).sum();
             let expected = (-trace * STRETCH.duration()).exp();
             let found = flow(&system, &STRETCH, &STATE, 1e-12).by_state.determinant();
-            assert!((found / expected - 1.0).abs() < 1e-9, "{law:?} {coupled}: {found:e} against {expected:e}");
+            assert!(
+                (found / expected - 1.0).abs() < 1e-9,
+                "{law:?} {coupled}: {found:e} against {expected:e}"
+            );
         }
     }
 }
@@ -132,13 +142,14 @@ fn an_undamped_beam_keeps_volumes_through_contacts() {
 #[test]
 fn pieces_make_a_whole() {
     let system = paper_beam();
-    for (frequency_hz, pieces, bound) in [(36.0, 7, 1e-11), (36.0, 211, 1e-10), (22.0, 16, 1e-11), (41.0, 31, 1e-11)] {
+    for (frequency_hz, pieces, bound) in
+        [(36.0, 7, 1e-11), (36.0, 211, 1e-10), (22.0, 16, 1e-11), (41.0, 31, 1e-11)]
+    {
         let state = settled(&system, frequency_hz, 100, 0.0);
         let phase = |piece: u32| f64::from(piece) / f64::from(pieces);
         let tolerance = 1e-13;
         let whole = flow(&system, &Stretch { frequency_hz, start: 0.0, end: 1.0 }, &state, tolerance);
-        let mut joined =
-            Flow { state, by_state: Mat::identity(12, 12), by_frequency: vec![0.0; 12] };
+        let mut joined = Flow { state, by_state: Mat::identity(12, 12), by_frequency: vec![0.0; 12] };
         for piece in 0..pieces {
             let stretch = Stretch { frequency_hz, start: phase(piece), end: phase(piece + 1) };
             let next = flow(&system, &stretch, &joined.state, tolerance);

@@ -51,12 +51,12 @@ impl Flight {
                 sum[1] -= mode.shape * omega * turned.im;
                 sum[2] -= mode.shape * omega * omega * turned.re;
             }
-            let (decay, damped) = (mode.ratio * mode.frequency, mode.frequency * (1.0 - mode.ratio * mode.ratio).sqrt());
+            let (decay, damped) =
+                (mode.ratio * mode.frequency, mode.frequency * (1.0 - mode.ratio * mode.ratio).sqrt());
             let root = c64::new(-decay, damped);
             let coefficient = c64::new(homogeneous[0], -(homogeneous[1] + decay * homogeneous[0]) / damped);
-            let turned = coefficient
-                * c64::new((damped * time).cos(), (damped * time).sin())
-                * (-decay * time).exp();
+            let turned =
+                coefficient * c64::new((damped * time).cos(), (damped * time).sin()) * (-decay * time).exp();
             for (derivative, factor) in [c64::new(1.0, 0.0), root, root * root].into_iter().enumerate() {
                 sum[derivative] += mode.shape * (turned * factor).re;
             }
@@ -85,10 +85,7 @@ impl Flight {
     fn samples(&self) -> Vec<(f64, [f64; 3])> {
         let duration = 1.0 / self.frequency_hz;
         let count = (40.0 * self.fastest() * duration / TAU).ceil().max(100.0) as usize;
-        (0..=count)
-            .map(|k| k as f64 / count as f64 * duration)
-            .map(|time| (time, self.at(time)))
-            .collect()
+        (0..=count).map(|k| k as f64 / count as f64 * duration).map(|time| (time, self.at(time))).collect()
     }
 
     /// The highest point over one cycle, maxima refined by Newton's method, and when; `None` unless it is inside and well above the start.
@@ -130,13 +127,15 @@ impl Flight {
             Law::Linear(LinearStop::with_gap(1e3, level).unwrap())
         };
         let load = Load { support: vec![], forces };
-        System::new(model(&frequencies, damping), &load, vec![element(&of(&|mode| mode.shape), 0.0, law)]).unwrap()
+        System::new(model(&frequencies, damping), &load, vec![element(&of(&|mode| mode.shape), 0.0, law)])
+            .unwrap()
     }
 
     /// Number of contacts from the start up to `time`.
     fn contacts(&self, level: f64, time: f64, hertz: bool) -> u32 {
         let system = self.system(level, hertz);
-        let state: Vec<f64> = (0..2).flat_map(|part| self.modes.iter().map(move |mode| mode.start[part])).collect();
+        let state: Vec<f64> =
+            (0..2).flat_map(|part| self.modes.iter().map(move |mode| mode.start[part])).collect();
         let mut exact = common::integrator(&system);
         let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: time * self.frequency_hz };
         exact.advance(&stretch, &state).unwrap();
@@ -163,7 +162,13 @@ prop_compose! {
 }
 
 fn cases(cases: u32) -> ProptestConfig {
-    ProptestConfig { cases, rng_seed: RngSeed::Fixed(7), failure_persistence: None, max_global_rejects: 100_000, ..ProptestConfig::default() }
+    ProptestConfig {
+        cases,
+        rng_seed: RngSeed::Fixed(7),
+        failure_persistence: None,
+        max_global_rejects: 100_000,
+        ..ProptestConfig::default()
+    }
 }
 
 proptest! {

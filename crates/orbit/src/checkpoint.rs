@@ -5,7 +5,9 @@
 //! little-endian, floats by their bits.
 
 use hammerbeam_motion::System;
-use hammerbeam_path::{Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange};
+use hammerbeam_path::{
+    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange,
+};
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
@@ -126,7 +128,10 @@ fn read(
         },
         stop: None,
     };
-    reader.bytes.is_empty().then(|| Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
+    reader
+        .bytes
+        .is_empty()
+        .then(|| Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
 }
 
 #[derive(Default)]

@@ -77,9 +77,13 @@ fn balance(matrix: &mut Square) {
 fn reduce_to_hessenberg(matrix: &mut Square) {
     let n = matrix.size;
     for m in 1..n.saturating_sub(1) {
-        let pivot = (m..n).fold(m, |best, i| {
-            if matrix.at(i, m - 1).abs() > matrix.at(best, m - 1).abs() { i } else { best }
-        });
+        let pivot =
+            (m..n).fold(
+                m,
+                |best, i| {
+                    if matrix.at(i, m - 1).abs() > matrix.at(best, m - 1).abs() { i } else { best }
+                },
+            );
         if matrix.at(pivot, m - 1) == 0.0 {
             continue;
         }
@@ -172,7 +176,8 @@ fn shifts(h: &mut Square, last: usize, sweeps: usize, shifted: &mut f64) -> (f64
         let s = h.at(last, last - 1).abs() + h.at(last - 1, last - 2).abs();
         return (1.5 * s, (0.75 * 0.75 + 0.4375) * s * s);
     }
-    let (a, b, c, d) = (h.at(last - 1, last - 1), h.at(last - 1, last), h.at(last, last - 1), h.at(last, last));
+    let (a, b, c, d) =
+        (h.at(last - 1, last - 1), h.at(last - 1, last), h.at(last, last - 1), h.at(last, last));
     (a + d, a * d - b * c)
 }
 
@@ -284,7 +289,8 @@ mod tests {
         let norm = by_rows.iter().map(|v| v.abs()).fold(0.0, f64::max);
         for value in &ours {
             let distance = |l: &c64| (l.re - value[0]).hypot(l.im - value[1]);
-            let nearest = (0..library.len()).min_by(|&a, &b| distance(&library[a]).total_cmp(&distance(&library[b])));
+            let nearest =
+                (0..library.len()).min_by(|&a, &b| distance(&library[a]).total_cmp(&distance(&library[b])));
             let found = library.swap_remove(nearest.unwrap());
             assert!(distance(&found) <= tolerance * norm, "{value:?} {found:?} of {size}");
         }
@@ -303,7 +309,8 @@ mod tests {
 
     #[test]
     fn cyclic_zero_and_defective_matrices_terminate() {
-        let cyclic: Vec<f64> = (0..144).map(|k| if (k / 12 + 1) % 12 == k % 12 { 1.0 } else { 0.0 }).collect();
+        let cyclic: Vec<f64> =
+            (0..144).map(|k| if (k / 12 + 1) % 12 == k % 12 { 1.0 } else { 0.0 }).collect();
         check(12, &cyclic, 1e-12);
         check(5, &[0.0; 25], 1e-14);
         let ones = eigenvalues(3, &[1.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]).unwrap();

@@ -20,10 +20,14 @@ pub enum OrbitError {
     #[error(transparent)]
     Eigenvalues(#[from] NoEigenvalues),
     /// Newton's method did not come to a periodic orbit.
-    #[error("no periodic orbit near the guess at {frequency_hz} Hz: correction {correction:.2e} after {iterations} iterations")]
+    #[error(
+        "no periodic orbit near the guess at {frequency_hz} Hz: correction {correction:.2e} after {iterations} iterations"
+    )]
     NotConverged { frequency_hz: f64, correction: f64, iterations: u32 },
     /// No start led to an orbit of that period.
-    #[error("no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts")]
+    #[error(
+        "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts"
+    )]
     NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },
     /// A stored checkpoint does not fit this system or version.
     #[error("the checkpoint does not belong to this system")]

@@ -37,8 +37,15 @@ pub fn find_orbits(
     range_hz: (f64, f64),
     settings: &OrbitSettings,
 ) -> Result<Vec<PeriodicSolution>, OrbitError> {
-    let mut search =
-        Search { system, response, frequency_hz, period_multiple, settings, found: Vec::new(), followed: Vec::new() };
+    let mut search = Search {
+        system,
+        response,
+        frequency_hz,
+        period_multiple,
+        settings,
+        found: Vec::new(),
+        followed: Vec::new(),
+    };
     for start in starting_states(system, response, frequency_hz, settings)? {
         search.from_motion(&start)?;
     }
@@ -153,7 +160,12 @@ impl Search<'_> {
         LADDER.iter().find_map(start).into_iter().collect()
     }
 
-    fn crossings(&mut self, start: &PeriodicSolution, side: Side, range_hz: (f64, f64)) -> Result<(), OrbitError> {
+    fn crossings(
+        &mut self,
+        start: &PeriodicSolution,
+        side: Side,
+        range_hz: (f64, f64),
+    ) -> Result<(), OrbitError> {
         let range = (range_hz.0.min(self.frequency_hz), range_hz.1.max(self.frequency_hz));
         // Crossings are corrected once found: the walk itself may be coarse, and is bounded.
         let settings = OrbitSettings {

@@ -42,7 +42,8 @@ pub fn free_orbit(
     let scale = state_scale(system, &state, frequency_hz);
     let mut correction = f64::INFINITY;
     for _ in 0..MAX_ITERATIONS {
-        let (matrix, right) = equations(&mut integrator, response, (&state, frequency_hz), amplitude, scale.values())?;
+        let (matrix, right) =
+            equations(&mut integrator, response, (&state, frequency_hz), amplitude, scale.values())?;
         let update = matrix.col_piv_qr().solve_lstsq(&right);
         correction = update.col(0).norm_l2();
         if !correction.is_finite() {
@@ -168,7 +169,11 @@ mod tests {
                 (a, b) = (0.5 * (a + b), (a * b).sqrt());
             }
             let period = 4.0 * std::f64::consts::FRAC_PI_2 / a / (1.0 + square).sqrt();
-            assert!((orbit.frequency_hz * period - 1.0).abs() < 1e-9, "{amplitude}: {}", orbit.frequency_hz * period);
+            assert!(
+                (orbit.frequency_hz * period - 1.0).abs() < 1e-9,
+                "{amplitude}: {}",
+                orbit.frequency_hz * period
+            );
         }
     }
 }

@@ -15,7 +15,10 @@
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
-use hammerbeam_motion::{Stretch, exact::{ExactIntegrator, MotionError}};
+use hammerbeam_motion::{
+    Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
 use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian};
 
 /// Scales of a state: displacements `V/w_i`, velocities `V`.

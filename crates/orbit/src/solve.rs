@@ -107,7 +107,8 @@ fn observe(
     for (segment, node) in nodes.iter().enumerate() {
         let stretch = problem.stretch(segment, frequency_hz);
         let (_, maxima) = problem.integrator().observe(&stretch, node)?;
-        joined = Some(joined.map_or(maxima, |earlier: hammerbeam_motion::exact::Maxima| earlier.joined(maxima)));
+        joined =
+            Some(joined.map_or(maxima, |earlier: hammerbeam_motion::exact::Maxima| earlier.joined(maxima)));
     }
     let maxima = joined.unwrap_or_default();
     Ok(OrbitMaxima {

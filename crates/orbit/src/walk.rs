@@ -49,7 +49,8 @@ impl BranchWalk {
             Side::Down => Direction::Decreasing,
         };
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let follower = Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
+        let follower =
+            Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
         let journal = vec![follower.current().clone()];
         Ok(Self { problem, follower, journal, settings: *settings, range_hz })
     }

@@ -46,7 +46,6 @@
 //! # Ok::<(), hammerbeam_structure::StructureError>(())
 //! ```
 
-
 mod beam;
 mod damping;
 mod error;

@@ -75,7 +75,8 @@ impl ExactIntegrator {
                 let t = self.step.node_time(k);
                 let mut guess = jet.value + t * (jet.slope + 0.5 * t * jet.curvature);
                 if let (Grading::Touch, Some(e)) = (self.step.grading(), onset) {
-                    guess += mobility * law.force(jet.value + jet.slope * t).value * t * t / ((e + 1.0) * (e + 2.0));
+                    guess += mobility * law.force(jet.value + jet.slope * t).value * t * t
+                        / ((e + 1.0) * (e + 2.0));
                 } else {
                     guess += stiffness * t * t * t / 6.0;
                 }

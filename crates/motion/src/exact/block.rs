@@ -192,8 +192,11 @@ mod tests {
     fn propagator_equals_the_power_series_for_every_kind_of_damping() {
         for damping in [0.0, 0.3, 1.9999, 2.0, 2.0001, 3.0, 40.0] {
             for stiffness in [1.0, 0.0] {
-                let (exact, series) = (Propagator::new(stiffness, damping, 1.7), taylor(stiffness, damping, 1.7));
-                for (x, y) in [(exact.a, series.a), (exact.b, series.b), (exact.c, series.c), (exact.d, series.d)] {
+                let (exact, series) =
+                    (Propagator::new(stiffness, damping, 1.7), taylor(stiffness, damping, 1.7));
+                for (x, y) in
+                    [(exact.a, series.a), (exact.b, series.b), (exact.c, series.c), (exact.d, series.d)]
+                {
                     assert!((x - y).abs() < 1e-12, "{damping} {stiffness}: {x} {y}");
                 }
             }

@@ -49,7 +49,12 @@ pub(crate) fn look(clearance: Jet, bounds: ClearanceBounds) -> Look {
         return Look::Contact;
     }
     let value = value.max(0.0);
-    Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(value, slope, curvature, bounds.third)))
+    Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(
+        value,
+        slope,
+        curvature,
+        bounds.third,
+    )))
 }
 
 /// Positive root of `d + d' h - B h^2/2`.

@@ -102,7 +102,18 @@ impl Rule {
             let values = recurrence.values(s[node]);
             (0..NODES).for_each(|degree| coefficients[degree][node] = weights[node] * values[degree]);
         }
-        let mut rule = Self { s, c, at_nodes: Vec::new(), at_end: Vec::new(), coefficients, fine: Vec::new(), lag: s.map(|s| grading.map(s).0 / grading.map(s).1), derivative: derivative(&s), to_bernstein: to_bernstein(&s), recurrence };
+        let mut rule = Self {
+            s,
+            c,
+            at_nodes: Vec::new(),
+            at_end: Vec::new(),
+            coefficients,
+            fine: Vec::new(),
+            lag: s.map(|s| grading.map(s).0 / grading.map(s).1),
+            derivative: derivative(&s),
+            to_bernstein: to_bernstein(&s),
+            recurrence,
+        };
         rule.fine = (0..=FINE).map(|i| rule.lagrange(i as f64 / FINE as f64)).collect();
         let moments = |end: f64| rule.moments(grading, end, &fine);
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
@@ -197,7 +208,10 @@ impl Recurrence {
             current.iter_mut().for_each(|p| *p /= norm);
             alpha[degree] = (0..fine.len()).map(|i| fine[i].0 * current[i] * current[i] * measure[i]).sum();
             let next = (0..fine.len())
-                .map(|i| (fine[i].0 - alpha[degree]) * current[i] - if degree > 0 { norm * previous[i] } else { 0.0 })
+                .map(|i| {
+                    (fine[i].0 - alpha[degree]) * current[i]
+                        - if degree > 0 { norm * previous[i] } else { 0.0 }
+                })
                 .collect();
             previous = std::mem::replace(&mut current, next);
         }
@@ -222,7 +236,8 @@ impl Recurrence {
             1 => self.beta[i.max(j)],
             _ => 0.0,
         });
-        let nodes = jacobi.self_adjoint_eigenvalues(Side::Lower).expect("a small symmetric matrix has eigenvalues");
+        let nodes =
+            jacobi.self_adjoint_eigenvalues(Side::Lower).expect("a small symmetric matrix has eigenvalues");
         let nodes: [f64; NODES] = std::array::from_fn(|i| nodes[i]);
         let weights = nodes.map(|s| 1.0 / self.values(s).iter().map(|p| p * p).sum::<f64>());
         (nodes, weights)

@@ -26,7 +26,10 @@ struct Aim {
 
 /// What became of a try.
 enum Tried {
-    Accepted { error: f64, event: Option<Event> },
+    Accepted {
+        error: f64,
+        event: Option<Event>,
+    },
     Again(Aim),
     /// A contact closes at the start of the step.
     ClosesNow(Touch),
@@ -85,7 +88,8 @@ impl ExactIntegrator {
 
     fn set_active(&mut self, run: &Run) {
         self.step.active.clear();
-        let active = (0..self.laws.len()).filter(|&e| run.closed[e].is_some() || self.laws[e].contacts().is_empty());
+        let active =
+            (0..self.laws.len()).filter(|&e| run.closed[e].is_some() || self.laws[e].contacts().is_empty());
         self.step.active.extend(active);
     }
 
@@ -137,11 +141,15 @@ impl ExactIntegrator {
 
     fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: Aim, remaining: f64) -> Tried {
         let free = |length: f64| Tried::Again(Aim { length, event: None, otherwise: 0.0 });
-        let to = |event: Event, length: f64| Tried::Again(Aim { length, event: Some(event), otherwise: 0.5 * length });
+        let to = |event: Event, length: f64| {
+            Tried::Again(Aim { length, event: Some(event), otherwise: 0.5 * length })
+        };
         let Some(grading) = self.grading(run, touched, aim.event) else { return free(aim.otherwise) };
         let solved = match aim.event {
             Some(event) => self.locate(run, event, grading, aim.length, remaining),
-            None => self.attempt(run, aim.length, grading, false).map(|error| Solved { error, at_event: false }),
+            None => {
+                self.attempt(run, aim.length, grading, false).map(|error| Solved { error, at_event: false })
+            }
         };
         let Some(Solved { error, at_event }) = solved else {
             run.release = None;

@@ -9,8 +9,8 @@
 //! In a stiff structure the squares in that null space cost the slow pairs their digits; Newton's method on the equations of
 //! the plane (`plane.rs`), each row of its own size, brings them back.
 
-use faer::{Mat, c64};
 use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
 
 use super::{
@@ -25,7 +25,9 @@ const CONDITION: f64 = 1e7;
 
 /// The damping of a group of modes has no block form: more than two eigenvalues merge into one vector.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[error("damped modes have merged eigenvectors (condition {condition:.1e}, at most {CONDITION:.0e} is allowed)")]
+#[error(
+    "damped modes have merged eigenvectors (condition {condition:.1e}, at most {CONDITION:.0e} is allowed)"
+)]
 pub struct MergedModes {
     /// Condition number of the eigenvectors.
     pub condition: f64,
@@ -105,15 +107,15 @@ fn decouple(
     let mut taken: Vec<(f64, f64)> = Vec::new();
     for (slot, &(stiffness, damping)) in pairs.iter().enumerate() {
         let same = |other: &&(f64, f64)| {
-            (other.0 - stiffness).abs() <= 1e-7 * stiffness.abs() && (other.1 - damping).abs() <= 1e-7 * damping.abs()
+            (other.0 - stiffness).abs() <= 1e-7 * stiffness.abs()
+                && (other.1 - damping).abs() <= 1e-7 * damping.abs()
         };
         let copy = taken.iter().filter(same).count();
         let copies = pairs.iter().filter(same).count();
         taken.push((stiffness, damping));
         let (p, s) = plane(&system, stiffness, damping, copy, copies)?;
         let displacements = |values: &[f64]| (0..m).map(|k| values[k] / rate[k]).collect::<Vec<f64>>();
-        let mut plane =
-            InvariantPlane { stiffness, damping, p: displacements(&p), s: displacements(&s) };
+        let mut plane = InvariantPlane { stiffness, damping, p: displacements(&p), s: displacements(&s) };
         if copies == 1 {
             plane.refine(model, group);
         }
@@ -144,9 +146,19 @@ fn first_order(model: &ReducedModel, group: &[usize], rate: &[f64]) -> Mat<f64> 
     let m = group.len();
     Mat::from_fn(2 * m, 2 * m, |i, j| match (i < m, j < m) {
         (true, true) => 0.0,
-        (true, false) => if i == j - m { rate[i] } else { 0.0 },
+        (true, false) => {
+            if i == j - m {
+                rate[i]
+            } else {
+                0.0
+            }
+        }
         (false, true) => {
-            if i - m == j { -model.natural_frequencies[group[j]].powi(2) / rate[j] } else { 0.0 }
+            if i - m == j {
+                -model.natural_frequencies[group[j]].powi(2) / rate[j]
+            } else {
+                0.0
+            }
         }
         (false, false) => -model.damping[(group[i - m], group[j - m])],
     })
@@ -154,8 +166,7 @@ fn first_order(model: &ReducedModel, group: &[usize], rate: &[f64]) -> Mat<f64> 
 
 /// Stiffness and damping `(k, c)` of the eigenvalue pairs, ascending.
 fn eigenvalue_pairs(system: &Mat<f64>) -> Result<Vec<(f64, f64)>, MergedModes> {
-    let eigenvalues: Vec<c64> =
-        system.eigenvalues().map_err(|_| MergedModes { condition: f64::INFINITY })?;
+    let eigenvalues: Vec<c64> = system.eigenvalues().map_err(|_| MergedModes { condition: f64::INFINITY })?;
     let scale = eigenvalues.iter().map(|l| l.norm()).fold(0.0, f64::max);
     let mut pairs: Vec<(f64, f64)> =
         eigenvalues.iter().filter(|l| l.im > 0.0).map(|l| (l.norm_sqr(), -2.0 * l.re)).collect();
@@ -187,7 +198,8 @@ fn plane(
         let p = &shifted * &s;
         (p.iter().copied().collect::<Vec<f64>>(), s.iter().copied().collect::<Vec<f64>>())
     });
-    let mut ranked: Vec<(f64, (Vec<f64>, Vec<f64>))> = images.map(|pair| (independence(&pair), pair)).collect();
+    let mut ranked: Vec<(f64, (Vec<f64>, Vec<f64>))> =
+        images.map(|pair| (independence(&pair), pair)).collect();
     if copies == 1 {
         ranked.sort_by(|x, y| y.0.total_cmp(&x.0));
     }

@@ -76,7 +76,14 @@ impl Drive {
             if denominator.norm() <= RESONANT * (k + w * w) {
                 let rate = TAU * order;
                 let angle = order * self.start_angle;
-                self.secular.push(SecularLoad::new(i, (k, c), [beta, phi], [beta_w, phi_w], (w, rate), angle));
+                self.secular.push(SecularLoad::new(
+                    i,
+                    (k, c),
+                    [beta, phi],
+                    [beta_w, phi_w],
+                    (w, rate),
+                    angle,
+                ));
                 continue;
             }
             let iw = c64::new(0.0, w);
@@ -190,7 +197,8 @@ impl Drive {
         let n = output.row.len() / 2;
         for load in &self.secular {
             let response = load.response(time);
-            sum += output.row[load.block] * response.by_frequency[0] + output.row[n + load.block] * response.by_frequency[1];
+            sum += output.row[load.block] * response.by_frequency[0]
+                + output.row[n + load.block] * response.by_frequency[1];
         }
         sum
     }
@@ -214,9 +222,8 @@ impl Drive {
 
     /// Bound on the fourth derivative of the particular part of output `index` until `until`.
     pub fn fourth_bound(&self, index: usize, output: &Output, until: f64) -> f64 {
-        let of_order = |order: &Order| {
-            order.outputs[index].0.norm() * (order.order * self.circular_frequency).powi(4)
-        };
+        let of_order =
+            |order: &Order| order.outputs[index].0.norm() * (order.order * self.circular_frequency).powi(4);
         self.orders.iter().map(of_order).sum::<f64>()
             + self.secular.iter().map(|load| load.fourth_bound(output, until)).sum::<f64>()
     }

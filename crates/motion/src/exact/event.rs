@@ -58,7 +58,8 @@ impl ExactIntegrator {
         remaining: f64,
     ) -> Option<Solved> {
         let exponent = self.contact_of(run, event).onset_exponent;
-        let accuracy = (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON);
+        let accuracy =
+            (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON);
         let mut length = length.min(remaining);
         let mut last = false;
         for tries in 0..MAX_TRIES {
@@ -128,8 +129,9 @@ impl ExactIntegrator {
         let rule = self.step.grading().rule();
         let of_active = |(a, &element): (usize, &usize)| {
             let contact = self.closed_contact(run, element).filter(|_| except != Some(element))?;
-            let penetration: [f64; NODES] =
-                std::array::from_fn(|k| contact.sign * (self.step.displacement[a * NODES + k] - contact.level));
+            let penetration: [f64; NODES] = std::array::from_fn(|k| {
+                contact.sign * (self.step.displacement[a * NODES + k] - contact.level)
+            });
             let deepest = penetration.iter().fold(0.0_f64, |deepest, p| deepest.max(p.abs()));
             let margin = 1e-9 * deepest + run.start[element].margin;
             let s = first_below(&rule.bernstein(&penetration), rule.s[0], margin)?;

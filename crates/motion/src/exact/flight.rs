@@ -65,7 +65,8 @@ impl ExactIntegrator {
         let n = self.blocks.count();
         for i in 0..n {
             let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
-            (run.state[i], run.state[n + i]) = propagator.apply(self.flight_start[i], self.flight_start[n + i]);
+            (run.state[i], run.state[n + i]) =
+                propagator.apply(self.flight_start[i], self.flight_start[n + i]);
         }
     }
 

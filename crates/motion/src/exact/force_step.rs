@@ -89,7 +89,11 @@ impl ForceStep {
             let loads = (self.active.as_slice(), self.force.as_slice());
             return match active {
                 Some(a) => series.end_jet((output, &self.readings[a]), step, loads),
-                None => series.end_jet((output, &series.readings(output, state, self.weights.length)), step, loads),
+                None => series.end_jet(
+                    (output, &series.readings(output, state, self.weights.length)),
+                    step,
+                    loads,
+                ),
             };
         }
         let mut end = state.to_vec();
@@ -272,7 +276,8 @@ impl ForceStep {
         let mut sums = vec![[0.0; 4]; columns];
         let work = &self.work[a * NODES * columns..(a + 1) * NODES * columns];
         for (k, row) in work.chunks_exact(columns).enumerate() {
-            let weights = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| coefficients[degree][k]);
+            let weights =
+                [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| coefficients[degree][k]);
             for ((sums, tail), value) in sums.iter_mut().zip(&mut tails).zip(row) {
                 sums.iter_mut().zip(&weights).for_each(|(sum, weight)| *sum += weight * value);
                 tail.largest = tail.largest.max(value.abs());
@@ -306,7 +311,8 @@ impl ForceStep {
     pub fn tail(&self, values: &[f64]) -> Tail {
         let coefficients = &self.grading().rule().coefficients;
         let pair = |degree: usize| -> f64 {
-            let of = |row: &[f64; NODES]| row.iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs();
+            let of =
+                |row: &[f64; NODES]| row.iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs();
             of(&coefficients[degree]) + of(&coefficients[degree - 1])
         };
         Tail { highest: pair(NODES - 1), middle: pair(NODES / 2) }

@@ -19,7 +19,8 @@ impl SmallLu {
         fill(&mut self.factors);
         for k in 0..size {
             let magnitude = |row: usize| self.factors[row * size + k].abs();
-            let pivot = (k + 1..size).fold(k, |best, row| if magnitude(row) > magnitude(best) { row } else { best });
+            let pivot =
+                (k + 1..size).fold(k, |best, row| if magnitude(row) > magnitude(best) { row } else { best });
             self.pivots.push(pivot);
             if pivot != k {
                 let (upper, lower) = self.factors.split_at_mut(pivot * size);
@@ -183,8 +184,9 @@ mod tests {
 
     #[test]
     fn fixed_and_variable_sizes_agree() {
-        let matrix: [[f64; 6]; 6] =
-            std::array::from_fn(|i| std::array::from_fn(|j| ((i * 7 + j * j * 3 + i * i * j + 5) % 11) as f64 - 4.0));
+        let matrix: [[f64; 6]; 6] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| ((i * 7 + j * j * 3 + i * i * j + 5) % 11) as f64 - 4.0)
+        });
         let (mut fixed, mut variable) = (FixedLu::default(), SmallLu::default());
         fixed.factorise(matrix).unwrap();
         variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();

@@ -195,7 +195,8 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let polynomial = self.step.interpolate(&self.step.force, a, peak.place);
             let displacement = self.jet_in_step(&peak.state, element, time).value;
-            exact += self.mobility[response][element] * (self.laws[element].force(displacement).value - polynomial);
+            exact += self.mobility[response][element]
+                * (self.laws[element].force(displacement).value - polynomial);
         }
         exact.abs()
     }
@@ -243,7 +244,8 @@ impl ExactIntegrator {
         let width = 1.0 / FINE as f64;
         let value = |s: f64| rule.lagrange(s).iter().zip(values).map(|(l, v)| l * v).sum::<f64>().abs();
         let middle = (best as f64 * width).clamp(0.5 * width, 1.0 - 0.5 * width);
-        let mut points = [(middle - width).max(0.0), middle, (middle + width).min(1.0)].map(|s| (s, value(s)));
+        let mut points =
+            [(middle - width).max(0.0), middle, (middle + width).min(1.0)].map(|s| (s, value(s)));
         let mut largest = (table[best], best as f64 * width);
         for _ in 0..PARABOLAS {
             let Some(s) = vertex(points) else { break };
@@ -269,13 +271,21 @@ impl ExactIntegrator {
         let (first, last) = (flight.at(0.0), flight.at(flown.duration));
         best = best.max(first.0.abs()).max(last.0.abs());
         // Short enough for the curvature to add a tenth of the best, and at most four thousand intervals to begin with.
-        let spacing = if flight.bound > 0.0 { (0.8 * best.max(1e-3 * flight.largest) / flight.bound).sqrt() } else { flown.duration };
+        let spacing = if flight.bound > 0.0 {
+            (0.8 * best.max(1e-3 * flight.largest) / flight.bound).sqrt()
+        } else {
+            flown.duration
+        };
         let count = (flown.duration / spacing).ceil().clamp(1.0, 4096.0) as usize;
         let values = flight.on_grid(count);
         best = values.iter().fold(best, |best, value| best.max(value.abs()));
         let width = flown.duration / count as f64;
         for (i, ends) in values.windows(2).enumerate() {
-            flight.refine((i as f64 * width, ends[0].abs()), ((i + 1) as f64 * width, ends[1].abs()), &mut best);
+            flight.refine(
+                (i as f64 * width, ends[0].abs()),
+                ((i + 1) as f64 * width, ends[1].abs()),
+                &mut best,
+            );
         }
         best
     }
@@ -319,7 +329,8 @@ impl<'a> FlightFunction<'a> {
         let slope = blocks.row_times_system(&row);
         let curvature = blocks.row_times_system(&slope);
         let energy = |factors: &[f64]| {
-            let norm = |i: usize| (blocks.stiffness[i] * flown.state[i].powi(2) + flown.state[n + i].powi(2)).sqrt();
+            let norm =
+                |i: usize| (blocks.stiffness[i] * flown.state[i].powi(2) + flown.state[n + i].powi(2)).sqrt();
             (0..n).map(|i| factors[i] * norm(i)).sum::<f64>()
         };
         let second = energy(&output.second_bound) + drive.bounds(response, output, until).0;
@@ -357,7 +368,8 @@ impl<'a> FlightFunction<'a> {
             return [here.value, here.slope, here.curvature];
         }
         let step = 1e-3 / self.integrator.drive.circular_frequency();
-        let (before, here, after) = (jet(time - step).curvature, jet(time).curvature, jet(time + step).curvature);
+        let (before, here, after) =
+            (jet(time - step).curvature, jet(time).curvature, jet(time + step).curvature);
         [here, (after - before) / (2.0 * step), (after - 2.0 * here + before) / (step * step)]
     }
 

@@ -21,8 +21,8 @@ mod collocation;
 mod contact_phase;
 mod decouple;
 mod drive;
-mod flight;
 mod event;
+mod flight;
 mod force_step;
 mod forecast;
 mod lu;
@@ -157,7 +157,8 @@ impl ExactIntegrator {
         let mobility =
             outputs.iter().map(|o| inputs.iter().map(|b| dot(&o.velocity_row, b)).collect()).collect();
         let n = blocks.count();
-        let share = |o: &Output, b: &[f64], i: usize| o.velocity_row[i] * b[i] + o.velocity_row[n + i] * b[n + i];
+        let share =
+            |o: &Output, b: &[f64], i: usize| o.velocity_row[i] * b[i] + o.velocity_row[n + i] * b[n + i];
         let shares = outputs.iter().zip(&inputs).map(|(o, b)| {
             let parts: Vec<f64> = (0..n).map(|i| share(o, b, i).abs()).collect();
             let total: f64 = parts.iter().sum::<f64>().max(f64::MIN_POSITIVE);

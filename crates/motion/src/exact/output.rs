@@ -35,7 +35,8 @@ impl Output {
         let second_bound = energy_factors(blocks, &acceleration_row);
         let third_bound = energy_factors(blocks, &jerk_row);
         let fourth_bound = energy_factors(blocks, &blocks.row_times_system(&jerk_row));
-        let (value_bound, first_bound) = (energy_factors(blocks, &row), energy_factors(blocks, &velocity_row));
+        let (value_bound, first_bound) =
+            (energy_factors(blocks, &row), energy_factors(blocks, &velocity_row));
         Self {
             row,
             velocity_row,

@@ -58,7 +58,8 @@ impl InvariantPlane {
         let (k_scale, c_scale) = (rate * rate, rate);
         let damping = |i: usize, j: usize| model.damping[(group[i], group[j])];
         let square = |i: usize| model.natural_frequencies[group[i]].powi(2);
-        let length = self.p.iter().map(|p| (p / rate).powi(2)).chain(self.s.iter().map(|s| s * s)).sum::<f64>().sqrt();
+        let length =
+            self.p.iter().map(|p| (p / rate).powi(2)).chain(self.s.iter().map(|s| s * s)).sum::<f64>().sqrt();
         let mut matrix = Mat::<f64>::zeros(2 * m + 2, 2 * m + 2);
         let mut defect = Mat::<f64>::zeros(2 * m + 2, 1);
         for i in 0..m {

@@ -22,7 +22,8 @@ fn search(coefficients: &[f64; NODES], margin: f64, (low, high): (f64, f64), hal
     }
     let (left, right) = halves(coefficients);
     let middle = 0.5 * (low + high);
-    search(&left, margin, (low, middle), halvings - 1).or_else(|| search(&right, margin, (middle, high), halvings - 1))
+    search(&left, margin, (low, middle), halvings - 1)
+        .or_else(|| search(&right, margin, (middle, high), halvings - 1))
 }
 
 /// Bernstein coefficients over both halves of the interval, by de Casteljau's scheme.

@@ -154,7 +154,8 @@ fn multiply(x: &Matrix, y: &Matrix) -> Matrix {
 
 /// `exp(A t)` by Taylor's series of `A t / 2^j` and j squarings.
 fn exponential(system: &Matrix, time: f64) -> Matrix {
-    let norm = system.iter().map(|row| row.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max) * time.abs();
+    let norm =
+        system.iter().map(|row| row.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max) * time.abs();
     let squarings = if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 };
     let scaled = system.map(|row| row.map(|value| value * time / 2f64.powi(squarings)));
     let mut sum = [[0.0; SIZE]; SIZE];

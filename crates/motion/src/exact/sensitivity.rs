@@ -40,7 +40,8 @@ impl Sensitivity {
             match &blocks.transform {
                 None => self.values[i * self.columns + i] = 1.0,
                 Some(transform) => {
-                    (0..self.rows).for_each(|j| self.values[i * self.columns + j] = transform.to_blocks[(i, j)]);
+                    (0..self.rows)
+                        .for_each(|j| self.values[i * self.columns + j] = transform.to_blocks[(i, j)]);
                 }
             }
             self.values[i * self.columns + self.rows] = frequency(i);
@@ -95,14 +96,20 @@ impl Sensitivity {
     pub fn velocity_norms(&self) -> Vec<ColumnTail> {
         let mut norms = vec![ColumnTail::default(); self.columns];
         for row in self.values.chunks_exact(self.columns).skip(self.rows / 2) {
-            norms.iter_mut().zip(row).for_each(|(norm, value)| norm.velocity = norm.velocity.max(value.abs()));
+            norms
+                .iter_mut()
+                .zip(row)
+                .for_each(|(norm, value)| norm.velocity = norm.velocity.max(value.abs()));
         }
         norms
     }
 
     /// `sqrt(k p^2 + s^2)` of block i in a column.
     pub fn energy_norm(&self, i: usize, column: usize, stiffness: f64) -> f64 {
-        let (p, s) = (self.values[i * self.columns + column], self.values[(self.rows / 2 + i) * self.columns + column]);
+        let (p, s) = (
+            self.values[i * self.columns + column],
+            self.values[(self.rows / 2 + i) * self.columns + column],
+        );
         (stiffness * p * p + s * s).sqrt()
     }
 

@@ -17,7 +17,11 @@
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency).
 
-use super::{ExactIntegrator, collocation::NODES, run::{ElementStart, Run}};
+use super::{
+    ExactIntegrator,
+    collocation::NODES,
+    run::{ElementStart, Run},
+};
 
 /// How the expansion of a function over a step ends.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -75,7 +79,8 @@ impl ExactIntegrator {
             let force = step.tail(&step.force[nodes.clone()]);
             let tail = impulse * force.highest / velocity;
             let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]).highest;
-            let stiffest = step.slope[nodes].iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
+            let stiffest =
+                step.slope[nodes].iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
             let bounds = &self.outputs[element].value_bound;
             let unresolved = self.unresolved(|i| bounds[i] * self.energy_norm(run, i));
             self.relative_to_bound(Errors {
@@ -125,13 +130,15 @@ impl ExactIntegrator {
         let frequencies = &self.system.model().natural_frequencies;
         let scale = |column: usize| frequencies.get(column).map_or(1.0, |w| w.max(slowest));
         let stiffest = self.step.slope.iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
-        let (mut errors, mut by_frequency, mut norm) = (Errors::default(), Errors::default(), f64::MIN_POSITIVE);
+        let (mut errors, mut by_frequency, mut norm) =
+            (Errors::default(), Errors::default(), f64::MIN_POSITIVE);
         for (a, &element) in self.step.active.iter().enumerate() {
             let fast_share = self.fast_share(element);
             let bounds = &self.outputs[element].value_bound;
             let impulse = self.step.weights.length * self.mobility[element][element].sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
-                let amplitude = |i: usize| bounds[i] * sensitivity.energy_norm(i, column, self.blocks.stiffness[i]);
+                let amplitude =
+                    |i: usize| bounds[i] * sensitivity.energy_norm(i, column, self.blocks.stiffness[i]);
                 let size = found.velocity + impulse * found.largest;
                 let (scale, into) = if column == sensitivity.frequency_column() {
                     (size.max(f64::MIN_POSITIVE), &mut by_frequency)
@@ -143,7 +150,8 @@ impl ExactIntegrator {
                 into.tail = into.tail.max(tail);
                 into.slow = into.slow.max(tail * found.tail.decay());
                 into.fast_share = into.fast_share.max(fast_share);
-                into.unresolved = into.unresolved.max(impulse * stiffest * self.unresolved(amplitude) / scale);
+                into.unresolved =
+                    into.unresolved.max(impulse * stiffest * self.unresolved(amplitude) / scale);
             }
         }
         errors.tail /= norm;

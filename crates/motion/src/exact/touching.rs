@@ -67,7 +67,8 @@ impl ExactIntegrator {
             let other = step.active[a];
             let nodal = step.force[a * NODES..(a + 1) * NODES].iter().fold(0.0_f64, |m, f| m.max(f.abs()));
             let input = &self.inputs[other];
-            let energy = |i: usize| (self.blocks.stiffness[i] * input[i].powi(2) + input[n + i].powi(2)).sqrt();
+            let energy =
+                |i: usize| (self.blocks.stiffness[i] * input[i].powi(2) + input[n + i].powi(2)).sqrt();
             let later: f64 = (0..n).map(|i| output.second_bound[i] * energy(i)).sum();
             // Between Gauss nodes the polynomial exceeds them by little; twice is safe.
             2.0 * nodal * (self.mobility[element][other].abs() + step.weights.length * later)

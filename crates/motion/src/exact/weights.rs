@@ -59,12 +59,16 @@ impl Series {
             }
             list
         };
-        let rows: Vec<_> = outputs.iter().map(|o| powers(&o.row, &|row| blocks.row_times_system(row))).collect();
-        let columns: Vec<_> = inputs.iter().map(|b| powers(b, &|column| blocks.system_times_column(column))).collect();
+        let rows: Vec<_> =
+            outputs.iter().map(|o| powers(&o.row, &|row| blocks.row_times_system(row))).collect();
+        let columns: Vec<_> =
+            inputs.iter().map(|b| powers(b, &|column| blocks.system_times_column(column))).collect();
         let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
         let markov = outputs
             .iter()
-            .flat_map(|output| columns.iter().map(move |powers| powers.iter().map(|c| dot(&output.row, c)).collect()))
+            .flat_map(|output| {
+                columns.iter().map(move |powers| powers.iter().map(|c| dot(&output.row, c)).collect())
+            })
             .collect();
         Self { rate, rows, columns, markov }
     }
@@ -179,7 +183,13 @@ impl Series {
     }
 
     /// Adds `P F` of one element to a state.
-    pub fn add_force(&self, element: usize, (grading, length): (Grading, f64), force: &[f64], state: &mut [f64]) {
+    pub fn add_force(
+        &self,
+        element: usize,
+        (grading, length): (Grading, f64),
+        force: &[f64],
+        state: &mut [f64],
+    ) {
         let z = length * self.rate;
         let mut factor = length;
         for (column, at_end) in self.columns[element].iter().zip(&grading.rule().at_end[..Self::terms(z)]) {

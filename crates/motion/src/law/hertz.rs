@@ -22,7 +22,10 @@ impl HertzStop {
     /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Gap`] unless finite and not negative.
     pub fn with_gap(stiffness: f64, gap: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
-        Ok(Self { stiffness, contact: [Contact { level: super::valid_gap(gap)?, sign: 1.0, onset_exponent: 1.5 }] })
+        Ok(Self {
+            stiffness,
+            contact: [Contact { level: super::valid_gap(gap)?, sign: 1.0, onset_exponent: 1.5 }],
+        })
     }
 
     /// A stop that presses on the undeformed structure with `preload` [N].
@@ -44,8 +47,7 @@ impl HertzStop {
     /// * `poisson_ratios`: `nu_1`, `nu_2` [-].
     #[must_use]
     pub fn stiffness_of_spheres(radii: [f64; 2], moduli: [f64; 2], poisson_ratios: [f64; 2]) -> f64 {
-        let compliance: f64 =
-            (0..2).map(|i| (1.0 - poisson_ratios[i] * poisson_ratios[i]) / moduli[i]).sum();
+        let compliance: f64 = (0..2).map(|i| (1.0 - poisson_ratios[i] * poisson_ratios[i]) / moduli[i]).sum();
         let curvature: f64 = radii.iter().map(|radius| 1.0 / radius).sum();
         4.0 / 3.0 / compliance / curvature.sqrt()
     }

@@ -18,7 +18,10 @@ impl LinearStop {
     /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Gap`] unless finite and not negative.
     pub fn with_gap(stiffness: f64, gap: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
-        Ok(Self { stiffness, contact: [Contact { level: super::valid_gap(gap)?, sign: 1.0, onset_exponent: 1.0 }] })
+        Ok(Self {
+            stiffness,
+            contact: [Contact { level: super::valid_gap(gap)?, sign: 1.0, onset_exponent: 1.0 }],
+        })
     }
 
     /// A spring that presses on the undeformed structure with `preload` [N].

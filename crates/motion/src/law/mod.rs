@@ -94,7 +94,11 @@ impl Law {
 }
 
 fn positive_stiffness(found: f64) -> Result<(), LawError> {
-    if found.is_finite() && found > 0.0 { Ok(()) } else { Err(LawError::Stiffness { found, allowed: "positive" }) }
+    if found.is_finite() && found > 0.0 {
+        Ok(())
+    } else {
+        Err(LawError::Stiffness { found, allowed: "positive" })
+    }
 }
 
 fn valid_gap(found: f64) -> Result<f64, LawError> {

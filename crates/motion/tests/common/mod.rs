@@ -51,9 +51,9 @@ pub fn paper_beam() -> System {
 /// A uniform clamped-free beam of `n` modes, the first at 17.5 Hz, with a stop near its end that rides on the shaken support.
 pub fn uniform_beam(n: usize) -> System {
     let root = |i: usize| if i == 0 { 1.875_104 } else { std::f64::consts::PI * (i as f64 + 0.5) };
-    let natural_frequencies: Vec<f64> =
-        (0..n).map(|i| TAU * 17.5 * (root(i) / root(0)).powi(2)).collect();
-    let shape: Vec<f64> = (0..n).map(|i| 3.0 * (0.05 * root(i)).cos() * if i % 2 == 0 { -1.0 } else { 1.0 }).collect();
+    let natural_frequencies: Vec<f64> = (0..n).map(|i| TAU * 17.5 * (root(i) / root(0)).powi(2)).collect();
+    let shape: Vec<f64> =
+        (0..n).map(|i| 3.0 * (0.05 * root(i)).cos() * if i % 2 == 0 { -1.0 } else { 1.0 }).collect();
     let inertia: Vec<f64> = (0..n).map(|i| 0.33 / (i as f64 + 1.0).powi(2)).collect();
     let model = ReducedModel {
         damping: modal_damping(&natural_frequencies, 0.015),
