@@ -16,7 +16,7 @@ const STARTS: usize = 6;
 
 /// Finds one orbit whose minimal period is `period_multiple` excitation periods.
 ///
-/// The motion is simulated from the linear response and from several states about it; every [`PERIODS`] periods Newton's method is tried.
+/// The motion is simulated from the linear response and from several states about it; now and then Newton's method is tried.
 ///
 /// # Errors
 /// [`OrbitError::NoOrbit`] if no start leads to such an orbit.
