@@ -89,7 +89,7 @@ impl Blocks {
     }
 
     /// Block state of a modal state `[q; q']`.
-    pub fn from_modal(&self, modal: &[f64], block: &mut [f64]) {
+    pub fn of_modal(&self, modal: &[f64], block: &mut [f64]) {
         match &self.transform {
             None => block.copy_from_slice(modal),
             Some(transform) => multiply(&transform.to_blocks, modal, block),
@@ -110,7 +110,7 @@ impl Blocks {
         let mut modal = vec![0.0; 2 * n];
         modal[n..].copy_from_slice(modal_load);
         let mut block = vec![0.0; 2 * n];
-        self.from_modal(&modal, &mut block);
+        self.of_modal(&modal, &mut block);
         block
     }
 

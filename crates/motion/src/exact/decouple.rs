@@ -198,8 +198,7 @@ fn plane(
         let p = &shifted * &s;
         (p.iter().copied().collect::<Vec<f64>>(), s.iter().copied().collect::<Vec<f64>>())
     });
-    let mut ranked: Vec<(f64, (Vec<f64>, Vec<f64>))> =
-        images.map(|pair| (independence(&pair), pair)).collect();
+    let mut ranked: Vec<_> = images.map(|pair| (independence(&pair), pair)).collect();
     if copies == 1 {
         ranked.sort_by(|x, y| y.0.total_cmp(&x.0));
     }

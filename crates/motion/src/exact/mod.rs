@@ -9,6 +9,7 @@
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
 //! | `collocation.rs`, `weights.rs`, `force_step.rs`, `attempt.rs`, `step_error.rs` | one step with forces |
+//! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
 //! | `contact_phase.rs`, `event.rs`, `touching.rs` | steps from touch to release, with error control |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
@@ -25,6 +26,7 @@ mod event;
 mod flight;
 mod force_step;
 mod forecast;
+mod lanes;
 mod lu;
 mod maxima;
 mod output;
@@ -262,7 +264,7 @@ impl ExactIntegrator {
         run.slack = 0.0;
         run.release = None;
         run.state.resize(2 * n, 0.0);
-        self.blocks.from_modal(state, &mut run.state);
+        self.blocks.of_modal(state, &mut run.state);
         self.drive.add_state(0.0, -1.0, &mut run.state);
         let reused = run.sensitivity.take();
         run.sensitivity = sensitivities.then(|| {
