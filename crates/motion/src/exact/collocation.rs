@@ -13,6 +13,8 @@ use std::sync::OnceLock;
 
 use faer::{Mat, Side, linalg::solvers::DenseSolveCore};
 
+use super::lanes::dot;
+
 /// Force nodes in a step.
 pub(crate) const NODES: usize = 12;
 /// Terms of the power series; with [`REACH`] they reach rounding.
@@ -155,10 +157,6 @@ impl Rule {
         let values = self.recurrence.values(s);
         std::array::from_fn(|node| (0..NODES).map(|d| self.coefficients[d][node] * values[d]).sum())
     }
-}
-
-fn dot(x: &[f64; NODES], y: &[f64; NODES]) -> f64 {
-    x.iter().zip(y).map(|(a, b)| a * b).sum()
 }
 
 /// Derivatives of the Lagrange polynomials at their nodes: `(w_j/w_k)/(s_k - s_j)` with the barycentric weights w.

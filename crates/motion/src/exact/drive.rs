@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{block::Blocks, output::Output, secular::SecularLoad};
+use super::{block::Blocks, collocation::NODES, output::Output, secular::SecularLoad};
 use crate::{Stretch, System};
 
 /// Relative distance from resonance below which the steady solution would cost more than four digits.
@@ -149,20 +149,30 @@ impl Drive {
         }
     }
 
-    /// Particular part of output `index` (with the row `output`) at `time`.
-    pub fn value(&self, index: usize, output: &Output, time: f64) -> f64 {
-        let mut sum = 0.0;
+    /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to `values`.
+    pub fn add_values(
+        &self,
+        index: usize,
+        output: &Output,
+        (start, length): (f64, f64),
+        c: &[f64; NODES],
+        values: &mut [f64; NODES],
+    ) {
         for order in &self.orders {
-            let rotation = self.rotation(order, time);
-            let amplitude = order.outputs[index].0;
-            sum += amplitude.re * rotation.re - amplitude.im * rotation.im;
+            let amplitude = order.outputs[index].0 * self.rotation(order, start);
+            let turning = order.order * self.circular_frequency * length;
+            let [cosines, sines] = cosines_and_sines(&c.map(|c| c * turning));
+            for k in 0..NODES {
+                values[k] += amplitude.re * cosines[k] - amplitude.im * sines[k];
+            }
         }
         let n = output.row.len() / 2;
         for load in &self.secular {
-            let state = load.response(time).state;
-            sum += output.row[load.block] * state[0] + output.row[n + load.block] * state[1];
+            for (value, c) in values.iter_mut().zip(c) {
+                let state = load.response(start + c * length).state;
+                *value += output.row[load.block] * state[0] + output.row[n + load.block] * state[1];
+            }
         }
-        sum
     }
 
     /// Particular part of output `index` (with the row `output`) and its derivatives at `time`.
@@ -186,21 +196,36 @@ impl Drive {
         jet
     }
 
-    /// Derivative of the particular part of output `index` by the frequency at fixed `time`.
-    pub fn output_by_frequency(&self, index: usize, output: &Output, time: f64) -> f64 {
-        let mut sum = 0.0;
+    /// Derivatives of the particular part of output `index` by the frequency at the fixed times `start + c_k length`.
+    pub fn values_by_frequency(
+        &self,
+        index: usize,
+        output: &Output,
+        (start, length): (f64, f64),
+        c: &[f64; NODES],
+    ) -> [f64; NODES] {
+        let mut values = [0.0; NODES];
         for order in &self.orders {
-            let (value, by_frequency) = order.outputs[index];
-            let turning = c64::new(0.0, TAU * order.order * time);
-            sum += ((by_frequency + turning * value) * self.rotation(order, time)).re;
+            let (amplitude, by_frequency) = order.outputs[index];
+            let rotation = self.rotation(order, start);
+            let (amplitude, by_frequency) = (amplitude * rotation, by_frequency * rotation);
+            let turning = order.order * self.circular_frequency * length;
+            let [cosines, sines] = cosines_and_sines(&c.map(|c| c * turning));
+            for k in 0..NODES {
+                let time = TAU * order.order * (start + c[k] * length);
+                let (re, im) = (by_frequency.re - time * amplitude.im, by_frequency.im + time * amplitude.re);
+                values[k] += re * cosines[k] - im * sines[k];
+            }
         }
         let n = output.row.len() / 2;
         for load in &self.secular {
-            let response = load.response(time);
-            sum += output.row[load.block] * response.by_frequency[0]
-                + output.row[n + load.block] * response.by_frequency[1];
+            for (value, c) in values.iter_mut().zip(c) {
+                let by_frequency = load.response(start + c * length).by_frequency;
+                *value +=
+                    output.row[load.block] * by_frequency[0] + output.row[n + load.block] * by_frequency[1];
+            }
         }
-        sum
+        values
     }
 
     /// Bounds on the second and third derivative of the particular part of output `index` until `until`.
@@ -239,8 +264,41 @@ impl Drive {
     }
 }
 
+/// Cosines and sines of the angles of the nodes of a step: small ones by their series, all at once.
+fn cosines_and_sines(angles: &[f64; NODES]) -> [[f64; NODES]; 2] {
+    if angles[NODES - 1].abs() > 0.25 {
+        return [angles.map(f64::cos), angles.map(f64::sin)];
+    }
+    let squares = angles.map(|x| x * x);
+    let series =
+        |terms: [f64; 6]| squares.map(|x| terms.iter().fold(1.0, |sum, divisor| 1.0 - x / divisor * sum));
+    // Horner's scheme from the last term: 1 - x^2/(2 m - 1)(2 m) (...).
+    let cosines = series([132.0, 90.0, 56.0, 30.0, 12.0, 2.0]);
+    let sines = series([156.0, 110.0, 72.0, 42.0, 20.0, 6.0]);
+    [cosines, std::array::from_fn(|k| angles[k] * sines[k])]
+}
+
 fn complex_input(blocks: &Blocks, modal_load: &[c64]) -> Vec<c64> {
     let part = |f: fn(&c64) -> f64| blocks.input(&modal_load.iter().map(f).collect::<Vec<f64>>());
     let (re, im) = (part(|v| v.re), part(|v| v.im));
     re.into_iter().zip(im).map(|(re, im)| c64::new(re, im)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn series_of_small_angles_reach_rounding() {
+        for largest in [0.0, 1e-3, 0.1, 0.2499, 0.3, 20.0] {
+            let angles: [f64; NODES] = std::array::from_fn(|k| largest * (k + 1) as f64 / NODES as f64);
+            let [cosines, sines] = cosines_and_sines(&angles);
+            for k in 0..NODES {
+                assert!(
+                    (cosines[k] - angles[k].cos()).abs() < 3e-16
+                        && (sines[k] - angles[k].sin()).abs() < 2e-16
+                );
+            }
+        }
+    }
 }

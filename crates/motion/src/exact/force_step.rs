@@ -6,6 +6,7 @@
 use super::{
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
+    lanes::{dot, vectorised},
     lu::{FixedLu, SmallLu},
     output::Output,
     sensitivity::{ColumnTail, Sensitivity},
@@ -74,9 +75,8 @@ impl ForceStep {
                 self.readings.push(readings);
                 series.free_values(&readings, self.grading(), self.weights.length)
             };
-            for (k, value) in free.iter_mut().enumerate() {
-                *value += drive.value(e, &outputs[e], self.start + self.node_time(k));
-            }
+            let span = (self.start, self.weights.length);
+            drive.add_values(e, &outputs[e], span, &self.grading().rule().c, &mut free);
             self.free.extend_from_slice(&free);
         }
     }
@@ -169,7 +169,7 @@ impl ForceStep {
                 for b in 0..count {
                     let row = &self.weights.convolution[a * count + b][k * NODES..(k + 1) * NODES];
                     let force = &self.force[b * NODES..(b + 1) * NODES];
-                    defect -= row.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+                    defect -= dot(row, force);
                 }
                 self.correction[a * NODES + k] = defect;
             }
@@ -221,7 +221,7 @@ impl ForceStep {
                 continue;
             }
             for (x, weights) in state.iter_mut().zip(self.weights.to_state[a].chunks_exact(NODES)) {
-                *x += weights.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+                *x += dot(weights, force);
             }
         }
     }
@@ -238,13 +238,13 @@ impl ForceStep {
         let size = self.active.len() * NODES;
         self.work.clear();
         self.work.resize(size * columns, 0.0);
-        let times: [f64; NODES] = std::array::from_fn(|k| self.start + self.node_time(k));
+        let (span, c) = ((self.start, self.weights.length), &self.grading().rule().c);
         for (a, &e) in self.active.iter().enumerate() {
             let target = &mut self.work[a * NODES * columns..(a + 1) * NODES * columns];
             sensitivity.read(&self.weights.rows[a], target);
-            for (k, &time) in times.iter().enumerate() {
-                target[k * columns + sensitivity.frequency_column()] +=
-                    drive.output_by_frequency(e, &outputs[e], time);
+            let by_frequency = drive.values_by_frequency(e, &outputs[e], span, c);
+            for (row, value) in target.chunks_exact_mut(columns).zip(by_frequency) {
+                row[sensitivity.frequency_column()] += value;
             }
         }
         if self.active.len() == 1 {
@@ -252,9 +252,14 @@ impl ForceStep {
         } else {
             self.lu.solve(&mut self.work, columns);
         }
-        for (row, slope) in self.work.chunks_exact_mut(columns).zip(&self.slope) {
-            row.iter_mut().for_each(|value| *value *= slope);
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for (row, slope) in self.work.chunks_exact_mut(columns).zip(&self.slope) {
+                    row.iter_mut().for_each(|value| *value *= slope);
+                }
+            },
+        );
         Ok(())
     }
 
@@ -311,8 +316,7 @@ impl ForceStep {
     pub fn tail(&self, values: &[f64]) -> Tail {
         let coefficients = &self.grading().rule().coefficients;
         let pair = |degree: usize| -> f64 {
-            let of =
-                |row: &[f64; NODES]| row.iter().zip(values).map(|(c, value)| c * value).sum::<f64>().abs();
+            let of = |row: &[f64; NODES]| dot(row, values).abs();
             of(&coefficients[degree]) + of(&coefficients[degree - 1])
         };
         Tail { highest: pair(NODES - 1), middle: pair(NODES / 2) }

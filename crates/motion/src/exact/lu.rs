@@ -1,5 +1,7 @@
 //! A small dense LU factorisation for the forces of a step.
 
+use super::lanes::vectorised;
+
 /// `P A = L U` of a small square matrix, row by row.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SmallLu {
@@ -91,6 +93,14 @@ impl<const N: usize> FixedLu<N> {
     /// Factorises a matrix given by rows; `None` if it is singular.
     #[must_use]
     pub fn factorise(&mut self, matrix: [[f64; N]; N]) -> Option<()> {
+        vectorised(
+            #[inline(always)]
+            || self.eliminate(matrix),
+        )
+    }
+
+    #[inline(always)]
+    fn eliminate(&mut self, matrix: [[f64; N]; N]) -> Option<()> {
         self.upper = matrix;
         for k in 0..N {
             let pivot = (k + 1..N).fold(k, |best, row| {
@@ -106,14 +116,11 @@ impl<const N: usize> FixedLu<N> {
                 return None;
             }
             self.inverse[k] = 1.0 / top[k];
-            // Entries left of the diagonal are not read again: whole groups of four are cheaper than exact lengths.
-            let first = k & !3;
+            // Entries left of the diagonal are not read again: whole rows are cheaper than exact lengths.
             for i in k + 1..N {
                 let factor = self.upper[i][k] * self.inverse[k];
                 self.lower[i][k] = factor;
-                for (entry, above) in self.upper[i][first..].iter_mut().zip(&top[first..]) {
-                    *entry -= factor * above;
-                }
+                self.upper[i].iter_mut().zip(&top).for_each(|(entry, above)| *entry -= factor * above);
             }
         }
         Some(())
@@ -145,6 +152,14 @@ impl<const N: usize> FixedLu<N> {
                 upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
             }
         }
+        vectorised(
+            #[inline(always)]
+            || self.substitute(right, columns),
+        );
+    }
+
+    #[inline(always)]
+    fn substitute(&self, right: &mut [f64], columns: usize) {
         for i in 1..N {
             let (known, open) = right.split_at_mut(i * columns);
             let target = &mut open[..columns];

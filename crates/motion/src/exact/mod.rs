@@ -9,6 +9,7 @@
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
 //! | `collocation.rs`, `weights.rs`, `force_step.rs`, `attempt.rs`, `step_error.rs` | one step with forces |
+//! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
 //! | `contact_phase.rs`, `event.rs`, `touching.rs` | steps from touch to release, with error control |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
@@ -25,6 +26,7 @@ mod event;
 mod flight;
 mod force_step;
 mod forecast;
+mod lanes;
 mod lu;
 mod maxima;
 mod output;

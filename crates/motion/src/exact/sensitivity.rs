@@ -5,6 +5,7 @@ use faer::Mat;
 use super::{
     block::{Blocks, Propagator},
     collocation::NODES,
+    lanes::{add_multiple, vectorised},
     step_error::Tail,
 };
 
@@ -66,30 +67,46 @@ impl Sensitivity {
         let columns = self.columns;
         let (positions, velocities) = self.values.split_at_mut(half);
         let rows = positions.chunks_exact_mut(columns).zip(velocities.chunks_exact_mut(columns));
-        for ((p, s), propagator) in rows.zip(propagators) {
-            for (p, s) in p.iter_mut().zip(s) {
-                (*p, *s) = propagator.apply(*p, *s);
-            }
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for ((p, s), propagator) in rows.zip(propagators) {
+                    for (p, s) in p.iter_mut().zip(s) {
+                        (*p, *s) = propagator.apply(*p, *s);
+                    }
+                }
+            },
+        );
     }
 
     /// `X V` for the rows of one element, into `[k * columns + column]`.
     pub fn read(&self, rows: &[f64], into: &mut [f64]) {
-        for (row, weights) in self.values.chunks_exact(self.columns).zip(rows.chunks_exact(NODES)) {
-            for (target, weight) in into.chunks_exact_mut(self.columns).zip(weights) {
-                target.iter_mut().zip(row).for_each(|(t, v)| *t += weight * v);
-            }
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for (row, weights) in self.values.chunks_exact(self.columns).zip(rows.chunks_exact(NODES)) {
+                    for (target, &weight) in into.chunks_exact_mut(self.columns).zip(weights) {
+                        add_multiple(target, weight, row);
+                    }
+                }
+            },
+        );
     }
 
     /// Adds `P dF` for one element.
     pub fn add(&mut self, to_state: &[f64], force: &[f64]) {
         let columns = self.columns;
-        for (row, weights) in self.values.chunks_exact_mut(columns).zip(to_state.chunks_exact(NODES)) {
-            for (source, weight) in force.chunks_exact(columns).zip(weights) {
-                row.iter_mut().zip(source).for_each(|(v, f)| *v += weight * f);
-            }
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for (row, weights) in self.values.chunks_exact_mut(columns).zip(to_state.chunks_exact(NODES))
+                {
+                    for (source, &weight) in force.chunks_exact(columns).zip(weights) {
+                        add_multiple(row, weight, source);
+                    }
+                }
+            },
+        );
     }
 
     /// Largest velocity of each column.

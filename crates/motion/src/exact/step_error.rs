@@ -52,8 +52,8 @@ struct Errors {
     unresolved: f64,
 }
 
-/// Parts of blocks in the polynomials below this are rounding.
-const NEGLIGIBLE: f64 = 1e-14;
+/// Turning of a block over a step, in radians, below which the nodes resolve it to rounding.
+const RESOLVED: f64 = 5.5;
 
 impl ExactIntegrator {
     /// Largest velocity that an output can reach from the present state.
@@ -112,9 +112,10 @@ impl ExactIntegrator {
 
     /// Sum of `amplitude(i)` over the blocks, each times what of it the nodes do not resolve.
     fn unresolved(&self, amplitude: impl Fn(usize) -> f64) -> f64 {
+        let length = self.step.weights.length;
         let part = |(i, rate): (usize, &f64)| {
-            let part = highest_part(rate * self.step.weights.length, 2 * NODES);
-            if part > NEGLIGIBLE { part * amplitude(i) } else { 0.0 }
+            let z = rate * length;
+            if z > RESOLVED { highest_part(z, 2 * NODES) * amplitude(i) } else { 0.0 }
         };
         self.rates.iter().enumerate().map(part).sum()
     }

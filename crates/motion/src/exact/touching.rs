@@ -44,6 +44,14 @@ impl ExactIntegrator {
         bounds.third = f64::INFINITY;
         let mut time = 0.0;
         let mut jet = run.start[element].jet;
+        let start = clearance_of(jet, c.level, c.sign);
+        // A release that ends again before it rises above what its own location left undecided.
+        if start.value <= 0.0 && start.curvature < 0.0 {
+            let highest = start.value - 0.5 * start.slope * start.slope / start.curvature;
+            if highest <= bounds.margin {
+                return Some(0.0);
+            }
+        }
         for _ in 0..MAX_LOOKS {
             let step = match look(clearance_of(jet, c.level, c.sign), bounds) {
                 Look::Contact => return Some(time),

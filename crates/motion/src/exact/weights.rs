@@ -9,6 +9,7 @@ use super::{
     block::{Blocks, Propagator},
     collocation::{Grading, NODES, REACH, TERMS, gauss_legendre},
     drive::Jet,
+    lanes::{add_multiple, dot, vectorised},
     output::Output,
 };
 
@@ -109,14 +110,14 @@ impl Series {
         let count = self.columns.len();
         for m in 0..terms {
             let row = &self.rows[output][m + derivative];
-            let free: f64 = row.iter().zip(state).map(|(r, x)| r * x).sum();
+            let free = dot(row, state);
             (0..NODES).for_each(|k| values[k] += powers[k] * free);
             (0..NODES).for_each(|k| powers[k] *= z * rule.c[k] / (m + 1) as f64);
             for (a, &e) in active.iter().enumerate() {
                 let weight = factor * self.markov[output * count + e][m + derivative];
                 let force = &force[a * NODES..(a + 1) * NODES];
                 for (value, row) in values.iter_mut().zip(rule.at_nodes[m].chunks_exact(NODES)) {
-                    *value += weight * row.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+                    *value += weight * dot(row, force);
                 }
             }
             factor *= z;
@@ -147,13 +148,18 @@ impl Series {
         for (a, &e) in active.iter().enumerate() {
             for (b, &f) in active.iter().enumerate() {
                 let convolution = &mut into.convolution[a * active.len() + b];
-                convolution.fill(0.0);
-                let mut factor = length;
-                for m in 0..terms {
-                    let weight = factor * self.markov[e * count + f][m];
-                    convolution.iter_mut().zip(&rule.at_nodes[m]).for_each(|(w, r)| *w += weight * r);
-                    factor *= z;
-                }
+                let (markov, at_nodes) = (&self.markov[e * count + f], &rule.at_nodes[..terms]);
+                vectorised(
+                    #[inline(always)]
+                    || {
+                        convolution.fill(0.0);
+                        let mut factor = length;
+                        for (rule, markov) in at_nodes.iter().zip(markov) {
+                            add_multiple(convolution, factor * markov, rule);
+                            factor *= z;
+                        }
+                    },
+                );
             }
         }
     }
@@ -168,17 +174,22 @@ impl Series {
         step.resize(active.len(), size);
         step.complete = true;
         for (a, &e) in active.iter().enumerate() {
-            self.node_rows(e, rule.c, z, terms, &mut step.rows[a]);
-            let to_state = &mut step.to_state[a];
-            to_state.fill(0.0);
-            let mut factor = length;
-            for (column, at_end) in self.columns[e].iter().zip(&rule.at_end[..terms]) {
-                let weights = at_end.map(|weight| factor * weight);
-                for (target, &entry) in to_state.chunks_exact_mut(NODES).zip(column) {
-                    target.iter_mut().zip(&weights).for_each(|(t, w)| *t += w * entry);
-                }
-                factor *= z;
-            }
+            let (rows, to_state) = (&mut step.rows[a], &mut step.to_state[a]);
+            vectorised(
+                #[inline(always)]
+                || {
+                    self.node_rows(e, rule.c, z, terms, rows);
+                    to_state.fill(0.0);
+                    let mut factor = length;
+                    for (column, at_end) in self.columns[e].iter().zip(&rule.at_end[..terms]) {
+                        let weights = at_end.map(|weight| factor * weight);
+                        for (target, &entry) in to_state.chunks_exact_mut(NODES).zip(column) {
+                            add_multiple(target, entry, &weights);
+                        }
+                        factor *= z;
+                    }
+                },
+            );
         }
     }
 
@@ -193,8 +204,7 @@ impl Series {
         let z = length * self.rate;
         let mut factor = length;
         for (column, at_end) in self.columns[element].iter().zip(&grading.rule().at_end[..Self::terms(z)]) {
-            let weight = factor * at_end.iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
-            state.iter_mut().zip(column).for_each(|(x, c)| *x += weight * c);
+            add_multiple(state, factor * dot(at_end, force), column);
             factor *= z;
         }
     }
@@ -203,9 +213,14 @@ impl Series {
     pub fn readings(&self, output: usize, state: &[f64], length: f64) -> Readings {
         let terms = Self::terms(length * self.rate) + 2;
         let mut readings = [0.0; TERMS + 2];
-        for (reading, row) in readings.iter_mut().zip(&self.rows[output]).take(terms) {
-            *reading = row.iter().zip(state).map(|(r, x)| r * x).sum();
-        }
+        vectorised(
+            #[inline(always)]
+            || {
+                for (reading, row) in readings.iter_mut().zip(&self.rows[output]).take(terms) {
+                    *reading = dot(row, state);
+                }
+            },
+        );
         readings
     }
 
@@ -238,7 +253,7 @@ impl Series {
             power *= z / (m + 1) as f64;
             for (a, &e) in active.iter().enumerate() {
                 let force = &force[a * NODES..(a + 1) * NODES];
-                let moment = factor * rule.at_end[m].iter().zip(force).map(|(w, f)| w * f).sum::<f64>();
+                let moment = factor * dot(&rule.at_end[m], force);
                 let markov = &self.markov[output * count + e];
                 (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
             }
@@ -247,6 +262,7 @@ impl Series {
         Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
     }
 
+    #[inline(always)]
     fn node_rows(&self, element: usize, c: [f64; NODES], z: f64, terms: usize, rows: &mut [f64]) {
         rows.fill(0.0);
         let mut powers = [1.0; NODES];
