@@ -47,9 +47,9 @@ pub fn find_orbits(
         followed: Vec::new(),
     };
     for start in starting_states(system, response, frequency_hz, settings)? {
-        search.from_motion(&start)?;
+        search.search_motion(&start)?;
     }
-    search.from_branches(range_hz)?;
+    search.search_branches(range_hz)?;
     let mut found = search.found;
     found.sort_by(|x, y| {
         y.stable().cmp(&x.stable()).then(y.maxima.displacement.total_cmp(&x.maxima.displacement))
@@ -102,7 +102,7 @@ impl Search<'_> {
     }
 
     /// Where a motion settles, and its near-returns.
-    fn from_motion(&mut self, start: &[f64]) -> Result<(), OrbitError> {
+    fn search_motion(&mut self, start: &[f64]) -> Result<(), OrbitError> {
         let mut integrator = integrator(self.system, self.response, self.settings)?;
         let mut state = start.to_vec();
         if self.period_multiple == 1 {
@@ -133,7 +133,7 @@ impl Search<'_> {
     }
 
     /// Crossings of the frequency by the branches of all orbits found, those found on the way included.
-    fn from_branches(&mut self, range_hz: (f64, f64)) -> Result<(), OrbitError> {
+    fn search_branches(&mut self, range_hz: (f64, f64)) -> Result<(), OrbitError> {
         if self.found.is_empty() {
             for start in self.start_elsewhere(range_hz) {
                 self.follow(&start, range_hz)?;

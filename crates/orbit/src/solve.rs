@@ -150,7 +150,7 @@ pub(crate) fn has_minimal_period(
         let stretch = Stretch { frequency_hz: solution.frequency_hz, start: 0.0, end: 1.0 };
         state = integrator.advance(&stretch, &state)?;
         let difference: Vec<f64> = state.iter().zip(&solution.nodes[0]).map(|(a, b)| a - b).collect();
-        if multiple % cycle == 0 && scale.norm(&difference) < 1e-6 * scale.norm(&state).max(1e-3) {
+        if multiple.is_multiple_of(cycle) && scale.norm(&difference) < 1e-6 * scale.norm(&state).max(1e-3) {
             return Ok(false);
         }
     }
