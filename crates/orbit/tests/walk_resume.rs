@@ -1,4 +1,5 @@
 //! A walk that is stored and taken up again goes on with the same bits.
+#![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::HertzStop};
