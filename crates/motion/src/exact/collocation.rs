@@ -242,6 +242,12 @@ impl Recurrence {
     }
 }
 
+/// Sixteen nodes and weights of Gauss-Legendre on [0, 1], made once.
+pub(crate) fn gauss_sixteen() -> &'static [(f64, f64)] {
+    static SIXTEEN: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
+    SIXTEEN.get_or_init(|| gauss_legendre(16))
+}
+
 /// Nodes and weights of Gauss-Legendre on [0, 1], by Newton's method on the Legendre polynomial.
 pub(crate) fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
     let node = |i: usize| {

@@ -314,6 +314,8 @@ struct FlightFunction<'a> {
     rows: [Vec<f64>; 3],
     /// Bound on the second derivative of the function.
     bound: f64,
+    /// Bound on the third derivative of the function; infinite where none is known.
+    third: f64,
     /// Bound on the function.
     largest: f64,
 }
@@ -333,13 +335,15 @@ impl<'a> FlightFunction<'a> {
                 |i: usize| (blocks.stiffness[i] * flown.state[i].powi(2) + flown.state[n + i].powi(2)).sqrt();
             (0..n).map(|i| factors[i] * norm(i)).sum::<f64>()
         };
-        let second = energy(&output.second_bound) + drive.bounds(response, output, until).0;
-        let (bound, largest) = if derivative == 0 {
-            (second, f64::INFINITY)
+        let driven = drive.bounds(response, output, until);
+        let second = energy(&output.second_bound) + driven.0;
+        let (bound, third, largest) = if derivative == 0 {
+            (second, energy(&output.third_bound) + driven.1, f64::INFINITY)
         } else {
-            (energy(&output.fourth_bound) + drive.fourth_bound(response, output, until), second)
+            let fourth = energy(&output.fourth_bound) + drive.fourth_bound(response, output, until);
+            (fourth, f64::INFINITY, second)
         };
-        Self { integrator, flown, derivative, rows: [row, slope, curvature], bound, largest }
+        Self { integrator, flown, derivative, rows: [row, slope, curvature], bound, third, largest }
     }
 
     /// Function and its first two derivatives at `time` after the start of the flight.
@@ -409,6 +413,8 @@ impl<'a> FlightFunction<'a> {
         let mut value = self.at(middle);
         let at_middle = value.0.abs();
         *best = best.max(at_middle);
+        // Concave all over the interval: Newton's method finds the one maximum, or an end is it.
+        let concave = value.0.signum() * value.2 + 0.5 * self.third * (b - a) < 0.0;
         for _ in 0..8 {
             if value.0 * value.2 >= 0.0 {
                 break;
@@ -423,6 +429,9 @@ impl<'a> FlightFunction<'a> {
             if step.abs() <= 1e-7 * (b - a) {
                 break;
             }
+        }
+        if concave {
+            return;
         }
         self.refine((a, at_a), (middle, at_middle), best);
         self.refine((middle, at_middle), (b, at_b), best);

@@ -3,7 +3,7 @@
 use super::{
     ExactIntegrator,
     block::Propagator,
-    collocation::{NODES, gauss_legendre},
+    collocation::{NODES, gauss_sixteen},
     drive::Jet,
 };
 
@@ -30,7 +30,7 @@ impl ExactIntegrator {
             let force = |a: usize| (0..NODES).map(|k| lagrange[k] * step.force[a * NODES + k]).sum::<f64>();
             (0..step.active.len()).map(force).collect::<Vec<f64>>()
         };
-        for (x, weight) in gauss_legendre(16) {
+        for &(x, weight) in gauss_sixteen() {
             let (c, slope) = grading.map(end * x);
             let measure = weight * end * slope * step.weights.length;
             let delay = time - c * step.weights.length;

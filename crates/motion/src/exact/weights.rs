@@ -7,7 +7,7 @@
 
 use super::{
     block::{Blocks, Propagator},
-    collocation::{Grading, NODES, REACH, TERMS, gauss_legendre},
+    collocation::{Grading, NODES, REACH, TERMS, gauss_sixteen},
     drive::Jet,
     lanes::{add_multiple, dot, vectorised},
     output::Output,
@@ -84,7 +84,7 @@ impl Series {
         let markov = &self.markov[e * self.columns.len() + f];
         let z = time * self.rate;
         let mut sum = 0.0;
-        for m in (derivative..=TERMS).rev() {
+        for m in (derivative..=(Self::terms(z) + derivative).min(TERMS)).rev() {
             sum = markov[m] + sum * z / (m - derivative + 1) as f64;
         }
         sum * self.rate.powi(derivative as i32)
@@ -348,7 +348,7 @@ fn block_integrals((k, c): (f64, f64), grading: Grading, end: f64, length: f64) 
     let panels = ((k.sqrt() + c) * length * upper / 3.0).ceil().max(1.0) as usize * 2;
     let mut integrals = [[0.0; 4]; NODES];
     for panel in 0..panels {
-        for (x, weight) in gauss_legendre(16) {
+        for &(x, weight) in gauss_sixteen() {
             let s = end * (panel as f64 + x) / panels as f64;
             let (position, slope) = grading.map(s);
             let propagator = Propagator::new(k, c, length * (upper - position));
