@@ -72,15 +72,13 @@ impl BranchWalk {
         let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
         let mut reader = Reader { bytes: journal };
         let length = follower.current().point.len();
-        let mut points = Vec::new();
         while !reader.bytes.is_empty() {
             let point = reader.point().ok_or(OrbitError::Checkpoint)?;
             // What was walked with fewer segments is not in the memory of the present follower.
-            if point.point.len() == length {
-                points.push(point);
+            if point.point.len() == length && point.tangent.len() == length {
+                follower.remember(&point);
             }
         }
-        points.iter().for_each(|point| follower.remember(point));
         Ok(Self { problem, follower, journal: Vec::new(), settings: *settings, range_hz })
     }
 }
@@ -98,9 +96,10 @@ fn read(
     let period_multiple = u32::try_from(reader.word()?).ok()?;
     let segments = usize::try_from(reader.word()?).ok()?;
     let scale = StateScale::from_values(reader.floats()?);
-    if scale.values().len() != 2 * system.dof() {
+    if scale.values().len() != 2 * system.dof() || segments == 0 {
         return None;
     }
+    let point_length = segments * scale.values().len() + 1;
     let integrator = match integrator(system, response, settings) {
         Ok(integrator) => integrator,
         Err(error) => return Some(Err(error)),
@@ -112,6 +111,15 @@ fn read(
         nodes.push(Node { point: reader.floats()?, tangent: reader.floats()? });
     }
     let history = History { nodes, used };
+    let fits = |values: &[f64]| values.len() == point_length;
+    let points = [&current.point, &current.tangent, &start.point, &start.tangent];
+    let of_nodes = history.nodes.iter().flat_map(|node| [&node.point, &node.tangent]);
+    if used == 0
+        || used > history.nodes.len()
+        || !points.into_iter().chain(of_nodes).all(|values| fits(values))
+    {
+        return None;
+    }
     let state = Checkpoint {
         current,
         start,

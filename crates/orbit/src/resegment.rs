@@ -1,5 +1,8 @@
 //! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
 //!
+//! The new follower keeps neither the memory nor the start of the old one: a loop that is walked past a re-cut is recognised as closed
+//! when it comes back to the place of the re-cut, and its first part may be walked twice.
+//!
 //! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k + dZ/df t_f`. The walk goes on
 //! along the tangent, so its direction is kept; the orientation of the path does not depend on the number of segments.
 
@@ -28,8 +31,11 @@ impl BranchWalk {
         let direction = Direction::Along(&tangent);
         match Follower::start(&mut self.problem, &point, direction, range, settings) {
             Ok(follower) => self.follower = follower,
-            // The walk stays where it was; its reason to stop is told.
-            Err(_) => return Ok(false),
+            // The walk stays where it was; its own reason to stop is told.
+            Err(_) => {
+                self.problem.set_segments(segments / FACTOR);
+                return Ok(false);
+            }
         }
         self.journal.push(self.follower.current().clone());
         Ok(true)

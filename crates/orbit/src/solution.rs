@@ -111,6 +111,12 @@ pub enum StopReason {
     },
     /// The branch came back to its start.
     Closed,
+    /// The branch came to the flip of a branch of shorter period, beyond which it returns as its own copy, shifted by excitation
+    /// periods.
+    ShorterPeriod {
+        /// Where [Hz].
+        frequency_hz: f64,
+    },
     /// The budget of solutions is used up.
     Budget {
         /// Number of solutions.
@@ -133,6 +139,13 @@ pub enum StopReason {
         frequency_hz: f64,
         /// Arc length of the stretch that was met.
         met_arc_length: f64,
+    },
+    /// Another reason of the path.
+    Other {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// What the path said.
+        message: String,
     },
     /// The motion could not be computed.
     Motion {

@@ -138,23 +138,37 @@ pub(crate) fn nodes_from(
     Ok(nodes)
 }
 
-/// Whether the orbit through `state` closes only after all its `period_multiple` excitation periods.
+/// Whether the orbit closes only after all its excitation periods.
 pub(crate) fn has_minimal_period(
     integrator: &mut ExactIntegrator,
     scale: &StateScale,
     solution: &PeriodicSolution,
 ) -> Result<bool, OrbitError> {
+    // What is wrong with the start grows with the multiplier.
+    let largest = solution.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+    let distance = distance_to_shorter_period(integrator, scale, solution)?;
+    Ok(distance >= 1e-6 * (1e-3 * largest).max(1.0))
+}
+
+/// Smallest distance of the state after a part of the orbit's periods that divides it from the state at the start, relative to the orbit;
+/// infinite for an orbit of one excitation period.
+pub(crate) fn distance_to_shorter_period(
+    integrator: &mut ExactIntegrator,
+    scale: &StateScale,
+    solution: &PeriodicSolution,
+) -> Result<f64, OrbitError> {
     let multiple = solution.period_multiple;
     let mut state = solution.nodes[0].clone();
+    let mut smallest = f64::INFINITY;
     for cycle in 1..multiple {
         let stretch = Stretch { frequency_hz: solution.frequency_hz, start: 0.0, end: 1.0 };
         state = integrator.advance(&stretch, &state)?;
-        let difference: Vec<f64> = state.iter().zip(&solution.nodes[0]).map(|(a, b)| a - b).collect();
-        if multiple.is_multiple_of(cycle) && scale.norm(&difference) < 1e-6 * scale.norm(&state).max(1e-3) {
-            return Ok(false);
+        if multiple.is_multiple_of(cycle) {
+            let difference: Vec<f64> = state.iter().zip(&solution.nodes[0]).map(|(a, b)| a - b).collect();
+            smallest = smallest.min(scale.norm(&difference) / scale.norm(&state).max(1e-3));
         }
     }
-    Ok(true)
+    Ok(smallest)
 }
 
 /// Corrects an orbit near `state` at a fixed frequency.

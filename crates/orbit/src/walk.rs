@@ -6,8 +6,12 @@ use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange, Se
 use crate::{
     BranchRow, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
     shooting::ShootingProblem,
-    solve::{integrator, nodes_from, solution, state_scale},
+    solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
 };
+
+/// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
+/// about the square of this in frequency.
+const MERGED: f64 = 1e-3;
 
 /// One side of a branch, followed from its start.
 ///
@@ -60,9 +64,30 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`].
     pub fn start_row(&mut self) -> Result<BranchRow, OrbitError> {
+        evaluate(&mut self.problem, &self.follower.current().point)?;
         let mut row = self.row()?;
         row.events.start = true;
         Ok(row)
+    }
+
+    /// Whether the present point is where a branch of shorter period flips.
+    fn meets_shorter_period(&mut self) -> bool {
+        let multiple = self.problem.period_multiple();
+        if multiple == 1 || !self.follower.current().events.branch_point {
+            return false;
+        }
+        let point = &self.follower.current().point;
+        let orbit = PeriodicSolution {
+            frequency_hz: self.follower.current().parameter(),
+            period_multiple: multiple,
+            nodes: self.problem.nodes(point),
+            floquet_multipliers: Vec::new(),
+            residual: 0.0,
+            error_estimate: 0.0,
+            maxima: crate::OrbitMaxima::default(),
+        };
+        let scale = self.problem.scale().clone();
+        distance_to_shorter_period(self.problem.integrator(), &scale, &orbit).is_ok_and(|d| d < MERGED)
     }
 
     /// Goes to the next solution and appends its row; or says why the walk has ended.
@@ -70,6 +95,9 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
     pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
+        if self.meets_shorter_period() {
+            return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
+        }
         match self.advance()? {
             None => match self.row() {
                 Ok(row) => {
@@ -96,8 +124,10 @@ impl BranchWalk {
                 StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
                     if self.settings.segments == Segments::Automatic =>
                 {
-                    if !self.resegment()? {
-                        return Ok(Some(reason));
+                    match self.resegment() {
+                        Ok(true) => {}
+                        Ok(false) | Err(OrbitError::Motion(_)) => return Ok(Some(reason)),
+                        Err(error) => return Err(error),
                     }
                 }
                 StepOutcome::Stopped(reason) => return Ok(Some(reason)),
@@ -110,6 +140,9 @@ impl BranchWalk {
         &mut self,
         states: &mut Vec<(f64, Vec<f64>)>,
     ) -> Result<Option<StopReason>, OrbitError> {
+        if self.meets_shorter_period() {
+            return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
+        }
         match self.advance()? {
             None => {
                 let current = self.follower.current();
@@ -129,7 +162,9 @@ impl BranchWalk {
     /// The row of the point at which the problem was evaluated last.
     fn row(&mut self) -> Result<BranchRow, OrbitError> {
         let current = self.follower.current();
-        let solution = solution(&mut self.problem, &current.point, current.correction_norm)?;
+        // The path measures in hertz, the solution relative to the orbit.
+        let error_estimate = current.correction_norm / hertz_per_norm(self.range_hz);
+        let solution = solution(&mut self.problem, &current.point, error_estimate)?;
         let events = Events {
             fold: current.events.fold,
             branch_point: current.events.branch_point,
@@ -154,7 +189,10 @@ impl BranchWalk {
                 let message = self.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
                 StopReason::Motion { frequency_hz: parameter, message }
             }
-            _ => StopReason::Budget { solutions: self.follower.counters().accepted as usize },
+            hammerbeam_path::StopReason::Budget => {
+                StopReason::Budget { solutions: self.follower.counters().accepted as usize }
+            }
+            other => StopReason::Other { frequency_hz, message: other.to_string() },
         }
     }
 }

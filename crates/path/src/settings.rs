@@ -116,7 +116,7 @@ impl Settings {
 
     /// Correction that may stay unapplied after a step of length `h`.
     pub(crate) fn tolerance_at(&self, step: f64) -> f64 {
-        self.correction_tolerance.min((0.01 * step).max(self.correction_floor))
+        self.correction_tolerance.min(0.01 * step).max(self.correction_floor)
     }
 
     /// Correction that may stay unapplied where corrections stop shrinking.

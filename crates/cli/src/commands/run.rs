@@ -111,8 +111,6 @@ fn branch_document(branch: &BranchSummary) -> Value {
         "stable_solutions": branch.stable,
         "frequency_hz": branch.range_hz,
         "folds": branch.folds,
-        "flips": branch.flips,
-        "neimark_sackers": branch.neimark_sackers,
         "branch_points": branch.branch_points,
         "grazings": branch.grazings,
         "peaks": branch.peaks.iter().map(peak).collect::<Vec<_>>(),
@@ -129,8 +127,8 @@ fn branch_text(branch: &BranchSummary) -> String {
             branch.record.id, branch.record.period_multiple, branch.solutions, branch.stable
         ),
         format!(
-            "  folds {}, flips {}, Neimark-Sacker points {}, branch points {}, grazings {}",
-            branch.folds, branch.flips, branch.neimark_sackers, branch.branch_points, branch.grazings
+            "  folds {}, branch points {}, grazings {}",
+            branch.folds, branch.branch_points, branch.grazings
         ),
     ];
     let mut peaks = branch.peaks.clone();

@@ -12,6 +12,9 @@ const COMMIT_AFTER: Duration = Duration::from_millis(200);
 /// or when there are so many of them.
 const COMMIT_AT: usize = 2000;
 
+/// A walk, or why it could not begin.
+type Opened<'s> = Result<Box<dyn Walk + 's>, StoredReason>;
+
 /// One side of a branch, from where the store has it.
 pub(super) struct Follow<'a> {
     pub store: &'a mut Store,
@@ -27,7 +30,15 @@ impl Follow<'_> {
     pub(super) fn run(&mut self, done: &mut Done, observer: &mut dyn Observer) -> Result<Ended, RunError> {
         let mut stored = self.store.walk(self.branch, self.side)?.solutions;
         let solver = self.solver;
-        let mut walk = self.open(solver)?;
+        let mut walk = match self.open(solver)? {
+            Ok(walk) => walk,
+            Err(reason) => {
+                // Told as the end of this side; the other branches go on.
+                self.store.append(self.branch, self.side, &[], Continuation::Ended(&reason))?;
+                observer.walk_ended(self.branch, self.side, &reason);
+                return Ok(Ended::Finished);
+            }
+        };
         loop {
             let (rows, reason) = self.stretch(walk.as_mut(), stored, done, observer)?;
             stored += rows.len() as u64;
@@ -43,14 +54,15 @@ impl Follow<'_> {
     }
 
     /// The walk where the store has left it.
-    fn open<'s>(&self, solver: &'s dyn Solver) -> Result<Box<dyn Walk + 's>, RunError> {
+    fn open<'s>(&self, solver: &'s dyn Solver) -> Result<Opened<'s>, RunError> {
         if let Some(memory) = self.store.checkpoint(self.branch, self.side)? {
             return solver
                 .resume(&memory.checkpoint, &memory.journal)
+                .map(Ok)
                 .map_err(|message| self.failed(message));
         }
         let start = self.store.solution(self.branch, Side::Up, 0)?;
-        solver.begin(&start, self.side).map_err(|message| self.failed(message))
+        Ok(solver.begin(&start, self.side).map_err(|message| StoredReason::not_begun(&message)))
     }
 
     fn failed(&self, message: String) -> RunError {

@@ -108,6 +108,16 @@ impl Store {
 }
 
 impl StoredReason {
+    /// A walk that could not begin at its start.
+    #[must_use]
+    pub fn not_begun(message: &str) -> Self {
+        Self {
+            kind: "not-begun".to_owned(),
+            frequency_hz: None,
+            message: format!("the walk could not begin: {message}"),
+        }
+    }
+
     /// The reason, as it is stored.
     #[must_use]
     pub fn of(reason: &StopReason) -> Self {
@@ -116,6 +126,11 @@ impl StoredReason {
                 ("range-end", Some(*frequency_hz), format!("end of the frequency range at {frequency_hz} Hz"))
             }
             StopReason::Closed => ("closed", None, "the branch came back to its start".to_owned()),
+            StopReason::ShorterPeriod { frequency_hz } => (
+                "shorter-period",
+                Some(*frequency_hz),
+                format!("flip of a branch of shorter period at {frequency_hz:.6} Hz"),
+            ),
             StopReason::Budget { solutions } => {
                 ("budget", None, format!("the budget of {solutions} solutions is used up"))
             }
