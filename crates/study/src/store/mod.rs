@@ -175,7 +175,7 @@ impl StoredReason {
     /// Whether the walk ended where it should, and not early.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.is_closed() || self.kind == "range-end"
+        self.is_closed() || ["range-end", "shorter-period"].contains(&self.kind.as_str())
     }
 }
 
