@@ -7,9 +7,13 @@ use super::{
     weights::StepWeights,
 };
 
+/// Fourth part of an octave: lengths that are proposed with some caution may be exceeded by half of it.
+const GRID_SLACK: f64 = 0.5;
+
 impl ExactIntegrator {
     /// Notes what is known of every element at the start of a step.
     pub(super) fn note_start(&self, run: &mut Run, end: f64) {
+        run.remaining = end - run.time;
         run.start.clear();
         for element in 0..self.laws.len() {
             let start = ElementStart {
@@ -27,7 +31,7 @@ impl ExactIntegrator {
     pub(super) fn attempt(&mut self, run: &Run, length: f64, grading: Grading, again: bool) -> Option<f64> {
         self.counts.solves += 1;
         let before = self.step.weights.length;
-        self.set_weights(length, grading);
+        self.set_weights(length, run.remaining, grading);
         let step = &mut self.step;
         step.grading = Some(grading);
         step.start = run.time;
@@ -42,16 +46,20 @@ impl ExactIntegrator {
         Some(self.state_error(run))
     }
 
-    fn set_weights(&mut self, length: f64, grading: Grading) {
+    fn set_weights(&mut self, length: f64, remaining: f64, grading: Grading) {
         let Self { blocks, series, step, cache, outputs, inputs, .. } = self;
-        let exponent = length.log2().floor() as i32;
-        let dyadic = 2f64.powi(exponent);
-        if length <= series.reach() || dyadic <= series.reach() {
-            let length = if length <= series.reach() { length } else { dyadic };
+        if length <= series.reach() {
             return series.prepare(&step.active, grading, length, &mut step.weights);
         }
-        let make = || StepWeights::by_quadrature(blocks, outputs, inputs, &step.active, grading, dyadic);
-        step.weights.clone_from(cache.entry((step.active.clone(), grading, exponent)).or_insert_with(make));
+        // Lengths on a grid, so that matrices made by quadrature serve again.
+        let place = (4.0 * length.log2() + GRID_SLACK).floor().min((4.0 * remaining.log2()).floor());
+        let length = (0.25 * place).exp2().min(remaining);
+        if length <= series.reach() {
+            return series.prepare(&step.active, grading, length, &mut step.weights);
+        }
+        let make = || StepWeights::by_quadrature(blocks, outputs, inputs, &step.active, grading, length);
+        step.weights
+            .clone_from(cache.entry((step.active.clone(), grading, place as i32)).or_insert_with(make));
     }
 
     /// First guess of the displacements: the present motion continued.

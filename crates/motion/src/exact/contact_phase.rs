@@ -9,6 +9,7 @@ use super::{
     event::{Event, Solved},
     flight::{Touch, clearance_of},
     run::Run,
+    step_error::LONGEST_GROWTH,
 };
 use crate::Contact;
 
@@ -229,6 +230,6 @@ impl ExactIntegrator {
         if end - run.time <= 4.0 * f64::EPSILON * end {
             run.time = end;
         }
-        run.proposal = length * self.growth(error).clamp(0.3, 5.0);
+        run.proposal = self.resolved_length(length * self.growth(error).clamp(0.3, LONGEST_GROWTH));
     }
 }

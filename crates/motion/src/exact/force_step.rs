@@ -32,6 +32,8 @@ pub(crate) struct ForceStep {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub slope: Vec<f64>,
+    /// What each block has in the force per unit of its turning, relative to the velocities; see `step_error.rs` [1/s].
+    pub unresolved: Vec<f64>,
     free: Vec<f64>,
     readings: Vec<Readings>,
     correction: Vec<f64>,

@@ -8,7 +8,7 @@
 //! | `drive.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
-//! | `collocation.rs`, `weights.rs`, `force_step.rs`, `attempt.rs`, `step_error.rs` | one step with forces |
+//! | `collocation.rs`, `weights.rs`, `quadrature.rs`, `force_step.rs`, `attempt.rs`, `step_error.rs` | one step with forces |
 //! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
 //! | `contact_phase.rs`, `event.rs`, `touching.rs` | steps from touch to release, with error control |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
@@ -24,7 +24,6 @@ mod decouple;
 mod drive;
 mod event;
 mod flight;
-mod flight_maximum;
 mod force_step;
 mod forecast;
 mod lanes;
@@ -33,6 +32,7 @@ mod maxima;
 mod output;
 mod plane;
 mod polynomial;
+mod quadrature;
 mod run;
 mod sampling;
 mod secular;

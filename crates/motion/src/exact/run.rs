@@ -13,6 +13,8 @@ pub(crate) struct Run {
     pub closed: Vec<Option<usize>>,
     /// Sensitivities, if wanted.
     pub sensitivity: Option<Sensitivity>,
+    /// Time to the end of the stretch at the start of a step [s].
+    pub remaining: f64,
     /// Step length that the error allows next [s]; 0 if nothing is known.
     pub proposal: f64,
     /// Element that has just touched, whose force sets in now.

@@ -121,13 +121,12 @@ impl Sensitivity {
         norms
     }
 
-    /// `sqrt(k p^2 + s^2)` of block i in a column.
-    pub fn energy_norm(&self, i: usize, column: usize, stiffness: f64) -> f64 {
-        let (p, s) = (
-            self.values[i * self.columns + column],
-            self.values[(self.rows / 2 + i) * self.columns + column],
-        );
-        (stiffness * p * p + s * s).sqrt()
+    /// Largest `sqrt(k p^2 + s^2)/scale` of block i over the columns of initial states.
+    pub fn largest_energy_norm(&self, i: usize, stiffness: f64, scale: &impl Fn(usize) -> f64) -> f64 {
+        let (positions, velocities) = self.values.split_at(self.values.len() / 2);
+        let row = |half: &'_ [f64]| half[i * self.columns..][..self.rows].to_vec();
+        let columns = row(positions).into_iter().zip(row(velocities)).enumerate();
+        columns.map(|(j, (p, s))| (stiffness * p * p + s * s).sqrt() / scale(j)).fold(0.0, f64::max)
     }
 
     /// Adds to the frequency column.

@@ -2,7 +2,7 @@
 //!
 //! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF` are expanded in the orthonormal
 //! polynomials of the step, up to the degree `m = NODES - 1`; the tail of a function is the magnitude of its two highest
-//! coefficients added, its decay D the tail over the same at half the degree. With the mobility `G = C A B` and the largest relative
+//! coefficients added, its decay D the tail over the same at half the degree. With the mobility `G` (of `C A B` what can follow within the step) and the largest relative
 //! velocity `V` that the present state can reach, or that the load gives it in the step,
 //!
 //! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . h^2 G tail(f'))` if that is larger,
@@ -48,10 +48,21 @@ struct Errors {
     slow: f64,
     /// `S`.
     fast_share: f64,
-    /// `U`.
-    unresolved: f64,
 }
 
+/// How an element's displacement responds to its force over a step.
+#[derive(Debug, Clone, Copy)]
+struct Response {
+    /// The mobility G of the blocks as far as they follow.
+    mobility: f64,
+    /// `S`.
+    fast_share: f64,
+}
+
+const HIGHEST: (i32, f64) = degree(NODES - 1);
+const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
+/// Largest factor from one step to the next.
+pub(super) const LONGEST_GROWTH: f64 = 5.0;
 /// Turning of a block over a step, in radians, below which the nodes resolve it to rounding.
 const RESOLVED: f64 = 5.5;
 
@@ -69,55 +80,105 @@ impl ExactIntegrator {
     }
 
     /// Error of the state at the end of the solved step, relative to its bound, to the power that makes it go like `h^NODES`.
-    pub(super) fn state_error(&self, run: &Run) -> f64 {
-        let of_element = |(a, &element): (usize, &usize)| {
+    pub(super) fn state_error(&mut self, run: &Run) -> f64 {
+        let mut amplitudes = std::mem::take(&mut self.step.unresolved);
+        amplitudes.clear();
+        amplitudes.resize(self.rates.len(), 0.0);
+        let mut largest = 0.0_f64;
+        for (a, &element) in self.step.active.iter().enumerate() {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
-            let impulse = step.weights.length * self.mobility[element][element];
+            let response = self.response(element);
+            let impulse = step.weights.length * response.mobility;
             let ElementStart { jet, velocity, .. } = run.start[element];
             let driven = jet.slope.abs() + jet.curvature.abs() * step.weights.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let force = step.tail(&step.force[nodes.clone()]);
             let tail = impulse * force.highest / velocity;
             let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]).highest;
-            let stiffest =
-                step.slope[nodes].iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
-            let bounds = &self.outputs[element].value_bound;
-            let unresolved = self.unresolved(|i| bounds[i] * self.energy_norm(run, i));
-            self.relative_to_bound(Errors {
+            let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
                 slow: tail * force.decay(),
-                fast_share: self.fast_share(element),
-                unresolved: impulse * stiffest * unresolved / velocity,
-            })
-        };
-        self.step.active.iter().enumerate().map(of_element).fold(0.0, f64::max)
+                fast_share: response.fast_share,
+            };
+            largest = largest.max(self.relative_to_bound(errors));
+            let stiffest = largest_magnitude(&step.slope[nodes]);
+            let bounds = &self.outputs[element].value_bound;
+            for (i, amplitude) in amplitudes.iter_mut().enumerate() {
+                let own = response.mobility * stiffest * bounds[i] * self.vibration(run, i) / velocity;
+                *amplitude = amplitude.max(own);
+            }
+        }
+        self.step.unresolved = amplitudes;
+        largest.max(self.unresolved_excess())
+    }
+
+    /// Energy norm of a block apart from what follows the present forces and their rates without vibrating: those are smooth.
+    fn vibration(&self, run: &Run, block: usize) -> f64 {
+        let n = self.blocks.count();
+        let (k, c) = (self.blocks.stiffness[block], self.blocks.damping[block]);
+        let (mut p, mut s) = (run.state[block], run.state[n + block]);
+        if k > 0.0 {
+            for &element in &self.step.active {
+                let jet = run.start[element].jet;
+                let force = self.laws[element].force(jet.value);
+                let input = &self.inputs[element];
+                // `-A^-1 B F - A^-2 B F'`.
+                let first = [(input[n + block] + c * input[block]) / k, -input[block]];
+                let second = [-(first[1] + c * first[0]) / k, first[0]];
+                p -= first[0] * force.value + second[0] * force.slope * jet.slope;
+                s -= first[1] * force.value + second[1] * force.slope * jet.slope;
+            }
+        }
+        (k * p * p + s * s).sqrt()
     }
 
     fn relative_to_bound(&self, errors: Errors) -> f64 {
         let square = errors.tail.powi(2).max(errors.slow) / 4.0;
-        let linear = (errors.tail * errors.fast_share).max(errors.unresolved) / 10.0;
+        let linear = errors.tail * errors.fast_share / 10.0;
         (square.max(linear) / self.settings.tolerance).sqrt()
     }
 
-    /// `S`: part of the mobility of an element whose blocks are not smooth over the step.
+    /// How an element's displacement responds to its force over the step.
     ///
-    /// A block that turns by z over the step has about `(z/4)^m/m!` of its response in the polynomial of degree m, and never more than `1/z`.
-    fn fast_share(&self, element: usize) -> f64 {
-        let share = |(rate, share): (&f64, &f64)| {
+    /// A block that turns by z over the step has about `(z/4)^m/m!` of its response in the polynomial of degree m, and it moves by no more than
+    /// `2/z` of what it would without its stiffness.
+    fn response(&self, element: usize) -> Response {
+        let (mut mobility, mut fast) = (0.0, 0.0);
+        for (rate, share) in self.rates.iter().zip(&self.shares[element]) {
             let z = rate * self.step.weights.length;
-            share * highest_part(z, NODES - 1).min(z.recip())
-        };
-        self.rates.iter().zip(&self.shares[element]).map(share).sum()
+            mobility += share * (2.0 / z).min(1.0);
+            fast += share * highest_part(z, &HIGHEST).min(z.recip()) * z.recip().min(1.0);
+        }
+        Response { mobility: mobility * self.mobility[element][element], fast_share: fast / mobility }
     }
 
-    /// Sum of `amplitude(i)` over the blocks, each times what of it the nodes do not resolve.
-    fn unresolved(&self, amplitude: impl Fn(usize) -> f64) -> f64 {
-        let length = self.step.weights.length;
-        let part = |(i, rate): (usize, &f64)| {
+    /// `U` of a step of that length, from what the last step solved has left of it.
+    fn unresolved(&self, length: f64) -> f64 {
+        let part = |(rate, amplitude): (&f64, &f64)| {
             let z = rate * length;
-            if z > RESOLVED { highest_part(z, 2 * NODES) * amplitude(i) } else { 0.0 }
+            if z > RESOLVED { highest_part(z, &TWICE_THE_NODES) * amplitude } else { 0.0 }
         };
-        self.rates.iter().enumerate().map(part).sum()
+        self.rates.iter().zip(&self.step.unresolved).map(part).sum::<f64>() * length
+    }
+
+    /// `U` relative to its bound, if it is above.
+    fn unresolved_excess(&self) -> f64 {
+        let excess = self.unresolved(self.step.weights.length) / (10.0 * self.settings.tolerance);
+        if excess > 1.0 { excess.sqrt() } else { 0.0 }
+    }
+
+    /// Whether a block is so fast that a somewhat longer step might not resolve it.
+    fn may_be_unresolved(&self, block: usize) -> bool {
+        self.rates[block] * self.step.weights.length * LONGEST_GROWTH > RESOLVED
+    }
+
+    /// The longest step up to `length` whose nodes resolve the motion.
+    pub(super) fn resolved_length(&self, length: f64) -> f64 {
+        let mut length = length;
+        while self.unresolved(length) > 10.0 * self.settings.tolerance {
+            length *= 0.8;
+        }
+        length
     }
 
     /// Solves for the sensitivities of the forces of the solved step; their error, 0 if none are wanted, `None` if the step is singular.
@@ -130,16 +191,12 @@ impl ExactIntegrator {
         let slowest = self.drive.circular_frequency();
         let frequencies = &self.system.model().natural_frequencies;
         let scale = |column: usize| frequencies.get(column).map_or(1.0, |w| w.max(slowest));
-        let stiffest = self.step.slope.iter().fold(0.0_f64, |stiffest, slope| stiffest.max(slope.abs()));
         let (mut errors, mut by_frequency, mut norm) =
             (Errors::default(), Errors::default(), f64::MIN_POSITIVE);
         for (a, &element) in self.step.active.iter().enumerate() {
-            let fast_share = self.fast_share(element);
-            let bounds = &self.outputs[element].value_bound;
-            let impulse = self.step.weights.length * self.mobility[element][element].sqrt();
+            let response = self.response(element);
+            let impulse = self.step.weights.length * response.mobility.sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
-                let amplitude =
-                    |i: usize| bounds[i] * sensitivity.energy_norm(i, column, self.blocks.stiffness[i]);
                 let size = found.velocity + impulse * found.largest;
                 let (scale, into) = if column == sensitivity.frequency_column() {
                     (size.max(f64::MIN_POSITIVE), &mut by_frequency)
@@ -150,20 +207,43 @@ impl ExactIntegrator {
                 let tail = impulse * found.tail.highest / scale;
                 into.tail = into.tail.max(tail);
                 into.slow = into.slow.max(tail * found.tail.decay());
-                into.fast_share = into.fast_share.max(fast_share);
-                into.unresolved =
-                    into.unresolved.max(impulse * stiffest * self.unresolved(amplitude) / scale);
+                into.fast_share = into.fast_share.max(response.fast_share);
             }
         }
         errors.tail /= norm;
         errors.slow /= norm;
-        errors.unresolved /= norm;
-        Some(self.relative_to_bound(errors).max(self.relative_to_bound(by_frequency)))
+        let error = self.relative_to_bound(errors).max(self.relative_to_bound(by_frequency));
+        let mut amplitudes = std::mem::take(&mut self.step.unresolved);
+        for &element in &self.step.active {
+            let stiffest = largest_magnitude(&self.step.slope) * self.response(element).mobility.sqrt();
+            let bounds = &self.outputs[element].value_bound;
+            for (i, amplitude) in
+                amplitudes.iter_mut().enumerate().filter(|(i, _)| self.may_be_unresolved(*i))
+            {
+                let largest = sensitivity.largest_energy_norm(i, self.blocks.stiffness[i], &scale);
+                *amplitude = amplitude.max(stiffest * bounds[i] * largest / norm);
+            }
+        }
+        self.step.unresolved = amplitudes;
+        Some(error.max(self.unresolved_excess()))
     }
 }
 
-/// About the part of `exp(i z t)` over a step in the polynomial of that degree: `(z/4)^degree/degree!`, at most 1.
-fn highest_part(z: f64, degree: usize) -> f64 {
-    let factorial: f64 = (1..=degree).map(|k| k as f64).product();
-    ((0.25 * z).powi(degree as i32) / factorial).min(1.0)
+/// About the part of `exp(i z t)` over a step in the polynomial of a degree: `(z/4)^degree/degree!`, at most 1.
+fn highest_part(z: f64, (degree, factorial): &(i32, f64)) -> f64 {
+    ((0.25 * z).powi(*degree) / factorial).min(1.0)
+}
+
+fn largest_magnitude(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()))
+}
+
+/// A degree and its factorial.
+const fn degree(degree: usize) -> (i32, f64) {
+    let (mut factorial, mut k) = (1.0, 2);
+    while k <= degree {
+        factorial *= k as f64;
+        k += 1;
+    }
+    (degree as i32, factorial)
 }

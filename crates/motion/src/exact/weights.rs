@@ -2,12 +2,12 @@
 //!
 //! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate docs). For short steps all of
 //! them come from power series in h (`collocation.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
-//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`], they come from quadrature
-//! fine enough for every mode; such steps have lengths `2^-j` s and are cached.
+//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`], they come from quadrature (`quadrature.rs`)
+//! fine enough for every mode; such steps have lengths on a grid and are cached.
 
 use super::{
     block::{Blocks, Propagator},
-    collocation::{Grading, NODES, REACH, TERMS, gauss_sixteen},
+    collocation::{Grading, NODES, REACH, TERMS},
     drive::Jet,
     lanes::{add_multiple, dot, vectorised},
     output::Output,
@@ -276,7 +276,7 @@ impl Series {
 }
 
 impl StepWeights {
-    fn resize(&mut self, active: usize, size: usize) {
+    pub fn resize(&mut self, active: usize, size: usize) {
         self.rows.resize(active, Vec::new());
         self.rows.iter_mut().for_each(|row| row.resize(size * NODES, 0.0));
         self.to_state.resize(active, Vec::new());
@@ -289,79 +289,4 @@ impl StepWeights {
         let pairs = blocks.stiffness.iter().zip(&blocks.damping);
         self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, length)));
     }
-
-    /// Matrices of a step of any length, by quadrature fine enough for the fastest mode.
-    pub fn by_quadrature(
-        blocks: &Blocks,
-        outputs: &[Output],
-        inputs: &[Vec<f64>],
-        active: &[usize],
-        grading: Grading,
-        length: f64,
-    ) -> Self {
-        let (n, rule) = (blocks.count(), grading.rule());
-        let mut weights = Self { length, complete: true, ..Self::default() };
-        weights.resize(active.len(), 2 * n);
-        weights.set_propagators(blocks, length);
-        weights.convolution.iter_mut().for_each(|w| w.fill(0.0));
-        weights.to_state.iter_mut().for_each(|p| p.fill(0.0));
-        for i in 0..n {
-            let (k, c) = (blocks.stiffness[i], blocks.damping[i]);
-            let ends: Vec<f64> = rule.s.iter().copied().chain([1.0]).collect();
-            for (node, &end) in ends.iter().enumerate() {
-                let integrals = block_integrals((k, c), grading, end, length);
-                for (b, &f) in active.iter().enumerate() {
-                    let (beta, phi) = (inputs[f][i], inputs[f][n + i]);
-                    for j in 0..NODES {
-                        let [aa, bb, cc, dd] = integrals[j];
-                        let (p, s) = (aa * beta + bb * phi, cc * beta + dd * phi);
-                        if node == NODES {
-                            weights.to_state[b][i * NODES + j] = p;
-                            weights.to_state[b][(n + i) * NODES + j] = s;
-                            continue;
-                        }
-                        for (a, &e) in active.iter().enumerate() {
-                            weights.convolution[a * active.len() + b][node * NODES + j] +=
-                                outputs[e].row[i] * p + outputs[e].row[n + i] * s;
-                        }
-                    }
-                }
-                if node < NODES {
-                    let propagator = Propagator::new(k, c, length * rule.c[node]);
-                    for (a, &e) in active.iter().enumerate() {
-                        let (row_p, row_s) = (outputs[e].row[i], outputs[e].row[n + i]);
-                        weights.rows[a][i * NODES + node] = row_p * propagator.a + row_s * propagator.c;
-                        weights.rows[a][(n + i) * NODES + node] = row_p * propagator.b + row_s * propagator.d;
-                    }
-                }
-            }
-        }
-        weights
-    }
-}
-
-/// `int_0^{h c(end)} exp(A (h c(end) - t)) l_j dt` of one block, entries `[a, b, c, d]` for each j.
-fn block_integrals((k, c): (f64, f64), grading: Grading, end: f64, length: f64) -> [[f64; 4]; NODES] {
-    let rule = grading.rule();
-    let upper = grading.map(end).0;
-    // Sixteen Gauss points for every three radians of the mode keep rounding.
-    let panels = ((k.sqrt() + c) * length * upper / 3.0).ceil().max(1.0) as usize * 2;
-    let mut integrals = [[0.0; 4]; NODES];
-    for panel in 0..panels {
-        for &(x, weight) in gauss_sixteen() {
-            let s = end * (panel as f64 + x) / panels as f64;
-            let (position, slope) = grading.map(s);
-            let propagator = Propagator::new(k, c, length * (upper - position));
-            let measure = weight * end / panels as f64 * slope * length;
-            let lagrange = rule.lagrange(s);
-            for j in 0..NODES {
-                let factor = measure * lagrange[j];
-                integrals[j][0] += factor * propagator.a;
-                integrals[j][1] += factor * propagator.b;
-                integrals[j][2] += factor * propagator.c;
-                integrals[j][3] += factor * propagator.d;
-            }
-        }
-    }
-    integrals
 }
