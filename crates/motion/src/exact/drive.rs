@@ -258,6 +258,12 @@ impl Drive {
         self.secular.iter().map(|load| load.magnitude(output, until)).sum()
     }
 
+    /// Largest velocity that the steady part of output `index` can take.
+    pub fn speed(&self, index: usize) -> f64 {
+        let of_order = |order: &Order| order.outputs[index].0.norm() * order.order * self.circular_frequency;
+        self.orders.iter().map(of_order).sum()
+    }
+
     /// Largest value that the steady part of output `index` can take, for rounding margins.
     pub fn magnitude(&self, index: usize) -> f64 {
         self.orders.iter().map(|order| order.outputs[index].0.norm()).sum()

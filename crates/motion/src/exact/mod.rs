@@ -24,6 +24,7 @@ mod decouple;
 mod drive;
 mod event;
 mod flight;
+mod flight_maximum;
 mod force_step;
 mod forecast;
 mod lanes;

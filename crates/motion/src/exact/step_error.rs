@@ -70,8 +70,8 @@ impl ExactIntegrator {
     /// Largest velocity that an output can reach from the present state.
     pub(super) fn velocity_range(&self, run: &Run, output: usize) -> f64 {
         let o = &self.outputs[output];
-        let driven = self.drive.magnitude(output) * self.drive.circular_frequency();
-        driven + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(run, i)).sum::<f64>()
+        self.drive.speed(output)
+            + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(run, i)).sum::<f64>()
     }
 
     fn energy_norm(&self, run: &Run, block: usize) -> f64 {
