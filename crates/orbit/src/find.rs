@@ -57,6 +57,43 @@ pub fn find_orbits(
     Ok(found)
 }
 
+/// Finds an orbit at a frequency where no motion settles on one: from an orbit at another frequency, along its branch.
+///
+/// # Errors
+/// [`OrbitError::NoOrbit`] if no branch that was tried leads there.
+pub fn reach_orbit(
+    system: &System,
+    response: &Response,
+    (frequency_hz, period_multiple): (f64, u32),
+    settings: &OrbitSettings,
+) -> Result<PeriodicSolution, OrbitError> {
+    for factor in ELSEWHERE {
+        let from = factor * frequency_hz;
+        let Ok(start) = find_start(system, response, from, period_multiple, settings) else { continue };
+        let (range, side) =
+            if factor < 1.0 { ((from, frequency_hz), Side::Up) } else { ((frequency_hz, from), Side::Down) };
+        let coarse = OrbitSettings {
+            max_step_hz: (range.1 - range.0) / 1000.0,
+            max_solutions: MOST_SOLUTIONS,
+            ..*settings
+        };
+        let Ok(mut walk) = BranchWalk::new(system, response, &start, side, range, &coarse) else { continue };
+        let mut rows = Vec::new();
+        while let Ok(None) = walk.step_without_maxima(&mut rows) {}
+        if let Some((reached, state)) = rows.pop()
+            && reached == frequency_hz
+            && let Some(solution) =
+                attempt(system, response, &state, (frequency_hz, period_multiple), settings)?
+        {
+            return Ok(solution);
+        }
+    }
+    Err(OrbitError::NoOrbit { frequency_hz, period_multiple, starts: ELSEWHERE.len() })
+}
+
+/// Frequencies from which [`reach_orbit`] tries to reach another one, relative to it.
+const ELSEWHERE: [f64; 8] = [0.75, 0.5, 0.35, 0.25, 0.18, 1.3, 1.7, 2.5];
+
 struct Search<'a> {
     system: &'a System,
     response: &'a Response,

@@ -62,7 +62,7 @@ mod walk;
 
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
-pub use find::find_orbits;
+pub use find::{find_orbits, reach_orbit};
 pub use free::{FreeOrbit, free_orbit};
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};

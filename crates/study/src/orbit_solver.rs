@@ -1,8 +1,8 @@
 //! The numerics of the orbit crate, as a run needs them.
 
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
-    find_orbits, find_start,
+    BranchRow, BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    find_orbits, find_start, reach_orbit,
 };
 
 use crate::{
@@ -70,8 +70,16 @@ fn settings(continuation: &file::Continuation) -> OrbitSettings {
 
 impl Solver for OrbitSolver<'_> {
     fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String> {
-        find_start(&self.model.system, self.response(), frequency_hz, period_multiple, &self.settings)
-            .map_err(|error| error.to_string())
+        let system = &self.model.system;
+        let found = find_start(system, self.response(), frequency_hz, period_multiple, &self.settings);
+        // A harmonic branch passes every frequency; where it is unstable it is reached from elsewhere.
+        let found = match found {
+            Err(OrbitError::NoOrbit { .. }) if period_multiple == 1 => {
+                reach_orbit(system, self.response(), (frequency_hz, 1), &self.settings)
+            }
+            found => found,
+        };
+        found.map_err(|error| error.to_string())
     }
 
     fn begin<'a>(&'a self, start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, String> {

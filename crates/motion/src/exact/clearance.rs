@@ -66,7 +66,7 @@ fn safe_step(value: f64, slope: f64, bound: f64) -> f64 {
     2.0 * value / (root - slope)
 }
 
-/// A step below the first positive root of `d + d' h + d'' h^2/2 - B h^3/6`, at least nine tenths of it.
+/// A step just below the first positive root of `d + d' h + d'' h^2/2 - B h^3/6`.
 fn safe_cubic_step(value: f64, slope: f64, curvature: f64, bound: f64) -> f64 {
     let cubic = |h: f64| value + h * (slope + h * (0.5 * curvature - bound * h / 6.0));
     if bound <= 0.0 {
@@ -85,21 +85,23 @@ fn safe_cubic_step(value: f64, slope: f64, curvature: f64, bound: f64) -> f64 {
     } else {
         return 0.0;
     };
-    // Beyond the maximum the cubic falls to its root: step out by doubling, then halve down to the safe side.
+    // Beyond the maximum the cubic is concave and falls: Newton's method comes to the root from beyond.
     let mut beyond = 2.0 * h;
     while cubic(beyond) > 0.0 {
         h = beyond;
         beyond *= 2.0;
     }
-    while beyond - h > 0.1 * h {
-        let middle = 0.5 * (h + beyond);
-        if cubic(middle) > 0.0 {
-            h = middle;
-        } else {
-            beyond = middle;
+    for _ in 0..8 {
+        let slope = slope + beyond * (curvature - 0.5 * bound * beyond);
+        let next = beyond - cubic(beyond) / slope;
+        let near = beyond - next <= 1e-3 * next;
+        beyond = next;
+        if near {
+            break;
         }
     }
-    h
+    let safe = beyond * (1.0 - 1e-6);
+    if safe > h && cubic(safe) > 0.0 { safe } else { h }
 }
 
 #[cfg(test)]

@@ -26,6 +26,7 @@ impl ExactIntegrator {
         let horizon = end - run.time;
         let mut time = if self.has_contacts { 0.0 } else { horizon };
         let mut touch = None;
+        let mut placed = false;
         if self.has_contacts {
             let mut looks = 0;
             let mut past_minimum = false;
@@ -38,15 +39,19 @@ impl ExactIntegrator {
                 self.place(run, time);
                 let (step, found) = self.look_at_all(run, time, horizon, &mut past_minimum);
                 touch = found;
+                placed = step == 0.0;
                 time = (time + step).min(horizon);
             }
         }
         if horizon - time <= 4.0 * f64::EPSILON * end {
             // A contact that closes with the end of the stretch belongs to the next one.
             touch = None;
+            placed &= time == horizon;
             time = horizon;
         }
-        self.place(run, time);
+        if !placed {
+            self.place(run, time);
+        }
         if let Some(observation) = &mut self.observation {
             observation.flight(run.time, time, &self.flight_start);
         }

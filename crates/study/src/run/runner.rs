@@ -65,8 +65,17 @@ fn searched(store: &Store, target: &Target) -> Result<Option<Option<u32>>, RunEr
     if let Some((branch, _)) = store.search_outcome(target.period_multiple, target.frequency_hz)? {
         return Ok(Some(branch));
     }
-    let superfluous = target.only_if_not_covered && is_covered(store, target)?;
+    // While a walk of this multiple waits for more budget, a new start might lie on what it has still to walk.
+    let waits = is_paused(store, target.period_multiple)?;
+    let superfluous = waits || (target.only_if_not_covered && is_covered(store, target)?);
     Ok(superfluous.then_some(None))
+}
+
+/// Whether a walk of that multiple has used up its budget.
+fn is_paused(store: &Store, period_multiple: u32) -> Result<bool, RunError> {
+    let paused = |walk: &WalkRecord| walk.reason.as_ref().is_some_and(StoredReason::is_budget);
+    let branches = store.branches()?;
+    Ok(branches.iter().any(|b| b.period_multiple == period_multiple && (paused(&b.up) || paused(&b.down))))
 }
 
 /// Whether a branch of the target's multiple passes its frequency.
