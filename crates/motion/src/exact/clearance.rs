@@ -75,18 +75,20 @@ fn safe_cubic_step(value: f64, slope: f64, curvature: f64, bound: f64) -> f64 {
     }
     // After the last extremum (a maximum, since -B h^3 wins) the cubic falls; before it, it must be shown to be positive.
     let discriminant = curvature * curvature + 2.0 * bound * slope;
-    let mut h = if discriminant > 0.0 {
+    let (mut h, mut beyond) = if discriminant > 0.0 {
         let root = discriminant.sqrt();
         let (low, high) = ((curvature - root) / bound, (curvature + root) / bound);
         if high <= 0.0 || (low > 0.0 && cubic(low) <= 0.0) || cubic(high) <= 0.0 {
             return 0.0;
         }
-        high
+        (high, 2.0 * high)
+    } else if value > 0.0 && slope < 0.0 {
+        // It falls all the way.
+        (0.0, -2.0 * value / slope)
     } else {
         return 0.0;
     };
-    // Beyond the maximum the cubic is concave and falls: Newton's method comes to the root from beyond.
-    let mut beyond = 2.0 * h;
+    // Beyond the maximum, and its turning point, the cubic is concave and falls: Newton's method comes to the root from beyond.
     while cubic(beyond) > 0.0 {
         h = beyond;
         beyond *= 2.0;
