@@ -93,6 +93,28 @@ fn stretch_of_branch(criterion: &mut Criterion, (from_hz, to_hz): (f64, f64), ma
     group.finish();
 }
 
+/// Walks once over a whole range, from `from_hz` to both ends, and prints the solutions per second.
+fn whole_range((from_hz, range): (f64, (f64, f64)), max_step_hz: f64) {
+    let beam = beam();
+    let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
+    let start = orbit(&beam, from_hz);
+    let begun = std::time::Instant::now();
+    let (mut solutions, mut evaluations) = (0, 0);
+    for side in [Side::Down, Side::Up] {
+        let (rows, count) = walk(&beam.0, &beam.1, &start, side, range, &settings);
+        solutions += rows.len();
+        evaluations += count;
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    println!(
+        "{} to {} Hz at {max_step_hz} Hz: {solutions} solutions, {:.3} evaluations each, {:.0} per second",
+        range.0,
+        range.1,
+        evaluations as f64 / solutions as f64,
+        solutions as f64 / seconds
+    );
+}
+
 fn branch(criterion: &mut Criterion) {
     if trial() {
         stretch_of_branch(criterion, (50.0, 50.2), 0.02);
@@ -105,6 +127,10 @@ fn branch(criterion: &mut Criterion) {
     stretch_of_branch(criterion, (50.0, 52.0), 0.001);
     stretch_of_branch(criterion, (37.0, 35.0), 0.001);
     stretch_of_branch(criterion, (20.5, 19.9), 0.001);
+    for max_step_hz in [0.0182, 0.001] {
+        whole_range((30.0, (25.0, 110.0)), max_step_hz);
+        whole_range((21.0, (19.0, 25.0)), max_step_hz);
+    }
 }
 
 criterion_group!(benches, evaluation, branch);

@@ -72,8 +72,13 @@ impl BranchWalk {
 
     /// Whether the present point is where a branch of shorter period flips.
     fn meets_shorter_period(&mut self) -> bool {
+        self.follower.current().events.branch_point && self.is_near_shorter_period()
+    }
+
+    /// Whether the present orbit is, within [`MERGED`], one of shorter period.
+    fn is_near_shorter_period(&mut self) -> bool {
         let multiple = self.problem.period_multiple();
-        if multiple == 1 || !self.follower.current().events.branch_point {
+        if multiple == 1 {
             return false;
         }
         let point = &self.follower.current().point;
@@ -111,6 +116,12 @@ impl BranchWalk {
                 }
                 Err(error) => Err(error),
             },
+            // Where the flip is too sharp to be passed, it is the end all the same.
+            Some(hammerbeam_path::StopReason::StepTooShort { parameter, .. })
+                if self.is_near_shorter_period() =>
+            {
+                Ok(Some(StopReason::ShorterPeriod { frequency_hz: parameter }))
+            }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
     }
@@ -212,6 +223,8 @@ pub(crate) fn path_settings(settings: &OrbitSettings, length: f64) -> Settings {
         min_step: default.min_step * length,
         correction_tolerance: settings.tolerance * length,
         correction_floor: default.correction_floor * length,
+        // Rounding of the residual grows with the multipliers.
+        residual_floor: 100.0 * default.residual_floor,
         sheet_distance: default.sheet_distance * length,
         signature_step: default.signature_step * length,
         max_points: settings.max_solutions as u64,
