@@ -7,6 +7,8 @@ use super::{
     weights::StepWeights,
 };
 
+/// Relative change of the length up to which the matrix of the last step serves again.
+const NEARLY_THE_SAME: f64 = 0.02;
 /// Fourth part of an octave: lengths that are proposed with some caution may be exceeded by half of it.
 const GRID_SLACK: f64 = 0.5;
 
@@ -36,13 +38,14 @@ impl ExactIntegrator {
         step.grading = Some(grading);
         step.start = run.time;
         step.set_free_motion(&self.series, &self.drive, &self.outputs, &run.state);
+        let change = step.weights.length / before - 1.0;
         if again {
-            step.shift_guess(step.weights.length / before - 1.0);
+            step.shift_guess(change);
         } else {
             self.guess(run);
         }
         let margin = self.step.active.iter().map(|&e| run.start[e].margin).fold(0.0, f64::max);
-        self.step.solve(&self.laws, margin).ok()?;
+        self.step.solve(&self.laws, margin, again && change.abs() < NEARLY_THE_SAME).ok()?;
         Some(self.state_error(run))
     }
 

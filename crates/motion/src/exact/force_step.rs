@@ -6,7 +6,7 @@
 use super::{
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
-    lanes::{dot, vectorised},
+    lanes::{add_multiple, dot, raise, vectorised},
     lu::{FixedLu, SmallLu},
     output::Output,
     sensitivity::{ColumnTail, Sensitivity},
@@ -107,14 +107,15 @@ impl ForceStep {
 
     /// Solves for the displacements from the guess in `displacement`. `scale` is a length below which corrections are rounding.
     ///
-    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with.
-    pub fn solve(&mut self, laws: &[Law], scale: f64) -> Result<(), NotSolved> {
+    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with, and so is that of the
+    /// last step solved if this one is nearly the same (`again`).
+    pub fn solve(&mut self, laws: &[Law], scale: f64, again: bool) -> Result<(), NotSolved> {
         let size = self.free.len();
         self.force.resize(size, 0.0);
         self.slope.resize(size, 0.0);
         self.correction.resize(size, 0.0);
         self.evaluate(laws);
-        let (mut previous, mut fresh) = (f64::INFINITY, true);
+        let (mut previous, mut fresh) = (f64::NAN, !again);
         for _ in 0..MAX_ITERATIONS {
             self.fill_defect();
             if fresh {
@@ -182,15 +183,22 @@ impl ForceStep {
     fn factorise(&mut self) -> Result<(), NotSolved> {
         let (count, weights, slope) = (self.active.len(), &self.weights, &self.slope);
         if count == 1 {
-            let convolution = &weights.convolution[0];
-            let mut matrix = [[0.0; NODES]; NODES];
-            for (k, (row, from)) in matrix.iter_mut().zip(convolution.chunks_exact(NODES)).enumerate() {
-                for ((entry, w), s) in row.iter_mut().zip(from).zip(slope) {
-                    *entry = -w * s;
-                }
-                row[k] += 1.0;
-            }
-            return self.fixed_lu.factorise(matrix).ok_or(NotSolved);
+            let (convolution, slope) = (&weights.convolution[0], &slope[..NODES]);
+            return self
+                .fixed_lu
+                .factorise(
+                    #[inline(always)]
+                    |matrix| {
+                        let rows = matrix.iter_mut().zip(convolution.chunks_exact(NODES)).enumerate();
+                        for (k, (row, from)) in rows {
+                            for j in 0..NODES {
+                                row[j] = -from[j] * slope[j];
+                            }
+                            row[k] += 1.0;
+                        }
+                    },
+                )
+                .ok_or(NotSolved);
         }
         let size = count * NODES;
         let fill = |matrix: &mut [f64]| {
@@ -279,23 +287,29 @@ impl ForceStep {
     pub fn sensitivity_tails(&self, a: usize, sensitivity: &Sensitivity) -> Vec<ColumnTail> {
         let columns = sensitivity.columns();
         let coefficients = &self.grading().rule().coefficients;
-        let mut tails = sensitivity.velocity_norms();
-        let mut sums = vec![[0.0; 4]; columns];
         let work = &self.work[a * NODES * columns..(a + 1) * NODES * columns];
-        for (k, row) in work.chunks_exact(columns).enumerate() {
-            let weights =
-                [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| coefficients[degree][k]);
-            for ((sums, tail), value) in sums.iter_mut().zip(&mut tails).zip(row) {
-                sums.iter_mut().zip(&weights).for_each(|(sum, weight)| *sum += weight * value);
-                tail.largest = tail.largest.max(value.abs());
-            }
-        }
-        for (column, sums) in tails.iter_mut().zip(&sums) {
-            let [first, second, third, fourth] = sums.map(f64::abs);
-            column.tail = Tail { highest: first + second, middle: third + fourth };
-        }
-        tails.truncate(sensitivity.frequency_column() + 1);
-        tails
+        let mut velocities = vec![0.0; columns];
+        sensitivity.raise_velocity_norms(&mut velocities);
+        let mut largest = vec![0.0; columns];
+        let mut sums =
+            [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| (degree, vec![0.0; columns]));
+        vectorised(
+            #[inline(always)]
+            || {
+                for (k, row) in work.chunks_exact(columns).enumerate() {
+                    raise(&mut largest, row);
+                    for (degree, sum) in &mut sums {
+                        add_multiple(sum, coefficients[*degree][k], row);
+                    }
+                }
+            },
+        );
+        let of_column = |c: usize| {
+            let pair = |first: usize| sums[first].1[c].abs() + sums[first + 1].1[c].abs();
+            let tail = Tail { highest: pair(0), middle: pair(2) };
+            ColumnTail { velocity: velocities[c], largest: largest[c], tail }
+        };
+        (0..=sensitivity.frequency_column()).map(of_column).collect()
     }
 
     /// Moves the displacements of the last solution to a step whose length differs by the part `change`.

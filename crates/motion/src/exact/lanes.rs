@@ -37,6 +37,12 @@ pub(crate) fn add_multiple(to: &mut [f64], factor: f64, row: &[f64]) {
     to.iter_mut().zip(row).for_each(|(t, r)| *t += factor * r);
 }
 
+/// Raises each entry to the magnitude of that of a row.
+#[inline(always)]
+pub(crate) fn raise(to: &mut [f64], row: &[f64]) {
+    to.iter_mut().zip(row).for_each(|(t, r)| *t = if r.abs() > *t { r.abs() } else { *t });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -90,18 +90,21 @@ impl<const N: usize> Default for FixedLu<N> {
 }
 
 impl<const N: usize> FixedLu<N> {
-    /// Factorises a matrix given by rows; `None` if it is singular.
+    /// Factorises the matrix that `fill` writes row by row; `None` if it is singular.
     #[must_use]
-    pub fn factorise(&mut self, matrix: [[f64; N]; N]) -> Option<()> {
+    #[inline(always)]
+    pub fn factorise(&mut self, fill: impl FnOnce(&mut [[f64; N]; N])) -> Option<()> {
         vectorised(
             #[inline(always)]
-            || self.eliminate(matrix),
+            || {
+                fill(&mut self.upper);
+                self.eliminate()
+            },
         )
     }
 
     #[inline(always)]
-    fn eliminate(&mut self, matrix: [[f64; N]; N]) -> Option<()> {
-        self.upper = matrix;
+    fn eliminate(&mut self) -> Option<()> {
         for k in 0..N {
             let pivot = (k + 1..N).fold(k, |best, row| {
                 if self.upper[row][k].abs() > self.upper[best][k].abs() { row } else { best }
@@ -203,7 +206,7 @@ mod tests {
             std::array::from_fn(|j| ((i * 7 + j * j * 3 + i * i * j + 5) % 11) as f64 - 4.0)
         });
         let (mut fixed, mut variable) = (FixedLu::default(), SmallLu::default());
-        fixed.factorise(matrix).unwrap();
+        fixed.factorise(|m| *m = matrix).unwrap();
         variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();
         let mut single = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
         let (mut rows, mut expected) = (single.to_vec(), single.to_vec());

@@ -5,7 +5,7 @@ use faer::Mat;
 use super::{
     block::{Blocks, Propagator},
     collocation::NODES,
-    lanes::{add_multiple, vectorised},
+    lanes::{add_multiple, raise, vectorised},
     step_error::Tail,
 };
 
@@ -109,16 +109,16 @@ impl Sensitivity {
         );
     }
 
-    /// Largest velocity of each column.
-    pub fn velocity_norms(&self) -> Vec<ColumnTail> {
-        let mut norms = vec![ColumnTail::default(); self.columns];
-        for row in self.values.chunks_exact(self.columns).skip(self.rows / 2) {
-            norms
-                .iter_mut()
-                .zip(row)
-                .for_each(|(norm, value)| norm.velocity = norm.velocity.max(value.abs()));
-        }
-        norms
+    /// Largest velocity of each column, raised from what is in `norms`.
+    pub fn raise_velocity_norms(&self, norms: &mut [f64]) {
+        vectorised(
+            #[inline(always)]
+            || {
+                for row in self.values.chunks_exact(self.columns).skip(self.rows / 2) {
+                    raise(norms, row);
+                }
+            },
+        );
     }
 
     /// Largest `sqrt(k p^2 + s^2)/scale` of block i over the columns of initial states.

@@ -5,6 +5,8 @@
 //! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`], they come from quadrature (`quadrature.rs`)
 //! fine enough for every mode; such steps have lengths on a grid and are cached.
 
+use std::sync::OnceLock;
+
 use super::{
     block::{Blocks, Propagator},
     collocation::{Grading, NODES, REACH, TERMS},
@@ -127,12 +129,13 @@ impl Series {
 
     /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
     fn terms(z: f64) -> usize {
-        let mut term = 1.0;
-        let beyond = (1..TERMS - 4).find(|&m| {
-            term *= z / m as f64;
-            term < 1e-18
+        // Up to which z the term m is rounding: `z^m/m! < 1e-18`.
+        static LIMITS: OnceLock<Vec<f64>> = OnceLock::new();
+        let limits = LIMITS.get_or_init(|| {
+            let logarithm = |m: usize| (1..=m).map(|k| (k as f64).ln()).sum::<f64>();
+            (1..TERMS - 4).map(|m| ((logarithm(m) + 1e-18_f64.ln()) / m as f64).exp()).collect()
         });
-        beyond.map_or(TERMS - 2, |m| m + 2)
+        limits.partition_point(|&limit| limit <= z) + 3
     }
 
     /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
