@@ -87,7 +87,7 @@ impl ExactIntegrator {
         run.closed[element].map(|contact| self.laws[element].contacts()[contact])
     }
 
-    fn set_active(&mut self, run: &Run) {
+    pub(super) fn set_active(&mut self, run: &Run) {
         self.step.active.clear();
         let active =
             (0..self.laws.len()).filter(|&e| run.closed[e].is_some() || self.laws[e].contacts().is_empty());

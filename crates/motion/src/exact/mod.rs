@@ -42,6 +42,9 @@ mod step_error;
 mod touching;
 mod weights;
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::HashMap;
 
 use faer::Mat;
