@@ -45,10 +45,10 @@ impl Terminal {
             let left = elapsed.mul_f64(((1.0 - progress.fraction) / gained).min(1e6));
             format!("{} left", HumanDuration(left))
         } else {
-            "time left not known yet".to_owned()
+            "? left".to_owned()
         };
         format!(
-            "{} solutions, {}/s  {:.4} Hz on branch {} (period {})  {left}",
+            "{left}  {} solutions, {}/s  {:.3} Hz  branch {} (period {})",
             HumanCount(progress.solutions),
             HumanCount(rate as u64),
             progress.frequency_hz,
