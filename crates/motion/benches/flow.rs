@@ -12,7 +12,7 @@ use hammerbeam_motion::{
 };
 
 /// Steps of this tolerance leave monodromies of the beam good to about 1e-9 in both integrators.
-const EXACT: ExactSettings = ExactSettings { tolerance: 1e-10 };
+const EXACT: ExactSettings = ExactSettings { tolerance: 1e-9 };
 const GENERAL: f64 = 1e-11;
 
 /// A period of the settled motion of the paper's beam, from rest.
