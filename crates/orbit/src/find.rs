@@ -126,10 +126,7 @@ impl Search<'_> {
         let scale = state_scale(self.system, &solution.nodes[0], self.frequency_hz);
         let mut state = solution.nodes[0].clone();
         for _ in 0..self.period_multiple {
-            let same = |known: &PeriodicSolution| {
-                let difference: Vec<f64> = known.nodes[0].iter().zip(&state).map(|(a, b)| a - b).collect();
-                scale.norm(&difference) < 1e-6
-            };
+            let same = |known: &PeriodicSolution| scale.distance(&known.nodes[0], &state) < 1e-6;
             if let Some(place) = self.found.iter().position(same) {
                 return Ok(Some(place));
             }
@@ -156,10 +153,7 @@ impl Search<'_> {
         }
         let scale = state_scale(self.system, &states[0], self.frequency_hz);
         let lag = self.period_multiple as usize;
-        let distance = |k: usize| {
-            let difference: Vec<f64> = states[k + lag].iter().zip(&states[k]).map(|(a, b)| a - b).collect();
-            scale.norm(&difference)
-        };
+        let distance = |k: usize| scale.distance(&states[k + lag], &states[k]);
         let mut returns: Vec<(f64, usize)> = (0..states.len() - lag).map(|k| (distance(k), k)).collect();
         returns.sort_by(|x, y| x.0.total_cmp(&y.0));
         let tried = if returns[0].0 < 1e-6 { 1 } else { TRIED };

@@ -46,6 +46,11 @@ impl StateScale {
         &self.scales
     }
 
+    /// Norm of the difference of two states relative to the scale.
+    pub fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()
+    }
+
     /// Norm of a state relative to the scale.
     pub fn norm(&self, state: &[f64]) -> f64 {
         state.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt()

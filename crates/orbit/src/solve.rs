@@ -164,8 +164,8 @@ pub(crate) fn distance_to_shorter_period(
         let stretch = Stretch { frequency_hz: solution.frequency_hz, start: 0.0, end: 1.0 };
         state = integrator.advance(&stretch, &state)?;
         if multiple.is_multiple_of(cycle) {
-            let difference: Vec<f64> = state.iter().zip(&solution.nodes[0]).map(|(a, b)| a - b).collect();
-            smallest = smallest.min(scale.norm(&difference) / scale.norm(&state).max(1e-3));
+            smallest =
+                smallest.min(scale.distance(&state, &solution.nodes[0]) / scale.norm(&state).max(1e-3));
         }
     }
     Ok(smallest)
