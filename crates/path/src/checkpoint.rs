@@ -4,6 +4,7 @@ use crate::{
     error::StopReason,
     point::{ContinuationPoint, Counters},
     predictor::History,
+    problem::TestValue,
 };
 
 /// State of a [`Follower`](crate::Follower) after an accepted point.
@@ -24,6 +25,8 @@ pub struct Checkpoint {
     pub orientation: f64,
     /// Sign that `t_λ` has after `current`; it settles the doubt at a fold, where `t_λ` is rounding.
     pub parameter_sign: f64,
+    /// The test functions as they are after `current`; it settles the doubt at a zero, where the sign is rounding.
+    pub tests: Vec<TestValue>,
     /// A change of signature is known to lie within this distance ahead; zero if none is known.
     pub change_ahead: f64,
     /// Work done so far.

@@ -11,7 +11,7 @@
 use crate::{
     point::Counters,
     predictor::Node,
-    problem::{EvaluationError, PathProblem},
+    problem::{EvaluationError, PathProblem, TestValue},
     product::{add_scaled, norm, scale},
 };
 
@@ -79,6 +79,8 @@ pub(crate) struct Candidate {
     /// `ln |det [R_x R_λ; (W w)ᵀ/‖w‖]|`.
     pub log_determinant: f64,
     pub signature: u64,
+    /// Test functions, where they were asked for.
+    pub tests: Vec<TestValue>,
     /// `1 / ‖w‖`: the cosine between the direction and `t₀` if `r = (W t₀)ᵀ`, since then `⟨t₀, w⟩ = 1`.
     pub cosine: f64,
     correction: Vec<f64>,

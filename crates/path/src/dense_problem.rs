@@ -2,7 +2,7 @@
 
 use crate::{
     dense_lu::DenseLu,
-    problem::{Determinant, EvaluationError, PathProblem, SingularJacobian},
+    problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue},
 };
 
 /// A [`PathProblem`] from a function `f(z, R, J) -> signature` and dense LU.
@@ -17,6 +17,8 @@ pub struct DenseProblem<F> {
     jacobian: Vec<f64>,
     signature: u64,
     lu: DenseLu,
+    tests: Vec<fn(&[f64]) -> TestValue>,
+    point: Vec<f64>,
 }
 
 impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> DenseProblem<F> {
@@ -31,7 +33,23 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> DenseProblem<F> {
         assert!(weights.iter().all(|&w| w > 0.0 && w.is_finite()), "weights are positive");
         let n = weights.len() - 1;
         let (residual, jacobian) = (vec![0.0; n], vec![0.0; n * (n + 1)]);
-        Self { function, weights, residual, jacobian, signature: 0, lu: DenseLu::new() }
+        Self {
+            function,
+            weights,
+            residual,
+            jacobian,
+            signature: 0,
+            lu: DenseLu::new(),
+            tests: Vec::new(),
+            point: Vec::new(),
+        }
+    }
+
+    /// The same problem with these test functions of the point.
+    #[must_use]
+    pub fn with_tests(mut self, tests: Vec<fn(&[f64]) -> TestValue>) -> Self {
+        self.tests = tests;
+        self
     }
 
     /// `[R_x R_λ]` at the last evaluated point, row by row.
@@ -51,6 +69,8 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> PathProblem for DenseProbl
     }
 
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.point.clear();
+        self.point.extend_from_slice(point);
         self.signature = (self.function)(point, &mut self.residual, &mut self.jacobian);
         let finite = self.residual.iter().chain(&self.jacobian).all(|value| value.is_finite());
         if finite { Ok(()) } else { Err(EvaluationError::NotFinite) }
@@ -66,6 +86,11 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> PathProblem for DenseProbl
 
     fn solve(&self, right_hand_side: &mut [f64]) {
         self.lu.solve(right_hand_side);
+    }
+
+    fn tests(&mut self, values: &mut Vec<TestValue>) {
+        values.clear();
+        values.extend(self.tests.iter().map(|test| test(&self.point)));
     }
 
     fn signature(&self) -> u64 {

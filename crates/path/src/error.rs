@@ -116,6 +116,9 @@ pub enum Doubt {
     /// The parameter seems to turn twice between the points.
     #[error("the parameter turns twice within the step")]
     HiddenFolds,
+    /// A test function seems to be zero twice between the points.
+    #[error("a test function is zero twice within the step")]
+    HiddenZeros,
     /// The candidate lies on a stretch that was already walked.
     #[error("the stretch at arc length {arc_length} was walked before")]
     Retraced {

@@ -34,7 +34,9 @@
 //! *branch point* is a zero of `D` through which the tangent goes straight; a jump to a sheet that runs the other way
 //! changes the sign of `D` as well, but without a zero. The direction is kept and the sign anchored anew. At a *change of
 //! signature* the steps shrink to `signature_step` on both sides, in proportion to the distance from the change, so
-//! that pairs of folds beside it are found whatever the longest step.
+//! that pairs of folds beside it are found whatever the longest step; the change itself is bracketed by bisection. A *zero of a
+//! test function* of the problem (for orbits: a multiplier on the unit circle) is located by regula falsi; where the count of its zeros
+//! rises by two within a step the step is in doubt.
 //!
 //! # Example
 //! The unit circle has two folds and closes.
@@ -80,5 +82,5 @@ pub use error::{Doubt, PathError, StopReason};
 pub use follower::{Branch, Direction, Follower, StepOutcome, TwoSidedBranch, follow, follow_both};
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
-pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian};
+pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
 pub use settings::{ParameterRange, Settings};

@@ -11,6 +11,8 @@ pub struct Events {
     pub signature_change: bool,
     /// The tangent turned here within `Settings::min_step`: a corner of the path.
     pub corner: bool,
+    /// Bit `k` is set where test function `k` of the problem is zero.
+    pub zeros: u32,
 }
 
 impl Events {
@@ -42,6 +44,8 @@ pub struct ContinuationPoint {
     pub residual_norm: f64,
     /// What happened here.
     pub events: Events,
+    /// Arc length within which an event here was located; zero where nothing happened.
+    pub uncertainty: f64,
     /// Evaluations spent since the point before.
     pub evaluations: u64,
 }
@@ -58,6 +62,7 @@ impl ContinuationPoint {
             correction_norm: 0.0,
             residual_norm: 0.0,
             events: Events::default(),
+            uncertainty: 0.0,
             evaluations: 0,
         }
     }

@@ -29,6 +29,15 @@ pub struct Determinant {
     pub log_magnitude: f64,
 }
 
+/// A test function at the last evaluated point. Its zeros along the path become points of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TestValue {
+    /// The value: continuous where it is zero, and with the sign of `(−1)^count`.
+    pub value: f64,
+    /// How often the function has gone through zero since some common reference: two zeros within one step show here.
+    pub count: u32,
+}
+
 /// A system of `n` equations `R(x, λ) = 0` in `n` unknowns `x` and one parameter `λ`.
 ///
 /// A *point* is `z = [x; λ]`, length `n + 1`. `evaluate` does the expensive work and keeps `R` and
@@ -60,6 +69,12 @@ pub trait PathProblem {
 
     /// Solves with the last factorisation, in place, length `n + 1`.
     fn solve(&self, right_hand_side: &mut [f64]);
+
+    /// Test functions at the last evaluated point, always the same number of them; asked for at points that are to be accepted.
+    /// A function may jump: where its sign changes without a zero, nothing is recorded.
+    fn tests(&mut self, values: &mut Vec<TestValue>) {
+        values.clear();
+    }
 
     /// What kind of solution the last evaluated point is: equal along one smooth arc, different where `R` may
     /// lose derivatives (for an impact problem: a hash of the sequence of contacts, which changes at grazing).

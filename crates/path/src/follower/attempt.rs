@@ -24,6 +24,7 @@ impl Follower {
             return self.arrive_at_end(problem, step, most_earlier);
         }
         match self.judge(step)? {
+            Finding::Regular if self.changes_signature() => self.arrive_at_change(problem, step, earlier),
             Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
             Finding::Closing => self.arrive_at_start(problem),
             Finding::Fold => self.arrive_at_fold(problem, step),

@@ -27,6 +27,12 @@ impl Bracket {
         self.high.0 - self.low.0
     }
 
+    /// How far the zero can be from a place with this value: by the secant slope, but no further than the bracket reaches.
+    pub fn uncertainty(&self, value: f64) -> f64 {
+        let slope = (self.high.1 - self.low.1).abs() / self.width().max(f64::MIN_POSITIVE);
+        (value.abs() / slope.max(f64::MIN_POSITIVE)).min(self.width())
+    }
+
     pub fn next(&self) -> f64 {
         let share = self.low.1 / (self.low.1 - self.high.1);
         self.low.0 + self.width() * share.clamp(1e-3, 0.999)
@@ -73,11 +79,12 @@ impl Follower {
             }
             sigma = bracket.next();
         }
+        let uncertainty = bracket.uncertainty(self.probe.tangent_parameter());
         std::mem::swap(&mut self.trial, &mut self.probe);
         if !self.range.contains(self.trial.parameter()) {
             return Err(Doubt::NotLocated);
         }
-        let mut arrival = Arrival { parameter_sign: Some(-before), ..Arrival::default() };
+        let mut arrival = Arrival { parameter_sign: Some(-before), uncertainty, ..Arrival::default() };
         arrival.events.fold = true;
         Ok(arrival)
     }

@@ -11,6 +11,7 @@ mod recut;
 mod start;
 mod step_control;
 mod whole;
+mod zero;
 
 pub use start::Direction;
 pub use whole::{Branch, TwoSidedBranch, follow, follow_both};
@@ -69,6 +70,8 @@ struct Arrival {
     parameter_sign: Option<f64>,
     /// The sign of the determinant changes here while the direction of travel does not.
     anchors_anew: bool,
+    /// Arc length within which an event was located.
+    uncertainty: f64,
 }
 
 /// What happened to the attempts at one step.
@@ -173,7 +176,8 @@ impl Follower {
         let mut attempts = Attempts { rejected: 0, retraced: 0, most_earlier: MOST_EARLIER_NODES };
         let mut step = self.first_step();
         loop {
-            let doubt = match self.attempt(problem, step, attempts.most_earlier) {
+            let attempt = self.attempt(problem, step, attempts.most_earlier);
+            let doubt = match attempt.and_then(|arrival| self.heed_zeros(problem, step, arrival)) {
                 Ok(arrival) => {
                     self.accept(arrival, step, attempts);
                     return Ok(());
@@ -186,6 +190,7 @@ impl Follower {
             if shorter < self.settings.min_step {
                 let (arrival, length) =
                     self.pass_by_force(problem, step).ok_or_else(|| self.too_short(step, doubt))?;
+                let arrival = self.zeros_at_once(problem, arrival);
                 self.accept(arrival, length, attempts);
                 return Ok(());
             }
@@ -244,13 +249,16 @@ impl Follower {
         state.history.push(&self.trial.node);
         state.stop = arrival.end;
         state.counters.accepted += 1;
-        self.store(events, arc_length);
+        state.tests.clone_from(&self.trial.tests);
+        // Where something else was located, the change of signature lies anywhere in the step.
+        let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };
+        self.store(events, arrival.uncertainty.max(of_change), arc_length);
         self.state.step_length = self.next_step(step, arrival, angle, attempts);
         self.memory.remember(&self.state.current);
     }
 
     /// Copies the trial into the current point.
-    fn store(&mut self, events: Events, arc_length: f64) {
+    fn store(&mut self, events: Events, uncertainty: f64, arc_length: f64) {
         let orientation = self.state.orientation;
         let (current, trial) = (&mut self.state.current, &self.trial);
         current.point.copy_from_slice(&trial.point);
@@ -262,5 +270,6 @@ impl Follower {
         current.correction_norm = trial.correction_norm;
         current.residual_norm = trial.residual_norm;
         current.events = events;
+        current.uncertainty = uncertainty;
     }
 }

@@ -58,6 +58,7 @@ impl Follower {
         trial
             .correct(problem, &weights, &row, limits, &mut counters)
             .map_err(|cause| PathError::Start { parameter, cause })?;
+        problem.tests(&mut trial.tests);
         check_inside(trial.parameter(), range)?;
         scale(&mut trial.node.tangent, direction.sign());
         let state = first_state(&trial, direction.sign(), &settings, counters);
@@ -133,6 +134,7 @@ fn first_state(trial: &Candidate, sign: f64, settings: &Settings, counters: Coun
         step_length: settings.initial_step,
         orientation: current.orientation,
         parameter_sign: if current.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
+        tests: trial.tests.clone(),
         change_ahead: 0.0,
         counters,
         stop: None,

@@ -1,0 +1,148 @@
+//! Events that are told by the problem: zeros of its test functions, and changes of its signature.
+//!
+//! A step over which a test function changes its sign ends at the zero instead, found by regula falsi. A function may also jump
+//! through zero (when what it is made of changes its kind); then the bracket shrinks and the value does not, and nothing is recorded.
+//! A change of signature is bracketed by bisection, since a signature has no size.
+
+use super::{Arrival, Follower, fold::Bracket};
+use crate::{error::Doubt, point::Events, problem::PathProblem};
+
+const MOST_PROBES: u32 = 60;
+/// Value relative to the ends of the step at which a zero counts as reached.
+const SHARP: f64 = 1e-10;
+/// If the value did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it jumps.
+const JUMP_WIDTH: f64 = 1e-3;
+const JUMP_SIZE: f64 = 0.05;
+/// Share of `signature_step` within which a change of signature is located.
+const CHANGE_WIDTH: f64 = 1e-3;
+
+impl Follower {
+    /// Ends the step to the trial at the first zero of a test function before it, if there is one.
+    pub(super) fn heed_zeros(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+        arrival: Arrival,
+    ) -> Result<Arrival, Doubt> {
+        problem.tests(&mut self.trial.tests);
+        if self.state.tests.len() != self.trial.tests.len() {
+            return Ok(arrival);
+        }
+        let mut arrival = arrival;
+        for index in 0..self.trial.tests.len() {
+            let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
+            if apart >= 2 && step > self.settings.signature_step {
+                return Err(Doubt::HiddenZeros);
+            }
+            if apart % 2 == 1 {
+                arrival = self.arrive_at_zero(problem, step, index)?.unwrap_or(arrival);
+            }
+        }
+        Ok(arrival)
+    }
+
+    /// The zeros that belong to a point that was reached without a look at what lies between.
+    pub(super) fn zeros_at_once(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        mut arrival: Arrival,
+    ) -> Arrival {
+        problem.tests(&mut self.trial.tests);
+        for (index, (before, after)) in self.state.tests.iter().zip(&self.trial.tests).enumerate() {
+            if before.count.abs_diff(after.count) % 2 == 1 {
+                arrival.events.zeros |= 1 << index;
+                arrival.uncertainty = arrival.uncertainty.max(self.settings.min_step);
+            }
+        }
+        arrival
+    }
+
+    /// Makes the zero of one test function before the trial the trial; `None`, with the trial as it was, if the function jumps.
+    fn arrive_at_zero(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+        index: usize,
+    ) -> Result<Option<Arrival>, Doubt> {
+        let (before, after) = (self.state.tests[index], self.trial.tests[index]);
+        let sign = if before.count % 2 == 0 { 1.0 } else { -1.0 };
+        let ends = before.value.abs().max(after.value.abs());
+        let low = sign * before.value.abs().max(f64::MIN_POSITIVE);
+        let length = self.trial_progress();
+        let mut bracket = Bracket::new((0.0, low), (length, -sign * after.value.abs()));
+        let mut value = low;
+        for _ in 0..MOST_PROBES {
+            let place = bracket.next();
+            self.probe_between(problem, step, place)?;
+            problem.tests(&mut self.probe.tests);
+            let Some(test) = self.probe.tests.get(index) else { return Err(Doubt::NotLocated) };
+            value = test.value;
+            bracket.narrow(place, value);
+            if bracket.width() < JUMP_WIDTH * length && value.abs() > JUMP_SIZE * ends {
+                return self.return_to_trial(problem);
+            }
+            if value.abs() <= SHARP * ends || bracket.width() <= self.settings.correction_floor {
+                break;
+            }
+        }
+        if value.abs() > JUMP_SIZE * ends {
+            return self.return_to_trial(problem);
+        }
+        if !self.range.contains(self.probe.parameter()) {
+            return Err(Doubt::NotLocated);
+        }
+        let uncertainty = bracket.uncertainty(value);
+        self.probe.orient(self.state.orientation);
+        std::mem::swap(&mut self.trial, &mut self.probe);
+        self.trial.tests[index] = after;
+        let mut arrival = Arrival { uncertainty, ..Arrival::default() };
+        arrival.events.zeros = 1 << index;
+        Ok(Some(arrival))
+    }
+
+    /// Evaluates the trial again, so that the problem holds the point that is accepted.
+    fn return_to_trial(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+    ) -> Result<Option<Arrival>, Doubt> {
+        self.state.counters.evaluations += 1;
+        problem.evaluate(&self.trial.point).map_err(|error| Doubt::Corrector(error.into()))?;
+        problem.tests(&mut self.trial.tests);
+        Ok(None)
+    }
+
+    /// Whether the signature of the trial differs from that of the point before.
+    pub(super) fn changes_signature(&self) -> bool {
+        self.trial.signature != self.state.current.signature
+    }
+
+    /// Bisects the change of signature before the trial; its far side becomes the trial.
+    pub(super) fn arrive_at_change(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+        earlier: usize,
+    ) -> Result<Arrival, Doubt> {
+        let sharp = (CHANGE_WIDTH * self.settings.signature_step).max(self.settings.correction_floor);
+        let (mut low, mut high) = (0.0, self.trial_progress());
+        let mut evaluated_far = true;
+        while high - low > sharp {
+            let middle = 0.5 * (low + high);
+            if self.probe_between(problem, step, middle).is_err() {
+                break;
+            }
+            evaluated_far = self.probe.signature != self.state.current.signature;
+            if evaluated_far {
+                self.probe.orient(self.state.orientation);
+                std::mem::swap(&mut self.trial, &mut self.probe);
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        if !evaluated_far {
+            self.return_to_trial(problem)?;
+        }
+        Ok(Arrival { earlier, uncertainty: high - low, events: Events::default(), ..Arrival::default() })
+    }
+}

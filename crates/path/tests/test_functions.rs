@@ -1,0 +1,93 @@
+//! Zeros of test functions become points of their own.
+
+use hammerbeam_path::{
+    Branch, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason, TestValue, follow,
+};
+
+/// The unit circle `x² + λ² = 1`, with these test functions.
+fn circle(tests: Vec<fn(&[f64]) -> TestValue>) -> impl PathProblem {
+    let equation = |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
+        residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
+        jacobian.copy_from_slice(&[2.0 * z[0], 2.0 * z[1]]);
+        0
+    };
+    DenseProblem::new(1, equation).with_tests(tests)
+}
+
+/// The circle from the top, `λ` increasing, until it closes.
+fn round(tests: Vec<fn(&[f64]) -> TestValue>, step: f64) -> Branch {
+    let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
+    let range = ParameterRange::new(-2.0, 2.0).expect("in order");
+    let branch = follow(&mut circle(tests), &[1.0, 0.0], Direction::Increasing, range, settings);
+    let branch = branch.expect("the start lies on the circle");
+    assert_eq!(branch.stop, StopReason::Closed);
+    branch
+}
+
+fn signed(value: f64) -> TestValue {
+    TestValue { value, count: u32::from(value < 0.0) }
+}
+
+fn zeros(branch: &Branch, index: u32) -> Vec<(f64, f64)> {
+    let at = |point: &&hammerbeam_path::ContinuationPoint| point.events.zeros >> index & 1 == 1;
+    branch.points.iter().filter(at).map(|point| (point.point[0], point.point[1])).collect()
+}
+
+#[test]
+fn zeros_lie_where_the_line_cuts_the_circle() {
+    for step in [0.3, 0.1, 0.01] {
+        let branch = round(vec![|z| signed(z[0] - 0.3)], step);
+        let found = zeros(&branch, 0);
+        assert_eq!(found.len(), 2, "step {step}");
+        let height = (1.0_f64 - 0.09).sqrt();
+        for ((x, l), expected) in found.iter().zip([height, -height]) {
+            assert!((x - 0.3).abs() < 1e-9 && (l - expected).abs() < 1e-9, "{x} {l}");
+        }
+        assert!(
+            branch.points.iter().filter(|point| point.events.zeros > 0).all(|point| point.uncertainty < 1e-8)
+        );
+        assert_eq!(branch.folds().count(), 2);
+    }
+}
+
+#[test]
+fn a_zero_beside_a_fold_is_told_apart_from_it_on_either_side() {
+    // The folds lie at (0, ±1), the zeros within one step before and behind them.
+    let branch = round(vec![|z| signed(z[0] - 0.01), |z| signed(z[0] + 0.01)], 0.1);
+    for (index, x) in [(0, 0.01), (1, -0.01)] {
+        let found = zeros(&branch, index);
+        assert_eq!(found.len(), 2);
+        assert!(found.iter().all(|point| (point.0 - x).abs() < 1e-9));
+    }
+    assert_eq!(branch.folds().count(), 2);
+    assert!(branch.folds().all(|point| point.point[0].abs() < 1e-6));
+}
+
+#[test]
+fn two_functions_that_vanish_within_one_step_give_two_points() {
+    let branch = round(vec![|z| signed(z[0] - 0.5), |z| signed(0.501 - z[0])], 0.3);
+    assert_eq!((zeros(&branch, 0).len(), zeros(&branch, 1).len()), (2, 2));
+    assert!(zeros(&branch, 1).iter().all(|point| (point.0 - 0.501).abs() < 1e-9));
+}
+
+#[test]
+fn a_jump_through_zero_is_no_zero() {
+    let jump: fn(&[f64]) -> TestValue = |z| signed(if z[0] > 0.4 { 1.0 } else { -2.0 });
+    assert_eq!(zeros(&round(vec![jump], 0.1), 0), []);
+}
+
+#[test]
+fn two_zeros_of_one_function_within_a_step_are_both_found() {
+    // Zero at x = 0.300 and at x = 0.302: the value has the same sign on both sides, the count tells.
+    let pair: fn(&[f64]) -> TestValue = |z| {
+        let count = u32::from(z[0] < 0.302) + u32::from(z[0] < 0.300);
+        TestValue { value: (z[0] - 0.300) * (z[0] - 0.302), count }
+    };
+    let found = zeros(&round(vec![pair], 0.3), 0);
+    let mut places: Vec<f64> = found.iter().map(|point| point.0).collect();
+    places.sort_by(f64::total_cmp);
+    assert_eq!(places.len(), 4);
+    for (place, expected) in places.iter().zip([0.300, 0.300, 0.302, 0.302]) {
+        assert!((place - expected).abs() < 1e-8, "{place}");
+    }
+}
