@@ -6,7 +6,7 @@
 
 use hammerbeam_motion::System;
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange,
+    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, TestValue,
 };
 
 use crate::{
@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0001;
+const MAGIC: u64 = 0x4842_5741_4c4b_0002;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -39,6 +39,11 @@ impl BranchWalk {
         }
         for value in [state.step_length, state.orientation, state.parameter_sign, state.change_ahead] {
             out.float(value);
+        }
+        out.word(state.tests.len() as u64);
+        for test in &state.tests {
+            out.float(test.value);
+            out.word(u64::from(test.count));
         }
         let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
         [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
@@ -66,8 +71,11 @@ impl BranchWalk {
     ) -> Result<Self, OrbitError> {
         let mut reader = Reader { bytes: checkpoint };
         let length = hertz_per_norm(range_hz);
-        let (problem, state) =
+        let (mut problem, state) =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
+        if settings.locates_stability_changes {
+            problem.watch_stability();
+        }
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
         let mut reader = Reader { bytes: journal };
@@ -128,6 +136,7 @@ fn read(
         orientation: reader.float()?,
         parameter_sign: reader.float()?,
         change_ahead: reader.float()?,
+        tests: (0..reader.word()?).map(|_| reader.test()).collect::<Option<_>>()?,
         counters: Counters {
             evaluations: reader.word()?,
             factorisations: reader.word()?,
@@ -170,9 +179,11 @@ impl Writer {
         self.word(point.signature);
         self.float(point.correction_norm);
         self.float(point.residual_norm);
-        let Events { fold, branch_point, signature_change, corner } = point.events;
+        let Events { fold, branch_point, signature_change, corner, zeros } = point.events;
         let bits = [fold, branch_point, signature_change, corner];
-        self.word(bits.iter().enumerate().map(|(i, &set)| u64::from(set) << i).sum());
+        let bits: u64 = bits.iter().enumerate().map(|(i, &set)| u64::from(set) << i).sum();
+        self.word(bits | u64::from(zeros) << 32);
+        self.float(point.uncertainty);
         self.word(point.evaluations);
     }
 }
@@ -200,6 +211,10 @@ impl Reader<'_> {
         (0..length).map(|_| self.float()).collect()
     }
 
+    fn test(&mut self) -> Option<TestValue> {
+        Some(TestValue { value: self.float()?, count: u32::try_from(self.word()?).ok()? })
+    }
+
     fn point(&mut self) -> Option<ContinuationPoint> {
         Some(ContinuationPoint {
             point: self.floats()?,
@@ -213,8 +228,15 @@ impl Reader<'_> {
             events: {
                 let bits = self.word()?;
                 let set = |bit: u64| bits >> bit & 1 == 1;
-                Events { fold: set(0), branch_point: set(1), signature_change: set(2), corner: set(3) }
+                Events {
+                    fold: set(0),
+                    branch_point: set(1),
+                    signature_change: set(2),
+                    corner: set(3),
+                    zeros: (bits >> 32) as u32,
+                }
             },
+            uncertainty: self.float()?,
             evaluations: self.word()?,
         })
     }

@@ -202,6 +202,7 @@ impl Search<'_> {
         let settings = OrbitSettings {
             max_step_hz: COARSER * self.settings.max_step_hz,
             max_solutions: self.settings.max_solutions.min(MOST_SOLUTIONS),
+            locates_stability_changes: false,
             ..*self.settings
         };
         let Ok(mut walk) = BranchWalk::new(self.system, self.response, start, side, range, &settings) else {

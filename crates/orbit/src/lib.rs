@@ -57,6 +57,7 @@ mod settings;
 mod shooting;
 mod solution;
 mod solve;
+mod stability;
 mod start;
 mod walk;
 

@@ -27,6 +27,8 @@ pub struct OrbitSettings {
     pub segments: Segments,
     /// Most solutions on one side of a branch.
     pub max_solutions: usize,
+    /// Whether a walk locates flips and Neimark-Sacker points.
+    pub locates_stability_changes: bool,
 }
 
 impl OrbitSettings {
@@ -45,6 +47,7 @@ impl Default for OrbitSettings {
             motion_tolerance: 1e-11,
             segments: Segments::Automatic,
             max_solutions: 1_000_000,
+            locates_stability_changes: true,
         }
     }
 }

@@ -19,7 +19,9 @@ use hammerbeam_motion::{
     Stretch,
     exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian};
+use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+
+use crate::{NoEigenvalues, eigenvalues::eigenvalues, stability};
 
 /// Scales of a state: displacements `V/w_i`, velocities `V`.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +81,10 @@ pub(crate) struct ShootingProblem {
     lu: DenseLu,
     touches: Vec<u32>,
     failure: Option<MotionError>,
+    /// Multipliers at the point evaluated last, once they were asked for.
+    multipliers: Option<Result<Vec<[f64; 2]>, NoEigenvalues>>,
+    /// Whether flips and Neimark-Sacker points are looked for.
+    watches_stability: bool,
 }
 
 impl ShootingProblem {
@@ -107,6 +113,8 @@ impl ShootingProblem {
             lu: DenseLu::new(),
             touches: vec![0; contacts],
             failure: None,
+            multipliers: None,
+            watches_stability: false,
         };
         problem.set_segments(segments);
         problem
@@ -159,6 +167,25 @@ impl ShootingProblem {
     /// Monodromy matrix at the last evaluated point, by rows, in scaled states.
     pub fn monodromy(&self) -> &[f64] {
         &self.products[self.segments]
+    }
+
+    /// Floquet multipliers at the last evaluated point.
+    pub fn multipliers(&mut self) -> Result<&[[f64; 2]], NoEigenvalues> {
+        if self.multipliers.is_none() {
+            self.multipliers = Some(eigenvalues(self.node_size(), self.monodromy()));
+        }
+        let known = self.multipliers.as_ref().expect("they were just computed");
+        known.as_deref().map_err(|error| *error)
+    }
+
+    /// Has flips and Neimark-Sacker points located.
+    pub fn watch_stability(&mut self) {
+        self.watches_stability = true;
+    }
+
+    /// Number of touches of each element over the orbit at the last evaluated point.
+    pub fn touches(&self) -> &[u32] {
+        &self.touches
     }
 
     /// Segment k at a frequency.
@@ -246,6 +273,7 @@ impl PathProblem for ShootingProblem {
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.touches.fill(0);
         self.failure = None;
+        self.multipliers = None;
         let frequency = point[self.residual.len()];
         if frequency.is_nan() || frequency <= 0.0 {
             return Err(EvaluationError::OutsideDomain);
@@ -318,6 +346,16 @@ impl PathProblem for ShootingProblem {
         }
         right_hand_side[..size].copy_from_slice(&condensed[..size]);
         right_hand_side[m * size] = change;
+    }
+
+    fn tests(&mut self, values: &mut Vec<TestValue>) {
+        values.clear();
+        if !self.watches_stability {
+            return;
+        }
+        if let Ok(multipliers) = self.multipliers() {
+            values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
+        }
     }
 
     fn signature(&self) -> u64 {

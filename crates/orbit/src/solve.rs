@@ -8,7 +8,6 @@ use hammerbeam_path::PathProblem;
 
 use crate::{
     OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
-    eigenvalues::eigenvalues,
     shooting::{ShootingProblem, StateScale},
 };
 
@@ -83,7 +82,7 @@ pub(crate) fn solution(
     error_estimate: f64,
 ) -> Result<PeriodicSolution, OrbitError> {
     let frequency_hz = point[point.len() - 1];
-    let floquet_multipliers = eigenvalues(problem.node_size(), problem.monodromy())?;
+    let floquet_multipliers = problem.multipliers()?.to_vec();
     let residual = problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
     let nodes = problem.nodes(point);
     let maxima = observe(problem, &nodes, frequency_hz)?;

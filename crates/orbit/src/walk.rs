@@ -47,6 +47,9 @@ impl BranchWalk {
         let nodes = nodes_from(&mut integrator, &start.nodes[0], frequency, multiple, segments)?;
         let length = hertz_per_norm(range_hz);
         let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
+        if settings.locates_stability_changes {
+            problem.watch_stability();
+        }
         let point = problem.point(&nodes, frequency);
         let direction = match side {
             Side::Up => Direction::Increasing,
@@ -180,6 +183,8 @@ impl BranchWalk {
             fold: current.events.fold,
             branch_point: current.events.branch_point,
             grazing: current.events.signature_change,
+            flip: current.events.zeros & 1 != 0,
+            neimark_sacker: current.events.zeros & 2 != 0,
             ..Events::default()
         };
         Ok(BranchRow { solution, events })

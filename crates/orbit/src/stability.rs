@@ -1,0 +1,56 @@
+//! Test functions of the stability of an orbit, from its Floquet multipliers `mu_i`.
+//!
+//! Along a smooth arc the multipliers are continuous, and they leave the unit circle in three ways: at +1 (a fold or branch point, which
+//! the path itself tells), at -1 (*flip*), and as a complex pair (*Neimark-Sacker*).
+//!
+//! - Flip: `prod (1 + mu_i)`, which is smooth even where multipliers meet; its sign is that of `(-1)^k`, `k` the number of real `mu_i < -1`.
+//! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of pairs outside. Where a pair
+//!   outside the circle splits into two real multipliers the sign jumps without a zero, which is no event.
+//!
+//! # Source
+//! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), chapters 4 and 10.
+
+use hammerbeam_path::TestValue;
+
+/// Vanishes where a multiplier is -1.
+pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
+    // Factors far from zero say nothing, and might overflow.
+    let factor = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im).clamp(0.0, 1e3);
+    let count = multipliers.iter().filter(|[re, im]| *im == 0.0 && *re < -1.0).count() as u32;
+    signed(multipliers.iter().map(factor).product(), count)
+}
+
+/// Vanishes where a complex pair lies on the unit circle.
+pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
+    let pairs = || multipliers.iter().filter(|[_, im]| *im > 0.0).map(|[re, im]| re * re + im * im);
+    let count = pairs().filter(|square| *square > 1.0).count() as u32;
+    signed(pairs().map(|square| (1.0 - square).abs()).fold(1.0, f64::min), count)
+}
+
+fn signed(magnitude: f64, count: u32) -> TestValue {
+    TestValue { value: if count.is_multiple_of(2) { magnitude } else { -magnitude }, count }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_flip_function_vanishes_at_minus_one_and_counts_beyond_it() {
+        assert_eq!(flip(&[[-1.0, 0.0], [0.5, 0.0]]).value, 0.0);
+        let beyond = flip(&[[-3.0, 0.0], [0.5, 0.0]]);
+        assert_eq!((beyond.value, beyond.count), (-3.0, 1));
+        // A pair that meets at -1 + 0i touches zero from above on both sides.
+        assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue { value: 0.25, count: 2 });
+        assert!(flip(&[[-1.5, 0.1], [-1.5, -0.1]]).value > 0.25);
+    }
+
+    #[test]
+    fn the_neimark_sacker_function_vanishes_for_a_pair_on_the_circle_only() {
+        let on = neimark_sacker(&[[0.6, 0.8], [0.6, -0.8]]).value;
+        assert!(on.abs() < 1e-15, "{on}");
+        assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue { value: -1.0, count: 1 });
+        // A real pair with product one is a neutral saddle, which is no bifurcation.
+        assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue { value: 1.0, count: 0 });
+    }
+}
