@@ -47,6 +47,9 @@ impl BranchWalk {
         }
         let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
         [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
+        out.word(self.touches.len() as u64);
+        self.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
+        out.word(u64::from(self.begins_with_present));
         out.bytes
     }
 
@@ -73,6 +76,7 @@ impl BranchWalk {
         let length = hertz_per_norm(range_hz);
         let (mut problem, state) =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
+        let (touches, begins_with_present) = read_walk(&mut reader).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -87,7 +91,8 @@ impl BranchWalk {
                 follower.remember(&point);
             }
         }
-        Ok(Self { problem, follower, journal: Vec::new(), settings: *settings, range_hz })
+        let journal = Vec::new();
+        Ok(Self { problem, follower, journal, settings: *settings, range_hz, touches, begins_with_present })
     }
 }
 
@@ -145,10 +150,14 @@ fn read(
         },
         stop: None,
     };
-    reader
-        .bytes
-        .is_empty()
-        .then(|| Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
+    Some(Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
+}
+
+/// What a walk knows beside its follower; `None` if the bytes do not fit or are too many.
+fn read_walk(reader: &mut Reader<'_>) -> Option<(Vec<u32>, bool)> {
+    let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
+    let begins_with_present = reader.word()? != 0;
+    reader.bytes.is_empty().then_some((touches, begins_with_present))
 }
 
 #[derive(Default)]

@@ -29,6 +29,9 @@ pub enum OrbitError {
         "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts"
     )]
     NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },
+    /// No other branch was found where one should leave.
+    #[error("no other branch was found beside the crossing at {frequency_hz} Hz")]
+    NoCrossing { frequency_hz: f64 },
     /// A stored checkpoint does not fit this system or version.
     #[error("the checkpoint does not belong to this system")]
     Checkpoint,

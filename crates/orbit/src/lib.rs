@@ -12,13 +12,15 @@
 //! | `start.rs`, `find.rs` | the first orbit of a branch; all orbits at one frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
+//! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
+//! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
 //! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
 //!
 //! # Stability
 //! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of the segments, so they do not depend
-//! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle. Folds, branch points and grazing are
-//! located as rows of their own. Flips and Neimark-Sacker points are not located yet: stability changes between two rows there.
+//! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle. Folds, branch points, flips, Neimark-Sacker points
+//! and grazing are located as rows of their own.
 //!
 //! # Example
 //! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.
@@ -52,6 +54,7 @@ mod eigenvalues;
 mod error;
 mod find;
 mod free;
+mod located;
 mod resegment;
 mod settings;
 mod shooting;
@@ -59,13 +62,16 @@ mod solution;
 mod solve;
 mod stability;
 mod start;
+mod switch;
 mod walk;
 
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
 pub use find::{find_orbits, reach_orbit};
 pub use free::{FreeOrbit, free_orbit};
+pub use located::{ContactChange, EventStatus, LocatedEvent};
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 pub use start::find_start;
+pub use switch::Crossing;
 pub use walk::BranchWalk;

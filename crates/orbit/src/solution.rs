@@ -1,5 +1,7 @@
 //! What a computed periodic solution and a row of a branch hold.
 
+use crate::LocatedEvent;
+
 /// A converged periodic solution.
 ///
 /// States are `[q; q']` in the modal coordinates of the system's model, length 2n.
@@ -98,6 +100,8 @@ pub struct BranchRow {
     pub solution: PeriodicSolution,
     /// Events located at it.
     pub events: Events,
+    /// What is known of them; `None` where there are none.
+    pub located: Option<LocatedEvent>,
 }
 
 /// Why a walk along a branch ended.

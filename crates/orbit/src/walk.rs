@@ -1,10 +1,13 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
 use hammerbeam_motion::System;
-use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange, Settings, StepOutcome};
+use hammerbeam_path::{
+    ContinuationPoint, Direction, Follower, ParameterRange, PathProblem, Settings, StepOutcome,
+};
 
 use crate::{
     BranchRow, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    located,
     shooting::ShootingProblem,
     solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
 };
@@ -25,6 +28,10 @@ pub struct BranchWalk {
     pub(crate) journal: Vec<ContinuationPoint>,
     pub(crate) settings: OrbitSettings,
     pub(crate) range_hz: (f64, f64),
+    /// Touches of each contact at the row before.
+    pub(crate) touches: Vec<u32>,
+    /// The present point is still to be given as a row: the walk has left a crossing.
+    pub(crate) begins_with_present: bool,
 }
 
 impl BranchWalk {
@@ -58,8 +65,19 @@ impl BranchWalk {
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
+        Ok(Self::of(problem, follower, settings, range_hz))
+    }
+
+    /// A walk at its start.
+    pub(crate) fn of(
+        problem: ShootingProblem,
+        follower: Follower,
+        settings: &OrbitSettings,
+        range_hz: (f64, f64),
+    ) -> Self {
         let journal = vec![follower.current().clone()];
-        Ok(Self { problem, follower, journal, settings: *settings, range_hz })
+        let touches = problem.touches().to_vec();
+        Self { problem, follower, journal, settings: *settings, range_hz, touches, begins_with_present: false }
     }
 
     /// The row of the start, to be taken before the first step.
@@ -103,6 +121,11 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
     pub fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, OrbitError> {
+        if std::mem::take(&mut self.begins_with_present) {
+            evaluate(&mut self.problem, &self.follower.current().point)?;
+            rows.push(self.row()?);
+            return Ok(None);
+        }
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
@@ -174,8 +197,11 @@ impl BranchWalk {
     }
 
     /// The row of the point at which the problem was evaluated last.
-    fn row(&mut self) -> Result<BranchRow, OrbitError> {
+    pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
         let current = self.follower.current();
+        let place =
+            located::Place { point: current, bend: self.frequency_bend(), touches_before: &self.touches };
+        let located = located::describe(&mut self.problem, &place);
         // The path measures in hertz, the solution relative to the orbit.
         let error_estimate = current.correction_norm / hertz_per_norm(self.range_hz);
         let solution = solution(&mut self.problem, &current.point, error_estimate)?;
@@ -187,7 +213,19 @@ impl BranchWalk {
             neimark_sacker: current.events.zeros & 2 != 0,
             ..Events::default()
         };
-        Ok(BranchRow { solution, events })
+        self.touches.clear();
+        self.touches.extend_from_slice(self.problem.touches());
+        Ok(BranchRow { solution, events, located })
+    }
+
+    /// Change of the tangent's frequency component per length over the last step.
+    fn frequency_bend(&self) -> f64 {
+        let history = &self.follower.checkpoint().history;
+        let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
+        let last = base.point.len() - 1;
+        let squares = base.point.iter().zip(&before.point).zip(self.problem.weights());
+        let length = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt();
+        (base.tangent[last] - before.tangent[last]).abs() / length.max(f64::MIN_POSITIVE)
     }
 
     fn stop_reason(&self, reason: hammerbeam_path::StopReason) -> StopReason {

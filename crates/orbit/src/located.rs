@@ -1,0 +1,157 @@
+//! What is known of an event: how closely it was located, which multiplier it belongs to, and in which direction the motion changes there.
+//!
+//! With the uncertainty `s` of the place along the path, the tangent's frequency component `t_f` and its change `k` per length, the
+//! frequency is uncertain by `s |t_f| + k s^2 / 2`.
+//!
+//! The direction is the null vector of `A - mu I` (`A` the monodromy matrix, `mu` the multiplier at +1, -1 or on the unit circle), found by
+//! inverse iteration. At a branch point it is the tangent of the crossing branch: the vector that `[R_x R_f]` maps to zero besides the
+//! tangent `t` of the present branch. There the bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to
+//! anything points into that direction.
+
+use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem};
+
+use crate::shooting::ShootingProblem;
+
+/// Relative frequency to which an event counts as located.
+const SHARP_FREQUENCY: f64 = 1e-8;
+/// Distance of the critical multiplier from its place that a located flip or Neimark-Sacker point may have.
+const SHARP_MULTIPLIER: f64 = 1e-5;
+
+/// How well an event was located.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EventStatus {
+    /// To 1e-8 in frequency, relative, with the multiplier in its place.
+    Located,
+    /// Only within [`LocatedEvent::uncertainty_hz`], or with a multiplier that jumps over its place (at a corner of the branch).
+    Bracketed,
+}
+
+/// A contact that appears or vanishes at grazing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ContactChange {
+    /// Which one, in the order of the elements and their contacts.
+    pub contact: usize,
+    /// Whether the orbit has it behind the event, in the direction of the walk.
+    pub appears: bool,
+}
+
+/// What is known of an event, beside the solution at it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LocatedEvent {
+    /// How well it was located.
+    pub status: EventStatus,
+    /// Frequency interval within which it lies [Hz].
+    pub uncertainty_hz: f64,
+    /// The multiplier that is critical, `[re, im]`, the one with positive imaginary part of a pair; none at mere grazing.
+    pub multiplier: Option<[f64; 2]>,
+    /// Critical direction of the state at phase 0, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one relative to the orbit; at a
+    /// Neimark-Sacker point its real part. Empty where there is none.
+    pub direction: Vec<f64>,
+    /// The contact that changes at grazing.
+    pub contact: Option<ContactChange>,
+}
+
+/// What the walk knows of the points at and before the event.
+pub(crate) struct Place<'a> {
+    pub point: &'a ContinuationPoint,
+    /// Change of the tangent's frequency component per length.
+    pub bend: f64,
+    pub touches_before: &'a [u32],
+}
+
+/// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened there.
+pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Option<LocatedEvent> {
+    let events = place.point.events;
+    if !events.any() {
+        return None;
+    }
+    let uncertainty = place.point.uncertainty;
+    let slope = place.point.tangent_parameter().abs();
+    let uncertainty_hz = uncertainty * slope + 0.5 * place.bend * uncertainty * uncertainty;
+    let multipliers = problem.multipliers().map(<[_]>::to_vec).unwrap_or_default();
+    let nearest = |distance: &dyn Fn(&[f64; 2]) -> f64| {
+        multipliers.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    let (multiplier, off) = if events.zeros & 1 != 0 {
+        let place = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im);
+        (nearest(&place), nearest(&place).map_or(f64::INFINITY, |m| place(&m)))
+    } else if events.zeros & 2 != 0 {
+        let place = |[re, im]: &[f64; 2]| if *im > 0.0 { (1.0 - re.hypot(*im)).abs() } else { f64::INFINITY };
+        (nearest(&place), nearest(&place).map_or(f64::INFINITY, |m| place(&m)))
+    } else if events.fold || events.branch_point {
+        (nearest(&|[re, im]| (1.0 - re).hypot(*im)), 0.0)
+    } else {
+        (None, 0.0)
+    };
+    let sharp = uncertainty_hz <= SHARP_FREQUENCY * place.point.parameter() && off <= SHARP_MULTIPLIER;
+    let direction = if events.branch_point {
+        crossing_direction(problem, place.point)
+    } else {
+        multiplier.and_then(|multiplier| null_direction(problem, multiplier))
+    };
+    Some(LocatedEvent {
+        status: if sharp { EventStatus::Located } else { EventStatus::Bracketed },
+        uncertainty_hz,
+        multiplier,
+        direction: direction.unwrap_or_default(),
+        contact: contact_change(place.touches_before, problem.touches()),
+    })
+}
+
+fn contact_change(before: &[u32], after: &[u32]) -> Option<ContactChange> {
+    let contact = before.iter().zip(after).position(|(before, after)| before != after)?;
+    Some(ContactChange { contact, appears: after[contact] > before[contact] })
+}
+
+/// Null vector of `A - mu I`, of the real part of `mu` and with its frequency zero, in states.
+fn null_direction(problem: &ShootingProblem, [re, im]: [f64; 2]) -> Option<Vec<f64>> {
+    let n = problem.node_size();
+    let monodromy = problem.monodromy();
+    // `[A - a I, b I; -b I, A - a I]` for a complex multiplier, which holds real and imaginary part apart.
+    let blocks = if im == 0.0 { 1 } else { 2 };
+    let width = blocks * n;
+    let mut matrix = vec![0.0; width * width];
+    for block in 0..blocks {
+        for i in 0..n {
+            let row = &mut matrix[(block * n + i) * width..(block * n + i + 1) * width];
+            row[block * n..(block + 1) * n].copy_from_slice(&monodromy[i * n..(i + 1) * n]);
+            row[block * n + i] -= re;
+            if blocks == 2 {
+                row[(1 - block) * n + i] = if block == 0 { im } else { -im };
+            }
+        }
+    }
+    let mut lu = DenseLu::new();
+    while lu.factorise(width, &matrix).is_err() {
+        // The multiplier is exact to the last bit: an inverse needs it a little off.
+        (0..width).for_each(|i| matrix[i * width + i] += 1e-14);
+    }
+    let mut vector = vec![1.0; width];
+    for _ in 0..3 {
+        lu.solve(&mut vector);
+        let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
+        vector.iter_mut().for_each(|v| *v /= length);
+    }
+    let largest = vector[..n].iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let scaled = vector[..n].iter().zip(problem.scale().values());
+    let direction: Vec<f64> = scaled.map(|(v, scale)| v * scale * largest.signum()).chain([0.0]).collect();
+    direction.iter().all(|value| value.is_finite()).then_some(direction)
+}
+
+/// Direction in which the other branch leaves a branch point, orthogonal to the present one.
+fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) -> Option<Vec<f64>> {
+    let weights = problem.weights().to_vec();
+    let row: Vec<f64> = point.tangent.iter().zip(&weights).map(|(t, w)| t * w).collect();
+    problem.factorise(&row).ok()?;
+    let last = weights.len() - 1;
+    let mut vector = vec![1.0; weights.len()];
+    for _ in 0..3 {
+        vector[last] = 0.0;
+        problem.solve(&mut vector);
+        let length = vector.iter().zip(&weights).map(|(v, w)| w * v * v).sum::<f64>().sqrt();
+        vector.iter_mut().for_each(|v| *v /= length);
+    }
+    let first = vector[..problem.node_size()].iter().zip(problem.scale().values());
+    let direction: Vec<f64> = first.map(|(v, scale)| v * scale).chain([vector[last]]).collect();
+    direction.iter().all(|value| value.is_finite()).then_some(direction)
+}

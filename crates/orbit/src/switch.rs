@@ -1,0 +1,144 @@
+//! Leaving a branch where another one crosses it: at a flip onto the branch of doubled period, at a branch point onto the crossing one.
+//!
+//! At a flip with multiplier -1 and direction `v` the orbit of doubled period is `z + a v + O(a^2)`; at a branch point the crossing branch
+//! leaves along its tangent `v`. The first orbit is sought in the plane `<v, z - z_0> = a`, normal to `v` at a small amplitude `a`: the
+//! present branch does not lie in that plane, so Newton's method cannot fall back to it. `v` is carried along the orbit by the flow, so that it
+//! serves any number of segments; over the second half of a doubled orbit it comes with the other sign by itself.
+
+use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
+use hammerbeam_path::{Direction, Follower, ParameterRange};
+
+use crate::{
+    BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
+    shooting::ShootingProblem,
+    solve::{integrator, state_scale},
+    walk::{hertz_per_norm, path_settings},
+};
+
+/// Amplitudes of the first orbit relative to the orbit, tried one after the other.
+const AMPLITUDES: [f64; 5] = [1e-3, 1e-4, 1e-2, 1e-5, 1e-6];
+
+/// Where a branch leaves another one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Crossing {
+    /// The orbit at the event, with the number of excitation periods that it has on the present branch.
+    pub orbit: PeriodicSolution,
+    /// [`crate::LocatedEvent::direction`].
+    pub direction: Vec<f64>,
+    /// Periods of the new branch over those of the present one: 2 at a flip, 1 at a branch point.
+    pub factor: u32,
+}
+
+impl BranchWalk {
+    /// Begins on the branch that leaves a crossing, and walks away from it: along the direction ([`Side::Up`]) or against it.
+    ///
+    /// # Errors
+    /// [`OrbitError::NoCrossing`] if no orbit of another branch is found beside the crossing.
+    pub fn from_crossing(
+        system: &System,
+        response: &Response,
+        crossing: &Crossing,
+        side: Side,
+        range_hz: (f64, f64),
+        settings: &OrbitSettings,
+    ) -> Result<Self, OrbitError> {
+        let frequency_hz = crossing.orbit.frequency_hz;
+        let none = OrbitError::NoCrossing { frequency_hz };
+        if crossing.direction.len() != crossing.orbit.nodes[0].len() + 1 {
+            return Err(none);
+        }
+        for amplitude in AMPLITUDES {
+            let signed = if side == Side::Up { amplitude } else { -amplitude };
+            let walk = leave(system, response, crossing, signed, range_hz, settings)?;
+            if let Some(walk) = walk {
+                return Ok(walk);
+            }
+        }
+        Err(none)
+    }
+
+    /// The solution at the present point.
+    ///
+    /// # Errors
+    /// See [`OrbitError`].
+    pub fn present(&mut self) -> Result<PeriodicSolution, OrbitError> {
+        crate::solve::evaluate(&mut self.problem, &self.follower.current().point)?;
+        Ok(self.row()?.solution)
+    }
+}
+
+/// A walk from the orbit of this amplitude beside the crossing; `None` if Newton's method does not find it nearby.
+fn leave(
+    system: &System,
+    response: &Response,
+    crossing: &Crossing,
+    amplitude: f64,
+    range_hz: (f64, f64),
+    settings: &OrbitSettings,
+) -> Result<Option<BranchWalk>, OrbitError> {
+    let orbit = &crossing.orbit;
+    let (multiple, segments) =
+        (orbit.period_multiple * crossing.factor, orbit.nodes.len() * crossing.factor as usize);
+    let mut integrator = integrator(system, response, settings)?;
+    let cut = Cut { frequency_hz: orbit.frequency_hz, period_multiple: multiple, segments };
+    let (nodes, slopes) = carry(&mut integrator, &orbit.nodes[0], &crossing.direction, &cut)?;
+    let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
+    let length = hertz_per_norm(range_hz);
+    let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
+    if settings.locates_stability_changes {
+        problem.watch_stability();
+    }
+    let base = problem.point(&nodes, orbit.frequency_hz);
+    let direction = problem.point(&slopes, crossing.direction[crossing.direction.len() - 1]);
+    let norm = |vector: &[f64]| {
+        let squares = vector.iter().zip(hammerbeam_path::PathProblem::weights(&problem));
+        squares.map(|(v, w)| w * v * v).sum::<f64>().sqrt()
+    };
+    let reach = amplitude * length;
+    let unit = 1.0 / norm(&direction);
+    let start: Vec<f64> = base.iter().zip(&direction).map(|(z, d)| z + reach * unit * d).collect();
+    let away: Vec<f64> = direction.iter().map(|d| d * reach.signum()).collect();
+    let range = ParameterRange::new(range_hz.0, range_hz.1)?;
+    let along = Direction::Along(&away);
+    let Ok(follower) = Follower::start(&mut problem, &start, along, range, path_settings(settings, length))
+    else {
+        return Ok(None);
+    };
+    let moved: Vec<f64> = follower.current().point.iter().zip(&start).map(|(a, b)| a - b).collect();
+    let squares = moved.iter().zip(hammerbeam_path::PathProblem::weights(&problem)).map(|(v, w)| w * v * v);
+    if squares.sum::<f64>().sqrt() > reach.abs() {
+        return Ok(None);
+    }
+    let mut walk = BranchWalk::of(problem, follower, settings, range_hz);
+    walk.begins_with_present = true;
+    Ok(Some(walk))
+}
+
+/// How an orbit is cut.
+struct Cut {
+    frequency_hz: f64,
+    period_multiple: u32,
+    segments: usize,
+}
+
+/// The state and its change (with the change of the frequency as last entry) at the nodes of an orbit.
+fn carry(
+    integrator: &mut ExactIntegrator,
+    state: &[f64],
+    direction: &[f64],
+    cut: &Cut,
+) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), OrbitError> {
+    let size = state.len();
+    let by_frequency = direction[size];
+    let phase = |k: usize| f64::from(cut.period_multiple) * k as f64 / cut.segments as f64;
+    let (mut nodes, mut slopes) = (vec![state.to_vec()], vec![direction[..size].to_vec()]);
+    for k in 1..cut.segments {
+        let stretch = Stretch { frequency_hz: cut.frequency_hz, start: phase(k - 1), end: phase(k) };
+        let flow = integrator.flow(&stretch, &nodes[k - 1])?;
+        let before = &slopes[k - 1];
+        let carried = |i: usize| (0..size).map(|j| flow.by_state[(i, j)] * before[j]).sum::<f64>();
+        slopes.push((0..size).map(|i| carried(i) + flow.by_frequency[i] * by_frequency).collect());
+        nodes.push(flow.state);
+    }
+    Ok((nodes, slopes))
+}
