@@ -59,9 +59,9 @@ pub struct RunOptions {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 
-    /// Number of threads; branches are followed one after the other so far, and the results do not depend on it
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
-    pub jobs: u16,
+    /// Number of threads [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
 }
 
 #[derive(Debug, Args)]

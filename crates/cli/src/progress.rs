@@ -2,7 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use hammerbeam_study::run::{Observer, Progress, Target};
+use hammerbeam_study::{
+    run::{Observer, Progress},
+    store::{JobKind, JobRecord},
+};
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
 
 use crate::interrupt::Interrupt;
@@ -48,20 +51,26 @@ impl Terminal {
             "? left".to_owned()
         };
         format!(
-            "{left}  {} solutions, {}/s  {:.3} Hz  branch {} (period {})",
+            "{left}  {} solutions, {}/s  branches: {} done, {} walks open  {:.3} Hz, period {}",
             HumanCount(progress.solutions),
             HumanCount(rate as u64),
+            progress.branches_done,
+            progress.walks_open,
             progress.frequency_hz,
-            progress.branch,
             progress.period_multiple,
         )
     }
 }
 
 impl Observer for Terminal {
-    fn searching(&mut self, target: &Target) {
-        let multiple = target.period_multiple;
-        self.bar.set_message(format!("looking for period {multiple} at {:.4} Hz", target.frequency_hz));
+    fn working(&mut self, job: &JobRecord) {
+        let what = match job.kind {
+            JobKind::Harmonic => "looking for the harmonic branch",
+            JobKind::Survey => "looking for branches by simulation",
+            JobKind::Doubling => "leaving a flip",
+            JobKind::Crossing => "leaving a branch point",
+        };
+        self.bar.set_message(format!("{what} at {:.4} Hz", job.frequency_hz));
         self.bar.tick();
     }
 

@@ -8,7 +8,7 @@ use hammerbeam_motion::{Stretch, System};
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     solve::{integrator, state_scale},
-    start::{attempt, find_start, simulate, starting_states},
+    start::{STARTS, attempt, find_start, simulate, starting_states},
 };
 
 /// Periods after which a motion is taken as settled or as never settling.
@@ -46,7 +46,7 @@ pub fn find_orbits(
         found: Vec::new(),
         followed: Vec::new(),
     };
-    for start in starting_states(system, response, frequency_hz, settings)? {
+    for start in starting_states(system, response, frequency_hz, STARTS, settings)? {
         search.search_motion(&start)?;
     }
     search.search_branches(range_hz)?;

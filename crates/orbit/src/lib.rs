@@ -14,6 +14,7 @@
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
+//! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
 //! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
 //!
@@ -55,6 +56,7 @@ mod error;
 mod find;
 mod free;
 mod located;
+mod matching;
 mod resegment;
 mod settings;
 mod shooting;
@@ -62,6 +64,7 @@ mod solution;
 mod solve;
 mod stability;
 mod start;
+mod survey;
 mod switch;
 mod walk;
 
@@ -70,8 +73,10 @@ pub use error::OrbitError;
 pub use find::{find_orbits, reach_orbit};
 pub use free::{FreeOrbit, free_orbit};
 pub use located::{ContactChange, EventStatus, LocatedEvent};
+pub use matching::Matcher;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 pub use start::find_start;
+pub use survey::{SurveyEffort, survey};
 pub use switch::Crossing;
 pub use walk::BranchWalk;

@@ -12,7 +12,7 @@ const PERIODS: usize = 64;
 /// Attempts per start.
 const ATTEMPTS: usize = 12;
 /// Starts besides the linear response.
-const STARTS: usize = 6;
+pub(crate) const STARTS: usize = 6;
 
 /// Finds one orbit whose minimal period is `period_multiple` excitation periods.
 ///
@@ -27,7 +27,7 @@ pub fn find_start(
     period_multiple: u32,
     settings: &OrbitSettings,
 ) -> Result<PeriodicSolution, OrbitError> {
-    for start in starting_states(system, response, frequency_hz, settings)? {
+    for start in starting_states(system, response, frequency_hz, STARTS, settings)? {
         let found = settle(system, response, &start, (frequency_hz, period_multiple), settings)?;
         if let Some(solution) = found {
             return Ok(solution);
@@ -41,6 +41,7 @@ pub(crate) fn starting_states(
     system: &System,
     response: &Response,
     frequency_hz: f64,
+    starts: usize,
     settings: &OrbitSettings,
 ) -> Result<Vec<Vec<f64>>, OrbitError> {
     let mut integrator = integrator(system, response, settings)?;
@@ -56,8 +57,9 @@ pub(crate) fn starting_states(
     };
     let n = system.dof();
     let mut states = vec![linear.clone()];
-    for start in 0..STARTS {
-        let reach = 0.5 * 2f64.powi(start as i32);
+    for start in 0..starts {
+        // Six reaches, from half the linear response to sixteen times as much, over and over.
+        let reach = 0.5 * 2f64.powi((start % STARTS) as i32);
         // Low modes move most: their share falls with the order of the mode.
         let add = |i: usize, noise: f64| scale.values()[i] * reach * noise / (1 + i % n) as f64;
         states.push((0..2 * n).map(|i| linear[i] + add(i, noise())).collect());

@@ -11,7 +11,7 @@ use hammerbeam_path::{Direction, Follower, ParameterRange};
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     shooting::ShootingProblem,
-    solve::{integrator, state_scale},
+    solve::{evaluate, integrator, nodes_from, solution, state_scale},
     walk::{hertz_per_norm, path_settings},
 };
 
@@ -62,8 +62,31 @@ impl BranchWalk {
     /// # Errors
     /// See [`OrbitError`].
     pub fn present(&mut self) -> Result<PeriodicSolution, OrbitError> {
-        crate::solve::evaluate(&mut self.problem, &self.follower.current().point)?;
+        evaluate(&mut self.problem, &self.follower.current().point)?;
         Ok(self.row()?.solution)
+    }
+}
+
+impl Crossing {
+    /// The orbit at the crossing as an orbit of the new branch, with its periods.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if its motion cannot be computed.
+    pub fn root(
+        &self,
+        system: &System,
+        response: &Response,
+        settings: &OrbitSettings,
+    ) -> Result<PeriodicSolution, OrbitError> {
+        let mut integrator = integrator(system, response, settings)?;
+        let (frequency_hz, multiple) = (self.orbit.frequency_hz, self.orbit.period_multiple * self.factor);
+        let segments = self.orbit.nodes.len() * self.factor as usize;
+        let nodes = nodes_from(&mut integrator, &self.orbit.nodes[0], frequency_hz, multiple, segments)?;
+        let scale = state_scale(system, &self.orbit.nodes[0], frequency_hz);
+        let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, 1.0);
+        let point = problem.point(&nodes, frequency_hz);
+        evaluate(&mut problem, &point)?;
+        solution(&mut problem, &point, self.orbit.error_estimate)
     }
 }
 
@@ -81,7 +104,7 @@ fn leave(
         (orbit.period_multiple * crossing.factor, orbit.nodes.len() * crossing.factor as usize);
     let mut integrator = integrator(system, response, settings)?;
     let cut = Cut { frequency_hz: orbit.frequency_hz, period_multiple: multiple, segments };
-    let (nodes, slopes) = carry(&mut integrator, &orbit.nodes[0], &crossing.direction, &cut)?;
+    let Carried { nodes, slopes } = carry(&mut integrator, &orbit.nodes[0], &crossing.direction, &cut)?;
     let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
     let length = hertz_per_norm(range_hz);
     let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
@@ -121,13 +144,19 @@ struct Cut {
     segments: usize,
 }
 
+/// States and their changes at the nodes of an orbit.
+struct Carried {
+    nodes: Vec<Vec<f64>>,
+    slopes: Vec<Vec<f64>>,
+}
+
 /// The state and its change (with the change of the frequency as last entry) at the nodes of an orbit.
 fn carry(
     integrator: &mut ExactIntegrator,
     state: &[f64],
     direction: &[f64],
     cut: &Cut,
-) -> Result<(Vec<Vec<f64>>, Vec<Vec<f64>>), OrbitError> {
+) -> Result<Carried, OrbitError> {
     let size = state.len();
     let by_frequency = direction[size];
     let phase = |k: usize| f64::from(cut.period_multiple) * k as f64 / cut.segments as f64;
@@ -140,5 +169,5 @@ fn carry(
         slopes.push((0..size).map(|i| carried(i) + flow.by_frequency[i] * by_frequency).collect());
         nodes.push(flow.state);
     }
-    Ok((nodes, slopes))
+    Ok(Carried { nodes, slopes })
 }

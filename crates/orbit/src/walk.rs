@@ -77,7 +77,15 @@ impl BranchWalk {
     ) -> Self {
         let journal = vec![follower.current().clone()];
         let touches = problem.touches().to_vec();
-        Self { problem, follower, journal, settings: *settings, range_hz, touches, begins_with_present: false }
+        Self {
+            problem,
+            follower,
+            journal,
+            settings: *settings,
+            range_hz,
+            touches,
+            begins_with_present: false,
+        }
     }
 
     /// The row of the start, to be taken before the first step.

@@ -6,7 +6,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::store::{BranchRecord, Row, Store, StoreError};
+use hammerbeam_orbit::{EventStatus, Events, LocatedEvent, Side};
+
+use crate::store::{BranchRecord, Row, Store, StoreError, solution_key};
 
 /// Columns of `branches.csv`; the first twelve are fixed, further ones follow after them.
 pub const COLUMNS: [&str; 15] = [
@@ -27,6 +29,21 @@ pub const COLUMNS: [&str; 15] = [
     "error_estimate",
 ];
 
+/// Columns of `events.csv`.
+pub const EVENT_COLUMNS: [&str; 11] = [
+    "branch",
+    "period_multiple",
+    "row",
+    "event",
+    "frequency_hz",
+    "status",
+    "uncertainty_hz",
+    "multiplier_re",
+    "multiplier_im",
+    "contact_change",
+    "direction",
+];
+
 /// Why results could not be exported.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -43,33 +60,50 @@ pub enum ExportError {
 /// What was exported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exported {
-    /// The file.
+    /// The branches.
     pub path: PathBuf,
-    /// Number of rows, without the header.
+    /// Number of their rows, without the header.
     pub rows: u64,
+    /// The events.
+    pub events_path: PathBuf,
 }
 
-/// Writes `branches.csv` into a folder: one row per solution, end to end along each branch.
+/// Writes `branches.csv`, one row per solution, end to end along each branch, and `events.csv`, one row per event, into a folder.
 ///
-/// Numbers are the shortest that read back to the same double. The file appears complete or not at all.
+/// Numbers are the shortest that read back to the same double. The files appear complete or not at all.
 ///
 /// # Errors
 /// [`ExportError`].
 pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError> {
+    let snapshot = store.snapshot()?;
     let path = folder.join("branches.csv");
-    let unfinished = folder.join(".branches.csv.part");
-    let failed = |source| ExportError::Write { path: path.clone(), source };
-    fs::create_dir_all(folder).map_err(failed)?;
+    let rows = write_whole(&path, |writer| write_csv(store, writer, &path))?;
+    let events_path = folder.join("events.csv");
+    write_whole(&events_path, |writer| write_events(store, writer, &events_path))?;
+    drop(snapshot);
+    Ok(Exported { path, rows, events_path })
+}
+
+/// Writes a file beside its place and moves it there when it is complete.
+fn write_whole<T>(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<File>) -> Result<T, ExportError>,
+) -> Result<T, ExportError> {
+    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(failed)?;
+    }
+    let unfinished = path.with_extension("csv.part");
     let mut writer = BufWriter::new(File::create(&unfinished).map_err(failed)?);
-    let rows = write_csv(store, &mut writer, &path)?;
-    writer.flush().map_err(failed)?;
-    fs::rename(&unfinished, &path).map_err(failed)?;
-    Ok(Exported { path, rows })
+    let written = write(&mut writer)?;
+    let file = writer.into_inner().map_err(|error| failed(error.into_error()))?;
+    file.sync_all().map_err(failed)?;
+    fs::rename(&unfinished, path).map_err(failed)?;
+    Ok(written)
 }
 
 fn write_csv(store: &Store, writer: &mut impl Write, path: &Path) -> Result<u64, ExportError> {
     let failed = |source| ExportError::Write { path: path.to_owned(), source };
-    let snapshot = store.snapshot()?;
     writeln!(writer, "{}", COLUMNS.join(",")).map_err(failed)?;
     let mut count = 0;
     for branch in store.branches()? {
@@ -78,7 +112,6 @@ fn write_csv(store: &Store, writer: &mut impl Write, path: &Path) -> Result<u64,
             write_row(writer, &branch, &row).map_err(failed)
         })?;
     }
-    drop(snapshot);
     Ok(count)
 }
 
@@ -103,5 +136,53 @@ fn write_row(writer: &mut impl Write, branch: &BranchRecord, row: &Row) -> io::R
         maxima.impulse,
         row.residual,
         row.error_estimate,
+    )
+}
+
+fn write_events(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
+    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    writeln!(writer, "{}", EVENT_COLUMNS.join(",")).map_err(failed)?;
+    for branch in store.branches()? {
+        let (down, mut number) = (branch.down.solutions, 0);
+        store.each_row::<ExportError>(&branch, |row| {
+            let place = number;
+            number += 1;
+            let (side, of_side) =
+                if place < down { (Side::Down, down - 1 - place) } else { (Side::Up, place - down) };
+            let Some(event) = store.event(solution_key(branch.start, side, of_side as u32))? else {
+                return Ok(());
+            };
+            write_event(writer, &branch, (place, &row), &event).map_err(failed)
+        })?;
+    }
+    Ok(())
+}
+
+fn write_event(
+    writer: &mut impl Write,
+    branch: &BranchRecord,
+    (place, row): (u64, &Row),
+    event: &LocatedEvent,
+) -> io::Result<()> {
+    let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+    let status = match event.status {
+        EventStatus::Located => "located",
+        EventStatus::Bracketed => "bracketed",
+    };
+    let change = event.contact.map_or(String::new(), |change| {
+        format!("{}{}", if change.appears { "+" } else { "-" }, change.contact + 1)
+    });
+    let direction: Vec<String> = event.direction.iter().map(|entry| format!("{entry:?}")).collect();
+    writeln!(
+        writer,
+        "{},{},{place},{},{:?},{status},{:?},{},{},{change},{}",
+        branch.id,
+        branch.period_multiple,
+        Events { start: false, end: false, ..row.events }.label(),
+        row.frequency_hz,
+        event.uncertainty_hz,
+        number(event.multiplier.map(|[re, _]| re)),
+        number(event.multiplier.map(|[_, im]| im)),
+        direction.join(" "),
     )
 }

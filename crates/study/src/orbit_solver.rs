@@ -1,14 +1,14 @@
 //! The numerics of the orbit crate, as a run needs them.
 
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
-    find_orbits, find_start, reach_orbit,
+    BranchRow, BranchWalk, Crossing, Matcher, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    Segments, Side, StopReason, SurveyEffort, find_orbits, find_start, reach_orbit, survey,
 };
 
 use crate::{
     Model,
     file::{self, Study},
-    run::{Solver, Walk},
+    run::{Match, Origin, Solver, Walk},
 };
 
 /// Periodic solutions of one model and their branches.
@@ -18,6 +18,7 @@ pub struct OrbitSolver<'m> {
     range_hz: (f64, f64),
     settings: OrbitSettings,
     budget: usize,
+    effort: SurveyEffort,
 }
 
 impl<'m> OrbitSolver<'m> {
@@ -30,6 +31,11 @@ impl<'m> OrbitSolver<'m> {
             range_hz: (low, high),
             settings: settings(&study.continuation),
             budget: study.continuation.budget_solutions,
+            effort: SurveyEffort {
+                starts: study.search.starts as usize,
+                settling: study.search.settling_periods as usize,
+                ..SurveyEffort::default()
+            },
         }
     }
 
@@ -69,12 +75,12 @@ fn settings(continuation: &file::Continuation) -> OrbitSettings {
 }
 
 impl Solver for OrbitSolver<'_> {
-    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String> {
+    fn find_harmonic(&self, frequency_hz: f64) -> Result<PeriodicSolution, String> {
         let system = &self.model.system;
-        let found = find_start(system, self.response(), frequency_hz, period_multiple, &self.settings);
+        let found = find_start(system, self.response(), frequency_hz, 1, &self.settings);
         // A harmonic branch passes every frequency; where it is unstable it is reached from elsewhere.
         let found = match found {
-            Err(OrbitError::NoOrbit { .. }) if period_multiple == 1 => {
+            Err(OrbitError::NoOrbit { .. }) => {
                 reach_orbit(system, self.response(), (frequency_hz, 1), &self.settings)
             }
             found => found,
@@ -82,9 +88,27 @@ impl Solver for OrbitSolver<'_> {
         found.map_err(|error| error.to_string())
     }
 
-    fn begin<'a>(&'a self, start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+    fn survey(&self, frequency_hz: f64, multiples: &[u32]) -> Result<Vec<PeriodicSolution>, String> {
         let system = &self.model.system;
-        let walk = BranchWalk::new(system, self.response(), start, side, self.range_hz, &self.settings);
+        survey(system, self.response(), frequency_hz, multiples, &self.effort, &self.settings)
+            .map_err(|error| error.to_string())
+    }
+
+    fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {
+        let root = crossing.root(&self.model.system, self.response(), &self.settings);
+        root.map_err(|error| error.to_string())
+    }
+
+    fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+        let (system, range_hz) = (&self.model.system, self.range_hz);
+        let walk = match origin {
+            Origin::Found(start) => {
+                BranchWalk::new(system, self.response(), start, side, range_hz, &self.settings)
+            }
+            Origin::Crossing(crossing) => {
+                BranchWalk::from_crossing(system, self.response(), crossing, side, range_hz, &self.settings)
+            }
+        };
         Ok(Box::new(walk.map_err(|error| error.to_string())?))
     }
 
@@ -93,6 +117,21 @@ impl Solver for OrbitSolver<'_> {
         let walk =
             BranchWalk::resume(&self.model.system, self.response(), stored, self.range_hz, &self.settings);
         Ok(Box::new(walk.map_err(|error| error.to_string())?))
+    }
+
+    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String> {
+        let matcher = Matcher::new(&self.model.system, self.response(), solution, &self.settings);
+        Ok(Box::new(matcher.map_err(|error| error.to_string())?))
+    }
+}
+
+impl Match for Matcher<'_> {
+    fn distance(&self, state: &[f64]) -> f64 {
+        self.distance(state)
+    }
+
+    fn is_near(&self, guess: &[f64]) -> bool {
+        self.is_near(guess)
     }
 }
 

@@ -16,8 +16,9 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         Format::Csv => export_csv(&store, &folder)?,
     };
     let path = exported.path.display().to_string();
-    output.give(&json!({ "files": [path], "rows": exported.rows }), || {
-        format!("{path}: {} solutions", exported.rows)
+    let events_path = exported.events_path.display().to_string();
+    output.give(&json!({ "files": [path, events_path], "rows": exported.rows }), || {
+        format!("{path}: {} solutions\n{events_path}: what happens at which of them", exported.rows)
     });
     Ok(())
 }

@@ -21,15 +21,17 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let solver = OrbitSolver::new(&model, &file.study);
     let mut terminal = Terminal::new(Interrupt::listen()?);
     let begun = Instant::now();
-    let outcome = hammerbeam_study::run::run(&mut store, &solver, &Plan::of(&file.study), &mut terminal);
+    let threads = threads(options.jobs);
+    let plan = Plan::of(&file.study);
+    let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
     terminal.clear();
     let outcome = outcome?;
     let branches = summarise(&store)?;
     let summary = Summary { study: &file.study, folder: options.out.display().to_string(), branches };
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
-        RunOutcome::Done if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
-        RunOutcome::Done => {
+        _ if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
+        RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
             let figures = figures::draw(&store, file.study.excitation.frequency_hz)?;
             output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
             Ok(())
@@ -37,6 +39,11 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     };
     store.finish()?;
     result
+}
+
+/// Threads to work with: those asked for, else one for each core.
+fn threads(asked: Option<u16>) -> usize {
+    asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 
 /// What came of a run.
@@ -111,6 +118,8 @@ fn branch_document(branch: &BranchSummary) -> Value {
         "stable_solutions": branch.stable,
         "frequency_hz": branch.range_hz,
         "folds": branch.folds,
+        "flips": branch.flips,
+        "neimark_sacker_points": branch.neimark_sackers,
         "branch_points": branch.branch_points,
         "grazings": branch.grazings,
         "peaks": branch.peaks.iter().map(peak).collect::<Vec<_>>(),
@@ -127,8 +136,8 @@ fn branch_text(branch: &BranchSummary) -> String {
             branch.record.id, branch.record.period_multiple, branch.solutions, branch.stable
         ),
         format!(
-            "  folds {}, branch points {}, grazings {}",
-            branch.folds, branch.branch_points, branch.grazings
+            "  folds {}, flips {}, Neimark-Sacker points {}, branch points {}, grazings {}",
+            branch.folds, branch.flips, branch.neimark_sackers, branch.branch_points, branch.grazings
         ),
     ];
     let mut peaks = branch.peaks.clone();

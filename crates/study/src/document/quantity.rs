@@ -188,6 +188,8 @@ pub(crate) const PHASE: Quantity = Quantity::new("rad", Including(-100.0), Inclu
 pub(crate) const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Step along a branch.
 pub(crate) const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
+/// Time that a run may take.
+pub(crate) const TIME: Quantity = Quantity::new("s", Excluding(0.0), Including(1e10));
 /// Tolerance of the solver.
 pub(crate) const TOLERANCE: Quantity = Quantity::new("", Including(1e-13), Including(1e-4));
 

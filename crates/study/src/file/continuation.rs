@@ -18,6 +18,9 @@ pub struct Continuation {
     /// Largest number of solutions on each side of a start; no part of the identity.
     #[serde(skip)]
     pub budget_solutions: usize,
+    /// Time after which a run begins no new piece of work [s]; no part of the identity.
+    #[serde(skip)]
+    pub budget_time_s: Option<f64>,
 }
 
 /// Number of shooting segments.
@@ -43,6 +46,7 @@ pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<
     let tolerance = key("tolerance").map_or(Some(1e-10), |value| value.number(&quantity::TOLERANCE));
     let segments = key("segments").map_or(Some(Segments::Auto), |value| read_segments(&value));
     let budget = key("budget_solutions").map_or(Some(200_000), |value| value.whole(1, 100_000_000));
+    let time = key("budget_time_s").map_or(Some(None), |value| value.number(&quantity::TIME).map(Some));
     if let Some(table) = table {
         table.finish();
     }
@@ -55,6 +59,7 @@ pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<
         tolerance: tolerance?,
         segments: segments?,
         budget_solutions: budget? as usize,
+        budget_time_s: time?,
     })
 }
 

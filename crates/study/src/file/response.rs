@@ -13,6 +13,9 @@ pub struct Response {
     pub point: String,
     /// Orbit periods over excitation period, each of which is sought.
     pub period_multiples: Vec<u32>,
+    /// Period doublings followed from the branches that were found by a search; no part of the identity.
+    #[serde(skip)]
+    pub period_doubling_depth: u32,
 }
 
 pub(super) fn read(root: &Table<'_>, names: &Names, stops: Option<&[Stop]>) -> Option<Response> {
@@ -26,12 +29,11 @@ pub(super) fn read(root: &Table<'_>, names: &Names, stops: Option<&[Stop]>) -> O
         None => default_point(names, stops),
     };
     let multiples = key("period_multiples").map_or(Some(vec![1]), |value| read_multiples(&value));
-    let depth = key("period_doubling_depth").map_or(Some(()), |value| read_depth(&value));
+    let depth = key("period_doubling_depth").map_or(Some(0), |value| value.whole(0, 10));
     if let Some(table) = table {
         table.finish();
     }
-    depth?;
-    Some(Response { point: point?, period_multiples: multiples? })
+    Some(Response { point: point?, period_multiples: multiples?, period_doubling_depth: depth? })
 }
 
 /// First point of the first stop, else the first point or mass, else the right end.
@@ -57,15 +59,4 @@ fn read_multiples(value: &Value<'_>) -> Option<Vec<u32>> {
         return None;
     }
     Some(distinct)
-}
-
-fn read_depth(value: &Value<'_>) -> Option<()> {
-    match value.whole(0, 16)? {
-        0 => Some(()),
-        depth => {
-            let help = vec!["allowed: 0; branches of doubled period are not followed yet".into()];
-            value.problem(format!("`period_doubling_depth` is {depth}"), help);
-            None
-        }
-    }
 }

@@ -13,8 +13,8 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Stop, Structure,
-    continuation, damping, excitation, load, names::Names, reduction, response, stop, structure,
+    Continuation, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Search, Stop, Structure,
+    continuation, damping, excitation, load, names::Names, reduction, response, search, stop, structure,
 };
 
 /// Everything a study says.
@@ -37,6 +37,8 @@ pub struct Study {
     pub stops: Vec<Stop>,
     /// What is asked for.
     pub response: Response,
+    /// How thoroughly branches are looked for.
+    pub search: Search,
     /// How branches are followed.
     pub continuation: Continuation,
 }
@@ -137,6 +139,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
     let loads = load::read(root, reading, &names, excitation.as_ref());
     let stops = stop::read(root, reading, &names, excitation.as_ref());
     let response = response::read(root, &names, stops.as_deref());
+    let search = search::read(root);
     let continuation = continuation::read(root, excitation.as_ref());
     Some(Study {
         title: title?.to_owned(),
@@ -147,6 +150,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         loads: loads?,
         stops: stops?,
         response: response?,
+        search: search?,
         continuation: continuation?,
     })
 }

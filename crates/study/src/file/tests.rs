@@ -58,7 +58,10 @@ fn the_paper_is_read_as_it_is_written() {
     assert_eq!(study.excitation.moving_supports(), ["left"]);
     let place = Place::At { point: "contact".into(), fixed_to: FixedTo::Support };
     assert_eq!(study.stops[0].place, place);
-    assert_eq!(study.response, Response { point: "contact".into(), period_multiples: vec![1, 2, 3] });
+    assert_eq!(
+        study.response,
+        Response { point: "contact".into(), period_multiples: vec![1, 2, 3], period_doubling_depth: 0 }
+    );
 }
 
 #[test]
@@ -67,7 +70,10 @@ fn what_is_not_said_has_its_default() {
     assert_eq!(study.reduction.method, ReductionMethod::None);
     assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.0)));
     assert_eq!((study.excitation.order, study.excitation.phase_rad), (1, 0.0));
-    assert_eq!(study.response, Response { point: "a".into(), period_multiples: vec![1] });
+    assert_eq!(
+        study.response,
+        Response { point: "a".into(), period_multiples: vec![1], period_doubling_depth: 0 }
+    );
     assert_eq!(study.continuation.max_step_hz, 0.0002);
     assert_eq!(study.continuation.segments, Segments::Auto);
 }
@@ -270,9 +276,10 @@ fn text_that_is_not_toml_is_refused_with_its_line() {
 }
 
 #[test]
-fn doubled_periods_are_refused_as_not_yet_possible() {
-    assert_refused(
-        paper_with("period_doubling_depth = 0", "period_doubling_depth = 1"),
-        &["`period_doubling_depth` is 1", "not followed yet"],
-    );
+fn depth_and_search_out_of_their_ranges_are_refused() {
+    assert_refused(paper_with("period_doubling_depth = 0", "period_doubling_depth = 11"), &["0 to 10"]);
+    for (key, value) in [("frequencies", "-1"), ("starts", "0.5"), ("settling_periods", "0")] {
+        let table = format!("[search]\n{key} = {value}\n\n[response]");
+        assert_refused(paper_with("[response]", &table), &[key]);
+    }
 }

@@ -1,8 +1,8 @@
 //! A solver without mechanics: branches that are plain curves, for tests of running and storing.
 
-use hammerbeam_orbit::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{BranchRow, Crossing, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 
-use super::{Solver, Walk};
+use super::{Match, Origin, Solver, Walk};
 
 /// One branch for each period multiple of 1 and 2; the harmonic one overhangs.
 pub(crate) struct FakeSolver {
@@ -42,15 +42,24 @@ impl FakeSolver {
 }
 
 impl Solver for FakeSolver {
-    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String> {
-        match period_multiple {
-            1 => Ok(self.solution(1, 0.0)),
-            2 => Ok(self.solution(2, frequency_hz - 15.0)),
-            other => Err(format!("no solution of {other} periods")),
+    fn find_harmonic(&self, _frequency_hz: f64) -> Result<PeriodicSolution, String> {
+        Ok(self.solution(1, 0.0))
+    }
+
+    /// One solution of two periods at every frequency, none of three.
+    fn survey(&self, frequency_hz: f64, multiples: &[u32]) -> Result<Vec<PeriodicSolution>, String> {
+        match multiples.contains(&2) {
+            true => Ok(vec![self.solution(2, frequency_hz - 15.0)]),
+            false => Err("no solution".to_owned()),
         }
     }
 
-    fn begin<'a>(&'a self, start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+    fn root(&self, _crossing: &Crossing) -> Result<PeriodicSolution, String> {
+        Err("nothing leaves".to_owned())
+    }
+
+    fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
+        let Origin::Found(start) = origin else { return Err("nothing leaves".to_owned()) };
         let at = if start.period_multiple == 1 { 0.0 } else { start.frequency_hz - 15.0 };
         let steps = (at / self.step).round() as i64;
         let direction = if side == Side::Up { 1 } else { -1 };
@@ -69,6 +78,22 @@ impl Solver for FakeSolver {
             return Err(format!("the journal has {} steps, {walked} were walked", journal.len()));
         }
         Ok(Box::new(FakeWalk { solver: self, multiple, steps, direction, journal: Vec::new(), walked }))
+    }
+
+    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String> {
+        Ok(Box::new(FakeMatch(solution)))
+    }
+}
+
+struct FakeMatch<'a>(&'a PeriodicSolution);
+
+impl Match for FakeMatch<'_> {
+    fn distance(&self, state: &[f64]) -> f64 {
+        state.iter().zip(&self.0.nodes[0]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
+    fn is_near(&self, guess: &[f64]) -> bool {
+        self.distance(guess) < 1e-3
     }
 }
 

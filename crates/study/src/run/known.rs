@@ -1,48 +1,133 @@
 //! Whether a solution lies on a branch that is already there.
+//!
+//! Maxima over a whole orbit do not depend on its phase; neighbouring rows between whose maxima those of the solution lie, within a margin, are
+//! candidates. Then the states decide: the state between the rows, interpolated to the frequency of the solution, is compared with the states of the solution at
+//! the beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the solution itself.
+//!
+//! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point there: the same frequency and the same state.
 
-use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_orbit::{PeriodicSolution, Side};
 
-use crate::store::{BranchRecord, Row, Store, StoreError};
+use super::{
+    Match, Solver,
+    agenda::{Sketch, Start},
+};
+use crate::store::{Store, StoreError, solution_key};
 
-/// Relative difference of maxima up to which two solutions are taken for the same.
-///
-/// Maxima over a whole orbit do not depend on its phase, so that an orbit of period N, which appears in N shifted
-/// forms, is recognised in each of them. Mirror images of a symmetric system are recognised as well.
-const SAME: f64 = 1e-2;
+/// Relative margin of the maxima of candidates.
+const MARGIN: f64 = 0.02;
+/// Relative difference of frequencies up to which two branch points can be the same.
+const SAME_FREQUENCY: f64 = 1e-7;
+/// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the same.
+const SAME_STATE: f64 = 5e-3;
+/// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
+const OVERHANG: f64 = 1e-3;
 
-/// Number of the branch on which the solution lies, if it lies on one of the same period.
-pub(super) fn branch_of(store: &Store, solution: &PeriodicSolution) -> Result<Option<u32>, StoreError> {
-    for branch in store.branches()? {
-        if branch.period_multiple == solution.period_multiple && lies_on(store, &branch, solution)? {
-            return Ok(Some(branch.id));
+/// A row of a branch: where it is stored, and its sketch.
+type Placed<'a> = (i64, &'a Sketch);
+
+/// Whether the solution lies on the branch of a start, as far as that has been walked.
+pub(super) fn lies_on(
+    store: &Store,
+    solver: &dyn Solver,
+    start: &Start,
+    solution: &PeriodicSolution,
+) -> Result<bool, StoreError> {
+    if start.period_multiple != solution.period_multiple {
+        return Ok(false);
+    }
+    let rows: Vec<Placed<'_>> = rows_of(start).collect();
+    let near: Vec<(Placed<'_>, Placed<'_>, f64)> = rows
+        .windows(2)
+        .filter_map(|pair| Some((pair[0], pair[1], share(pair[0].1, pair[1].1, solution)?)))
+        .collect();
+    if near.is_empty() {
+        return Ok(false);
+    }
+    // A solution that cannot be compared is taken for a new one, and its walk will say why.
+    let Ok(matcher) = solver.matcher(solution) else { return Ok(false) };
+    for (first, second, share) in near {
+        if is_between(store, matcher.as_ref(), (first.0, second.0), share)? {
+            return Ok(true);
         }
     }
-    Ok(None)
+    Ok(false)
 }
 
-fn lies_on(store: &Store, branch: &BranchRecord, solution: &PeriodicSolution) -> Result<bool, StoreError> {
-    let mut last: Option<Row> = None;
-    let mut found = false;
-    store.each_row::<StoreError>(branch, |row| {
-        if let Some(last) = last.replace(row) {
-            found |= between(&last, &row, solution);
-        }
-        Ok(())
-    })?;
-    Ok(found)
-}
-
-/// Whether the solution agrees with two neighbours on a branch, interpolated to its frequency.
-fn between(first: &Row, second: &Row, solution: &PeriodicSolution) -> bool {
-    let (from, to) = (first.frequency_hz, second.frequency_hz);
-    let frequency = solution.frequency_hz;
-    if (frequency - from) * (frequency - to) > 0.0 {
-        return false;
+/// Whether the branch of a start begins, ends or is crossed at this branch point.
+pub(super) fn has_branch_point(
+    store: &Store,
+    solver: &dyn Solver,
+    start: &Start,
+    root: &PeriodicSolution,
+) -> Result<bool, StoreError> {
+    if start.period_multiple != root.period_multiple {
+        return Ok(false);
     }
-    let part = if to == from { 0.0 } else { (frequency - from) / (to - from) };
-    let agrees = |of: fn(&hammerbeam_orbit::OrbitMaxima) -> f64| {
-        let there = of(&first.maxima) + part * (of(&second.maxima) - of(&first.maxima));
-        (of(&solution.maxima) - there).abs() <= SAME * there.abs()
+    let here =
+        |row: &Sketch| (row.frequency_hz - root.frequency_hz).abs() <= SAME_FREQUENCY * root.frequency_hz;
+    let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
+    let near: Vec<i64> = places.filter(|(_, row)| here(row)).map(|(key, _)| key).collect();
+    if near.is_empty() {
+        return Ok(false);
+    }
+    let Ok(matcher) = solver.matcher(root) else { return Ok(false) };
+    for key in near {
+        if matcher.distance(&store.solution_of_key(key)?.nodes[0]) < SAME_STATE {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+/// The last rows of the sides that end at a flip of shorter period, whether it could be located or not.
+fn ends_at_flips(start: &Start) -> impl Iterator<Item = Placed<'_>> {
+    let of_side = |side| {
+        let walk = start.walk(side);
+        let ends = walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");
+        let last = walk.rows.last().filter(|_| ends)?;
+        Some((solution_key(start.key, side, walk.rows.len() as u32 - 1), last))
     };
-    agrees(|maxima| maxima.displacement) && agrees(|maxima| maxima.acceleration)
+    [Side::Up, Side::Down].into_iter().filter_map(of_side)
+}
+
+/// Rows end to end along the branch.
+fn rows_of(start: &Start) -> impl Iterator<Item = Placed<'_>> {
+    let placed = |side| {
+        let key = solution_key(start.key, side, 0);
+        start.walk(side).rows.iter().enumerate().map(move |(number, row)| (key + number as i64, row))
+    };
+    let down: Vec<Placed<'_>> = placed(Side::Down).collect();
+    down.into_iter().rev().chain(placed(Side::Up))
+}
+
+/// Where between two rows the solution lies by its frequency, if its maxima allow that.
+fn share(first: &Sketch, second: &Sketch, solution: &PeriodicSolution) -> Option<f64> {
+    let width = second.frequency_hz - first.frequency_hz;
+    let share = if width == 0.0 { 0.5 } else { (solution.frequency_hz - first.frequency_hz) / width };
+    let reached = width != 0.0 || solution.frequency_hz == first.frequency_hz;
+    if !reached || !(-OVERHANG..=1.0 + OVERHANG).contains(&share) {
+        return None;
+    }
+    let within = |a: f64, b: f64, value: f64| {
+        let margin = MARGIN * a.abs().max(b.abs()) + (a - b).abs();
+        (a.min(b) - margin..=a.max(b) + margin).contains(&value)
+    };
+    let maxima = &solution.maxima;
+    let agrees = within(first.displacement, second.displacement, maxima.displacement)
+        && within(first.acceleration, second.acceleration, maxima.acceleration);
+    agrees.then_some(share)
+}
+
+/// Whether the solution is the one between two stored ones.
+fn is_between(
+    store: &Store,
+    matcher: &dyn Match,
+    (first, second): (i64, i64),
+    share: f64,
+) -> Result<bool, StoreError> {
+    let (first, second) = (store.solution_of_key(first)?, store.solution_of_key(second)?);
+    let pairs = first.nodes[0].iter().zip(&second.nodes[0]);
+    let guess: Vec<f64> = pairs.map(|(a, b)| a + share * (b - a)).collect();
+    Ok(matcher.is_near(&guess))
 }

@@ -1,21 +1,46 @@
-//! Running a study: finding starts, following branches, storing as it goes, and going on after an end of any kind.
+//! Running a study: finding starts, following branches, storing as it goes, on all cores, and going on after an end of any kind.
 //!
-//! The order of work is fixed by the study alone: for each period multiple the searches of the [`Plan`], for each new
-//! branch its up side and then its down side. Whatever the store already holds is skipped, so a resumed run does
-//! exactly what is left of the same work.
+//! # The order of work
+//! The *agenda* is a list of jobs: a search at a frequency, or a flip or branch point at which another branch leaves. Each gives *starts*. What a run
+//! computes is defined by doing the jobs one after the other: each start of a job that does not lie on a known branch is the start of a new one, which
+//! is followed to both ends before the next start is looked at; the flips and branch points of the new branches are added to the end of the agenda.
+//! So branches, their numbers and every bit of them follow from the study alone.
+//!
+//! # All cores
+//! Searching and walking are pure functions of their input, so they may be done ahead of their turn: threads evaluate later jobs and walk from starts that
+//! are likely to be new. Only the *decision* whether a start is new is made in order. What was walked for nothing is thrown away. The threads
+//! compute and send; one thread decides and writes.
+//!
+//! # Going on
+//! Everything that comes in is committed at once, with the checkpoint of its walk, whether decided or not. A run that is started again reads the
+//! agenda and does what is left.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `plan.rs` | the first jobs, and the limits |
+//! | `agenda.rs` | jobs, starts and walks, as they are in the store |
+//! | `decide.rs` | takes decisions in order, as far as the work is done |
+//! | `known.rs` | whether a start lies on a known branch |
+//! | `follow_ups.rs` | the jobs that the events of a branch give |
+//! | `schedule.rs` | what an idle thread does next |
+//! | `worker.rs` | what a thread does |
+//! | `runner.rs` | the loop over all of it |
 
-mod done;
-mod follow;
+mod agenda;
+mod decide;
+mod follow_ups;
 mod known;
 mod plan;
 mod progress;
 mod runner;
+mod schedule;
 mod solver;
+mod worker;
 
-pub use plan::{Plan, Target};
+pub use plan::Plan;
 pub use progress::{Observer, Progress, Quiet};
 pub use runner::{RunError, RunOutcome, run};
-pub use solver::{Solver, Walk};
+pub use solver::{Match, Origin, Solver, Walk};
 
 #[cfg(test)]
 mod fake;

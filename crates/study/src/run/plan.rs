@@ -1,76 +1,101 @@
-//! Where a run looks for branches.
+//! What a run is to do: where it looks for branches first, and how far it goes.
 
-use crate::file::Study;
+use std::time::Duration;
 
-/// The searches of a run, in the order in which they are made.
+use crate::{
+    file::Study,
+    store::{JobKind, JobRecord},
+};
+
+/// What a run is to do.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// The searches.
-    pub targets: Vec<Target>,
+    /// Where harmonic branches are looked for one after the other, as long as none passes there [Hz].
+    pub harmonic_hz: Vec<f64>,
+    /// Where all orbits that simulation leads to are looked for [Hz].
+    pub survey_hz: Vec<f64>,
     /// Range of the excitation frequency [Hz].
     pub range_hz: [f64; 2],
+    /// Orbit periods over excitation period that are looked for.
+    pub multiples: Vec<u32>,
+    /// Period doublings that are followed from branches that were found by a search.
+    pub depth: u32,
     /// Largest number of solutions of a walk.
     pub budget: u64,
-}
-
-/// A search for a start.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Target {
-    /// Orbit period over excitation period.
-    pub period_multiple: u32,
-    /// Where [Hz].
-    pub frequency_hz: f64,
-    /// The search is left out if a branch of this multiple already passes this frequency.
-    pub only_if_not_covered: bool,
+    /// Time after which no new piece of work is begun.
+    pub time: Option<Duration>,
 }
 
 /// Frequencies, as parts of the range from its upper end, at which harmonic starts are sought one after the other
 /// where no harmonic branch passes yet.
 const HARMONIC: [f64; 9] = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
 
-/// Number of equal parts of the range in whose middles subharmonic starts are sought.
-const SUBHARMONIC_PARTS: u32 = 8;
-
 impl Plan {
-    /// The plan of a study: harmonic branches that together span the range, every subharmonic branch that is met.
+    /// The plan of a study: harmonic branches that together span the range, and every branch that is met.
     #[must_use]
     pub fn of(study: &Study) -> Self {
-        let range_hz = study.excitation.frequency_hz;
-        let targets =
-            study.response.period_multiples.iter().flat_map(|&multiple| targets(multiple, range_hz));
-        Self { targets: targets.collect(), range_hz, budget: study.continuation.budget_solutions as u64 }
+        let [low, high] = study.excitation.frequency_hz;
+        let at = |part: f64| (high + part * (low - high)).clamp(low, high);
+        let harmonic = study.response.period_multiples.contains(&1);
+        let count = study.search.frequencies;
+        let middle = |index: u32| at((f64::from(index) + 0.5) / f64::from(count));
+        Self {
+            harmonic_hz: HARMONIC.iter().filter(|_| harmonic).map(|&part| at(part)).collect(),
+            survey_hz: (0..count).map(middle).collect(),
+            range_hz: [low, high],
+            multiples: study.response.period_multiples.clone(),
+            depth: study.response.period_doubling_depth,
+            budget: study.continuation.budget_solutions as u64,
+            time: study.continuation.budget_time_s.map(Duration::from_secs_f64),
+        }
     }
-}
 
-fn targets(period_multiple: u32, [low, high]: [f64; 2]) -> Vec<Target> {
-    let at = |part: f64, only_if_not_covered| Target {
-        period_multiple,
-        frequency_hz: (high + part * (low - high)).clamp(low, high),
-        only_if_not_covered,
-    };
-    if period_multiple == 1 {
-        return HARMONIC.iter().map(|&part| at(part, true)).collect();
+    /// The first jobs, in their order.
+    pub(super) fn first_jobs(&self) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+        let harmonic = self.harmonic_hz.iter().map(|&at| (JobKind::Harmonic, at, None, 0));
+        let survey = self.survey_hz.iter().map(|&at| (JobKind::Survey, at, None, 0));
+        harmonic.chain(survey).collect()
     }
-    let middle = |index: u32| (f64::from(index) + 0.5) / f64::from(SUBHARMONIC_PARTS);
-    (0..SUBHARMONIC_PARTS).map(|index| at(middle(index), false)).collect()
+
+    /// Whether the branch that a job at a flip leads to is wanted.
+    pub(super) fn wants_doubling(&self, period_multiple: u32, depth: u32) -> bool {
+        let doubled = 2 * period_multiple;
+        doubled <= 1024 && (depth < self.depth || self.multiples.contains(&doubled))
+    }
+
+    /// Whether a job has nothing to do when something covers its frequency already.
+    pub(super) fn only_if_not_covered(job: &JobRecord) -> bool {
+        job.kind == JobKind::Harmonic
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::StudyFile;
 
-    #[test]
-    fn the_harmonic_branch_is_sought_at_the_upper_end_first() {
-        let targets = targets(1, [19.0, 110.0]);
-        let frequencies: Vec<f64> = targets.iter().map(|target| target.frequency_hz).collect();
-        assert_eq!(frequencies[..5], [110.0, 19.0, 64.5, 87.25, 41.75]);
+    fn plan(multiples: &str) -> Plan {
+        let text = include_str!("../../../../studies/duffing.toml").replace("[0.08, 0.5]", "[19.0, 110.0]");
+        let text = format!("{text}\n[response]\nperiod_multiples = {multiples}\n[search]\nfrequencies = 4\n");
+        Plan::of(&StudyFile::parse("study.toml", text).expect("a study").study)
     }
 
     #[test]
-    fn subharmonic_branches_are_sought_over_the_whole_range_within_its_ends() {
-        let targets = targets(3, [1.0, 9.0]);
-        assert_eq!(targets.len(), 8);
-        assert_eq!((targets[0].frequency_hz, targets[7].frequency_hz), (8.5, 1.5));
-        assert!(targets.iter().all(|target| !target.only_if_not_covered));
+    fn the_harmonic_branch_is_sought_at_the_upper_end_first() {
+        assert_eq!(plan("[1]").harmonic_hz[..5], [110.0, 19.0, 64.5, 87.25, 41.75]);
+        assert!(plan("[2, 3]").harmonic_hz.is_empty());
+    }
+
+    #[test]
+    fn the_survey_looks_at_the_middles_of_equal_parts() {
+        assert_eq!(plan("[1]").survey_hz, [98.625, 75.875, 53.125, 30.375]);
+    }
+
+    #[test]
+    fn doublings_are_wanted_to_the_depth_or_if_their_multiple_is_asked_for() {
+        let plan = Plan { depth: 1, ..plan("[1, 2, 3, 8]") };
+        assert!(plan.wants_doubling(1, 0) && plan.wants_doubling(3, 0));
+        assert!(plan.wants_doubling(1, 7) && plan.wants_doubling(4, 7), "2 and 8 are asked for");
+        assert!(!plan.wants_doubling(2, 1) && !plan.wants_doubling(6, 1));
     }
 }

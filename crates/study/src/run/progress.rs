@@ -1,21 +1,20 @@
 //! What a run tells while it works, and how it is stopped.
 
-use hammerbeam_orbit::{PeriodicSolution, Side};
+use hammerbeam_orbit::Side;
 
-use super::Target;
-use crate::store::StoredReason;
+use crate::store::{JobRecord, StoredReason};
 
 /// Where a run is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
-    /// Branch that is being followed.
-    pub branch: u32,
-    /// Its orbit period over excitation period.
-    pub period_multiple: u32,
-    /// Side of its start.
-    pub side: Side,
     /// Frequency of the newest solution [Hz].
     pub frequency_hz: f64,
+    /// Orbit period over excitation period of the newest solution.
+    pub period_multiple: u32,
+    /// Branches that are finished.
+    pub branches_done: usize,
+    /// Walks that are being followed now.
+    pub walks_open: usize,
     /// Solutions computed by this run; what was stored before does not count.
     pub new_solutions: u64,
     /// Solutions stored or about to be, of all runs.
@@ -24,19 +23,19 @@ pub struct Progress {
     pub fraction: f64,
 }
 
-/// Watches a run.
+/// Watches a run, from the thread that began it.
 pub trait Observer {
-    /// A search for a start begins.
-    fn searching(&mut self, _target: &Target) {}
-    /// A search ended without a new branch.
-    fn nothing_found(&mut self, _target: &Target, _why: &str) {}
-    /// A branch begins.
-    fn branch_begun(&mut self, _branch: u32, _start: &PeriodicSolution) {}
+    /// A job is being worked at.
+    fn working(&mut self, _job: &JobRecord) {}
+    /// A job ended; what came of it, in words.
+    fn job_ended(&mut self, _job: &JobRecord, _outcome: &str) {}
+    /// A start turned out to be that of a new branch.
+    fn branch_begun(&mut self, _branch: u32, _period_multiple: u32) {}
     /// There are new solutions.
     fn progress(&mut self, _progress: &Progress) {}
-    /// A walk ended.
+    /// One side of a branch ended.
     fn walk_ended(&mut self, _branch: u32, _side: Side, _reason: &StoredReason) {}
-    /// Whether to stop; asked between solutions.
+    /// Whether to stop; asked several times a second.
     fn interrupted(&mut self) -> bool {
         false
     }

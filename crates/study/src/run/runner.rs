@@ -1,15 +1,34 @@
-//! The whole run.
+//! The whole run: threads that compute, and the loop that decides, writes and hands out work.
 
-use hammerbeam_orbit::Side;
+use std::{
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{self, Receiver, RecvTimeoutError, Sender},
+    },
+    thread,
+    time::{Duration, Instant},
+};
 
-use super::{Observer, Plan, Solver, Target, done::Done, follow::Follow, known};
-use crate::store::{Store, StoreError, StoredReason, WalkRecord};
+use super::{
+    Observer, Plan, Progress, Solver,
+    agenda::Agenda,
+    decide::Decisions,
+    schedule::next_task,
+    worker::{self, Report, Stretch, Task},
+};
+use crate::store::{Continuation, Memory, Store, StoreError};
 
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RunOutcome {
     /// Everything the study asks for was looked for; what stopped early is told by its reason.
     Done,
+    /// The time budget is used up; the same run goes on when it is started again.
+    OutOfTime {
+        /// Jobs that are not finished.
+        jobs_left: usize,
+    },
     /// The observer said stop; the same run goes on when it is started again.
     Interrupted,
 }
@@ -23,18 +42,17 @@ pub enum RunError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// A stored start or checkpoint is of no use.
-    #[error("branch {branch} cannot be followed: {message}")]
-    Walk { branch: u32, message: String },
+    #[error("the walk from start {start} cannot be followed: {message}")]
+    Walk { start: u32, message: String },
+    /// A thread ended that should not have.
+    #[error("a thread of the run ended unexpectedly")]
+    Thread,
 }
 
-/// Whether a walk came to its end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Ended {
-    Finished,
-    Interrupted,
-}
+/// Time between two looks at the observer.
+const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Runs what is left of a plan.
+/// Runs what is left of a plan on so many threads.
 ///
 /// # Errors
 /// [`RunError`]; what was stored before stays.
@@ -42,112 +60,186 @@ pub fn run(
     store: &mut Store,
     solver: &dyn Solver,
     plan: &Plan,
+    threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, RunError> {
-    let mut done = Done::new(store, plan)?;
-    for (index, target) in plan.targets.iter().enumerate() {
-        done.begin_target(plan, index);
-        let branch = match searched(store, target)? {
-            Some(branch) => branch,
-            None if observer.interrupted() => return Ok(RunOutcome::Interrupted),
-            None => search(store, solver, target, observer)?,
+    let agenda = Agenda::load(store, plan)?;
+    let threads = threads.max(1);
+    let stop = AtomicBool::new(false);
+    let (tasks, of_threads) = mpsc::channel();
+    let of_threads = Mutex::new(of_threads);
+    let (sender, reports) = mpsc::sync_channel(4 * threads);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            let sender = sender.clone();
+            let (of_threads, stop) = (&of_threads, &stop);
+            scope.spawn(move || worker::work(solver, of_threads, &sender, stop));
+        }
+        drop(sender);
+        let mut run = Run {
+            store,
+            solver,
+            plan,
+            agenda,
+            observer,
+            threads,
+            busy: 0,
+            new_solutions: 0,
+            fraction: 0.0,
+            begun: Instant::now(),
         };
-        let Some(branch) = branch else { continue };
-        if follow_branch(store, solver, plan, branch, &mut done, observer)? == Ended::Interrupted {
-            return Ok(RunOutcome::Interrupted);
-        }
-    }
-    Ok(RunOutcome::Done)
+        let outcome = run.work(&tasks, &reports, &stop);
+        // Threads that still walk, for nothing any more, hear that nobody listens.
+        stop.store(true, Ordering::Relaxed);
+        drop((tasks, reports));
+        outcome
+    })
 }
 
-/// What came of a target before: the branch that began there, if one did; `None` if the search is still to be made.
-fn searched(store: &Store, target: &Target) -> Result<Option<Option<u32>>, RunError> {
-    if let Some((branch, _)) = store.search_outcome(target.period_multiple, target.frequency_hz)? {
-        return Ok(Some(branch));
-    }
-    // While a walk of this multiple waits for more budget, a new start might lie on what it has still to walk.
-    let waits = is_paused(store, target.period_multiple)?;
-    let superfluous = waits || (target.only_if_not_covered && is_covered(store, target)?);
-    Ok(superfluous.then_some(None))
+struct Run<'a> {
+    store: &'a mut Store,
+    solver: &'a dyn Solver,
+    plan: &'a Plan,
+    agenda: Agenda,
+    observer: &'a mut dyn Observer,
+    threads: usize,
+    /// Threads that have a task.
+    busy: usize,
+    new_solutions: u64,
+    fraction: f64,
+    begun: Instant,
 }
 
-/// Whether a walk of that multiple has used up its budget.
-fn is_paused(store: &Store, period_multiple: u32) -> Result<bool, RunError> {
-    let paused = |walk: &WalkRecord| walk.reason.as_ref().is_some_and(StoredReason::is_budget);
-    let branches = store.branches()?;
-    Ok(branches.iter().any(|b| b.period_multiple == period_multiple && (paused(&b.up) || paused(&b.down))))
-}
-
-/// Whether a branch of the target's multiple passes its frequency.
-fn is_covered(store: &Store, target: &Target) -> Result<bool, RunError> {
-    for branch in store.branches()?.iter().filter(|branch| branch.period_multiple == target.period_multiple) {
-        let [low, high] = store.frequency_span(branch)?;
-        if (low..=high).contains(&target.frequency_hz) {
-            return Ok(true);
-        }
-    }
-    Ok(false)
-}
-
-/// Looks for a start; the new branch, if there is one.
-fn search(
-    store: &mut Store,
-    solver: &dyn Solver,
-    target: &Target,
-    observer: &mut dyn Observer,
-) -> Result<Option<u32>, RunError> {
-    observer.searching(target);
-    let outcome = match solver.find_start(target.frequency_hz, target.period_multiple) {
-        Err(message) => message,
-        Ok(start) => match known::branch_of(store, &start)? {
-            Some(branch) => format!("on branch {branch}"),
-            None => {
-                let branch = store.begin_branch(target.frequency_hz, &start)?;
-                observer.branch_begun(branch, &start);
-                return Ok(Some(branch));
+impl Run<'_> {
+    fn work(
+        &mut self,
+        tasks: &Sender<Task>,
+        reports: &Receiver<Report>,
+        stop: &AtomicBool,
+    ) -> Result<RunOutcome, RunError> {
+        let mut interrupted = false;
+        loop {
+            self.decide()?;
+            let left = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_none());
+            let (left, postponed) = (left.clone().count(), left.filter(|job| job.postponed).count());
+            if left == postponed {
+                return Ok(RunOutcome::Done);
             }
-        },
-    };
-    store.note_search(target.period_multiple, target.frequency_hz, &outcome)?;
-    observer.nothing_found(target, &outcome);
-    Ok(None)
-}
-
-/// Follows both sides of a branch as far as they are not finished.
-fn follow_branch(
-    store: &mut Store,
-    solver: &dyn Solver,
-    plan: &Plan,
-    branch: u32,
-    done: &mut Done,
-    observer: &mut dyn Observer,
-) -> Result<Ended, RunError> {
-    let records = store.branches()?;
-    let record = records.iter().find(|record| record.id == branch).expect("the branch was just stored");
-    let period_multiple = record.period_multiple;
-    for side in [Side::Up, Side::Down] {
-        if is_finished(&store.walk(branch, side)?, plan) {
-            continue;
-        }
-        let up = store.walk(branch, Side::Up)?;
-        if side == Side::Down
-            && let Some(reason) = up.reason.filter(StoredReason::is_closed)
-        {
-            store.append(branch, side, &[], crate::store::Continuation::Ended(&reason))?;
-            continue;
-        }
-        let mut follow = Follow { store, solver, plan, branch, period_multiple, side };
-        if follow.run(done, observer)? == Ended::Interrupted {
-            return Ok(Ended::Interrupted);
+            if !interrupted && self.observer.interrupted() {
+                interrupted = true;
+                stop.store(true, Ordering::Relaxed);
+            }
+            let out_of_time = self.plan.time.is_some_and(|time| self.begun.elapsed() >= time);
+            if !interrupted && !out_of_time {
+                self.hand_out(tasks)?;
+            }
+            if self.busy == 0 {
+                return match (interrupted, out_of_time) {
+                    (true, _) => Ok(RunOutcome::Interrupted),
+                    (false, true) => Ok(RunOutcome::OutOfTime { jobs_left: left }),
+                    (false, false) => Err(RunError::Thread),
+                };
+            }
+            match reports.recv_timeout(PATIENCE) {
+                Ok(report) => self.hear(report)?,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Err(RunError::Thread),
+            }
         }
     }
-    Ok(Ended::Finished)
-}
 
-/// A walk that has used up its budget goes on if the budget has grown.
-fn is_finished(walk: &WalkRecord, plan: &Plan) -> bool {
-    match &walk.reason {
-        None => false,
-        Some(reason) => !reason.is_budget() || walk.solutions >= plan.budget,
+    fn decide(&mut self) -> Result<(), RunError> {
+        let mut decisions =
+            Decisions { store: self.store, solver: self.solver, plan: self.plan, observer: self.observer };
+        Ok(decisions.take(&mut self.agenda)?)
+    }
+
+    fn hand_out(&mut self, tasks: &Sender<Task>) -> Result<(), RunError> {
+        while self.busy < self.threads {
+            let Some(task) = next_task(&mut self.agenda, self.store, self.solver, self.plan)? else { break };
+            if let Task::Evaluate(evaluation) = &task {
+                self.observer.working(&self.agenda.jobs[evaluation.job as usize].record);
+            }
+            tasks.send(task).map_err(|_| RunError::Thread)?;
+            self.busy += 1;
+        }
+        Ok(())
+    }
+
+    fn hear(&mut self, report: Report) -> Result<(), RunError> {
+        match report {
+            Report::Evaluated { job, starts } => {
+                self.busy -= 1;
+                let record = self.agenda.jobs[job as usize].record.clone();
+                let (starts, message) = match starts {
+                    Ok(starts) => (starts, None),
+                    Err(message) => (Vec::new(), Some(message)),
+                };
+                self.store.note_starts(&record, &starts, message.as_deref())?;
+                self.agenda.jobs[job as usize].record.message = message;
+                self.agenda.add_starts(job, self.store)?;
+            }
+            Report::Walked(stretch) => self.keep(&stretch)?,
+            Report::Left => self.busy -= 1,
+            Report::Failed { key, message } => return Err(RunError::Walk { start: key, message }),
+        }
+        Ok(())
+    }
+
+    /// Commits a stretch of a walk, unless the walk is not wanted any more.
+    fn keep(&mut self, stretch: &Stretch) -> Result<(), RunError> {
+        self.busy -= usize::from(stretch.last);
+        let Some(start) = self.agenda.start_mut(stretch.key) else { return Ok(()) };
+        let running = &start.walk(stretch.side).running;
+        if !running.as_ref().is_some_and(|flag| Arc::ptr_eq(flag, &stretch.cancelled)) {
+            return Ok(());
+        }
+        let (branch, period_multiple) = (start.branch, start.period_multiple);
+        let memory = Memory { checkpoint: &stretch.checkpoint, journal: &stretch.journal };
+        let continuation = match &stretch.reason {
+            None => Continuation::GoesOn(memory),
+            Some(reason) if reason.is_budget() => Continuation::Paused(reason, memory),
+            Some(reason) => Continuation::Ended(reason),
+        };
+        self.store.append(stretch.key, stretch.side, &stretch.rows, continuation)?;
+        self.agenda.add_rows(stretch.key, stretch.side, &stretch.rows, stretch.reason.as_ref());
+        self.new_solutions += stretch.rows.len() as u64;
+        if let (Some(branch), Some(reason)) = (branch, &stretch.reason) {
+            self.observer.walk_ended(branch, stretch.side, reason);
+        }
+        if let Some(newest) = stretch.rows.last() {
+            self.tell(newest.solution.frequency_hz, period_multiple);
+        }
+        Ok(())
+    }
+
+    fn tell(&mut self, frequency_hz: f64, period_multiple: u32) {
+        self.fraction = self.fraction.max(self.estimate());
+        let open = |start: &super::agenda::Start| {
+            usize::from(start.up.running.is_some()) + usize::from(start.down.running.is_some())
+        };
+        self.observer.progress(&Progress {
+            frequency_hz,
+            period_multiple,
+            branches_done: self.agenda.accepted().filter(|start| start.is_finished(self.plan)).count(),
+            walks_open: self.agenda.starts().map(open).sum(),
+            new_solutions: self.new_solutions,
+            solutions: self.agenda.solutions(),
+            fraction: self.fraction,
+        });
+    }
+
+    /// Part of the work that is done, as far as that can be told: finished jobs, and how much of the range the branches reach that are walked.
+    fn estimate(&self) -> f64 {
+        let jobs = self.agenda.jobs.len().max(1) as f64;
+        let finished = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_some()).count() as f64;
+        let [low, high] = self.plan.range_hz;
+        let reach = |start: &super::agenda::Start| {
+            let rows = || start.up.rows.iter().chain(&start.down.rows).map(|row| row.frequency_hz);
+            (rows().fold(low, f64::max) - rows().fold(high, f64::min)) / (high - low)
+        };
+        let unfinished = self.agenda.starts().filter(|start| !start.is_finished(self.plan));
+        let walked: f64 = unfinished.map(|start| reach(start).clamp(0.0, 1.0)).sum();
+        ((finished + walked) / (jobs + 1.0)).clamp(0.0, 1.0)
     }
 }

@@ -1,20 +1,32 @@
 //! What a run needs of the numerics; the rest of this module knows no more of them than this.
 
-use hammerbeam_orbit::{BranchRow, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{BranchRow, Crossing, PeriodicSolution, Side, StopReason};
 
-/// Finds periodic solutions and follows their branches.
-pub trait Solver {
-    /// A periodic solution of minimal period `period_multiple` near which a branch can begin.
+/// Finds periodic solutions and follows their branches; shared by all threads.
+pub trait Solver: Sync {
+    /// A harmonic solution near which a branch can begin.
     ///
     /// # Errors
     /// Why there is none, in words.
-    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String>;
+    fn find_harmonic(&self, frequency_hz: f64) -> Result<PeriodicSolution, String>;
 
-    /// A walk along the branch from its start.
+    /// All periodic solutions of these minimal periods that simulation leads to.
+    ///
+    /// # Errors
+    /// Why nothing could be simulated, in words.
+    fn survey(&self, frequency_hz: f64, multiples: &[u32]) -> Result<Vec<PeriodicSolution>, String>;
+
+    /// The solution at a crossing, as one of the branch that leaves there, if one does.
+    ///
+    /// # Errors
+    /// Why there is none, in words.
+    fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String>;
+
+    /// A walk along the branch from its start, or from the crossing where it leaves another branch.
     ///
     /// # Errors
     /// Why it cannot begin, in words.
-    fn begin<'a>(&'a self, start: &PeriodicSolution, side: Side) -> Result<Box<dyn Walk + 'a>, String>;
+    fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String>;
 
     /// The walk that a checkpoint was taken of; it goes on as if it had never been left.
     ///
@@ -23,6 +35,21 @@ pub trait Solver {
     /// # Errors
     /// Why it cannot go on, in words.
     fn resume<'a>(&'a self, checkpoint: &[u8], journal: &[u8]) -> Result<Box<dyn Walk + 'a>, String>;
+
+    /// For comparing a solution with others.
+    ///
+    /// # Errors
+    /// Why that is not possible, in words.
+    fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String>;
+}
+
+/// Where a walk begins.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Origin {
+    /// At a solution that was found.
+    Found(PeriodicSolution),
+    /// Where the branch leaves another one.
+    Crossing(Crossing),
 }
 
 /// A walk along one side of a branch.
@@ -38,4 +65,13 @@ pub trait Walk {
 
     /// What the walk has to remember of the solutions since the journal was taken last.
     fn take_journal(&mut self) -> Vec<u8>;
+}
+
+/// A solution that others are compared with, whatever the excitation period at which they begin.
+pub trait Match {
+    /// Distance of a state at phase 0 from the solution, relative to it.
+    fn distance(&self, state: &[f64]) -> f64;
+
+    /// Whether the periodic solution near a guess, at the same frequency, is this one.
+    fn is_near(&self, guess: &[f64]) -> bool;
 }

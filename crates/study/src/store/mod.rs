@@ -9,6 +9,7 @@
 
 mod blob;
 mod error;
+mod jobs;
 mod lock;
 mod read;
 mod schema;
@@ -23,7 +24,8 @@ use hammerbeam_orbit::{Side, StopReason};
 use rusqlite::{Connection, OpenFlags};
 
 pub use error::StoreError;
-pub use read::{BranchRecord, Row, WalkRecord};
+pub use jobs::{JobKind, JobRecord, StartRecord};
+pub use read::{BranchRecord, Row, StoredMemory, WalkRecord};
 pub use schema::SCHEMA_VERSION;
 pub(crate) use write::{Continuation, Memory};
 
@@ -44,7 +46,7 @@ pub struct Store {
 /// How a walk ended, as it is stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredReason {
-    /// `range-end`, `closed`, `budget`, `step-too-short`, `runs-back`, `motion`.
+    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`, `motion`.
     pub kind: String,
     /// Where [Hz], if there is a place.
     pub frequency_hz: Option<f64>,
@@ -108,6 +110,16 @@ impl Store {
 }
 
 impl StoredReason {
+    /// The side of a branch that begins where it leaves another one.
+    #[must_use]
+    pub fn of_crossing(frequency_hz: f64) -> Self {
+        Self {
+            kind: "crossing".to_owned(),
+            frequency_hz: Some(frequency_hz),
+            message: format!("leaves a branch of half the period at {frequency_hz:.6} Hz"),
+        }
+    }
+
     /// A walk that could not begin at its start.
     #[must_use]
     pub fn not_begun(message: &str) -> Self {
@@ -175,13 +187,18 @@ impl StoredReason {
     /// Whether the walk ended where it should, and not early.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.is_closed() || ["range-end", "shorter-period"].contains(&self.kind.as_str())
+        self.is_closed() || ["range-end", "shorter-period", "crossing"].contains(&self.kind.as_str())
     }
 }
 
-/// Number of a walk: two for each branch.
-fn walk_id(branch: u32, side: Side) -> i64 {
-    i64::from(branch) * 2 + i64::from(side == Side::Down)
+/// Key of a solution.
+pub(crate) fn solution_key(start: u32, side: Side, number: u32) -> i64 {
+    first_key(walk_id(start, side)) + i64::from(number)
+}
+
+/// Number of a walk: two for each start.
+fn walk_id(start: u32, side: Side) -> i64 {
+    i64::from(start) * 2 + i64::from(side == Side::Down)
 }
 
 /// Key of the first solution a walk can have; the walk has the 2^32 keys from there.

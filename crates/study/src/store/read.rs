@@ -1,15 +1,19 @@
 //! Reading: branches, their walks, and their solutions one after the other.
 
-use hammerbeam_orbit::{Events, OrbitMaxima, PeriodicSolution, Side};
-use rusqlite::{OptionalExtension, Row as SqlRow, params};
+use hammerbeam_orbit::{
+    ContactChange, EventStatus, Events, LocatedEvent, OrbitMaxima, PeriodicSolution, Side,
+};
+use rusqlite::{Row as SqlRow, params};
 
-use super::{Store, StoreError, StoredReason, blob, first_key, walk_id, write::unpack_events};
+use super::{Store, StoreError, StoredReason, blob, first_key, solution_key, walk_id, write::unpack_events};
 
 /// A branch of the results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BranchRecord {
     /// Number, counted from 1.
     pub id: u32,
+    /// Key of its start, by which its walks are found.
+    pub start: u32,
     /// Orbit period over excitation period.
     pub period_multiple: u32,
     /// The walk from the start to higher frequencies at first; its first solution is the start.
@@ -73,36 +77,22 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn branches(&self) -> Result<Vec<BranchRecord>, StoreError> {
-        let mut statement = self.connection.prepare("SELECT id, period_multiple FROM branch ORDER BY id")?;
-        let ids = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
-        ids.map(|pair| {
-            let (id, period_multiple) = pair?;
-            Ok(BranchRecord {
-                id,
-                period_multiple,
-                up: self.walk(id, Side::Up)?,
-                down: self.walk(id, Side::Down)?,
-            })
+        let select = "SELECT branch, id, period_multiple FROM start WHERE branch IS NOT NULL ORDER BY branch";
+        let mut statement = self.connection.prepare(select)?;
+        let ids = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+        ids.map(|ids| {
+            let (id, start, period_multiple) = ids?;
+            let (up, down) = (self.walk(start, Side::Up)?, self.walk(start, Side::Down)?);
+            Ok(BranchRecord { id, start, period_multiple, up, down })
         })
         .collect()
-    }
-
-    /// Lowest and highest frequency of a branch [Hz].
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn frequency_span(&self, branch: &BranchRecord) -> Result<[f64; 2], StoreError> {
-        let select = "SELECT min(frequency_hz), max(frequency_hz) FROM solution WHERE id >= ?1 AND id < ?2";
-        let first = walk_id(branch.id, Side::Up);
-        let keys = params![first_key(first), first_key(first + 2)];
-        Ok(self.connection.query_row(select, keys, |row| Ok([row.get(0)?, row.get(1)?]))?)
     }
 
     /// A walk of a branch.
     ///
     /// # Errors
     /// The database refuses.
-    pub fn walk(&self, branch: u32, side: Side) -> Result<WalkRecord, StoreError> {
+    pub fn walk(&self, start: u32, side: Side) -> Result<WalkRecord, StoreError> {
         let select = "SELECT solutions, stop_kind, stop_frequency_hz, stop_message FROM walk WHERE id = ?1";
         let read = |row: &SqlRow<'_>| {
             let kind: Option<String> = row.get(1)?;
@@ -112,15 +102,15 @@ impl Store {
             };
             Ok(WalkRecord { solutions: row.get::<_, u32>(0)?.into(), reason })
         };
-        Ok(self.connection.query_row(select, [walk_id(branch, side)], read)?)
+        Ok(self.connection.query_row(select, [walk_id(start, side)], read)?)
     }
 
     /// The checkpoint and the journal from which a walk goes on, if it does.
     ///
     /// # Errors
     /// The database refuses.
-    pub fn checkpoint(&self, branch: u32, side: Side) -> Result<Option<StoredMemory>, StoreError> {
-        let walk = walk_id(branch, side);
+    pub fn checkpoint(&self, start: u32, side: Side) -> Result<Option<StoredMemory>, StoreError> {
+        let walk = walk_id(start, side);
         let select = "SELECT checkpoint FROM walk WHERE id = ?1";
         let checkpoint: Option<Vec<u8>> = self.connection.query_row(select, [walk], |row| row.get(0))?;
         let Some(checkpoint) = checkpoint else { return Ok(None) };
@@ -132,20 +122,6 @@ impl Store {
             journal.extend_from_slice(piece.get_ref(0)?.as_blob().map_err(rusqlite::Error::from)?);
         }
         Ok(Some(StoredMemory { checkpoint, journal }))
-    }
-
-    /// What came of the search for a start, if it was made: the branch, or `None` with the reason.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn search_outcome(
-        &self,
-        period_multiple: u32,
-        frequency_hz: f64,
-    ) -> Result<Option<(Option<u32>, String)>, StoreError> {
-        let select = "SELECT branch, outcome FROM search WHERE period_multiple = ?1 AND frequency_hz = ?2";
-        let read = |row: &SqlRow<'_>| Ok((row.get(0)?, row.get(1)?));
-        Ok(self.connection.query_row(select, params![period_multiple, frequency_hz], read).optional()?)
     }
 
     /// Hands over the rows of a branch end to end: the down side reversed, the start, the up side.
@@ -160,7 +136,7 @@ impl Store {
         let total = branch.up.solutions + branch.down.solutions;
         let mut place = 0;
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
-            self.each_row_of_walk(walk_id(branch.id, side), order, |mut row| {
+            self.each_row_of_walk(walk_id(branch.start, side), order, |mut row| {
                 row.events.start = place == 0;
                 row.events.end = place + 1 == total;
                 place += 1;
@@ -190,16 +166,64 @@ impl Store {
     ///
     /// # Errors
     /// There is no such solution, or it is damaged.
-    pub fn solution(&self, branch: u32, side: Side, number: u32) -> Result<PeriodicSolution, StoreError> {
+    pub fn solution(&self, start: u32, side: Side, number: u32) -> Result<PeriodicSolution, StoreError> {
+        self.solution_of_key(solution_key(start, side, number))
+    }
+
+    /// A stored solution by its key.
+    ///
+    /// # Errors
+    /// There is no such solution, or it is damaged.
+    pub fn solution_of_key(&self, key: i64) -> Result<PeriodicSolution, StoreError> {
         let select = format!(
             "SELECT {ROW}, segments, state_length, multiplier_count, multipliers, nodes,
-            (SELECT period_multiple FROM branch WHERE id = ?2) FROM solution WHERE id = ?1"
+            (SELECT period_multiple FROM start WHERE id = ?2) FROM solution WHERE id = ?1"
         );
-        let key = first_key(walk_id(branch, side)) + i64::from(number);
         let mut statement = self.connection.prepare_cached(&select)?;
-        let mut rows = statement.query(params![key, branch])?;
+        let mut rows = statement.query(params![key, key >> 33])?;
         let row = rows.next()?.ok_or(rusqlite::Error::QueryReturnedNoRows)?;
         read_solution(row)
+    }
+}
+
+impl Store {
+    /// What is known of the event at a solution, if there is one.
+    ///
+    /// # Errors
+    /// The database refuses, or the event is damaged.
+    pub fn event(&self, key: i64) -> Result<Option<LocatedEvent>, StoreError> {
+        let select =
+            "SELECT located, uncertainty_hz, multiplier_re, multiplier_im, direction, contact, appears
+            FROM event WHERE solution = ?1";
+        let mut statement = self.connection.prepare_cached(select)?;
+        let mut rows = statement.query([key])?;
+        let Some(row) = rows.next()? else { return Ok(None) };
+        let multiplier: (Option<f64>, Option<f64>) = (row.get(2)?, row.get(3)?);
+        let bytes: Vec<u8> = row.get(4)?;
+        let change: (Option<u32>, Option<bool>) = (row.get(5)?, row.get(6)?);
+        Ok(Some(LocatedEvent {
+            status: if row.get(0)? { EventStatus::Located } else { EventStatus::Bracketed },
+            uncertainty_hz: row.get(1)?,
+            multiplier: multiplier.0.zip(multiplier.1).map(|(re, im)| [re, im]),
+            direction: blob::unpack("direction", &bytes, bytes.len() / 8)?,
+            contact: change
+                .0
+                .zip(change.1)
+                .map(|(contact, appears)| ContactChange { contact: contact as usize, appears }),
+        }))
+    }
+
+    /// Keys and rows of a walk in the order in which they were walked.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn walked(&self, start: u32, side: Side) -> Result<Vec<Row>, StoreError> {
+        let mut rows = Vec::new();
+        self.each_row_of_walk::<StoreError>(walk_id(start, side), "ASC", |row| {
+            rows.push(row);
+            Ok(())
+        })?;
+        Ok(rows)
     }
 }
 

@@ -11,27 +11,32 @@ use crate::{
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
 
 const TABLES: &str = "
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-CREATE TABLE search (
-    period_multiple INTEGER NOT NULL,
-    frequency_hz REAL NOT NULL,
-    outcome TEXT NOT NULL,
-    branch INTEGER REFERENCES branch (id),
-    PRIMARY KEY (period_multiple, frequency_hz)
-) WITHOUT ROWID;
-CREATE TABLE branch (
+CREATE TABLE job (
     id INTEGER PRIMARY KEY,
-    period_multiple INTEGER NOT NULL
+    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'doubling', 'crossing')),
+    frequency_hz REAL NOT NULL,
+    source INTEGER UNIQUE,
+    depth INTEGER NOT NULL,
+    evaluated INTEGER NOT NULL DEFAULT 0,
+    message TEXT,
+    outcome TEXT
+);
+CREATE TABLE start (
+    id INTEGER PRIMARY KEY,
+    job INTEGER NOT NULL REFERENCES job (id),
+    period_multiple INTEGER NOT NULL,
+    branch INTEGER UNIQUE
 );
 CREATE TABLE walk (
     id INTEGER PRIMARY KEY,
-    branch INTEGER NOT NULL REFERENCES branch (id),
+    start INTEGER NOT NULL REFERENCES start (id),
     side TEXT NOT NULL CHECK (side IN ('up', 'down')),
     solutions INTEGER NOT NULL,
     stop_kind TEXT,
@@ -64,6 +69,16 @@ CREATE TABLE solution (
     multiplier_count INTEGER NOT NULL,
     multipliers BLOB NOT NULL,
     nodes BLOB NOT NULL
+);
+CREATE TABLE event (
+    solution INTEGER PRIMARY KEY,
+    located INTEGER NOT NULL,
+    uncertainty_hz REAL NOT NULL,
+    multiplier_re REAL,
+    multiplier_im REAL,
+    direction BLOB NOT NULL,
+    contact INTEGER,
+    appears INTEGER
 );
 ";
 

@@ -23,6 +23,16 @@ fn solution(frequency_hz: f64) -> PeriodicSolution {
     }
 }
 
+/// A branch with its start.
+fn begin(store: &mut Store) -> u32 {
+    store.add_jobs(&[(JobKind::Survey, 0.2, None, 0)]).unwrap();
+    let job = store.jobs().unwrap().remove(0);
+    store.note_starts(&job, &[solution(0.2)], None).unwrap();
+    let key = store.starts().unwrap()[0].key;
+    store.accept_start(key).unwrap();
+    key
+}
+
 fn listing(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files: Vec<(String, Vec<u8>)> = fs::read_dir(folder)
         .unwrap()
@@ -37,7 +47,7 @@ fn listing(folder: &Path) -> Vec<(String, Vec<u8>)> {
 fn a_solution_comes_back_with_every_bit() {
     let folder = tempdir().unwrap();
     let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
-    let branch = store.begin_branch(0.2, &solution(0.2)).unwrap();
+    let branch = begin(&mut store);
     let events = Events { fold: true, grazing: true, ..Events::default() };
     let row = BranchRow { solution: solution(0.3), events, located: None };
     let memory = |checkpoint, journal| Continuation::GoesOn(Memory { checkpoint, journal });
@@ -131,7 +141,7 @@ fn two_runs_do_not_share_a_folder() {
 fn results_can_be_read_while_a_run_writes() {
     let folder = tempdir().unwrap();
     let mut writing = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
-    writing.begin_branch(0.2, &solution(0.2)).unwrap();
+    begin(&mut writing);
     let reading = Store::open(folder.path()).unwrap();
     assert_eq!(reading.branches().unwrap().len(), 1);
 }

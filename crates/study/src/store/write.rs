@@ -1,6 +1,6 @@
 //! Writing: each call is one transaction.
 
-use hammerbeam_orbit::{BranchRow, Events, PeriodicSolution, Side};
+use hammerbeam_orbit::{BranchRow, EventStatus, Events, LocatedEvent, PeriodicSolution, Side};
 use rusqlite::{Transaction, params};
 
 use super::{Store, StoreError, StoredReason, blob, first_key, walk_id};
@@ -26,64 +26,26 @@ pub struct Memory<'a> {
 }
 
 impl Store {
-    /// Notes that nothing new was found, and why.
-    ///
-    /// # Errors
-    /// The database refuses.
-    pub fn note_search(
-        &mut self,
-        period_multiple: u32,
-        frequency_hz: f64,
-        outcome: &str,
-    ) -> Result<(), StoreError> {
-        let insert = "INSERT INTO search (period_multiple, frequency_hz, outcome) VALUES (?1, ?2, ?3)";
-        self.connection.execute(insert, params![period_multiple, frequency_hz, outcome])?;
-        Ok(())
-    }
-
-    /// Begins a branch with its start, found in a search at `frequency_hz`.
-    ///
-    /// # Returns
-    /// The number of the branch, counted from 1.
-    /// # Errors
-    /// The database refuses.
-    pub fn begin_branch(&mut self, frequency_hz: f64, start: &PeriodicSolution) -> Result<u32, StoreError> {
-        let transaction = self.connection.transaction()?;
-        let newest: Option<u32> =
-            transaction.query_row("SELECT max(id) FROM branch", [], |row| row.get(0))?;
-        let branch = newest.unwrap_or(0) + 1;
-        let multiple = start.period_multiple;
-        transaction
-            .execute("INSERT INTO branch (id, period_multiple) VALUES (?1, ?2)", params![branch, multiple])?;
-        let search =
-            "INSERT INTO search (period_multiple, frequency_hz, outcome, branch) VALUES (?1, ?2, ?3, ?4)";
-        transaction.execute(search, params![multiple, frequency_hz, "new branch", branch])?;
-        for (side, name, solutions) in [(Side::Up, "up", 1), (Side::Down, "down", 0)] {
-            let insert = "INSERT INTO walk (id, branch, side, solutions) VALUES (?1, ?2, ?3, ?4)";
-            transaction.execute(insert, params![walk_id(branch, side), branch, name, solutions])?;
-        }
-        insert_solution(&transaction, first_key(walk_id(branch, Side::Up)), start, Events::default())?;
-        transaction.commit()?;
-        Ok(branch)
-    }
-
     /// Appends solutions to a walk, together with how it goes on.
     ///
     /// # Errors
     /// The database refuses; nothing is appended then.
     pub fn append(
         &mut self,
-        branch: u32,
+        start: u32,
         side: Side,
         rows: &[BranchRow],
         continuation: Continuation<'_>,
     ) -> Result<(), StoreError> {
-        let walk = walk_id(branch, side);
+        let walk = walk_id(start, side);
         let transaction = self.connection.transaction()?;
         let stored: i64 =
             transaction.query_row("SELECT solutions FROM walk WHERE id = ?1", [walk], |row| row.get(0))?;
         for (row, key) in rows.iter().zip(first_key(walk) + stored..) {
             insert_solution(&transaction, key, &row.solution, row.events)?;
+            if let Some(located) = &row.located {
+                insert_event(&transaction, key, located)?;
+            }
         }
         let (reason, memory) = match continuation {
             Continuation::GoesOn(memory) => (None, Some(memory)),
@@ -125,7 +87,7 @@ fn keep_journal(
     Ok(())
 }
 
-fn insert_solution(
+pub(super) fn insert_solution(
     transaction: &Transaction<'_>,
     key: i64,
     solution: &PeriodicSolution,
@@ -156,6 +118,21 @@ fn insert_solution(
         solution.floquet_multipliers.len() as i64,
         blob::pack(solution.floquet_multipliers.iter().flatten()),
         blob::pack(solution.nodes.iter().flatten()),
+    ])?;
+    Ok(())
+}
+
+fn insert_event(transaction: &Transaction<'_>, key: i64, event: &LocatedEvent) -> Result<(), StoreError> {
+    let insert = "INSERT INTO event VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
+    transaction.prepare_cached(insert)?.execute(params![
+        key,
+        event.status == EventStatus::Located,
+        event.uncertainty_hz,
+        event.multiplier.map(|[re, _]| re),
+        event.multiplier.map(|[_, im]| im),
+        blob::pack(&event.direction),
+        event.contact.map(|change| change.contact as i64),
+        event.contact.map(|change| change.appears),
     ])?;
     Ok(())
 }

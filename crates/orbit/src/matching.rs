@@ -1,0 +1,87 @@
+//! Whether two orbits are the same, perhaps begun at different excitation periods.
+//!
+//! An orbit of N excitation periods has N states at phase 0, any of which may have been stored. Two orbits are the same if a state of one is
+//! any of the states of the other; distances are in the energy norm relative to the orbit.
+
+use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
+
+use crate::{
+    OrbitError, OrbitSettings, PeriodicSolution, Response,
+    shooting::StateScale,
+    solve::{integrator, orbit_near, state_scale},
+};
+
+/// States of an orbit at phase 0 of each of its excitation periods.
+pub(crate) fn phases(
+    integrator: &mut ExactIntegrator,
+    orbit: &PeriodicSolution,
+) -> Result<Vec<Vec<f64>>, OrbitError> {
+    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 1.0 };
+    let mut states = vec![orbit.nodes[0].clone()];
+    for k in 1..orbit.period_multiple as usize {
+        states.push(integrator.advance(&stretch, &states[k - 1])?);
+    }
+    Ok(states)
+}
+
+/// Smallest distance of a state from those of an orbit.
+pub(crate) fn distance_in_phase(scale: &StateScale, phases: &[Vec<f64>], state: &[f64]) -> f64 {
+    phases.iter().map(|phase| scale.distance(phase, state)).fold(f64::INFINITY, f64::min)
+}
+
+/// An orbit that others are compared with.
+#[derive(Debug)]
+pub struct Matcher<'a> {
+    system: &'a System,
+    response: &'a Response,
+    settings: &'a OrbitSettings,
+    orbit: &'a PeriodicSolution,
+    scale: StateScale,
+    phases: Vec<Vec<f64>>,
+}
+
+/// Distance, relative to the orbit, below which two orbits are the same.
+const SAME: f64 = 1e-6;
+/// Distance of a guess for the orbit at which Newton's method is not even tried,
+const FAR: f64 = 0.05;
+/// and within which the guess counts if Newton's method fails, as it may beside a fold.
+const NEAR: f64 = 1e-4;
+
+impl<'a> Matcher<'a> {
+    /// For this orbit.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if its motion cannot be computed.
+    pub fn new(
+        system: &'a System,
+        response: &'a Response,
+        orbit: &'a PeriodicSolution,
+        settings: &'a OrbitSettings,
+    ) -> Result<Self, OrbitError> {
+        let mut integrator = integrator(system, response, settings)?;
+        let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
+        let phases = phases(&mut integrator, orbit)?;
+        Ok(Self { system, response, settings, orbit, scale, phases })
+    }
+
+    /// Distance of a state at phase 0 from the orbit, relative to it.
+    #[must_use]
+    pub fn distance(&self, state: &[f64]) -> f64 {
+        distance_in_phase(&self.scale, &self.phases, state)
+    }
+
+    /// Whether the periodic orbit near a guess, at the same frequency and with the same number of periods, is this one.
+    #[must_use]
+    pub fn is_near(&self, guess: &[f64]) -> bool {
+        let distance = self.distance(guess);
+        if distance > FAR {
+            return false;
+        }
+        let Ok(integrator) = integrator(self.system, self.response, self.settings) else { return false };
+        let shape = (self.orbit.frequency_hz, self.orbit.period_multiple, self.orbit.nodes.len());
+        match orbit_near(integrator, guess, shape, self.settings) {
+            Ok((found, _)) => self.distance(&found.nodes[0]) < SAME.max(1e-3 * distance.min(NEAR)),
+            Err(_) => distance < NEAR,
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! All periodic motions that simulation leads to at one frequency, of several period multiples at once.
+//!
+//! From each of many starts the motion is simulated until it has had time to settle, and then observed over more excitation periods. If it
+//! repeats after N periods it is an attractor of period N. If not, it is chaotic or still settling, and the states that come back closest after N
+//! periods are near unstable orbits of that period (Auerbach and others, Phys. Rev. Lett. 58 (1987), 2387), to which Newton's method takes them.
+
+use hammerbeam_motion::{Stretch, System};
+
+use crate::{
+    OrbitError, OrbitSettings, PeriodicSolution, Response,
+    matching::{distance_in_phase, phases},
+    shooting::StateScale,
+    solve::{integrator, state_scale},
+    start::{attempt, simulate, starting_states},
+};
+
+/// How much is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SurveyEffort {
+    /// Starts at each frequency.
+    pub starts: usize,
+    /// Excitation periods after which a motion is observed.
+    pub settling: usize,
+    /// Excitation periods observed, at least three times the largest multiple.
+    pub observed: usize,
+    /// Near-returns tried for each start and period multiple.
+    pub near_returns: usize,
+}
+
+impl Default for SurveyEffort {
+    fn default() -> Self {
+        Self { starts: 7, settling: 128, observed: 96, near_returns: 2 }
+    }
+}
+
+/// Distance, relative to the orbit, at which a motion counts as having repeated.
+const REPEATED: f64 = 1e-6;
+/// Two orbits this close, relative to the orbit, are the same.
+const SAME: f64 = 1e-6;
+
+/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the order in which they were met.
+///
+/// # Errors
+/// [`OrbitError::Motion`] if the motion cannot be computed from any start.
+pub fn survey(
+    system: &System,
+    response: &Response,
+    frequency_hz: f64,
+    multiples: &[u32],
+    effort: &SurveyEffort,
+    settings: &OrbitSettings,
+) -> Result<Vec<PeriodicSolution>, OrbitError> {
+    let survey = Survey { system, response, frequency_hz, multiples, effort, settings };
+    let mut found: Vec<PeriodicSolution> = Vec::new();
+    let mut failure = None;
+    let mut computed = false;
+    for start in starting_states(system, response, frequency_hz, effort.starts, settings)? {
+        match survey.from(&start) {
+            Err(error @ OrbitError::Motion(_)) => failure = Some(error),
+            Err(error) => return Err(error),
+            Ok(orbits) => {
+                computed = true;
+                for orbit in orbits {
+                    if !survey.holds(&found, &orbit)? {
+                        found.push(orbit);
+                    }
+                }
+            }
+        }
+    }
+    match failure {
+        Some(error) if !computed => Err(error),
+        _ => {
+            found.sort_by_key(|orbit| orbit.period_multiple);
+            Ok(found)
+        }
+    }
+}
+
+struct Survey<'a> {
+    system: &'a System,
+    response: &'a Response,
+    frequency_hz: f64,
+    multiples: &'a [u32],
+    effort: &'a SurveyEffort,
+    settings: &'a OrbitSettings,
+}
+
+impl Survey<'_> {
+    /// Orbits that the motion from one state leads to.
+    fn from(&self, start: &[f64]) -> Result<Vec<PeriodicSolution>, OrbitError> {
+        let largest = self.multiples.iter().copied().max().unwrap_or(1) as usize;
+        let mut integrator = integrator(self.system, self.response, self.settings)?;
+        let mut state = start.to_vec();
+        simulate(&mut integrator, &mut state, self.frequency_hz, self.effort.settling)?;
+        let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
+        let mut states = vec![state];
+        for k in 0..self.effort.observed.max(3 * largest) {
+            states.push(integrator.advance(&stretch, &states[k])?);
+        }
+        let scale = state_scale(self.system, &states[0], self.frequency_hz);
+        if let Some(period) = repeats_after(&states, &scale, largest) {
+            let wanted = self.multiples.contains(&(period as u32));
+            let orbit = if wanted { self.orbit(&states[states.len() - 1], period as u32)? } else { None };
+            return Ok(orbit.into_iter().collect());
+        }
+        let mut orbits = Vec::new();
+        for &multiple in self.multiples {
+            for state in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
+                orbits.extend(self.orbit(state, multiple)?);
+            }
+        }
+        Ok(orbits)
+    }
+
+    fn orbit(&self, state: &[f64], multiple: u32) -> Result<Option<PeriodicSolution>, OrbitError> {
+        attempt(self.system, self.response, state, (self.frequency_hz, multiple), self.settings)
+    }
+
+    fn holds(&self, found: &[PeriodicSolution], orbit: &PeriodicSolution) -> Result<bool, OrbitError> {
+        let same_period = || found.iter().filter(|known| known.period_multiple == orbit.period_multiple);
+        if same_period().next().is_none() {
+            return Ok(false);
+        }
+        let mut integrator = integrator(self.system, self.response, self.settings)?;
+        let phases = phases(&mut integrator, orbit)?;
+        let scale = state_scale(self.system, &orbit.nodes[0], self.frequency_hz);
+        Ok(same_period().any(|known| distance_in_phase(&scale, &phases, &known.nodes[0]) < SAME))
+    }
+}
+
+/// The smallest number of periods, up to `largest`, after which the last state has come back.
+fn repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
+    let last = states.len() - 1;
+    (1..=largest.min(last)).find(|&period| scale.distance(&states[last], &states[last - period]) < REPEATED)
+}
+
+/// States that come back closest after `lag` periods, the closest first.
+fn nearest_returns<'s>(
+    states: &'s [Vec<f64>],
+    scale: &StateScale,
+    lag: usize,
+    most: usize,
+) -> Vec<&'s Vec<f64>> {
+    let distance = |k: usize| scale.distance(&states[k + lag], &states[k]);
+    let mut returns: Vec<(f64, usize)> =
+        (0..states.len().saturating_sub(lag)).map(|k| (distance(k), k)).collect();
+    returns.sort_by(|x, y| x.0.total_cmp(&y.0));
+    returns.iter().take(most).map(|&(_, k)| &states[k]).collect()
+}

@@ -1,0 +1,34 @@
+//! `[search]`: how thoroughly a run looks for branches that nothing leads to.
+
+use serde::Serialize;
+
+use crate::document::Table;
+
+/// Where and how thoroughly orbits are looked for by simulation.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Search {
+    /// Number of frequencies, in the middles of equal parts of the range.
+    pub frequencies: u32,
+    /// Starting states at each of them, besides the linear response.
+    pub starts: u32,
+    /// Excitation periods that a motion has to settle.
+    pub settling_periods: u32,
+}
+
+pub(super) fn read(root: &Table<'_>) -> Option<Search> {
+    let table = match root.optional("search") {
+        Some(value) => Some(value.table()?),
+        None => None,
+    };
+    let key = |key, low, high, default| {
+        let value = table.as_ref().and_then(|table| table.optional(key));
+        value.map_or(Some(default), |value| value.whole(low, high))
+    };
+    let frequencies = key("frequencies", 0, 100_000, 24);
+    let starts = key("starts", 0, 100_000, 6);
+    let settling = key("settling_periods", 1, 1_000_000, 128);
+    if let Some(table) = table {
+        table.finish();
+    }
+    Some(Search { frequencies: frequencies?, starts: starts?, settling_periods: settling? })
+}

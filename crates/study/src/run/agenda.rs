@@ -1,0 +1,248 @@
+//! Jobs, starts and walks, as they are in the store, with what is needed of their rows to decide on others.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use hammerbeam_orbit::{BranchRow, Side};
+
+use super::Plan;
+use crate::store::{JobRecord, Row, Store, StoreError, StoredReason};
+
+/// What is kept of a row in memory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sketch {
+    pub frequency_hz: f64,
+    pub displacement: f64,
+    pub acceleration: f64,
+    pub flip: bool,
+    pub branch_point: bool,
+}
+
+impl Sketch {
+    fn of_row(row: &Row) -> Self {
+        Self {
+            frequency_hz: row.frequency_hz,
+            displacement: row.maxima.displacement,
+            acceleration: row.maxima.acceleration,
+            flip: row.events.flip,
+            branch_point: row.events.branch_point,
+        }
+    }
+
+    fn of_branch_row(row: &BranchRow) -> Self {
+        Self {
+            frequency_hz: row.solution.frequency_hz,
+            displacement: row.solution.maxima.displacement,
+            acceleration: row.solution.maxima.acceleration,
+            flip: row.events.flip,
+            branch_point: row.events.branch_point,
+        }
+    }
+}
+
+/// One side of a branch.
+#[derive(Debug, Default)]
+pub(super) struct WalkState {
+    pub rows: Vec<Sketch>,
+    pub reason: Option<StoredReason>,
+    /// A thread is at it; setting the flag tells it to leave.
+    pub running: Option<Arc<AtomicBool>>,
+}
+
+impl WalkState {
+    /// Whether nothing is left to walk with this budget.
+    pub fn is_finished(&self, plan: &Plan) -> bool {
+        let enough = |reason: &StoredReason| !reason.is_budget() || self.rows.len() as u64 >= plan.budget;
+        self.reason.as_ref().is_some_and(enough)
+    }
+
+    pub fn is_paused(&self) -> bool {
+        self.reason.as_ref().is_some_and(StoredReason::is_budget)
+    }
+
+    pub fn is_closed(&self) -> bool {
+        self.reason.as_ref().is_some_and(StoredReason::is_closed)
+    }
+
+    /// Tells the thread that is at it to leave.
+    pub fn cancel(&mut self) {
+        if let Some(flag) = self.running.take() {
+            flag.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// A start and its two walks.
+#[derive(Debug)]
+pub(super) struct Start {
+    pub key: u32,
+    pub period_multiple: u32,
+    /// Its number, once it is known to be a new branch.
+    pub branch: Option<u32>,
+    /// It seems to lie on another start's branch: nothing is walked before that is decided.
+    pub doubtful: bool,
+    pub up: WalkState,
+    pub down: WalkState,
+}
+
+impl Start {
+    pub fn walk(&self, side: Side) -> &WalkState {
+        match side {
+            Side::Up => &self.up,
+            Side::Down => &self.down,
+        }
+    }
+
+    pub fn walk_mut(&mut self, side: Side) -> &mut WalkState {
+        match side {
+            Side::Up => &mut self.up,
+            Side::Down => &mut self.down,
+        }
+    }
+
+    /// Whether both sides are followed as far as they are to be.
+    pub fn is_finished(&self, plan: &Plan) -> bool {
+        self.up.is_finished(plan) && self.down.is_finished(plan)
+    }
+
+    pub fn is_paused(&self) -> bool {
+        self.up.is_paused() || self.down.is_paused()
+    }
+}
+
+/// A job with its starts.
+#[derive(Debug)]
+pub(super) struct Job {
+    pub record: JobRecord,
+    pub starts: Vec<Start>,
+    /// A thread is evaluating it.
+    pub running: bool,
+    /// It waits for the budget of another branch.
+    pub postponed: bool,
+}
+
+/// All jobs in their order.
+#[derive(Debug)]
+pub(super) struct Agenda {
+    pub jobs: Vec<Job>,
+}
+
+impl Agenda {
+    /// What the store holds; the plan's first jobs are added to a store that has none.
+    pub fn load(store: &mut Store, plan: &Plan) -> Result<Self, StoreError> {
+        if store.jobs()?.is_empty() {
+            store.add_jobs(&plan.first_jobs())?;
+        }
+        let mut agenda = Self { jobs: Vec::new() };
+        agenda.add_new_jobs(store)?;
+        for record in store.starts()? {
+            let walk = |side| -> Result<WalkState, StoreError> {
+                let reason = store.walk(record.key, side)?.reason;
+                let rows = store.walked(record.key, side)?.iter().map(Sketch::of_row).collect();
+                Ok(WalkState { rows, reason, running: None })
+            };
+            let start = Start {
+                key: record.key,
+                period_multiple: record.period_multiple,
+                branch: record.branch,
+                doubtful: false,
+                up: walk(Side::Up)?,
+                down: walk(Side::Down)?,
+            };
+            agenda.jobs[record.job as usize].starts.push(start);
+        }
+        agenda.reopen(store, plan)?;
+        Ok(agenda)
+    }
+
+    /// Takes up finished jobs with a walk that has more budget now.
+    fn reopen(&mut self, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
+        for job in &mut self.jobs {
+            let waits = job.starts.iter().any(|start| start.branch.is_some() && !start.is_finished(plan));
+            if job.record.outcome.is_some() && waits {
+                store.reopen_job(job.record.id)?;
+                job.record.outcome = None;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what the store has more of.
+    pub fn add_new_jobs(&mut self, store: &Store) -> Result<(), StoreError> {
+        let known = self.jobs.len();
+        let new = store.jobs()?.into_iter().skip(known);
+        self.jobs.extend(new.map(|record| Job {
+            record,
+            starts: Vec::new(),
+            running: false,
+            postponed: false,
+        }));
+        Ok(())
+    }
+
+    /// The solutions at which walks begin, as a thread has found and the store has noted them.
+    pub fn add_starts(&mut self, job: u32, store: &Store) -> Result<(), StoreError> {
+        let job = &mut self.jobs[job as usize];
+        job.record.evaluated = true;
+        job.running = false;
+        for record in store.starts()?.iter().filter(|record| record.job == job.record.id) {
+            let rows = store.walked(record.key, Side::Up)?.iter().map(Sketch::of_row).collect();
+            let down = store.walk(record.key, Side::Down)?.reason;
+            job.starts.push(Start {
+                key: record.key,
+                period_multiple: record.period_multiple,
+                branch: None,
+                doubtful: false,
+                up: WalkState { rows, ..WalkState::default() },
+                down: WalkState { reason: down, ..WalkState::default() },
+            });
+        }
+        Ok(())
+    }
+
+    pub fn starts(&self) -> impl Iterator<Item = &Start> {
+        self.jobs.iter().flat_map(|job| &job.starts)
+    }
+
+    pub fn accepted(&self) -> impl Iterator<Item = &Start> {
+        self.starts().filter(|start| start.branch.is_some())
+    }
+
+    pub fn start_mut(&mut self, key: u32) -> Option<&mut Start> {
+        self.jobs.iter_mut().flat_map(|job| &mut job.starts).find(|start| start.key == key)
+    }
+
+    /// Notes new rows of a walk.
+    pub fn add_rows(&mut self, key: u32, side: Side, rows: &[BranchRow], reason: Option<&StoredReason>) {
+        if let Some(start) = self.start_mut(key) {
+            let walk = start.walk_mut(side);
+            walk.rows.extend(rows.iter().map(Sketch::of_branch_row));
+            walk.reason = reason.cloned();
+            if reason.is_some() {
+                walk.running = None;
+            }
+        }
+    }
+
+    /// Whether a branch of this multiple waits for more budget.
+    pub fn is_paused(&self, period_multiple: u32) -> bool {
+        self.accepted().any(|start| start.period_multiple == period_multiple && start.is_paused())
+    }
+
+    /// Whether a harmonic branch passes a frequency.
+    pub fn is_covered(&self, frequency_hz: f64) -> bool {
+        self.accepted().filter(|start| start.period_multiple == 1).any(|start| {
+            let rows = || start.up.rows.iter().chain(&start.down.rows).map(|row| row.frequency_hz);
+            let low = rows().fold(f64::INFINITY, f64::min);
+            let high = rows().fold(f64::NEG_INFINITY, f64::max);
+            (low..=high).contains(&frequency_hz)
+        })
+    }
+
+    /// Solutions of all branches.
+    pub fn solutions(&self) -> u64 {
+        self.starts().map(|start| (start.up.rows.len() + start.down.rows.len()) as u64).sum()
+    }
+}

@@ -1,0 +1,170 @@
+//! What an idle thread does next: what the next decision waits for, then later jobs, then walks from starts that are likely to be new.
+//!
+//! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was walked so far, and first for period multiples
+//! that nobody is walking.
+
+use std::sync::{Arc, atomic::AtomicBool};
+
+use hammerbeam_orbit::{Crossing, Side};
+
+use super::{
+    Origin, Plan, Solver,
+    agenda::{Agenda, Job, Start},
+    known,
+    worker::{Evaluation, From, Question, Task, WalkTask},
+};
+use crate::store::{JobKind, JobRecord, Store, StoreError};
+
+/// The next task, if there is one; it is noted as running.
+pub(super) fn next_task(
+    agenda: &mut Agenda,
+    store: &Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+) -> Result<Option<Task>, StoreError> {
+    let Some(first) = agenda.jobs.iter().position(is_open) else { return Ok(None) };
+    if let Some(walk) = awaited_walk(&agenda.jobs[first], plan) {
+        return Ok(Some(begin_walk(agenda, store, plan, walk)?));
+    }
+    if let Some(job) = job_to_evaluate(agenda, first) {
+        return Ok(Some(begin_evaluation(agenda, store, plan, job)?));
+    }
+    match walk_ahead(agenda, store, solver, plan)? {
+        Some(walk) => Ok(Some(begin_walk(agenda, store, plan, walk)?)),
+        None => Ok(None),
+    }
+}
+
+fn is_open(job: &Job) -> bool {
+    job.record.outcome.is_none() && !job.postponed
+}
+
+/// A walk of a new branch for which the next decision waits.
+fn awaited_walk(job: &Job, plan: &Plan) -> Option<(u32, Side)> {
+    job.starts.iter().filter(|start| start.branch.is_some()).find_map(|start| open_side(start, plan))
+}
+
+/// A side of a start that nobody walks.
+fn open_side(start: &Start, plan: &Plan) -> Option<(u32, Side)> {
+    let open = |side: Side| {
+        let walk = start.walk(side);
+        !walk.is_finished(plan) && walk.running.is_none()
+    };
+    let side = [Side::Up, Side::Down].into_iter().find(|side| open(*side))?;
+    (side == Side::Up || !start.up.is_closed()).then_some((start.key, side))
+}
+
+/// The first open job that is not evaluated. Whether a harmonic start is needed at all is known only when its turn comes.
+fn job_to_evaluate(agenda: &Agenda, first: usize) -> Option<usize> {
+    (first..agenda.jobs.len()).find(|&index| {
+        let job = &agenda.jobs[index];
+        let ready = is_open(job) && !job.record.evaluated && !job.running;
+        ready && (index == first || !Plan::only_if_not_covered(&job.record))
+    })
+}
+
+/// A walk from a start on which no decision was taken yet.
+fn walk_ahead(
+    agenda: &mut Agenda,
+    store: &Store,
+    solver: &dyn Solver,
+    plan: &Plan,
+) -> Result<Option<(u32, Side)>, StoreError> {
+    loop {
+        let walked: Vec<u32> = agenda
+            .starts()
+            .filter(|start| start.up.running.is_some() || start.down.running.is_some())
+            .map(|start| start.period_multiple)
+            .collect();
+        let candidates = || {
+            let open = agenda.jobs.iter().filter(|job| is_open(job)).flat_map(|job| &job.starts);
+            open.filter(|start| start.branch.is_none() && !start.doubtful)
+                .filter_map(|start| Some((start, open_side(start, plan)?)))
+        };
+        let fresh = candidates().find(|(start, _)| !walked.contains(&start.period_multiple));
+        let Some((start, walk)) = fresh.or_else(|| candidates().next()) else { return Ok(None) };
+        let begun = start.up.rows.len() + start.down.rows.len() > 1;
+        if begun || !seems_known(agenda, store, solver, start)? {
+            return Ok(Some(walk));
+        }
+        let key = walk.0;
+        if let Some(start) = agenda.start_mut(key) {
+            start.doubtful = true;
+        }
+    }
+}
+
+/// Whether a start lies on anything that was walked so far.
+fn seems_known(
+    agenda: &Agenda,
+    store: &Store,
+    solver: &dyn Solver,
+    start: &Start,
+) -> Result<bool, StoreError> {
+    let solution = store.solution(start.key, Side::Up, 0)?;
+    let root = start.up.rows.first().is_some_and(|row| row.branch_point);
+    for other in agenda.starts().filter(|other| other.key != start.key) {
+        let known = if root {
+            known::has_branch_point(store, solver, other, &solution)?
+        } else {
+            known::lies_on(store, solver, other, &solution)?
+        };
+        if known {
+            return Ok(true);
+        }
+    }
+    Ok(false)
+}
+
+fn begin_evaluation(
+    agenda: &mut Agenda,
+    store: &Store,
+    plan: &Plan,
+    index: usize,
+) -> Result<Task, StoreError> {
+    let job = &mut agenda.jobs[index];
+    job.running = true;
+    let record = &job.record;
+    let what = match record.kind {
+        JobKind::Harmonic => Question::Harmonic(record.frequency_hz),
+        JobKind::Survey => Question::Survey(record.frequency_hz, plan.multiples.clone()),
+        JobKind::Doubling | JobKind::Crossing => Question::Leave(crossing(store, record)?),
+    };
+    Ok(Task::Evaluate(Evaluation { job: record.id, what }))
+}
+
+/// The crossing at which a job's branch leaves another one.
+fn crossing(store: &Store, job: &JobRecord) -> Result<Crossing, StoreError> {
+    let source = job.source.unwrap_or_default();
+    let direction = store.event(source)?.map(|event| event.direction).unwrap_or_default();
+    let factor = if job.kind == JobKind::Doubling { 2 } else { 1 };
+    Ok(Crossing { orbit: store.solution_of_key(source)?, direction, factor })
+}
+
+fn begin_walk(
+    agenda: &mut Agenda,
+    store: &Store,
+    plan: &Plan,
+    (key, side): (u32, Side),
+) -> Result<Task, StoreError> {
+    let from = match store.checkpoint(key, side)? {
+        Some(memory) => From::Memory(memory),
+        None => From::Origin(origin(agenda, store, key)?),
+    };
+    let cancelled = Arc::new(AtomicBool::new(false));
+    let mut stored = 0;
+    if let Some(start) = agenda.start_mut(key) {
+        let walk = start.walk_mut(side);
+        walk.running = Some(Arc::clone(&cancelled));
+        stored = walk.rows.len() as u64;
+    }
+    Ok(Task::Walk(WalkTask { key, side, from, stored, budget: plan.budget, cancelled }))
+}
+
+fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<Origin, StoreError> {
+    let job = agenda.jobs.iter().find(|job| job.starts.iter().any(|start| start.key == key));
+    match job {
+        Some(job) if job.record.source.is_some() => Ok(Origin::Crossing(crossing(store, &job.record)?)),
+        _ => Ok(Origin::Found(store.solution(key, Side::Up, 0)?)),
+    }
+}

@@ -1,0 +1,207 @@
+//! What a thread does: evaluates a job, or walks one side of a branch and sends what it finds.
+
+use std::{
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, SyncSender},
+    },
+    time::{Duration, Instant},
+};
+
+use hammerbeam_orbit::{BranchRow, Crossing, PeriodicSolution, Side, StopReason};
+
+use super::{Origin, Solver, Walk};
+use crate::store::{StoredMemory, StoredReason};
+
+/// Solutions are sent together after this time,
+const SEND_AFTER: Duration = Duration::from_millis(200);
+/// or when there are so many of them.
+const SEND_AT: usize = 2000;
+
+/// A piece of work.
+#[derive(Debug)]
+pub(super) enum Task {
+    Evaluate(Evaluation),
+    Walk(WalkTask),
+}
+
+/// What is to be evaluated.
+#[derive(Debug)]
+pub(super) struct Evaluation {
+    pub job: u32,
+    pub what: Question,
+}
+
+#[derive(Debug)]
+pub(super) enum Question {
+    Harmonic(f64),
+    Survey(f64, Vec<u32>),
+    Leave(Crossing),
+}
+
+/// A walk, from its origin or from where it was left.
+#[derive(Debug)]
+pub(super) struct WalkTask {
+    pub key: u32,
+    pub side: Side,
+    pub from: From,
+    /// Solutions that the store has of it.
+    pub stored: u64,
+    pub budget: u64,
+    /// Tells it to leave.
+    pub cancelled: Arc<AtomicBool>,
+}
+
+#[derive(Debug)]
+pub(super) enum From {
+    Origin(Origin),
+    Memory(StoredMemory),
+}
+
+/// What a thread has to say.
+#[derive(Debug)]
+pub(super) enum Report {
+    /// What came of a job.
+    Evaluated { job: u32, starts: Result<Vec<PeriodicSolution>, String> },
+    /// More of a walk.
+    Walked(Stretch),
+    /// A walk was told to leave; there is nothing more of it.
+    Left,
+    /// A stored walk cannot be taken up.
+    Failed { key: u32, message: String },
+}
+
+/// Solutions of a walk, to be committed together.
+#[derive(Debug)]
+pub(super) struct Stretch {
+    pub key: u32,
+    pub side: Side,
+    pub rows: Vec<BranchRow>,
+    pub checkpoint: Vec<u8>,
+    pub journal: Vec<u8>,
+    /// Why the walk ended with them, if it did.
+    pub reason: Option<StoredReason>,
+    /// Whether the thread has left the walk.
+    pub last: bool,
+    pub cancelled: Arc<AtomicBool>,
+}
+
+/// Works until there are no more tasks or nobody listens.
+pub(super) fn work(
+    solver: &dyn Solver,
+    tasks: &Mutex<Receiver<Task>>,
+    reports: &SyncSender<Report>,
+    stop: &AtomicBool,
+) {
+    loop {
+        let task = match tasks.lock() {
+            Ok(tasks) => tasks.recv(),
+            Err(_) => return,
+        };
+        let heard = match task {
+            Err(_) => return,
+            Ok(Task::Evaluate(evaluation)) => {
+                let starts = evaluate(solver, &evaluation.what);
+                reports.send(Report::Evaluated { job: evaluation.job, starts }).is_ok()
+            }
+            Ok(Task::Walk(task)) => walk(solver, &task, reports, stop),
+        };
+        if !heard {
+            return;
+        }
+    }
+}
+
+fn evaluate(solver: &dyn Solver, question: &Question) -> Result<Vec<PeriodicSolution>, String> {
+    match question {
+        Question::Harmonic(frequency_hz) => Ok(vec![solver.find_harmonic(*frequency_hz)?]),
+        Question::Survey(frequency_hz, multiples) => solver.survey(*frequency_hz, multiples),
+        Question::Leave(crossing) => {
+            // Only a branch that can be begun is one.
+            solver.begin(&Origin::Crossing(crossing.clone()), Side::Up)?;
+            Ok(vec![solver.root(crossing)?])
+        }
+    }
+}
+
+/// Walks until the walk ends or is told to leave; false if nobody listens any more.
+fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop: &AtomicBool) -> bool {
+    let opened = match &task.from {
+        From::Origin(origin) => solver.begin(origin, task.side),
+        From::Memory(memory) => solver.resume(&memory.checkpoint, &memory.journal),
+    };
+    let mut walk = match opened {
+        Ok(walk) => walk,
+        Err(message) => return reports.send(not_opened(task, message)).is_ok(),
+    };
+    let leave = || stop.load(Ordering::Relaxed) || task.cancelled.load(Ordering::Relaxed);
+    let mut stored = task.stored;
+    loop {
+        let mut rows = Vec::new();
+        let reason = match stretch(walk.as_mut(), &mut rows, (stored, task.budget), &leave) {
+            Ok(reason) => reason,
+            Err(message) => return reports.send(Report::Failed { key: task.key, message }).is_ok(),
+        };
+        if task.cancelled.load(Ordering::Relaxed) {
+            return reports.send(Report::Left).is_ok();
+        }
+        stored += rows.len() as u64;
+        let last = reason.is_some() || leave();
+        let stretch = Stretch {
+            key: task.key,
+            side: task.side,
+            rows,
+            checkpoint: walk.checkpoint(),
+            journal: walk.take_journal(),
+            reason,
+            last,
+            cancelled: Arc::clone(&task.cancelled),
+        };
+        if reports.send(Report::Walked(stretch)).is_err() {
+            return false;
+        }
+        if last {
+            return true;
+        }
+    }
+}
+
+/// A walk that cannot begin is told as the end of its side; one that cannot be taken up is an error.
+fn not_opened(task: &WalkTask, message: String) -> Report {
+    match task.from {
+        From::Memory(_) => Report::Failed { key: task.key, message },
+        From::Origin(_) => Report::Walked(Stretch {
+            key: task.key,
+            side: task.side,
+            rows: Vec::new(),
+            checkpoint: Vec::new(),
+            journal: Vec::new(),
+            reason: Some(StoredReason::not_begun(&message)),
+            last: true,
+            cancelled: Arc::clone(&task.cancelled),
+        }),
+    }
+}
+
+/// Appends solutions that are sent together; why the walk ended with them if it did.
+fn stretch(
+    walk: &mut dyn Walk,
+    rows: &mut Vec<BranchRow>,
+    (stored, budget): (u64, u64),
+    leave: &dyn Fn() -> bool,
+) -> Result<Option<StoredReason>, String> {
+    let begun = Instant::now();
+    loop {
+        if stored + rows.len() as u64 >= budget {
+            let reason = StopReason::Budget { solutions: budget as usize };
+            return Ok(Some(StoredReason::of(&reason)));
+        }
+        if let Some(reason) = walk.step(rows)? {
+            return Ok(Some(StoredReason::of(&reason)));
+        }
+        if rows.len() >= SEND_AT || begun.elapsed() >= SEND_AFTER || leave() {
+            return Ok(None);
+        }
+    }
+}

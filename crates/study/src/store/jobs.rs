@@ -1,0 +1,246 @@
+//! The agenda of a run: jobs, and the starts that came of them.
+
+use hammerbeam_orbit::{Events, PeriodicSolution, Side};
+use rusqlite::{Row as SqlRow, Transaction, params};
+
+use super::{Store, StoreError, StoredReason, first_key, walk_id, write::insert_solution};
+
+/// Most starts of one job.
+const MOST_STARTS: u32 = 1024;
+
+/// What a job is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum JobKind {
+    /// A harmonic orbit at a frequency, where no harmonic branch passes yet.
+    Harmonic,
+    /// All orbits that simulation leads to at a frequency.
+    Survey,
+    /// The branch of doubled period at a flip.
+    Doubling,
+    /// The branch that crosses at a branch point.
+    Crossing,
+}
+
+/// A job.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JobRecord {
+    /// Its place in the order of work.
+    pub id: u32,
+    /// What it is.
+    pub kind: JobKind,
+    /// Where [Hz].
+    pub frequency_hz: f64,
+    /// Key of the solution at the flip or branch point.
+    pub source: Option<i64>,
+    /// Period doublings that lead to the branches it finds.
+    pub depth: u32,
+    /// Whether its starts are known.
+    pub evaluated: bool,
+    /// Why it has no starts, if it has none.
+    pub message: Option<String>,
+    /// What came of it, once it is finished.
+    pub outcome: Option<String>,
+}
+
+/// A solution from which a branch may begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StartRecord {
+    /// Its key.
+    pub key: u32,
+    /// The job it came of.
+    pub job: u32,
+    /// Orbit period over excitation period.
+    pub period_multiple: u32,
+    /// Number of the branch, once it is known to be a new one.
+    pub branch: Option<u32>,
+}
+
+impl JobKind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Harmonic => "harmonic",
+            Self::Survey => "survey",
+            Self::Doubling => "doubling",
+            Self::Crossing => "crossing",
+        }
+    }
+
+    fn named(name: &str) -> Self {
+        match name {
+            "harmonic" => Self::Harmonic,
+            "survey" => Self::Survey,
+            "doubling" => Self::Doubling,
+            _ => Self::Crossing,
+        }
+    }
+}
+
+impl Store {
+    /// All jobs in their order.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn jobs(&self) -> Result<Vec<JobRecord>, StoreError> {
+        let select =
+            "SELECT id, kind, frequency_hz, source, depth, evaluated, message, outcome FROM job ORDER BY id";
+        let mut statement = self.connection.prepare(select)?;
+        let read = |row: &SqlRow<'_>| {
+            Ok(JobRecord {
+                id: row.get(0)?,
+                kind: JobKind::named(&row.get::<_, String>(1)?),
+                frequency_hz: row.get(2)?,
+                source: row.get(3)?,
+                depth: row.get(4)?,
+                evaluated: row.get(5)?,
+                message: row.get(6)?,
+                outcome: row.get(7)?,
+            })
+        };
+        Ok(statement.query_map([], read)?.collect::<Result<_, _>>()?)
+    }
+
+    /// Adds jobs to the end of the agenda; those whose source has one already are left out.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn add_jobs(&mut self, jobs: &[(JobKind, f64, Option<i64>, u32)]) -> Result<(), StoreError> {
+        let transaction = self.connection.transaction()?;
+        for (kind, frequency_hz, source, depth) in jobs {
+            let insert = "INSERT OR IGNORE INTO job (id, kind, frequency_hz, source, depth)
+                SELECT coalesce(max(id) + 1, 0), ?1, ?2, ?3, ?4 FROM job";
+            transaction.execute(insert, params![kind.name(), frequency_hz, source, depth])?;
+        }
+        transaction.commit()?;
+        Ok(())
+    }
+
+    /// Starts of all jobs, in their order.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn starts(&self) -> Result<Vec<StartRecord>, StoreError> {
+        let mut statement =
+            self.connection.prepare("SELECT id, job, period_multiple, branch FROM start ORDER BY id")?;
+        let read = |row: &SqlRow<'_>| {
+            Ok(StartRecord {
+                key: row.get(0)?,
+                job: row.get(1)?,
+                period_multiple: row.get(2)?,
+                branch: row.get(3)?,
+            })
+        };
+        Ok(statement.query_map([], read)?.collect::<Result<_, _>>()?)
+    }
+
+    /// Notes what came of a job: its starts, each with the walks that will begin there.
+    ///
+    /// * `message`: why there are none.
+    ///
+    /// A branch of doubled period is walked away from its flip only: the other way it is its own copy, a period later.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn note_starts(
+        &mut self,
+        job: &JobRecord,
+        starts: &[PeriodicSolution],
+        message: Option<&str>,
+    ) -> Result<(), StoreError> {
+        let one_sided = (job.kind == JobKind::Doubling).then(|| StoredReason::of_crossing(job.frequency_hz));
+        let transaction = self.connection.transaction()?;
+        let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
+        transaction.execute(update, params![job.id, message])?;
+        for (start, key) in starts.iter().zip(job.id * MOST_STARTS..(job.id + 1) * MOST_STARTS) {
+            let insert = "INSERT INTO start (id, job, period_multiple) VALUES (?1, ?2, ?3)";
+            transaction.execute(insert, params![key, job.id, start.period_multiple])?;
+            for (side, name, solutions) in [(Side::Up, "up", 1), (Side::Down, "down", 0)] {
+                let reason = one_sided.as_ref().filter(|_| side == Side::Down);
+                let insert = "INSERT INTO walk (id, start, side, solutions, stop_kind, stop_frequency_hz,
+                    stop_message) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)";
+                let values = params![
+                    walk_id(key, side),
+                    key,
+                    name,
+                    solutions,
+                    reason.map(|reason| &reason.kind),
+                    reason.and_then(|reason| reason.frequency_hz),
+                    reason.map(|reason| &reason.message),
+                ];
+                transaction.execute(insert, values)?;
+            }
+            let events = Events { branch_point: job.source.is_some(), ..Events::default() };
+            insert_solution(&transaction, first_key(walk_id(key, Side::Up)), start, events)?;
+        }
+        transaction.commit()?;
+        Ok(())
+    }
+
+    /// A start is that of a new branch.
+    ///
+    /// # Returns
+    /// Its number, counted from 1.
+    /// # Errors
+    /// The database refuses.
+    pub fn accept_start(&mut self, key: u32) -> Result<u32, StoreError> {
+        let newest: Option<u32> =
+            self.connection.query_row("SELECT max(branch) FROM start", [], |row| row.get(0))?;
+        let branch = newest.unwrap_or(0) + 1;
+        self.connection.execute("UPDATE start SET branch = ?2 WHERE id = ?1", params![key, branch])?;
+        Ok(branch)
+    }
+
+    /// A start lies on another branch: it goes, with everything that was walked from it.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn drop_start(&mut self, key: u32) -> Result<(), StoreError> {
+        let transaction = self.connection.transaction()?;
+        for side in [Side::Up, Side::Down] {
+            forget_walked(&transaction, walk_id(key, side))?;
+        }
+        transaction.execute("DELETE FROM walk WHERE start = ?1", [key])?;
+        transaction.execute("DELETE FROM start WHERE id = ?1", [key])?;
+        transaction.commit()?;
+        Ok(())
+    }
+
+    /// Deletes what was walked on a side.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn drop_walk(&mut self, key: u32, side: Side) -> Result<(), StoreError> {
+        let walk = walk_id(key, side);
+        let transaction = self.connection.transaction()?;
+        forget_walked(&transaction, walk)?;
+        let update = "UPDATE walk SET solutions = 0, checkpoint = NULL WHERE id = ?1";
+        transaction.execute(update, [walk])?;
+        transaction.commit()?;
+        Ok(())
+    }
+
+    /// Notes that a job is finished, and what came of it.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn finish_job(&mut self, job: u32, outcome: &str) -> Result<(), StoreError> {
+        self.connection.execute("UPDATE job SET outcome = ?2 WHERE id = ?1", params![job, outcome])?;
+        Ok(())
+    }
+
+    /// Takes a finished job up again, since one of its walks has more budget.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn reopen_job(&mut self, job: u32) -> Result<(), StoreError> {
+        self.connection.execute("UPDATE job SET outcome = NULL WHERE id = ?1", [job])?;
+        Ok(())
+    }
+}
+
+fn forget_walked(transaction: &Transaction<'_>, walk: i64) -> Result<(), StoreError> {
+    let (first, last) = (first_key(walk), first_key(walk + 1));
+    transaction.execute("DELETE FROM event WHERE solution >= ?1 AND solution < ?2", [first, last])?;
+    transaction.execute("DELETE FROM solution WHERE id >= ?1 AND id < ?2", [first, last])?;
+    transaction.execute("DELETE FROM journal WHERE walk = ?1", [walk])?;
+    Ok(())
+}
