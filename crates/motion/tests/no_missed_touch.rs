@@ -118,9 +118,9 @@ impl Motion {
                     let there = read(&sampler.between(&pair[0], k, count, place));
                     height = there.0.max(height);
                     if there.1 > 0.0 {
-                        low = (place, there.1)
+                        low = (place, there.1);
                     } else {
-                        high = (place, there.1)
+                        high = (place, there.1);
                     }
                     if high.0 - low.0 < 1e-9 {
                         break;
