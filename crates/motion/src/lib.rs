@@ -12,7 +12,9 @@
 //! **Flight.** While no force acts, `z` is a particular solution of the load and a homogeneous one, `x(t) = E(t) x(0)`, both in closed form: one 2 x 2
 //! propagator for each block (a mode, or a pair of eigenvalues where dampers couple modes). Over the flight `|r''|` and `|r'''|` have
 //! known bounds, sums of known decaying amplitudes. From them follow steps that provably cannot jump over a contact; repeated, they
-//! converge on the first one. No touch is missed, down to a rounding margin of `8 eps` times the terms of `r`.
+//! converge on the first one. No touch is missed, down to a rounding margin of `8 eps` times the terms of `r`. The same search goes on
+//! while forces act, with bounds on the forces; there the promise is on the motion that is computed, whose distance from the exact one is the error
+//! of the step.
 //!
 //! **Contact.** Over a step of length h, with nodes `t_k`, the forces are `F(t) = sum_l F_l L_l(t)` and
 //!

@@ -196,6 +196,24 @@ fn a_second_stop_that_closes_during_a_contact_is_found() {
     }
 }
 
+/// `q_1 = -cos t` grazes its stop at 1 at the very time, pi, at which `-cos t/2` rises through the level of the other stop.
+#[test]
+fn a_graze_of_one_stop_does_not_hide_a_touch_of_another() {
+    let grazed = element(&[1.0, 0.0], 0.0, hertz(1e6, 1.0));
+    let struck = element(&[0.0, 1.0], 0.0, Law::Linear(LinearStop::with_gap(12.0, 0.0).unwrap()));
+    // A half-wave on the stiffened spring of sqrt(12.25) = 3.5 rad/s, and back.
+    let after: f64 = 0.5 * (5.0 - PI - PI / 3.5);
+    let expected = [-(5.0_f64.cos()), -after.sin(), 5.0_f64.sin(), -0.5 * after.cos()];
+    for (stops, second) in [(vec![grazed.clone(), struck.clone()], 1), (vec![struck, grazed], 0)] {
+        let system = System::new(model(&[1.0, 0.5], diagonal(&[0.0; 2])), &Load::default(), stops).unwrap();
+        let mut exact = integrator(&system);
+        let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 5.0 };
+        let state = exact.advance(&stretch, &[-1.0, -1.0, 0.0, 0.0]).unwrap();
+        assert_close(&state, &expected, 1e-12, "state");
+        assert_eq!(exact.touches()[second], 1);
+    }
+}
+
 /// A touch from inside or on the level, moving in or out, and with no speed at all.
 #[test]
 fn a_motion_may_begin_on_the_level() {

@@ -19,8 +19,8 @@ impl ExactIntegrator {
         run.start.clear();
         for element in 0..self.laws.len() {
             let start = ElementStart {
-                jet: self.output_jet(run, element, run.time),
-                margin: self.bounds(run, element, end).margin,
+                jet: self.output_jet(&run.state, element, run.time),
+                margin: self.bounds(&run.state, element, end).margin,
                 velocity: self.velocity_range(run, element),
             };
             run.start.push(start);

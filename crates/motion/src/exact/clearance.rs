@@ -1,20 +1,23 @@
-//! Certified search for the first contact of a flight.
+//! Certified search for the first contact.
 //!
 //! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and `|d'''| <= B_3` that hold
-//! for the rest of the flight, two steps provably cannot jump over a zero of `d`:
+//! for the time ahead, two steps provably cannot jump over a zero of `d`:
 //!
 //! * `h_2`, the positive root of `d + d' h - B_2 h^2/2`;
 //! * `h_3`, the first positive root of `d + d' h + d'' h^2/2 - B_3 h^3/6`.
 //!
-//! Repeated, they converge on the first contact, quadratically where it is crossed with some speed. Where a minimum of `d` lies
-//! ahead inside a stretch that `B_3` proves convex, the minimum itself is found by Newton's method: if it is above the
-//! rounding margin the stretch is passed at once, if it is below, Newton's method from the left runs monotonically into the
-//! crossing (the tangent of a convex function lies below it), and in between the contact is grazed without force. The
-//! margin is `8 eps` times the sum of the magnitudes of the terms of `r`: what rounding leaves undecided.
+//! Repeated, they converge on the first contact, quadratically where it is crossed with some speed. Over the time `d''/B_3` the
+//! clearance is convex. Where it has its minimum well inside that stretch (`-d'/d''` is less than half of it), the minimum is found
+//! by Newton's method: if it is above minus the rounding margin, the whole convex stretch is passed at once, since nowhere in it is `d` lower;
+//! if it is below, Newton's method from the left runs monotonically into the crossing (the tangent of a convex function
+//! lies below it). A contact whose minimum is within the margin is grazed, without force. The margin is what rounding leaves undecided:
+//! `8 eps` times the sum of the magnitudes of the terms of `r` in flight, somewhat more in a force step (`touching.rs`).
+//!
+//! The same holds if `d''` is only known from below: all that is used of it is that it is not smaller.
 
 use super::drive::Jet;
 
-/// Bounds for a clearance over the rest of the flight.
+/// Bounds for a clearance over the time ahead.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ClearanceBounds {
     pub second: f64,
@@ -48,13 +51,62 @@ pub(crate) fn look(clearance: Jet, bounds: ClearanceBounds) -> Look {
     if value <= bounds.margin && (slope < 0.0 || (slope == 0.0 && curvature < 0.0)) {
         return Look::Contact;
     }
-    let value = value.max(0.0);
+    // Within the margin and not falling: what the motion does within the margin is not looked at, so that every look gets on.
+    let value = value.max(bounds.margin);
     Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(
         value,
         slope,
         curvature,
         bounds.third,
     )))
+}
+
+/// What a convex stretch holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Convex {
+    /// No contact in all of it, down to the margin.
+    Free,
+    /// The contact closes at this time [s], counted from the look.
+    ContactAt(f64),
+}
+
+/// Newton steps to a minimum, and to the crossing before it; both converge quadratically.
+const NEWTON_STEPS: usize = 60;
+
+/// Decides a stretch in which the clearance is convex.
+///
+/// * `clearance`: the clearance at a time after the look.
+/// * `at`: about where its minimum is; `length`: length of the stretch (the minimum may lie beyond its end); `start`: time of the look, for
+///   rounding.
+pub(crate) fn decide_convex(
+    mut clearance: impl FnMut(f64) -> Jet,
+    (at, length): (f64, f64),
+    start: f64,
+    margin: f64,
+) -> Convex {
+    let mut ahead = at.min(length);
+    let mut lowest = clearance(ahead);
+    for _ in 0..NEWTON_STEPS {
+        let next = (ahead - lowest.slope / lowest.curvature).clamp(0.0, length);
+        let step = next - ahead;
+        if step.abs() <= 1e-14 * (start + ahead) || step.is_nan() {
+            break;
+        }
+        ahead = next;
+        lowest = clearance(ahead);
+    }
+    if lowest.value >= -margin {
+        return Convex::Free;
+    }
+    let mut before = 0.0;
+    for _ in 0..NEWTON_STEPS {
+        let here = clearance(before);
+        if here.value <= margin || here.slope >= 0.0 {
+            break;
+        }
+        before -= here.value / here.slope;
+    }
+    Convex::ContactAt(before)
 }
 
 /// Positive root of `d + d' h - B h^2/2`.
@@ -135,6 +187,27 @@ mod tests {
         assert_eq!(look(closing, bounds(1.0, 1.0)), Look::Contact);
         let opening = Jet { value: -1e-12, slope: 1.0, curvature: 0.0 };
         assert!(matches!(look(opening, bounds(1.0, 1.0)), Look::FreeFor(h) if h > 0.0));
+    }
+
+    #[test]
+    fn a_convex_stretch_is_free_down_to_its_minimum() {
+        let parabola = |lowest: f64| {
+            move |t: f64| Jet { value: lowest + 0.5 * (t - 1.0).powi(2), slope: t - 1.0, curvature: 1.0 }
+        };
+        for (lowest, length, expected) in [
+            (1e-12, 2.5, Convex::Free),
+            (-1e-19, 2.5, Convex::Free),
+            // Its lowest point in the stretch is the end.
+            (-1e-6, 0.5, Convex::Free),
+        ] {
+            assert_eq!(decide_convex(parabola(lowest), (1.0, length), 0.0, 1e-18), expected, "{lowest}");
+        }
+        for depth in [1e-3_f64, 1e-9, 1e-13] {
+            let Convex::ContactAt(time) = decide_convex(parabola(-depth), (0.9, 2.5), 0.0, 1e-18) else {
+                panic!("{depth} is a contact")
+            };
+            assert!((time - (1.0 - (2.0 * depth).sqrt())).abs() < 1e-9, "{depth}: {time}");
+        }
     }
 
     #[test]

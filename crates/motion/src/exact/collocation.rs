@@ -85,8 +85,12 @@ pub(crate) struct Rule {
     pub lag: [f64; NODES],
     /// `d l_j/ds` at `s_k`, indexed `[k][j]`.
     derivative: [[f64; NODES]; NODES],
-    /// Bernstein coefficients from nodal values, indexed `[coefficient][node]`.
+    /// Bernstein coefficients from nodal values, indexed `[coefficient][node]`, from the first node to the end of the step.
     to_bernstein: [[f64; NODES]; NODES],
+    /// The same over all of the step.
+    to_whole: [[f64; NODES]; NODES],
+    /// Largest magnitude of the two highest orthonormal polynomials in the step.
+    pub highest: f64,
     recurrence: Recurrence,
 }
 
@@ -113,7 +117,9 @@ impl Rule {
             fine: Vec::new(),
             lag: s.map(|s| grading.map(s).0 / grading.map(s).1),
             derivative: derivative(&s),
-            to_bernstein: to_bernstein(&s),
+            to_bernstein: to_bernstein(&s, s[0]),
+            to_whole: to_bernstein(&s, 0.0),
+            highest: recurrence.highest(),
             recurrence,
         };
         rule.fine = (0..=FINE).map(|i| rule.lagrange(i as f64 / FINE as f64)).collect();
@@ -152,6 +158,11 @@ impl Rule {
         self.to_bernstein.map(|row| dot(&row, values))
     }
 
+    /// Bernstein coefficients of a polynomial over all of the step, from its values at the nodes.
+    pub fn bernstein_of_whole(&self, values: &[f64; NODES]) -> [f64; NODES] {
+        self.to_whole.map(|row| dot(&row, values))
+    }
+
     /// Lagrange polynomials at `s`.
     pub fn lagrange(&self, s: f64) -> [f64; NODES] {
         let values = self.recurrence.values(s);
@@ -173,11 +184,11 @@ fn derivative(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
     matrix
 }
 
-/// The inverse of `binomial(n, i) x_k^i (1 - x_k)^(n - i)`, `n = NODES - 1`, where x runs from 0 at the first node to 1 at the end.
-fn to_bernstein(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
+/// The inverse of `binomial(n, i) x_k^i (1 - x_k)^(n - i)`, `n = NODES - 1`, where x runs from 0 at `start` to 1 at the end of the step.
+fn to_bernstein(s: &[f64; NODES], start: f64) -> [[f64; NODES]; NODES] {
     let degree = NODES - 1;
     let binomial = |i: usize| (0..i).map(|m| (degree - m) as f64 / (m + 1) as f64).product::<f64>();
-    let x = s.map(|s_k| (s_k - s[0]) / (1.0 - s[0]));
+    let x = s.map(|s_k| (s_k - start) / (1.0 - start));
     let values = Mat::from_fn(NODES, NODES, |k, i| {
         binomial(i) * x[k].powi(i as i32) * (1.0 - x[k]).powi((degree - i) as i32)
     });
@@ -225,6 +236,15 @@ impl Recurrence {
             values[degree + 1] = ((s - self.alpha[degree]) * values[degree] - before) / self.beta[degree + 1];
         }
         values
+    }
+
+    /// Largest magnitude of the two polynomials of highest degree: like all Jacobi polynomials with weights that do not grow beyond
+    /// the ends faster than a root, they have it at an end.
+    fn highest(&self) -> f64 {
+        let ends = [self.values(0.0), self.values(1.0)];
+        ends.iter()
+            .flat_map(|values| &values[NODES - 2..])
+            .fold(0.0, |largest, value| value.abs().max(largest))
     }
 
     /// Nodes and weights of Gauss, from the eigenvalues of the Jacobi matrix (Golub and Welsch 1969).

@@ -174,7 +174,11 @@ impl ExactIntegrator {
             }
             return free(if event.is_some() { 0.5 * time } else { shorter.min(0.5 * time) });
         }
-        if let Some((touch, time)) = self.first_touch_in_step(run, event)
+        let Ok(touching) = self.first_touch_in_step(run, event) else {
+            // Undecided: in a shorter step the search goes further.
+            return free(0.5 * length);
+        };
+        if let Some((touch, time)) = touching
             && time < length * (1.0 - 1e-9)
         {
             if time <= 1e-12 * length {

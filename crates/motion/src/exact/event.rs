@@ -58,8 +58,7 @@ impl ExactIntegrator {
         remaining: f64,
     ) -> Option<Solved> {
         let exponent = self.contact_of(run, event).onset_exponent;
-        let accuracy =
-            (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON);
+        let accuracy = self.location_accuracy(exponent);
         let mut length = length.min(remaining);
         let mut last = false;
         for tries in 0..MAX_TRIES {
@@ -82,6 +81,21 @@ impl ExactIntegrator {
             length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
         }
         None
+    }
+
+    /// Accuracy of the length of a step that ends with a contact that sets in or ends with that exponent, relative to it.
+    fn location_accuracy(&self, exponent: f64) -> f64 {
+        (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON)
+    }
+
+    /// How much earlier than at the end of the solved step the contact that was located there may be found to close [s]: what its location,
+    /// and rounding of its clearance, leave undecided.
+    pub(super) fn located_within(&self, run: &Run, touch: Touch) -> f64 {
+        let exponent = self.laws[touch.element].contacts()[touch.contact].onset_exponent;
+        let length = self.step.weights.length;
+        let speed = self.jet_at_step_end(run, touch.element).slope.abs();
+        let rounding = (8.0 * run.start[touch.element].margin / speed).min(length);
+        (10.0 * self.location_accuracy(exponent)).max(1e-9) * length + rounding
     }
 
     fn contact_of(&self, run: &Run, event: Event) -> crate::Contact {

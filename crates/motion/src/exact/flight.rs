@@ -3,7 +3,7 @@
 use super::{
     ExactIntegrator, MotionError,
     block::Propagator,
-    clearance::{ClearanceBounds, Look, look},
+    clearance::{ClearanceBounds, Convex, Look, decide_convex, look},
     drive::Jet,
     run::Run,
 };
@@ -29,7 +29,6 @@ impl ExactIntegrator {
         let mut placed = false;
         if self.has_contacts {
             let mut looks = 0;
-            let mut past_minimum = false;
             while time < horizon && touch.is_none() {
                 looks += 1;
                 if looks > MAX_LOOKS {
@@ -37,7 +36,7 @@ impl ExactIntegrator {
                 }
                 self.counts.looks += 1;
                 self.place(run, time);
-                let (step, found) = self.look_at_all(run, time, horizon, &mut past_minimum);
+                let (step, found) = self.look_at_all(run, time, horizon);
                 touch = found;
                 placed = step == 0.0;
                 time = (time + step).min(horizon);
@@ -76,87 +75,55 @@ impl ExactIntegrator {
     }
 
     /// A time that is free of contact, counted from now, and the contact that closes at its end, if any.
-    fn look_at_all(&self, run: &mut Run, time: f64, horizon: f64, past: &mut bool) -> (f64, Option<Touch>) {
+    fn look_at_all(&self, run: &mut Run, time: f64, horizon: f64) -> (f64, Option<Touch>) {
         let mut free = f64::INFINITY;
         let mut touch = None;
-        let after_minimum = std::mem::take(past);
         for (element, law) in self.laws.iter().enumerate() {
             if law.contacts().is_empty() {
                 continue;
             }
-            let jet = self.output_jet(run, element, run.time + time);
-            let bounds = self.bounds(run, element, run.time + horizon);
+            let jet = self.output_jet(&run.state, element, run.time + time);
+            let bounds = self.bounds(&run.state, element, run.time + horizon);
             for (contact, c) in law.contacts().iter().enumerate() {
-                let mut clearance = clearance_of(jet, c.level, c.sign);
-                if after_minimum && clearance.value.abs() <= bounds.margin {
-                    clearance.slope = clearance.slope.max(0.0);
-                }
-                let touching = Some(Touch { element, contact });
-                match look(clearance, bounds) {
-                    Look::Contact => return (0.0, touching),
-                    Look::FreeFor(step) if step < free => (free, touch) = (step, None),
-                    Look::FreeFor(_) => {}
+                let touching = Touch { element, contact };
+                let (step, hit) = match look(clearance_of(jet, c.level, c.sign), bounds) {
+                    Look::Contact => return (0.0, Some(touching)),
+                    Look::FreeFor(step) => (step, false),
                     Look::MinimumAhead { at, convex } => {
-                        let (step, hit) = self.minimum(run, time, (element, contact), (at, convex), bounds);
+                        let convex = convex.min(horizon - time);
+                        let ahead = |ahead: f64| self.clearance_ahead(run, time + ahead, touching);
+                        let found = decide_convex(ahead, (at, convex), time, bounds.margin);
                         // The other elements are looked at from here.
                         self.place(run, time);
-                        if step < free {
-                            (free, touch) = (step, if hit { touching } else { None });
-                            *past = !hit;
+                        match found {
+                            Convex::Free => (convex, false),
+                            Convex::ContactAt(step) => (step, true),
                         }
                     }
+                };
+                if step < free {
+                    (free, touch) = (step, hit.then_some(touching));
                 }
             }
         }
         (free, touch)
     }
 
-    /// Goes to the minimum of a clearance in a convex stretch: the time to it, or to the contact before it.
-    fn minimum(
-        &self,
-        run: &mut Run,
-        time: f64,
-        (element, contact): (usize, usize),
-        (at, convex): (f64, f64),
-        bounds: ClearanceBounds,
-    ) -> (f64, bool) {
-        let c = self.laws[element].contacts()[contact];
-        let mut clearance = |ahead: f64| {
-            self.place(run, time + ahead);
-            clearance_of(self.output_jet(run, element, run.time + time + ahead), c.level, c.sign)
-        };
-        let mut ahead = at;
-        let mut lowest = clearance(ahead);
-        for _ in 0..20 {
-            let step = -lowest.slope / lowest.curvature;
-            ahead = (ahead + step).clamp(0.0, convex);
-            lowest = clearance(ahead);
-            if step.abs() <= 1e-14 * (time + ahead) || lowest.slope == 0.0 {
-                break;
-            }
-        }
-        if lowest.value >= -bounds.margin {
-            return (ahead, false);
-        }
-        let mut before = 0.0;
-        for _ in 0..60 {
-            let here = clearance(before);
-            if here.value <= bounds.margin || here.slope >= 0.0 {
-                break;
-            }
-            before -= here.value / here.slope;
-        }
-        (before, true)
+    /// Clearance at `time` after the start of the flight; the state of `run` is moved there.
+    fn clearance_ahead(&self, run: &mut Run, time: f64, touch: Touch) -> Jet {
+        self.place(run, time);
+        let c = self.laws[touch.element].contacts()[touch.contact];
+        clearance_of(self.output_jet(&run.state, touch.element, run.time + time), c.level, c.sign)
     }
 
-    /// Bounds on a clearance of `element` until `until`, from the state of `run`.
-    pub(super) fn bounds(&self, run: &Run, element: usize, until: f64) -> ClearanceBounds {
+    /// Bounds on a clearance of `element` until `until`, from the homogeneous state now.
+    pub(super) fn bounds(&self, state: &[f64], element: usize, until: f64) -> ClearanceBounds {
         let output = &self.outputs[element];
         let n = self.blocks.count();
         let (mut second, mut third) = self.drive.bounds(element, output, until);
         let mut magnitude = self.drive.magnitude(element) + self.drive.secular_magnitude(output, until);
         for i in 0..n {
-            let (p, s) = (run.state[i], run.state[n + i]);
+            let (p, s) = (state[i], state[n + i]);
             let norm = (self.blocks.stiffness[i] * p * p + s * s).sqrt();
             second += output.second_bound[i] * norm;
             third += output.third_bound[i] * norm;

@@ -10,7 +10,8 @@
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
 //! | `collocation.rs`, `weights.rs`, `quadrature.rs`, `force_step.rs`, `attempt.rs`, `step_error.rs` | one step with forces |
 //! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
-//! | `contact_phase.rs`, `event.rs`, `touching.rs` | steps from touch to release, with error control |
+//! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
+//! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
@@ -25,6 +26,7 @@ mod drive;
 mod event;
 mod flight;
 mod flight_maximum;
+mod force_bound;
 mod force_step;
 mod forecast;
 mod lanes;
@@ -291,8 +293,8 @@ impl ExactIntegrator {
 
     /// The contact of an element that is closed at the start of a stretch.
     fn contact_at_start(&self, run: &Run, element: usize, duration: f64) -> Option<usize> {
-        let jet = self.output_jet(run, element, 0.0);
-        let margin = self.bounds(run, element, duration).margin;
+        let jet = self.output_jet(&run.state, element, 0.0);
+        let margin = self.bounds(&run.state, element, duration).margin;
         self.laws[element].contacts().iter().position(|c| {
             let clearance = flight::clearance_of(jet, c.level, c.sign);
             clearance.value < -margin
@@ -324,7 +326,7 @@ impl ExactIntegrator {
     /// Notes that a contact closes.
     fn close(&mut self, run: &mut Run, touch: flight::Touch) {
         if let Some(mut observation) = self.observation.take() {
-            observation.touch(self.output_jet(run, touch.element, run.time).slope);
+            observation.touch(self.output_jet(&run.state, touch.element, run.time).slope);
             self.observation = Some(observation);
         }
         run.closed[touch.element] = Some(touch.contact);
@@ -336,11 +338,11 @@ impl ExactIntegrator {
         self.touches[before + touch.contact] += 1;
     }
 
-    /// An output of the free motion and its derivatives, at the state of `run`, which is that of `time`.
-    fn output_jet(&self, run: &Run, output: usize, time: f64) -> Jet {
+    /// An output and its derivatives from the homogeneous block state at `time`, apart from the direct part of forces.
+    fn output_jet(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let o = &self.outputs[output];
         let mut jet = self.drive.jet(output, o, time);
-        for (i, &x) in run.state.iter().enumerate() {
+        for (i, &x) in state.iter().enumerate() {
             jet.value += o.row[i] * x;
             jet.slope += o.velocity_row[i] * x;
             jet.curvature += o.acceleration_row[i] * x;
@@ -389,7 +391,7 @@ impl ExactIntegrator {
             (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * rotation).re);
         }
         for (e, element) in self.system.elements().iter().enumerate() {
-            let displacement = self.output_jet(run, e, stretch.duration()).value;
+            let displacement = self.output_jet(&run.state, e, stretch.duration()).value;
             let force = element.law.force(displacement).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }

@@ -1,87 +1,284 @@
-//! Open contacts that close while forces act.
+//! Open contacts that close while forces act: the certified search of a flight (`clearance.rs`), with forces.
+//!
+//! In a solved step the forces are known polynomials, so the relative displacement `r` of an open element is a known function too. With the
+//! homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`, over the row `C` of the element and with the mobility `G = C A B`
+//! (`C B` vanishes):
+//!
+//! `r'' = r_particular'' + C A^2 x + sum_a G_a F_a`, `r''' = r_particular''' + C A^3 x + sum_a (C A^2 B_a F_a + G_a F_a')`.
+//!
+//! **What is proved.** A constant part `M_a` of each force, the middle of its range, only moves the rest position of every block: with
+//! `y = x + sum_a A^-1 B_a M_a`, `r'' = r_particular'' + C A^2 y + sum_a G_a (F_a - M_a)`. (A rigid block has no such position: for it y is x, and
+//! it takes the whole force.) The energy norm `|y_i|` of a block decays without forces, and `|B_ai| R_a` is the most that a force of the range
+//! `|F_a - M_a| <= R_a` can add per time. So over a window of length T from the state at a look,
+//!
+//! `B_2 = P_2 + sum_i g_i^(2) (|y_i| + T sum_a |B_ai| R_a) + sum_a |G_a| R_a`,
+//! `B_3 = P_3 + sum_i g_i^(3) (|y_i| + T sum_a |B_ai| R_a) + sum_a (|C A^2 B_a| R_a + |G_a| rate_a)`
+//!
+//! bound `|r''|` and, apart from jumps, `|r'''|`: `r''` is nowhere lower than `r''(0) - J - B_3 t` with `J = sum_a |G_a| jump_a`. The `P` bound the particular
+//! solution, the `g^(d)` are the factors of the output's derivatives on the energy norms, and middle, range, rate and jump are those of
+//! `force_bound.rs`: finite for every grading. With the second derivative `r''(0) - J` these are the bounds that
+//! the safe steps of `clearance.rs` need, so no contact of the motion *that is computed* is missed, down to the margin. What that differs from
+//! the exact motion is the error of the step. The window is the rest of the step at first; where the safe step is much shorter, a
+//! window of its size gives better bounds.
+//!
+//! **The margin.** Every look carries the state on from the last one by the exact propagators and a quadrature that leaves rounding, so the
+//! margin grows with the number of looks k: `(8 + k) eps` times the sum of the magnitudes of the terms of `r`, those of the forces included. A
+//! clearance within it that still falls is a contact; a minimum within it is a graze.
+//!
+//! **When it cannot decide.** After [`MAX_LOOKS`] looks at a contact the search says [`Unresolved`], and the step is shortened: in a shorter step the
+//! same number of looks goes further, since every look gets on by at least `sqrt(2 margin/B_2)`.
 
 use super::{
     ExactIntegrator,
-    clearance::{Look, look},
+    clearance::{ClearanceBounds, Convex, Look, decide_convex, look},
     collocation::NODES,
+    drive::Jet,
     event::Event,
     flight::{Touch, clearance_of},
+    force_bound::ForceBound,
     run::Run,
 };
 
-/// Most looks at an open contact within one force step. Each goes on by at least this part of the step: a touch that is left again
-/// sooner, between two looks whose clearances are both positive, carries next to no force and may be passed by.
-const MAX_LOOKS: usize = 20_000;
+/// Most looks at an open contact within one force step; up to ten are usual.
+const MAX_LOOKS: usize = 400;
+/// Times that the window of the bounds is made smaller at one look.
+const WINDOWS: usize = 4;
+
+/// The search did not get to the end of the step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Unresolved;
 
 impl ExactIntegrator {
-    /// The first open contact, other than that of `event`, that closes within the solved step, and when.
-    pub(super) fn first_touch_in_step(&self, run: &Run, event: Option<Event>) -> Option<(Touch, f64)> {
+    /// The first open contact that closes within the solved step, and when. That of `event` closes at its end.
+    pub(super) fn first_touch_in_step(
+        &mut self,
+        run: &Run,
+        event: Option<Event>,
+    ) -> Result<Option<(Touch, f64)>, Unresolved> {
         let mut first: Option<(Touch, f64)> = None;
-        for element in 0..self.laws.len() {
-            if run.closed[element].is_some() {
-                continue;
-            }
+        if run
+            .closed
+            .iter()
+            .zip(&self.laws)
+            .all(|(closed, law)| closed.is_some() || law.contacts().is_empty())
+        {
+            return Ok(None);
+        }
+        let forced = Forced::new(self);
+        for element in (0..self.laws.len()).filter(|&e| run.closed[e].is_none()) {
             for contact in 0..self.laws[element].contacts().len() {
                 let touch = Touch { element, contact };
+                let mut until = first.map_or(self.step.weights.length, |(_, time)| time);
                 if event == Some(Event::Touch(touch)) {
-                    continue;
+                    until = until.min(self.step.weights.length - self.located_within(run, touch));
                 }
-                if let Some(time) = self.touch_in_step(run, touch)
-                    && first.is_none_or(|(_, earlier)| time < earlier)
-                {
+                let found = Search::new(self, run, touch, &forced, until).run();
+                self.counts.looks += found.looks;
+                if let Some(time) = found.result? {
                     first = Some((touch, time));
                 }
             }
         }
-        first
+        Ok(first)
     }
+}
 
-    /// When an open contact closes within the solved step, by the safe steps of a flight with the forces in the bound. The bound takes the
-    /// force between its nodes as at most twice its nodal values, so this is no proof, unlike the search in flight.
-    fn touch_in_step(&self, run: &Run, Touch { element, contact }: Touch) -> Option<f64> {
-        let c = self.laws[element].contacts()[contact];
-        let length = self.step.weights.length;
-        let mut bounds = self.bounds(run, element, run.time + length);
-        bounds.second += self.forced_bound(element);
-        bounds.third = f64::INFINITY;
-        let mut time = 0.0;
-        let mut jet = run.start[element].jet;
-        let start = clearance_of(jet, c.level, c.sign);
-        // A release that ends again before it rises above what its own location left undecided.
-        if start.value <= 0.0 && start.curvature < 0.0 {
-            let highest = start.value - 0.5 * start.slope * start.slope / start.curvature;
-            if highest <= bounds.margin {
-                return Some(0.0);
-            }
-        }
-        for _ in 0..MAX_LOOKS {
-            let step = match look(clearance_of(jet, c.level, c.sign), bounds) {
-                Look::Contact => return Some(time),
-                Look::FreeFor(step) => step,
-                Look::MinimumAhead { at, .. } => at,
-            };
-            time += step.max(length / MAX_LOOKS as f64);
-            if time >= length {
-                return None;
-            }
-            jet = self.jet_in_step(&run.state, element, time);
-        }
-        None
-    }
+/// What the forces of the solved step do to the blocks.
+struct Forced {
+    /// Bounds on the force of each active element.
+    bounds: Vec<ForceBound>,
+    /// Rest position under the middle of the forces, length 2n; zero for rigid blocks.
+    rest: Vec<f64>,
+    /// `sum_a |B_ai| R_a`, length n: the energy norm that each block can gain per time.
+    gain: Vec<f64>,
+}
 
-    /// Bound on the relative acceleration that the forces of the step cause.
-    fn forced_bound(&self, element: usize) -> f64 {
-        let (n, step, output) = (self.blocks.count(), &self.step, &self.outputs[element]);
+impl Forced {
+    fn new(it: &ExactIntegrator) -> Self {
+        let (step, blocks) = (&it.step, &it.blocks);
+        let n = blocks.count();
         let of_active = |a: usize| {
-            let other = step.active[a];
-            let nodal = step.force[a * NODES..(a + 1) * NODES].iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            let input = &self.inputs[other];
-            let energy =
-                |i: usize| (self.blocks.stiffness[i] * input[i].powi(2) + input[n + i].powi(2)).sqrt();
-            let later: f64 = (0..n).map(|i| output.second_bound[i] * energy(i)).sum();
-            // Between Gauss nodes the polynomial exceeds them by little; twice is safe.
-            2.0 * nodal * (self.mobility[element][other].abs() + step.weights.length * later)
+            let nodal: [f64; NODES] = std::array::from_fn(|k| step.force[a * NODES + k]);
+            ForceBound::new(step.grading(), step.weights.length, &nodal, step.tail(&nodal).highest)
         };
-        (0..step.active.len()).map(of_active).sum()
+        let bounds: Vec<ForceBound> = (0..step.active.len()).map(of_active).collect();
+        let (mut rest, mut gain) = (vec![0.0; 2 * n], vec![0.0; n]);
+        for (force, &active) in bounds.iter().zip(&step.active) {
+            let input = &it.inputs[active];
+            for i in 0..n {
+                let (k, c) = (blocks.stiffness[i], blocks.damping[i]);
+                gain[i] += (k * input[i].powi(2) + input[n + i].powi(2)).sqrt() * force.range_of(k == 0.0);
+                if k > 0.0 {
+                    rest[i] += (input[n + i] + c * input[i]) / k * force.middle;
+                    rest[n + i] -= input[i] * force.middle;
+                }
+            }
+        }
+        Self { bounds, rest, gain }
+    }
+}
+
+/// Bounds on what the forces add to the derivatives of an output directly.
+#[derive(Debug, Clone, Copy, Default)]
+struct Direct {
+    second: f64,
+    third: f64,
+    /// `J`.
+    jump: f64,
+}
+
+impl Direct {
+    fn new(it: &ExactIntegrator, forced: &Forced, element: usize) -> Self {
+        let (n, output) = (it.blocks.count(), &it.outputs[element]);
+        let mut direct = Self::default();
+        for (force, &active) in forced.bounds.iter().zip(&it.step.active) {
+            let input = &it.inputs[active];
+            // Parts of `C A B` and `C A^2 B` in the blocks, elastic and rigid.
+            let (mut mobility, mut later) = ([0.0; 2], [0.0; 2]);
+            for i in 0..n {
+                let kind = usize::from(it.blocks.stiffness[i] == 0.0);
+                mobility[kind] +=
+                    output.velocity_row[i] * input[i] + output.velocity_row[n + i] * input[n + i];
+                later[kind] +=
+                    output.acceleration_row[i] * input[i] + output.acceleration_row[n + i] * input[n + i];
+            }
+            let all = |parts: [f64; 2]| (parts[0] + parts[1]).abs();
+            direct.second += all(mobility) * force.range + mobility[1].abs() * force.middle.abs();
+            direct.third +=
+                all(later) * force.range + later[1].abs() * force.middle.abs() + all(mobility) * force.rate;
+            direct.jump += all(mobility) * force.jump;
+        }
+        direct
+    }
+}
+
+/// What a search ended with.
+struct Found {
+    looks: u64,
+    result: Result<Option<f64>, Unresolved>,
+}
+
+/// Search for the time at which one open contact closes within the solved step.
+struct Search<'a> {
+    integrator: &'a ExactIntegrator,
+    touch: Touch,
+    forced: &'a Forced,
+    direct: Direct,
+    /// End of the search, counted from the start of the step [s].
+    until: f64,
+    /// Time of the last look, and the homogeneous state then.
+    time: f64,
+    state: Vec<f64>,
+    looks: usize,
+}
+
+impl<'a> Search<'a> {
+    fn new(
+        integrator: &'a ExactIntegrator,
+        run: &'a Run,
+        touch: Touch,
+        forced: &'a Forced,
+        until: f64,
+    ) -> Self {
+        let direct = Direct::new(integrator, forced, touch.element);
+        Self { integrator, touch, forced, direct, until, time: 0.0, state: run.state.clone(), looks: 0 }
+    }
+
+    fn run(mut self) -> Found {
+        let result = self.first_closing();
+        Found { looks: self.looks as u64, result }
+    }
+
+    fn first_closing(&mut self) -> Result<Option<f64>, Unresolved> {
+        if self.closes_again_at_once() {
+            return Ok(Some(0.0));
+        }
+        while self.looks < MAX_LOOKS {
+            self.looks += 1;
+            let (step, hit) = self.look();
+            if hit {
+                return Ok(Some(self.time + step).filter(|&time| time < self.until));
+            }
+            let next = self.time + step;
+            if next >= self.until {
+                return Ok(None);
+            }
+            self.state = self.state_at(next);
+            self.time = next;
+        }
+        Err(Unresolved)
+    }
+
+    /// Whether a contact that was just released comes back before it rises above what its own location left undecided.
+    fn closes_again_at_once(&self) -> bool {
+        let start = self.clearance(&self.state, 0.0);
+        let highest = start.value - 0.5 * start.slope * start.slope / start.curvature;
+        start.value <= 0.0 && start.curvature < 0.0 && highest <= self.bounds(self.until).margin
+    }
+
+    /// A time that is free of the contact, counted from the last look, or that to the contact (`true`).
+    fn look(&self) -> (f64, bool) {
+        let remaining = self.until - self.time;
+        let clearance = self.clearance(&self.state, self.time);
+        let (mut free, mut window) = (0.0_f64, remaining);
+        for _ in 0..WINDOWS {
+            let bounds = self.bounds(window);
+            let cautious = Jet { curvature: clearance.curvature - self.direct.jump, ..clearance };
+            match look(cautious, bounds) {
+                Look::Contact => return (0.0, true),
+                Look::FreeFor(step) => free = free.max(step.min(window)),
+                Look::MinimumAhead { at, convex } => {
+                    let convex = convex.min(window);
+                    let ahead = |ahead: f64| {
+                        let time = self.time + ahead;
+                        self.clearance(&self.state_at(time), time)
+                    };
+                    match decide_convex(ahead, (at, convex), self.time, bounds.margin) {
+                        Convex::ContactAt(step) => return (step, true),
+                        Convex::Free => free = free.max(convex),
+                    }
+                }
+            }
+            if free >= 0.25 * window {
+                break;
+            }
+            window = 2.0 * free;
+        }
+        (free, false)
+    }
+
+    /// Homogeneous state at a time not before the last look.
+    fn state_at(&self, time: f64) -> Vec<f64> {
+        let mut state = self.state.clone();
+        self.integrator.carry_in_step(&mut state, self.time, time);
+        state
+    }
+
+    /// The clearance in the step from the homogeneous state at `time`.
+    fn clearance(&self, state: &[f64], time: f64) -> Jet {
+        let Touch { element, contact } = self.touch;
+        let c = self.integrator.laws[element].contacts()[contact];
+        clearance_of(self.integrator.forced_jet(state, element, time), c.level, c.sign)
+    }
+
+    /// Bounds over a window from the last look.
+    fn bounds(&self, window: f64) -> ClearanceBounds {
+        let (it, element) = (self.integrator, self.touch.element);
+        let (output, until) = (&it.outputs[element], it.step.start + self.time + window);
+        let vibration: Vec<f64> =
+            self.state.iter().zip(&self.forced.rest).map(|(x, rest)| x - rest).collect();
+        let mut bounds = it.bounds(&vibration, element, until);
+        bounds.second += self.direct.second;
+        bounds.third += self.direct.third;
+        let mut margin = it.bounds(&self.state, element, until).margin / (8.0 * f64::EPSILON);
+        for (i, gain) in self.forced.gain.iter().enumerate() {
+            bounds.second += output.second_bound[i] * gain * window;
+            bounds.third += output.third_bound[i] * gain * window;
+            // A rigid block has no bound on its displacement but the time.
+            let rigid = if it.blocks.stiffness[i] == 0.0 { output.row[i].abs() * window } else { 0.0 };
+            margin += (output.value_bound[i] + rigid) * gain * window;
+        }
+        bounds.margin = margin * f64::EPSILON * (8 + self.looks) as f64;
+        bounds
     }
 }
