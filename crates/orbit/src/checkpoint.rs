@@ -6,18 +6,19 @@
 
 use hammerbeam_motion::System;
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange,
+    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, StopReason,
 };
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
+    density::{LastRows, Place},
     shooting::{ShootingProblem, StateScale},
     solve::integrator,
     walk::{hertz_per_norm, path_settings},
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0001;
+const MAGIC: u64 = 0x4842_5741_4c4b_0002;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -42,6 +43,14 @@ impl BranchWalk {
         }
         let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
         [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
+        out.word(self.evaluations_between);
+        out.word(end_word(state.stop));
+        out.word(self.last_rows.0.len() as u64);
+        for place in &self.last_rows.0 {
+            [place.arc_length, place.frequency_hz, place.displacement]
+                .iter()
+                .for_each(|&value| out.float(value));
+        }
         out.bytes
     }
 
@@ -66,7 +75,7 @@ impl BranchWalk {
     ) -> Result<Self, OrbitError> {
         let mut reader = Reader { bytes: checkpoint };
         let length = hertz_per_norm(range_hz);
-        let (problem, state) =
+        let Stored { problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
@@ -79,17 +88,26 @@ impl BranchWalk {
                 follower.remember(&point);
             }
         }
-        Ok(Self { problem, follower, journal: Vec::new(), settings: *settings, range_hz })
+        let (journal, settings) = (Vec::new(), *settings);
+        Ok(Self { problem, follower, journal, settings, range_hz, last_rows, evaluations_between })
     }
 }
 
-/// Problem and follower state of a checkpoint; `None` if the bytes do not fit.
+/// What a checkpoint holds.
+struct Stored {
+    problem: ShootingProblem,
+    state: Checkpoint,
+    evaluations_between: u64,
+    last_rows: LastRows,
+}
+
+/// What a checkpoint holds; `None` if the bytes do not fit.
 fn read(
     reader: &mut Reader<'_>,
     system: &System,
     response: &Response,
     (settings, length): (&OrbitSettings, f64),
-) -> Option<Result<(ShootingProblem, Checkpoint), OrbitError>> {
+) -> Option<Result<Stored, OrbitError>> {
     if reader.word()? != MAGIC {
         return None;
     }
@@ -136,10 +154,36 @@ fn read(
         },
         stop: None,
     };
-    reader
-        .bytes
-        .is_empty()
-        .then(|| Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
+    let evaluations_between = reader.word()?;
+    let state = Checkpoint { stop: end_of_word(reader.word()?)?, ..state };
+    let mut last_rows = LastRows::default();
+    for _ in 0..reader.word()? {
+        last_rows.0.push(Place {
+            arc_length: reader.float()?,
+            frequency_hz: reader.float()?,
+            displacement: reader.float()?,
+        });
+    }
+    let problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, length);
+    reader.bytes.is_empty().then_some(Ok(Stored { problem, state, evaluations_between, last_rows }))
+}
+
+/// The ends at which the last point already lies. A walk that stopped for another reason may be tried again.
+fn end_word(stop: Option<StopReason>) -> u64 {
+    match stop {
+        Some(StopReason::RangeEnd) => 1,
+        Some(StopReason::Closed) => 2,
+        _ => 0,
+    }
+}
+
+fn end_of_word(word: u64) -> Option<Option<StopReason>> {
+    match word {
+        0 => Some(None),
+        1 => Some(Some(StopReason::RangeEnd)),
+        2 => Some(Some(StopReason::Closed)),
+        _ => None,
+    }
 }
 
 #[derive(Default)]

@@ -12,6 +12,7 @@
 //! | `start.rs`, `find.rs` | the first orbit of a branch; all orbits at one frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
+//! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
 //! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
 //!
@@ -48,6 +49,7 @@
 //! ```
 
 mod checkpoint;
+mod density;
 mod eigenvalues;
 mod error;
 mod find;

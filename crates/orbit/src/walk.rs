@@ -5,6 +5,7 @@ use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange, Se
 
 use crate::{
     BranchRow, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    density::{LastRows, Place},
     shooting::ShootingProblem,
     solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
 };
@@ -25,6 +26,10 @@ pub struct BranchWalk {
     pub(crate) journal: Vec<ContinuationPoint>,
     pub(crate) settings: OrbitSettings,
     pub(crate) range_hz: (f64, f64),
+    /// For the density of rows.
+    pub(crate) last_rows: LastRows,
+    /// Shooting evaluations spent on rows between points of the path.
+    pub(crate) evaluations_between: u64,
 }
 
 impl BranchWalk {
@@ -56,7 +61,9 @@ impl BranchWalk {
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
         let journal = vec![follower.current().clone()];
-        Ok(Self { problem, follower, journal, settings: *settings, range_hz })
+        let last_rows = LastRows(vec![Place::new(follower.current(), start.maxima.displacement)]);
+        let settings = *settings;
+        Ok(Self { problem, follower, journal, settings, range_hz, last_rows, evaluations_between: 0 })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -95,7 +102,9 @@ impl BranchWalk {
         distance_to_shorter_period(self.problem.integrator(), &scale, &orbit).is_ok_and(|d| d < MERGED)
     }
 
-    /// Goes to the next solution and appends its row; or says why the walk has ended.
+    /// Goes to the next solution and appends its row, after those that belong between it and the row before; or says why the walk has ended.
+    ///
+    /// Rows are dense enough that linear interpolation of the maximum displacement over the frequency is good to 1e-3.
     ///
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
@@ -103,11 +112,12 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
-        match self.advance()? {
+        let mut from = self.follower.current().clone();
+        match self.advance(&mut from)? {
             None => match self.row() {
                 Ok(row) => {
                     self.journal.push(self.follower.current().clone());
-                    rows.push(row);
+                    self.append_densely(&from, row, rows)?;
                     Ok(None)
                 }
                 Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
@@ -126,10 +136,14 @@ impl BranchWalk {
         }
     }
 
-    /// Goes to the next point of the path, with more segments if it does not go on with the present ones.
-    fn advance(&mut self) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
+    /// Goes to the next point of the path, with more segments if it does not go on with the present ones; `from` becomes the point before it.
+    fn advance(
+        &mut self,
+        from: &mut ContinuationPoint,
+    ) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
         use hammerbeam_path::StopReason::{EvaluationFailed, StepTooShort};
         loop {
+            from.clone_from(self.follower.current());
             match self.follower.step(&mut self.problem) {
                 StepOutcome::Accepted => return Ok(None),
                 StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
@@ -154,7 +168,8 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
-        match self.advance()? {
+        let mut from = self.follower.current().clone();
+        match self.advance(&mut from)? {
             None => {
                 let current = self.follower.current();
                 states.push((current.parameter(), self.problem.nodes(&current.point).swap_remove(0)));
@@ -167,19 +182,24 @@ impl BranchWalk {
     /// Shooting evaluations since the start of the walk.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
-        self.follower.counters().evaluations
+        self.follower.counters().evaluations + self.evaluations_between
     }
 
     /// The row of the point at which the problem was evaluated last.
     fn row(&mut self) -> Result<BranchRow, OrbitError> {
-        let current = self.follower.current();
+        let current = self.follower.current().clone();
+        self.row_at(&current)
+    }
+
+    /// The row of a point of the path at which the problem was evaluated last.
+    pub(crate) fn row_at(&mut self, point: &ContinuationPoint) -> Result<BranchRow, OrbitError> {
         // The path measures in hertz, the solution relative to the orbit.
-        let error_estimate = current.correction_norm / hertz_per_norm(self.range_hz);
-        let solution = solution(&mut self.problem, &current.point, error_estimate)?;
+        let error_estimate = point.correction_norm / hertz_per_norm(self.range_hz);
+        let solution = solution(&mut self.problem, &point.point, error_estimate)?;
         let events = Events {
-            fold: current.events.fold,
-            branch_point: current.events.branch_point,
-            grazing: current.events.signature_change,
+            fold: point.events.fold,
+            branch_point: point.events.branch_point,
+            grazing: point.events.signature_change,
             ..Events::default()
         };
         Ok(BranchRow { solution, events })
