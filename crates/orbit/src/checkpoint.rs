@@ -80,13 +80,13 @@ impl BranchWalk {
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
         let mut reader = Reader { bytes: journal };
-        let length = follower.current().point.len();
+        let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {
             let point = reader.point().ok_or(OrbitError::Checkpoint)?;
-            // What was walked with fewer segments is not in the memory of the present follower.
-            if point.point.len() == length && point.tangent.len() == length {
-                follower.remember(&point);
+            if point.point.len() < shortest || point.tangent.len() != point.point.len() {
+                return Err(OrbitError::Checkpoint);
             }
+            follower.remember(&point);
         }
         let (journal, settings) = (Vec::new(), *settings);
         Ok(Self { problem, follower, journal, settings, range_hz, last_rows, evaluations_between })
