@@ -6,11 +6,13 @@
 
 use hammerbeam_motion::System;
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, TestValue,
+    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, StopReason,
+    TestValue,
 };
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
+    density::{LastRows, Place},
     shooting::{ShootingProblem, StateScale},
     solve::integrator,
     walk::{hertz_per_norm, path_settings},
@@ -47,6 +49,14 @@ impl BranchWalk {
         }
         let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
         [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
+        out.word(self.evaluations_between);
+        out.word(end_word(state.stop));
+        out.word(self.last_rows.0.len() as u64);
+        for place in &self.last_rows.0 {
+            [place.arc_length, place.frequency_hz, place.displacement]
+                .iter()
+                .for_each(|&value| out.float(value));
+        }
         out.word(self.touches.len() as u64);
         self.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
         out.word(u64::from(self.begins_with_present));
@@ -74,7 +84,7 @@ impl BranchWalk {
     ) -> Result<Self, OrbitError> {
         let mut reader = Reader { bytes: checkpoint };
         let length = hertz_per_norm(range_hz);
-        let (mut problem, state) =
+        let Stored { mut problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
         let (touches, begins_with_present) = read_walk(&mut reader).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
@@ -83,26 +93,44 @@ impl BranchWalk {
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
         let mut reader = Reader { bytes: journal };
-        let length = follower.current().point.len();
+        let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {
             let point = reader.point().ok_or(OrbitError::Checkpoint)?;
-            // What was walked with fewer segments is not in the memory of the present follower.
-            if point.point.len() == length && point.tangent.len() == length {
-                follower.remember(&point);
+            if point.point.len() < shortest || point.tangent.len() != point.point.len() {
+                return Err(OrbitError::Checkpoint);
             }
+            follower.remember(&point);
         }
-        let journal = Vec::new();
-        Ok(Self { problem, follower, journal, settings: *settings, range_hz, touches, begins_with_present })
+        let (journal, settings) = (Vec::new(), *settings);
+        Ok(Self {
+            problem,
+            follower,
+            journal,
+            settings,
+            range_hz,
+            last_rows,
+            evaluations_between,
+            touches,
+            begins_with_present,
+        })
     }
 }
 
-/// Problem and follower state of a checkpoint; `None` if the bytes do not fit.
+/// What a checkpoint holds.
+struct Stored {
+    problem: ShootingProblem,
+    state: Checkpoint,
+    evaluations_between: u64,
+    last_rows: LastRows,
+}
+
+/// What a checkpoint holds; `None` if the bytes do not fit.
 fn read(
     reader: &mut Reader<'_>,
     system: &System,
     response: &Response,
     (settings, length): (&OrbitSettings, f64),
-) -> Option<Result<(ShootingProblem, Checkpoint), OrbitError>> {
+) -> Option<Result<Stored, OrbitError>> {
     if reader.word()? != MAGIC {
         return None;
     }
@@ -150,7 +178,18 @@ fn read(
         },
         stop: None,
     };
-    Some(Ok((ShootingProblem::new(integrator, (period_multiple, segments), scale, length), state)))
+    let evaluations_between = reader.word()?;
+    let state = Checkpoint { stop: end_of_word(reader.word()?)?, ..state };
+    let mut last_rows = LastRows::default();
+    for _ in 0..reader.word()? {
+        last_rows.0.push(Place {
+            arc_length: reader.float()?,
+            frequency_hz: reader.float()?,
+            displacement: reader.float()?,
+        });
+    }
+    let problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, length);
+    Some(Ok(Stored { problem, state, evaluations_between, last_rows }))
 }
 
 /// What a walk knows beside its follower; `None` if the bytes do not fit or are too many.
@@ -158,6 +197,24 @@ fn read_walk(reader: &mut Reader<'_>) -> Option<(Vec<u32>, bool)> {
     let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
     let begins_with_present = reader.word()? != 0;
     reader.bytes.is_empty().then_some((touches, begins_with_present))
+}
+
+/// The ends at which the last point already lies. A walk that stopped for another reason may be tried again.
+fn end_word(stop: Option<StopReason>) -> u64 {
+    match stop {
+        Some(StopReason::RangeEnd) => 1,
+        Some(StopReason::Closed) => 2,
+        _ => 0,
+    }
+}
+
+fn end_of_word(word: u64) -> Option<Option<StopReason>> {
+    match word {
+        0 => Some(None),
+        1 => Some(Some(StopReason::RangeEnd)),
+        2 => Some(Some(StopReason::Closed)),
+        _ => None,
+    }
 }
 
 #[derive(Default)]

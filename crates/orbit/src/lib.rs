@@ -15,6 +15,7 @@
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
+//! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
 //! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
 //!
@@ -51,6 +52,7 @@
 //! ```
 
 mod checkpoint;
+mod density;
 mod eigenvalues;
 mod error;
 mod find;

@@ -1,15 +1,13 @@
 //! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
 //!
-//! The new follower keeps neither the memory nor the start of the old one: a loop that is walked past a re-cut is recognised as closed
-//! when it comes back to the place of the re-cut, and its first part may be walked twice.
-//!
-//! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k + dZ/df t_f`. The walk goes on
-//! along the tangent, so its direction is kept; the orientation of the path does not depend on the number of segments.
+//! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k + dZ/df t_f`. The present point and
+//! the start of the walk are cut anew, and the follower goes on in the new unknowns with all that it knows: a loop still closes
+//! at its start. Neither the orientation of the path nor its memory, which holds first nodes alone, depends on the number of segments.
 
 use hammerbeam_motion::Stretch;
-use hammerbeam_path::{Direction, Follower, ParameterRange};
+use hammerbeam_path::{ContinuationPoint, Node};
 
-use crate::{BranchWalk, OrbitError, shooting::ShootingProblem, walk::path_settings};
+use crate::{BranchWalk, OrbitError, shooting::ShootingProblem};
 
 /// Segments become this many times as many,
 const FACTOR: usize = 4;
@@ -17,37 +15,27 @@ const FACTOR: usize = 4;
 const MOST: usize = 64;
 
 impl BranchWalk {
-    /// Goes on from the present point with more segments; false if there are enough already.
+    /// Goes on from the present point with more segments; false if there are enough already, or if neither point is found with more.
     pub(crate) fn resegment(&mut self) -> Result<bool, OrbitError> {
-        let segments = self.problem.segments() * FACTOR;
-        if segments > MOST {
+        let segments = self.problem.segments();
+        if segments * FACTOR > MOST {
             return Ok(false);
         }
-        let current = self.follower.current().clone();
-        let (point, tangent) = refine(&mut self.problem, &current.point, &current.tangent)?;
-        self.problem.set_segments(segments);
-        let range = ParameterRange::new(self.range_hz.0, self.range_hz.1)?;
-        let settings = path_settings(&self.settings, crate::walk::hertz_per_norm(self.range_hz));
-        let direction = Direction::Along(&tangent);
-        match Follower::start(&mut self.problem, &point, direction, range, settings) {
-            Ok(follower) => self.follower = follower,
+        let current = refine(&mut self.problem, self.follower.current())?;
+        let start = refine(&mut self.problem, &self.follower.checkpoint().start)?;
+        self.problem.set_segments(segments * FACTOR);
+        if self.follower.transfer(&mut self.problem, &current, &start).is_err() {
             // The walk stays where it was; its own reason to stop is told.
-            Err(_) => {
-                self.problem.set_segments(segments / FACTOR);
-                return Ok(false);
-            }
+            self.problem.set_segments(segments);
+            return Ok(false);
         }
-        self.journal.push(self.follower.current().clone());
         Ok(true)
     }
 }
 
 /// Point and tangent with every segment cut into [`FACTOR`].
-fn refine(
-    problem: &mut ShootingProblem,
-    point: &[f64],
-    tangent: &[f64],
-) -> Result<(Vec<f64>, Vec<f64>), OrbitError> {
+fn refine(problem: &mut ShootingProblem, at: &ContinuationPoint) -> Result<Node, OrbitError> {
+    let (point, tangent) = (&at.point, &at.tangent);
     let (size, old) = (problem.node_size(), problem.segments());
     let (frequency_hz, frequency_tangent) = (point[old * size], tangent[old * size]);
     let scales = problem.scale().values().to_vec();
@@ -70,5 +58,91 @@ fn refine(
     }
     points.push(frequency_hz);
     tangents.push(frequency_tangent);
-    Ok((points, tangents))
+    Ok(Node { point: points, tangent: tangents })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use faer::Mat;
+    use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::CubicSpring};
+    use hammerbeam_structure::{PointOutput, ReducedModel};
+
+    use crate::{BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start};
+
+    const RANGE: (f64, f64) = (0.3, 1.2);
+
+    /// `x'' + 0.06 x' + x + x^3 = 3 cos(2 pi f t)`: its 1/3 subharmonic orbits make a closed loop from 0.52 to 1.09 Hz.
+    fn duffing() -> (System, Response) {
+        let model = ReducedModel {
+            natural_frequencies: vec![1.0],
+            damping: Mat::from_fn(1, 1, |_, _| 0.06),
+            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+            support: None,
+            uniform_acceleration: vec![1.0],
+        };
+        let harmonic = Harmonic { order: 1, amplitude: 3.0, phase: 0.0 };
+        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+        let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
+        let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
+        let system = System::new(model, &load, vec![spring]).unwrap();
+        (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    }
+
+    /// The loop from its start, cut into more segments after as many steps as `cuts` says, stored and taken up again after `stored` steps.
+    fn walk(cuts: &[usize], stored: usize) -> (Vec<BranchRow>, StopReason, usize) {
+        let (system, response) = duffing();
+        let settings = OrbitSettings { max_step_hz: 0.005, ..OrbitSettings::default() };
+        let start = find_start(&system, &response, 0.7, 3, &settings).unwrap();
+        let mut walk = BranchWalk::new(&system, &response, &start, Side::Up, RANGE, &settings).unwrap();
+        let (mut rows, mut journal) = (vec![walk.start_row().unwrap()], Vec::new());
+        for step in 1.. {
+            if let Some(reason) = walk.step(&mut rows).unwrap() {
+                return (rows, reason, walk.problem.segments());
+            }
+            if cuts.contains(&step) {
+                assert!(walk.resegment().unwrap());
+            }
+            if step == stored {
+                journal.extend(walk.take_journal());
+                let checkpoint = walk.checkpoint();
+                walk = BranchWalk::resume(&system, &response, (&checkpoint, &journal), RANGE, &settings)
+                    .unwrap();
+            }
+        }
+        unreachable!("a walk ends");
+    }
+
+    fn folds(rows: &[BranchRow]) -> Vec<f64> {
+        rows.iter().filter(|row| row.events.fold).map(|row| row.solution.frequency_hz).collect()
+    }
+
+    #[test]
+    fn a_loop_that_is_cut_on_the_way_closes_at_its_start() {
+        let (whole, reason, segments) = walk(&[], 0);
+        assert_eq!((reason, segments), (StopReason::Closed, 1));
+        for cuts in [&[50_usize][..], &[50, 200], &[whole.len() / 2]] {
+            let (rows, reason, segments) = walk(cuts, 0);
+            assert_eq!(reason, StopReason::Closed);
+            assert_eq!(segments, 4_usize.pow(cuts.len() as u32));
+            // Twice the same stretch would be a third fold, or more rows.
+            assert_eq!(folds(&rows).len(), 2);
+            for (found, expected) in folds(&rows).iter().zip(folds(&whole)) {
+                assert!((found - expected).abs() < 1e-9, "{found}, {expected}");
+            }
+            assert!(rows.len() < whole.len() + whole.len() / 10, "{} rows, {}", rows.len(), whole.len());
+            let [first, last] = [&rows[0], &rows[rows.len() - 1]].map(|row| &row.solution);
+            assert!((first.frequency_hz - last.frequency_hz).abs() < 1e-9);
+            // The start is met within ten tolerances, 1e-9 of an orbit whose norm is a few metres.
+            assert!((first.maxima.displacement - last.maxima.displacement).abs() < 1e-8);
+        }
+    }
+
+    #[test]
+    fn a_walk_stored_after_a_cut_goes_on_with_the_same_bits() {
+        let undisturbed = walk(&[50], 0);
+        assert!(undisturbed == walk(&[50], 50));
+        assert!(undisturbed == walk(&[50], 120));
+    }
 }

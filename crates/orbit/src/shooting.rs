@@ -12,6 +12,13 @@
 //! matrix. Eliminating the other nodes divides by determinants of `-I` only, so the determinant of the condensed
 //! matrix orients the path, and the orientation does not depend on m.
 //!
+//! # Limits
+//! The products grow like the multipliers, so condensing leaves a relative error of about `1e-16 |mu_1|` in corrections and tangents, however many the
+//! segments. Newton's method mends its own corrections: orbits with `|mu_1|` up to 1e12 are found, their largest multiplier to 1e-8. A tangent is
+//! not mended: up to `|mu_1|` of 1e6 to 1e7 its error is below the tolerances of the path, beyond 1e9 folds are no longer located to
+//! theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination by orthogonal transformations over the segments
+//! would keep the tangent, at several times the cost, and is not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end there.
+//!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
@@ -270,6 +277,12 @@ impl PathProblem for ShootingProblem {
         &self.weights
     }
 
+    /// The first node stays, however the orbit is cut.
+    fn memory_weights(&self) -> Vec<f64> {
+        let weight = self.hertz_per_norm * self.hertz_per_norm;
+        std::iter::repeat_n(weight, self.node_size()).chain([1.0]).collect()
+    }
+
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.touches.fill(0);
         self.failure = None;
@@ -364,5 +377,56 @@ impl PathProblem for ShootingProblem {
         let closed = if still { self.integrator.closed_throughout() } else { 0 };
         let words = self.touches.iter().map(|&t| u64::from(t)).chain([closed]);
         words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use faer::Mat;
+    use hammerbeam_motion::{
+        Harmonic, HarmonicForce, Law, Load, LocalElement, System, exact::ExactSettings, law::CubicSpring,
+    };
+    use hammerbeam_structure::{PointOutput, ReducedModel};
+
+    use super::*;
+    use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct};
+
+    /// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l t)`,
+    /// `l^2 + 0.1 l - 2 = 0`.
+    fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], crate::OrbitError> {
+        let model = ReducedModel {
+            natural_frequencies: vec![1.0],
+            damping: Mat::from_fn(1, 1, |_, _| 0.1),
+            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+            support: None,
+            uniform_acceleration: vec![1.0],
+        };
+        let harmonic = Harmonic { order: 1, amplitude: 1e-6, phase: 0.0 };
+        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+        let law = Law::Cubic(CubicSpring::new(-0.1).unwrap());
+        let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
+        let system = System::new(model, &load, vec![spring]).unwrap();
+        let hill = vec![10.0_f64.sqrt(), 0.0];
+        let scale = StateScale::new(&[1.0], 1.0, hill[0]);
+        let integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
+        let mut problem = ShootingProblem::new(integrator, (1, segments), scale, 1.0);
+        let mut point = problem.point(&vec![hill; segments], frequency_hz);
+        correct(&mut problem, &mut point, &OrbitSettings::default())?;
+        Ok(eigenvalues(2, problem.monodromy())?[0])
+    }
+
+    /// The orbit stays within 1e-6 m of the top, so its larger multiplier is `exp(l/f)` to some 1e-12.
+    #[test]
+    fn multipliers_of_1e4_to_1e12_are_those_of_the_hill() {
+        let growth = -0.05 + (0.0025_f64 + 2.0).sqrt();
+        for segments in [4, 16, 64] {
+            for power in [4, 6, 8, 10, 12] {
+                let expected = 10.0_f64.powi(power);
+                let [found, _] = on_the_hill(growth / expected.ln(), segments).unwrap();
+                assert!((found / expected - 1.0).abs() < 1e-8, "{found:e} with {segments} segments");
+            }
+        }
     }
 }

@@ -132,7 +132,7 @@ fn leave(
     if squares.sum::<f64>().sqrt() > reach.abs() {
         return Ok(None);
     }
-    let mut walk = BranchWalk::of(problem, follower, settings, range_hz);
+    let mut walk = BranchWalk::of(problem, follower, orbit.maxima.displacement, (settings, range_hz));
     walk.begins_with_present = true;
     Ok(Some(walk))
 }

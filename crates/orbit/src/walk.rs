@@ -7,6 +7,7 @@ use hammerbeam_path::{
 
 use crate::{
     BranchRow, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    density::{LastRows, Place},
     located,
     shooting::ShootingProblem,
     solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
@@ -32,6 +33,10 @@ pub struct BranchWalk {
     pub(crate) touches: Vec<u32>,
     /// The present point is still to be given as a row: the walk has left a crossing.
     pub(crate) begins_with_present: bool,
+    /// For the density of rows.
+    pub(crate) last_rows: LastRows,
+    /// Shooting evaluations spent on rows between points of the path.
+    pub(crate) evaluations_between: u64,
 }
 
 impl BranchWalk {
@@ -65,18 +70,19 @@ impl BranchWalk {
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, length))?;
-        Ok(Self::of(problem, follower, settings, range_hz))
+        Ok(Self::of(problem, follower, start.maxima.displacement, (settings, range_hz)))
     }
 
-    /// A walk at its start.
+    /// A walk at its start, whose maximum displacement is given.
     pub(crate) fn of(
         problem: ShootingProblem,
         follower: Follower,
-        settings: &OrbitSettings,
-        range_hz: (f64, f64),
+        displacement: f64,
+        (settings, range_hz): (&OrbitSettings, (f64, f64)),
     ) -> Self {
         let journal = vec![follower.current().clone()];
         let touches = problem.touches().to_vec();
+        let last_rows = LastRows(vec![Place::new(follower.current(), displacement)]);
         Self {
             problem,
             follower,
@@ -85,6 +91,8 @@ impl BranchWalk {
             range_hz,
             touches,
             begins_with_present: false,
+            last_rows,
+            evaluations_between: 0,
         }
     }
 
@@ -124,7 +132,9 @@ impl BranchWalk {
         distance_to_shorter_period(self.problem.integrator(), &scale, &orbit).is_ok_and(|d| d < MERGED)
     }
 
-    /// Goes to the next solution and appends its row; or says why the walk has ended.
+    /// Goes to the next solution and appends its row, after those that belong between it and the row before; or says why the walk has ended.
+    ///
+    /// Rows are dense enough that linear interpolation of the maximum displacement over the frequency is good to 1e-3.
     ///
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
@@ -137,11 +147,12 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
-        match self.advance()? {
+        let mut from = self.follower.current().clone();
+        match self.advance(&mut from)? {
             None => match self.row() {
                 Ok(row) => {
                     self.journal.push(self.follower.current().clone());
-                    rows.push(row);
+                    self.append_densely(&from, row, rows)?;
                     Ok(None)
                 }
                 Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
@@ -160,10 +171,14 @@ impl BranchWalk {
         }
     }
 
-    /// Goes to the next point of the path, with more segments if it does not go on with the present ones.
-    fn advance(&mut self) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
+    /// Goes to the next point of the path, with more segments if it does not go on with the present ones; `from` becomes the point before it.
+    fn advance(
+        &mut self,
+        from: &mut ContinuationPoint,
+    ) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
         use hammerbeam_path::StopReason::{EvaluationFailed, StepTooShort};
         loop {
+            from.clone_from(self.follower.current());
             match self.follower.step(&mut self.problem) {
                 StepOutcome::Accepted => return Ok(None),
                 StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
@@ -188,7 +203,8 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
-        match self.advance()? {
+        let mut from = self.follower.current().clone();
+        match self.advance(&mut from)? {
             None => {
                 let current = self.follower.current();
                 states.push((current.parameter(), self.problem.nodes(&current.point).swap_remove(0)));
@@ -201,29 +217,34 @@ impl BranchWalk {
     /// Shooting evaluations since the start of the walk.
     #[must_use]
     pub fn evaluations(&self) -> u64 {
-        self.follower.counters().evaluations
+        self.follower.counters().evaluations + self.evaluations_between
     }
 
     /// The row of the point at which the problem was evaluated last.
     pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
-        let current = self.follower.current();
+        let current = self.follower.current().clone();
         let place =
-            located::Place { point: current, bend: self.frequency_bend(), touches_before: &self.touches };
+            located::Place { point: &current, bend: self.frequency_bend(), touches_before: &self.touches };
         let located = located::describe(&mut self.problem, &place);
-        // The path measures in hertz, the solution relative to the orbit.
-        let error_estimate = current.correction_norm / hertz_per_norm(self.range_hz);
-        let solution = solution(&mut self.problem, &current.point, error_estimate)?;
-        let events = Events {
-            fold: current.events.fold,
-            branch_point: current.events.branch_point,
-            grazing: current.events.signature_change,
-            flip: current.events.zeros & 1 != 0,
-            neimark_sacker: current.events.zeros & 2 != 0,
-            ..Events::default()
-        };
         self.touches.clear();
         self.touches.extend_from_slice(self.problem.touches());
-        Ok(BranchRow { solution, events, located })
+        Ok(BranchRow { located, ..self.row_at(&current)? })
+    }
+
+    /// The row of a point of the path at which the problem was evaluated last.
+    pub(crate) fn row_at(&mut self, point: &ContinuationPoint) -> Result<BranchRow, OrbitError> {
+        // The path measures in hertz, the solution relative to the orbit.
+        let error_estimate = point.correction_norm / hertz_per_norm(self.range_hz);
+        let solution = solution(&mut self.problem, &point.point, error_estimate)?;
+        let events = Events {
+            fold: point.events.fold,
+            branch_point: point.events.branch_point,
+            grazing: point.events.signature_change,
+            flip: point.events.zeros & 1 != 0,
+            neimark_sacker: point.events.zeros & 2 != 0,
+            ..Events::default()
+        };
+        Ok(BranchRow { solution, events, located: None })
     }
 
     /// Change of the tangent's frequency component per length over the last step.

@@ -58,6 +58,24 @@ fn a_resumed_walk_has_the_bits_of_an_undisturbed_one() {
     }
 }
 
+/// With long steps rows are put between the points of the path, from what is known of the rows before.
+#[test]
+fn a_resumed_walk_puts_the_same_rows_between() {
+    let settings = OrbitSettings { max_step_hz: 0.01, ..OrbitSettings::default() };
+    let undisturbed = walk(&settings, usize::MAX);
+    for pieces in 1..4 {
+        assert!(undisturbed == walk(&settings, pieces), "{pieces} steps a piece");
+    }
+    let (system, response) = oscillator();
+    let start = find_start(&system, &response, 0.12, 1, &settings).unwrap();
+    let mut walk = BranchWalk::new(&system, &response, &start, Side::Up, RANGE, &settings).unwrap();
+    let (mut rows, mut steps) = (Vec::new(), 0);
+    while walk.step(&mut rows).unwrap().is_none() {
+        steps += 1;
+    }
+    assert!(rows.len() > steps + 20, "{} rows in {steps} steps", rows.len());
+}
+
 #[test]
 fn bytes_of_another_system_are_refused() {
     let (system, response) = oscillator();

@@ -19,6 +19,9 @@ pub enum PathError {
     /// A setting is zero, negative or not a number.
     #[error("setting {name} is {value}, it must be positive (max_angle at most 1)")]
     UnusableSetting { name: &'static str, value: f64 },
+    /// The determinant of the present point has another sign in the new unknowns.
+    #[error("the orientation of the path at parameter {parameter} is another one in the new unknowns")]
+    OtherOrientation { parameter: f64 },
     /// A point, a direction or the weights have another length than `n + 1`.
     #[error("length {found} where {expected} is needed: unknowns and one parameter")]
     WrongLength { found: usize, expected: usize },

@@ -61,6 +61,7 @@
 //!   makes short, can be missed.
 //! - Corners with an infinite slope on the far side (`λ ~ √p`) end the branch.
 
+mod between;
 mod checkpoint;
 mod corrector;
 mod dense_lu;
@@ -74,6 +75,7 @@ mod problem;
 mod product;
 mod settings;
 
+pub use between::solve_between;
 pub use checkpoint::Checkpoint;
 pub use corrector::CorrectorError;
 pub use dense_lu::DenseLu;

@@ -2,7 +2,8 @@
 //!
 //! Every accepted point is kept as a *sketch*, a projection of `√w_i z_i` to eight numbers (all of them when
 //! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average), with its
-//! tangent: 170 bytes a point whatever `n`. Neighbouring points make a segment with its cubic Hermite
+//! tangent: 170 bytes a point whatever `n`. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so points of
+//! the same path in other unknowns compare. Neighbouring points make a segment with its cubic Hermite
 //! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates.
 //!
 //! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the segment's length), runs parallel to it, has its
@@ -44,6 +45,7 @@ pub(crate) struct PathMemory {
 }
 
 impl PathMemory {
+    /// * `weights`: those of the problem's memory.
     pub fn new(weights: &[f64], settings: &Settings) -> Self {
         let parameter_root = weights[weights.len() - 1].sqrt();
         Self {
@@ -64,7 +66,7 @@ impl PathMemory {
             tangent: self.sketch(&point.tangent),
             arc_length: point.arc_length,
             orientation: point.orientation,
-            log_determinant: point.log_determinant,
+            log_determinant: self.log_determinant(point.log_determinant, &point.tangent),
             signature: point.signature,
         };
         self.vertices.push(vertex);
@@ -80,7 +82,7 @@ impl PathMemory {
             tangent: self.sketch(&candidate.node.tangent),
             arc_length: 0.0,
             orientation,
-            log_determinant: candidate.log_determinant,
+            log_determinant: self.log_determinant(candidate.log_determinant, &candidate.node.tangent),
             signature: candidate.signature,
         };
         let (i, j) = self.cell_of(&probe.place);
@@ -120,11 +122,19 @@ impl PathMemory {
         met.then_some(a.arc_length + share * (b.arc_length - a.arc_length))
     }
 
+    /// `ln |det|` with the tangent at unit length in the norm of the memory.
+    fn log_determinant(&self, log_determinant: f64, tangent: &[f64]) -> f64 {
+        let (unknowns, parameter) = (self.roots.len() - 1, tangent.len() - 1);
+        let kept = tangent[..unknowns].iter().chain([&tangent[parameter]]);
+        let square: f64 = kept.zip(&self.roots).map(|(t, r)| (t * r).powi(2)).sum();
+        log_determinant + 0.5 * square.ln()
+    }
+
     /// The parameter first, then `√w x` itself or seven signed sums of it.
     fn sketch(&self, z: &[f64]) -> Sketch {
-        let n = z.len() - 1;
+        let n = self.roots.len() - 1;
         let mut sketch = [0.0; SKETCH];
-        sketch[0] = self.roots[n] * z[n];
+        sketch[0] = self.roots[n] * z[z.len() - 1];
         if n < SKETCH {
             for i in 0..n {
                 sketch[i + 1] = self.roots[i] * z[i];
@@ -294,6 +304,18 @@ mod tests {
             memory.meets(&candidate(&back), -1.0).is_some(),
             "with the other orientation it is a retrace"
         );
+    }
+
+    #[test]
+    fn a_point_with_more_unknowns_is_met_by_the_part_that_is_remembered() {
+        let memory = helix_memory(0.02);
+        let mut longer = on_helix(3.337);
+        for values in [&mut longer.point, &mut longer.tangent] {
+            let parameter = values.pop().unwrap();
+            values.extend([7.0, -3.0, parameter]);
+        }
+        let met = memory.meets(&candidate(&longer), 1.0).unwrap();
+        assert!((met - 3.337).abs() < 1e-3, "{met}");
     }
 
     #[test]

@@ -52,6 +52,14 @@ pub trait PathProblem {
     /// They scale the problem: every length in [`Settings`](crate::Settings) is measured with them.
     fn weights(&self) -> &[f64];
 
+    /// Weights of that part of a point by which a stretch that was walked before is known: the first unknowns, and the parameter last.
+    ///
+    /// By default all of it. A problem that changes its unknowns on the way (see [`Follower::transfer`](crate::Follower::transfer)) names a part that
+    /// stays, enough to tell solutions apart, with weights that stay.
+    fn memory_weights(&self) -> Vec<f64> {
+        self.weights().to_vec()
+    }
+
     /// Evaluates `R` and `[R_x R_λ]` at the point and keeps both.
     ///
     /// # Errors

@@ -2,15 +2,17 @@
 #![allow(dead_code, reason = "each test file uses some of them")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
+use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,
-    law::{HertzStop, LinearStop},
+    law::{CubicSpring, HertzStop, LinearStop},
 };
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason, find_start,
 };
 use hammerbeam_structure::{
-    Beam, BeamPoint, Connection, Damping, End, GROUND, Lumped, LumpedMass, Reduction, Section,
+    Beam, BeamPoint, Connection, Damping, End, GROUND, Lumped, LumpedMass, PointOutput, ReducedModel,
+    Reduction, Section,
 };
 
 /// The six-dof beam of the paper with its Hertz stop.
@@ -67,6 +69,23 @@ pub fn chain(with_stop: bool) -> (System, Response) {
     let elements = if with_stop { vec![stop] } else { vec![] };
     let system = System::new(model, &load, elements).unwrap();
     (system, Response { shape: last.shape, support_ratio: 0.0 })
+}
+
+/// `x'' + 0.1 x' + x + x^3 = 0.3 cos(2 pi f t)`.
+pub fn duffing() -> (System, Response) {
+    let model = ReducedModel {
+        natural_frequencies: vec![1.0],
+        damping: Mat::from_fn(1, 1, |_, _| 0.1),
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+        support: None,
+        uniform_acceleration: vec![1.0],
+    };
+    let harmonic = Harmonic { order: 1, amplitude: 0.3, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let system = System::new(model, &load, vec![spring]).unwrap();
+    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
 }
 
 /// Both sides of a harmonic branch joined, the lower end first, and the shooting evaluations they took.

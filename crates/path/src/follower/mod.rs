@@ -10,6 +10,7 @@ mod range_end;
 mod recut;
 mod start;
 mod step_control;
+mod transfer;
 mod whole;
 mod zero;
 
@@ -126,7 +127,7 @@ impl Follower {
     ) -> Self {
         let weights = problem.weights().to_vec();
         let length = weights.len();
-        let memory = PathMemory::new(&weights, &settings);
+        let memory = PathMemory::new(&problem.memory_weights(), &settings);
         let mut parameter_row = vec![0.0; length];
         parameter_row[length - 1] = 1.0;
         let candidate = Candidate::new(length);
@@ -144,7 +145,8 @@ impl Follower {
         }
     }
 
-    /// Adds a point that was accepted before the checkpoint to the memory; the start comes first.
+    /// Adds a point that was accepted before the checkpoint to the memory; the start comes first. It may be one of before a
+    /// [`transfer`](Self::transfer).
     pub fn remember(&mut self, point: &ContinuationPoint) {
         self.memory.remember(point);
     }

@@ -76,7 +76,7 @@ impl Follower {
     }
 }
 
-fn check_length(found: usize, expected: usize) -> Result<(), PathError> {
+pub(super) fn check_length(found: usize, expected: usize) -> Result<(), PathError> {
     if found == expected { Ok(()) } else { Err(PathError::WrongLength { found, expected }) }
 }
 
@@ -87,7 +87,7 @@ fn check_inside(parameter: f64, range: ParameterRange) -> Result<(), PathError> 
     Err(PathError::StartOutsideRange { parameter, low: range.low(), high: range.high() })
 }
 
-fn first_border(direction: Direction<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
+pub(super) fn first_border(direction: Direction<'_>, weights: &[f64]) -> Result<Vec<f64>, PathError> {
     let length = weights.len();
     let mut row = vec![0.0; length];
     if let Direction::Along(vector) = direction {
@@ -100,7 +100,7 @@ fn first_border(direction: Direction<'_>, weights: &[f64]) -> Result<Vec<f64>, P
     Ok(row)
 }
 
-fn start_limits(settings: &Settings) -> Limits {
+pub(super) fn start_limits(settings: &Settings) -> Limits {
     Limits {
         tolerance: settings.tolerance_at(0.0),
         loose_tolerance: settings.correction_tolerance,

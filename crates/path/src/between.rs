@@ -1,0 +1,86 @@
+//! A further point of the path between two neighbouring accepted ones.
+
+use crate::{
+    corrector::{Candidate, Limits},
+    error::Doubt,
+    point::{ContinuationPoint, Counters, Events},
+    predictor::{Node, hermite},
+    problem::PathProblem,
+    product::{distance, product, progress, weigh},
+    settings::Settings,
+};
+
+/// Least cosine between the tangents of two points of one smooth arc.
+const ALIGNED: f64 = 0.7;
+
+/// Solves on the arc from one accepted point to the next, at `share` of the way; the problem was then evaluated last at the new point.
+///
+/// With `σ₁ = ⟨t₀, z₁ − z₀⟩` the point lies in the plane `⟨t₀, z − z₀⟩ = share σ₁` and is predicted by the cubic Hermite polynomial through both
+/// ends. No follower is involved: its counters and its memory stay as they are, and `evaluations` of the point holds the work.
+///
+/// * `ends`: two points that follow each other on one smooth arc, in the order of travel.
+/// * `share`: between 0 and 1.
+///
+/// # Errors
+/// Why what was found is not between the two: it is too far from the prediction, or its tangent, determinant or signature are not those of
+/// the arc.
+pub fn solve_between(
+    problem: &mut (impl PathProblem + ?Sized),
+    ends: [&ContinuationPoint; 2],
+    share: f64,
+    settings: &Settings,
+) -> Result<ContinuationPoint, Doubt> {
+    let [from, to] = ends;
+    let weights = problem.weights().to_vec();
+    check_aligned(&weights, &from.tangent, &to.tangent, ALIGNED.acos())?;
+    let [first, second] = ends.map(|end| Node { point: end.point.clone(), tangent: end.tangent.clone() });
+    let sigma = share * progress(&weights, &first.tangent, &second.point, &first.point);
+    let step = distance(&weights, &second.point, &first.point);
+    let mut candidate = Candidate::new(weights.len());
+    hermite(&weights, &first, [&second], sigma, &mut candidate.point);
+    let mut row = vec![0.0; weights.len()];
+    weigh(&weights, &first.tangent, &mut row);
+    let mut counters = Counters::default();
+    candidate
+        .correct(problem, &weights, &row, limits(settings, step), &mut counters)
+        .map_err(Doubt::Corrector)?;
+    if candidate.sign * from.orientation < 0.0 {
+        return Err(Doubt::Reversed);
+    }
+    candidate.orient(from.orientation);
+    check_aligned(&weights, &candidate.node.tangent, &to.tangent, settings.max_angle)?;
+    if candidate.signature != from.signature && candidate.signature != to.signature {
+        return Err(Doubt::Signature);
+    }
+    Ok(ContinuationPoint {
+        arc_length: from.arc_length + share * (to.arc_length - from.arc_length),
+        signature: candidate.signature,
+        orientation: from.orientation,
+        log_determinant: candidate.log_determinant,
+        correction_norm: candidate.correction_norm,
+        residual_norm: candidate.residual_norm,
+        events: Events::default(),
+        uncertainty: 0.0,
+        evaluations: counters.evaluations,
+        point: candidate.point,
+        tangent: candidate.node.tangent,
+    })
+}
+
+fn check_aligned(weights: &[f64], a: &[f64], b: &[f64], most: f64) -> Result<(), Doubt> {
+    let angle = product(weights, a, b).clamp(-1.0, 1.0).acos();
+    if angle > most { Err(Doubt::Angle { angle }) } else { Ok(()) }
+}
+
+fn limits(settings: &Settings, step: f64) -> Limits {
+    Limits {
+        tolerance: settings.tolerance_at(step),
+        loose_tolerance: settings.loose_tolerance_at(step),
+        singular_tolerance: settings.loose_tolerance_at(step).max(0.01 * step),
+        residual_floor: settings.residual_floor,
+        residual_tolerance: settings.residual_tolerance,
+        max_iterations: settings.max_iterations,
+        max_displacement: settings.allowed_displacement(step),
+        max_angle: Some(settings.max_angle),
+    }
+}

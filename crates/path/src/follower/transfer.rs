@@ -1,0 +1,84 @@
+//! Going on with other unknowns for the same path.
+//!
+//! A problem may change its unknowns on the way, as when a boundary value problem is cut into more pieces. What a follower knows is carried over:
+//! the start, against which a closed path is recognised; the arc length, the counters, the sense of the parameter and of the
+//! determinant; and the memory, which holds only the part of the unknowns that stays
+//! ([`PathProblem::memory_weights`]).
+
+use super::{
+    Follower,
+    start::{check_length, first_border, start_limits},
+};
+use crate::{
+    corrector::Candidate,
+    error::PathError,
+    follower::Direction,
+    point::{ContinuationPoint, Counters},
+    predictor::{History, Node},
+    problem::PathProblem,
+};
+
+impl Follower {
+    /// Goes on from the present point in the unknowns that the problem has now; the problem was then evaluated last there.
+    ///
+    /// The sign of `det [R_x R_λ; (W t)ᵀ]` and the memory weights must be those of before. The predictor begins anew.
+    ///
+    /// * `current`, `start`: the present point and the start in the new unknowns, with the directions of travel there (any length). Both are
+    ///   corrected in the plane normal to the direction.
+    ///
+    /// # Errors
+    /// [`PathError::Start`] if one of them is not near the path, [`PathError::OtherOrientation`], [`PathError::WrongLength`]; the follower is then as it was.
+    pub fn transfer(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        current: &Node,
+        start: &Node,
+    ) -> Result<(), PathError> {
+        let mut counters = self.state.counters;
+        let (start, _) = self.in_new_unknowns(problem, start, &self.state.start, &mut counters)?;
+        let (current, node) = self.in_new_unknowns(problem, current, &self.state.current, &mut counters)?;
+        let mut state = self.state.clone();
+        state.history = History::new(current.point.len());
+        state.history.push(&node);
+        state.step_length = state.step_length.min(self.settings.initial_step);
+        state.counters = counters;
+        state.stop = None;
+        (state.start, state.current) = (start, current);
+        let mut follower = Self::resume(problem, state, self.range, self.settings.clone());
+        std::mem::swap(&mut follower.memory, &mut self.memory);
+        *self = follower;
+        Ok(())
+    }
+
+    /// The old point in the new unknowns, and the node of the predictor there.
+    fn in_new_unknowns(
+        &self,
+        problem: &mut (impl PathProblem + ?Sized),
+        guess: &Node,
+        old: &ContinuationPoint,
+        counters: &mut Counters,
+    ) -> Result<(ContinuationPoint, Node), PathError> {
+        let weights = problem.weights().to_vec();
+        check_length(guess.point.len(), weights.len())?;
+        let row = first_border(Direction::Along(&guess.tangent), &weights)?;
+        let mut trial = Candidate::new(weights.len());
+        trial.point.copy_from_slice(&guess.point);
+        let parameter = trial.parameter();
+        trial
+            .correct(problem, &weights, &row, start_limits(&self.settings), counters)
+            .map_err(|cause| PathError::Start { parameter, cause })?;
+        if trial.sign * old.orientation < 0.0 {
+            return Err(PathError::OtherOrientation { parameter });
+        }
+        let point = ContinuationPoint {
+            point: trial.point,
+            tangent: trial.node.tangent.clone(),
+            signature: trial.signature,
+            log_determinant: trial.log_determinant,
+            correction_norm: trial.correction_norm,
+            residual_norm: trial.residual_norm,
+            ..old.clone()
+        };
+        Ok((point, trial.node))
+    }
+}
