@@ -26,6 +26,9 @@ pub(super) struct March<'a, F> {
     end: f64,
     pub(super) step: f64,
     finest: f64,
+    /// Where the march started afresh for the last time, and the length of a first step from there whose error does not count.
+    restart: f64,
+    negligible: f64,
     failed: bool,
     unmoved: usize,
     pub(super) counts: Counts,
@@ -52,7 +55,7 @@ impl<'a, F: VectorField> March<'a, F> {
         stepper.start(field, start, &region.inside);
         let dense = Dense::new(state.len());
         let counts = Counts::default();
-        let finest = FINEST * step;
+        let (finest, negligible) = (FINEST * step, negligible(step, settings));
         Self {
             field,
             settings,
@@ -63,6 +66,8 @@ impl<'a, F: VectorField> March<'a, F> {
             end,
             step,
             finest,
+            restart: start,
+            negligible,
             failed: false,
             unmoved: 0,
             counts,
@@ -100,7 +105,7 @@ impl<'a, F: VectorField> March<'a, F> {
         let step = if 1.01 * self.step >= remaining { remaining } else { self.step };
         self.stepper.attempt(self.field, self.time, step, &self.region.inside);
         let error = self.stepper.error(step, self.settings.tolerance);
-        if error.is_nan() || error > 1.0 {
+        if !self.good_enough(step, error) {
             self.reject(step, error);
             return;
         }
@@ -109,7 +114,7 @@ impl<'a, F: VectorField> March<'a, F> {
                 self.lengthen(step, error);
                 self.accept(step, samples);
             }
-            Verdict::TooLong { .. } if step > self.finest => {
+            Verdict::TooLong { .. } if step > self.finest.max(self.instant()) => {
                 self.step = step / 16.0;
                 self.counts.rejected += 1;
             }
@@ -118,28 +123,43 @@ impl<'a, F: VectorField> March<'a, F> {
                 let to_crossing = self.polish(switch, fraction, step);
                 if self.step_to_crossing(to_crossing, samples) {
                     self.finest = FINEST * step;
+                    self.negligible = negligible(step, self.settings);
                     self.cross(switch);
                 }
             }
         }
     }
 
+    /// Whether the error of the attempted step allows to accept it.
+    ///
+    /// Behind a boundary what was zero before may grow like `t^1.5`, and a step from its zero has the same relative error however
+    /// short it is. What grows within `tolerance^(2/3)` of the last smooth step is below the tolerance of what that step brings.
+    fn good_enough(&self, step: f64, error: f64) -> bool {
+        error <= 1.0 || error.is_finite() && self.time == self.restart && step <= self.negligible
+    }
+
+    /// Time that rounding does not resolve, or in which crossings are not told apart.
+    fn instant(&self) -> f64 {
+        64.0 * f64::EPSILON * self.time.abs() + 1e-3 * self.settings.tolerance * self.finest / FINEST
+    }
+
     fn lengthen(&mut self, step: f64, error: f64) {
-        let most = match self.region.fresh {
+        let most = match self.region.is_fresh() {
             _ if self.failed => 1.0,
-            Some(_) => 100.0,
-            None => 6.0,
+            true => 100.0,
+            false => 6.0,
         };
-        let next = step * (0.9 * error.powf(-0.125)).clamp(0.2, most);
+        let next =
+            step * (0.9 * error.powf(-0.125)).clamp(0.2, most).max(if error > 1.0 { 1.0 } else { 0.0 });
         self.step = if step < self.step { next.max(self.step) } else { next };
         self.region.moved(step * (0.9 * error.powf(-0.4)).clamp(0.2, 1e4));
     }
 
     fn reject(&mut self, step: f64, error: f64) {
-        let factor = match self.region.fresh {
+        let factor = match self.region.is_fresh() {
             _ if !error.is_finite() => 0.1,
-            Some(_) => (0.9 * error.powf(-0.4)).max(0.02),
-            None => (0.9 * error.powf(-0.125)).max(0.2),
+            true => (0.9 * error.powf(-0.4)).max(0.02),
+            false => (0.9 * error.powf(-0.125)).max(0.2),
         };
         self.step = factor * step;
         self.failed = true;
@@ -186,7 +206,7 @@ impl<'a, F: VectorField> March<'a, F> {
         if self.time + step > self.time {
             self.stepper.attempt(self.field, self.time, step, &self.region.inside);
             let error = self.stepper.error(step, self.settings.tolerance);
-            if error.is_nan() || error > 1.0 {
+            if !self.good_enough(step, error) {
                 self.reject(step, error);
                 return false;
             }
@@ -196,7 +216,10 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     fn cross(&mut self, switch: usize) {
-        self.step = self.region.cross(switch).unwrap_or(self.step);
+        let moment = (self.time, self.instant());
+        let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
+        self.step = first_step.unwrap_or(self.step);
+        self.restart = self.time;
         self.unmoved += 1;
         self.counts.crossings += 1;
         self.stepper.start(self.field, self.time, &self.region.inside);
@@ -206,7 +229,7 @@ impl<'a, F: VectorField> March<'a, F> {
         let end = if step == self.end - self.time { self.end } else { self.time + step };
         self.stepper.finish(self.field, end, &self.region.inside);
         self.take_samples(step, end, samples);
-        self.stepper.accept();
+        self.stepper.accept(self.field);
         self.time = end;
         self.failed = false;
         self.unmoved = 0;
@@ -235,6 +258,10 @@ impl<'a, F: VectorField> March<'a, F> {
             samples.states.push(state);
         }
     }
+}
+
+fn negligible(smooth_step: f64, settings: &GeneralSettings) -> f64 {
+    smooth_step * settings.tolerance.powf(2.0 / 3.0)
 }
 
 /// A hundredth of the time in which a part of the state would double, at most a tenth of the stretch.

@@ -11,7 +11,9 @@
 //!
 //! where the columns are `z`, those of `Y`, and `y_p`; the parts of a column are its displacements and its velocities
 //! (for a field of its own kind: what [`VectorField::parts`] says); and `a` is the largest entry of that part of that
-//! column met on the way. A step ends where the field switches its smooth region, at the onset and the release of a
+//! column met on the way; a field may raise it ([`VectorField::raise_magnitudes`]), and a system does: velocities count at least as
+//! much as displacements times the circular frequency of the excitation, displacements at least a thousandth of the shortest length
+//! in the clearances of the contacts. A step ends where the field switches its smooth region, at the onset and the release of a
 //! contact.
 //!
 //! This is the independent check of the integrator that uses the structure of the equations, and the baseline of
@@ -36,7 +38,7 @@ use march::{March, Samples};
 use system_field::SystemField;
 
 pub use error::GeneralError;
-pub use field::{Point, VectorField};
+pub use field::{Column, Point, VectorField};
 
 use crate::{Flow, Stretch, System};
 

@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{Point, VectorField};
+use super::{Column, Point, VectorField};
 use crate::{Contact, Force, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
@@ -26,6 +26,8 @@ pub(super) struct SystemField<'a> {
     stiffness: Vec<f64>,
     loads: Vec<ModalLoad>,
     switches: usize,
+    /// Least modal displacement that counts [kg^1/2 m].
+    length: f64,
     /// `exp(i 2 pi m x)` for each order at the last point.
     rotations: Vec<c64>,
     /// `df_e/dr` at the last point.
@@ -51,6 +53,7 @@ impl<'a> SystemField<'a> {
             rotations: vec![c64::new(0.0, 0.0); loads.len()],
             loads,
             switches: system.elements().iter().map(|element| element.law.contacts().len()).sum(),
+            length: 1e-3 * shortest_length(system),
             slopes: vec![0.0; system.elements().len()],
         }
     }
@@ -114,6 +117,16 @@ impl VectorField for SystemField<'_> {
         2
     }
 
+    fn raise_magnitudes(&self, column: Column, magnitudes: &mut [f64]) {
+        let least = match column {
+            Column::State => self.length,
+            Column::ByState => 0.0,
+            Column::ByParameter => self.length * self.period,
+        };
+        magnitudes[0] = magnitudes[0].max(least);
+        magnitudes[1] = magnitudes[1].max(TAU / self.period * magnitudes[0]);
+    }
+
     fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]) {
         let n = self.system.dof();
         self.rotate(at.time);
@@ -159,6 +172,18 @@ impl VectorField for SystemField<'_> {
             }
         }
     }
+}
+
+/// Shortest modal displacement among those that take an element from rest to its contact, or as far as the support moves it; zero
+/// if there are none.
+fn shortest_length(system: &System) -> f64 {
+    let support: f64 = system.support_amplitudes().iter().map(|u| u.norm()).sum();
+    let lengths = system.elements().iter().flat_map(|element| {
+        let moved = (element.support_ratio * support).abs();
+        let levels = element.law.contacts().iter().map(move |contact| contact.level.abs().max(moved));
+        levels.map(|length| length / dot(&element.shape, &element.shape).sqrt())
+    });
+    lengths.filter(|length| *length > 0.0 && length.is_finite()).reduce(f64::min).unwrap_or(0.0)
 }
 
 impl Damping {
