@@ -5,11 +5,14 @@
 //! Behind a boundary forces grow like a low power of time, so that the first step there is corrected by
 //! `0.9 e^(-2/5)` if it fails, and its best length is remembered for the next crossing of that kind.
 
+use faer::Mat;
+
 use super::{
-    Counts, GeneralError, GeneralSettings, VectorField,
+    Counts, FieldFlow, GeneralError, GeneralSettings, VectorField,
     dense::Dense,
     stepper::Stepper,
     switching::{Region, Verdict},
+    watch::{Accepted, Place, Watcher},
 };
 
 /// Steps shorter than this fraction of the one before a crossing do not resolve what follows it.
@@ -32,12 +35,6 @@ pub(super) struct March<'a, F> {
     failed: bool,
     unmoved: usize,
     pub(super) counts: Counts,
-}
-
-/// States wanted at given times, in ascending order.
-pub(super) struct Samples<'a> {
-    pub(super) times: &'a [f64],
-    pub(super) states: Vec<Vec<f64>>,
 }
 
 impl<'a, F: VectorField> March<'a, F> {
@@ -75,14 +72,26 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     /// Marches to the end.
-    pub(super) fn run(&mut self, samples: &mut Samples<'_>) -> Result<(), GeneralError> {
-        self.take_start_samples(samples);
+    pub(super) fn run(&mut self, watcher: &mut impl Watcher<F>) -> Result<(), GeneralError> {
+        let start = Place { time: self.time, state: self.stepper.state(), inside: &self.region.inside };
+        watcher.begin(self.field, start);
         while self.time < self.end {
             self.check()?;
-            self.advance(samples);
+            self.advance(watcher);
         }
         self.counts.evaluations = self.stepper.evaluations;
         Ok(())
+    }
+
+    /// Where it has come to.
+    pub(super) fn flow(&self) -> FieldFlow {
+        let d = self.stepper.state().len();
+        let (state, columns) = self.stepper.value.split_at(d);
+        let (by_state, by_parameter) = match columns.len() {
+            0 => (Mat::new(), Vec::new()),
+            _ => (Mat::from_fn(d, d, |i, j| columns[j * d + i]), columns[d * d..].to_vec()),
+        };
+        FieldFlow { state: state.to_vec(), by_state, by_parameter, counts: self.counts, next_step: self.step }
     }
 
     fn check(&self) -> Result<(), GeneralError> {
@@ -100,7 +109,7 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     /// Tries a step, and moves on if it succeeds.
-    fn advance(&mut self, samples: &mut Samples<'_>) {
+    fn advance(&mut self, watcher: &mut impl Watcher<F>) {
         let remaining = self.end - self.time;
         let step = if 1.01 * self.step >= remaining { remaining } else { self.step };
         self.stepper.attempt(self.field, self.time, step, &self.region.inside);
@@ -112,19 +121,19 @@ impl<'a, F: VectorField> March<'a, F> {
         match self.inspect(step) {
             Verdict::Clear => {
                 self.lengthen(step, error);
-                self.accept(step, samples);
+                self.accept(step, watcher);
             }
             Verdict::TooLong { .. } if step > self.finest.max(self.instant()) => {
                 self.step = step / 16.0;
                 self.counts.rejected += 1;
             }
-            Verdict::TooLong { switch } => self.cross(switch),
+            Verdict::TooLong { switch } => self.cross(switch, watcher),
             Verdict::Crossing { fraction, switch } => {
                 let to_crossing = self.polish(switch, fraction, step);
-                if self.step_to_crossing(to_crossing, samples) {
+                if self.step_to_crossing(to_crossing, watcher) {
                     self.finest = FINEST * step;
                     self.negligible = negligible(step, self.settings);
-                    self.cross(switch);
+                    self.cross(switch, watcher);
                 }
             }
         }
@@ -202,7 +211,7 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     /// Steps onto the boundary; tells whether the step was good enough.
-    fn step_to_crossing(&mut self, step: f64, samples: &mut Samples<'_>) -> bool {
+    fn step_to_crossing(&mut self, step: f64, watcher: &mut impl Watcher<F>) -> bool {
         if self.time + step > self.time {
             self.stepper.attempt(self.field, self.time, step, &self.region.inside);
             let error = self.stepper.error(step, self.settings.tolerance);
@@ -210,12 +219,12 @@ impl<'a, F: VectorField> March<'a, F> {
                 self.reject(step, error);
                 return false;
             }
-            self.accept(step, samples);
+            self.accept(step, watcher);
         }
         true
     }
 
-    fn cross(&mut self, switch: usize) {
+    fn cross(&mut self, switch: usize, watcher: &mut impl Watcher<F>) {
         let moment = (self.time, self.instant());
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
         self.step = first_step.unwrap_or(self.step);
@@ -223,12 +232,14 @@ impl<'a, F: VectorField> March<'a, F> {
         self.unmoved += 1;
         self.counts.crossings += 1;
         self.stepper.start(self.field, self.time, &self.region.inside);
+        let at = Place { time: self.time, state: self.stepper.state(), inside: &self.region.inside };
+        watcher.crossed(self.field, at);
     }
 
-    fn accept(&mut self, step: f64, samples: &mut Samples<'_>) {
+    fn accept(&mut self, step: f64, watcher: &mut impl Watcher<F>) {
         let end = if step == self.end - self.time { self.end } else { self.time + step };
         self.stepper.finish(self.field, end, &self.region.inside);
-        self.take_samples(step, end, samples);
+        self.show(step, end, watcher);
         self.stepper.accept(self.field);
         self.time = end;
         self.failed = false;
@@ -236,27 +247,21 @@ impl<'a, F: VectorField> March<'a, F> {
         self.counts.steps += 1;
     }
 
-    fn take_start_samples(&self, samples: &mut Samples<'_>) {
-        while samples.times.get(samples.states.len()).is_some_and(|&time| time <= self.time) {
-            samples.states.push(self.stepper.state().to_vec());
-        }
-    }
-
-    fn take_samples(&mut self, step: f64, end: f64, samples: &mut Samples<'_>) {
-        let due =
-            |samples: &Samples<'_>| samples.times.get(samples.states.len()).copied().filter(|&t| t <= end);
-        if due(samples).is_none() {
+    fn show(&mut self, step: f64, end: f64, watcher: &mut impl Watcher<F>) {
+        if !watcher.wants(end) {
             return;
         }
         self.stepper.densify(self.field, self.time, step, &self.region.inside, true);
         self.dense.load(&self.stepper, step);
-        while let Some(time) = due(samples) {
-            let mut state = self.stepper.end_state().to_vec();
-            if time < end {
-                self.dense.state((time - self.time) / step, &mut state);
-            }
-            samples.states.push(state);
-        }
+        let accepted = Accepted {
+            stepper: &self.stepper,
+            dense: &self.dense,
+            inside: &self.region.inside,
+            time: self.time,
+            length: step,
+            end,
+        };
+        watcher.step(self.field, &accepted);
     }
 }
 

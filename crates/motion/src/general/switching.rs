@@ -225,7 +225,7 @@ fn fraction(sample: usize) -> f64 {
 }
 
 /// Zero of a function that is not negative at `low` and negative at `high`, by the Illinois method.
-fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+pub(super) fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (function(low), function(high));
     let mut kept = 0;
     for _ in 0..60 {
@@ -252,7 +252,7 @@ fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f
 }
 
 /// Place of the lowest value between two places, by golden section.
-fn minimum(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+pub(super) fn minimum(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
     let (mut at_a, mut at_b) = (function(a), function(b));

@@ -20,8 +20,8 @@ use crate::{Contact, Force, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
-    system: &'a System,
-    period: f64,
+    pub(super) system: &'a System,
+    pub(super) period: f64,
     damping: Damping,
     stiffness: Vec<f64>,
     loads: Vec<ModalLoad>,
@@ -77,13 +77,22 @@ impl<'a> SystemField<'a> {
 
     /// `u = Re sum_m U_m exp(i 2 pi m x)`.
     fn support_displacement(&self, phase: f64) -> f64 {
-        let terms = self.system.support_amplitudes().iter().zip(self.system.orders());
-        terms
-            .map(|(amplitude, &order)| {
-                let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
-                amplitude.re * cos - amplitude.im * sin
-            })
-            .sum()
+        self.support_motion(phase)[0]
+    }
+
+    /// `u`, `u'` and `u''`.
+    pub(super) fn support_motion(&self, phase: f64) -> [f64; 3] {
+        let mut motion = [0.0; 3];
+        for (amplitude, &order) in self.system.support_amplitudes().iter().zip(self.system.orders()) {
+            let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
+            let (real, imaginary) =
+                (amplitude.re * cos - amplitude.im * sin, amplitude.re * sin + amplitude.im * cos);
+            let rate = TAU * f64::from(order) / self.period;
+            motion[0] += real;
+            motion[1] -= rate * imaginary;
+            motion[2] -= rate * rate * real;
+        }
+        motion
     }
 
     fn relative_displacement(&self, element: &LocalElement, q: &[f64], phase: f64) -> f64 {
@@ -223,7 +232,7 @@ fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64]
 }
 
 /// Force of an element whose contacts are held closed or open.
-fn force_in_region(element: &LocalElement, r: f64, inside: &[bool]) -> Force {
+pub(super) fn force_in_region(element: &LocalElement, r: f64, inside: &[bool]) -> Force {
     let contacts = element.law.contacts();
     if contacts.is_empty() {
         return element.law.force(r);
@@ -248,7 +257,7 @@ fn continued_force(element: &LocalElement, r: f64, contact: &Contact) -> Force {
 }
 
 #[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sum = 0.0;
     for (a, b) in a.iter().zip(b) {
         sum += a * b;
