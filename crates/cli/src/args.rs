@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use hammerbeam_study::verify::TOLERANCE;
 
-const AFTER: &str =
-    "Exit codes: 0 done, 1 no result, 2 bad input, 130 interrupted (what is finished is kept).";
+const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify found disagreements, 130 interrupted (what is finished is kept).";
 
 /// Steady states of structures that hit things.
 ///
@@ -36,6 +36,8 @@ pub enum Command {
     Orbit(OrbitOptions),
     /// Write stored results for other programs
     Export(ExportOptions),
+    /// Compute stored solutions again with the independent integrator, and report every disagreement
+    Verify(VerifyOptions),
 }
 
 #[derive(Debug, Args)]
@@ -92,6 +94,32 @@ pub struct ExportOptions {
     pub out: Option<PathBuf>,
 }
 
+#[derive(Debug, Args)]
+pub struct VerifyOptions {
+    /// Results folder
+    pub results: PathBuf,
+
+    /// Number of solutions, chosen at random over all branches
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+    pub sample: u64,
+
+    /// Verify every solution
+    #[arg(long, conflicts_with_all = ["sample", "seed"])]
+    pub all: bool,
+
+    /// Another seed is another sample
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+
+    /// Largest relative difference; docs/verify.md has the formulae
+    #[arg(long, value_name = "T", default_value_t = TOLERANCE, value_parser = tolerance)]
+    pub tolerance: f64,
+
+    /// Number of threads; the result does not depend on it
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: u16,
+}
+
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Format {
     /// Comma-separated values
@@ -102,5 +130,12 @@ fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("must be a finite number of hertz, more than 0".to_owned()),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (1e-11..=1e-2).contains(&number) => Ok(number),
+        _ => Err("must be a number from 1e-11 to 1e-2".to_owned()),
     }
 }

@@ -13,6 +13,8 @@ pub enum Failure {
     BadInput(String),
     /// There is nothing to give.
     NoResult(String),
+    /// Stored results are not what they are recomputed to; the result was given all the same.
+    Disagreement(String),
     /// The user stopped it.
     Interrupted(String),
     /// The machine refuses.
@@ -25,6 +27,7 @@ impl Failure {
         match self {
             Self::NoResult(_) | Self::Other(_) => 1,
             Self::Study(_) | Self::BadInput(_) => 2,
+            Self::Disagreement(_) => 3,
             Self::Interrupted(_) => 130,
         }
     }
@@ -38,7 +41,10 @@ impl Failure {
     pub fn message(&self) -> String {
         match self {
             Self::Study(report) => report.to_string(),
-            Self::BadInput(message) | Self::NoResult(message) | Self::Interrupted(message) => message.clone(),
+            Self::BadInput(message)
+            | Self::NoResult(message)
+            | Self::Disagreement(message)
+            | Self::Interrupted(message) => message.clone(),
             Self::Other(error) => format!("{error:#}"),
         }
     }

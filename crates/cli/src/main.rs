@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Run(options) => commands::run::run(options, output),
         Command::Orbit(options) => commands::orbit::run(options, output),
         Command::Export(options) => commands::export::run(options, output),
+        Command::Verify(options) => commands::verify::run(options, output),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -30,10 +30,13 @@ impl Output {
     pub fn failure(self, failure: &Failure) {
         match failure {
             Failure::Study(report) => anstream::eprintln!("{}", report.render(true)),
-            Failure::Interrupted(message) => anstream::eprintln!("{message}"),
+            Failure::Interrupted(message) | Failure::Disagreement(message) => {
+                anstream::eprintln!("{message}");
+            }
             other => anstream::eprintln!("error: {}", other.message()),
         }
-        if self.json {
+        // Disagreements have their document.
+        if self.json && !matches!(failure, Failure::Disagreement(_)) {
             print(&format!("{:#}", json!({ "error": document(failure) })));
         }
     }

@@ -9,6 +9,7 @@
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows |
+//! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
 //!
 //! A run is a loop over searches that the study alone decides. Everything it finishes is in the store before it goes on, and what is in the store is
@@ -40,6 +41,7 @@ mod orbit_solver;
 pub mod run;
 pub mod store;
 pub mod summary;
+pub mod verify;
 
 pub use document::{Problem, Report};
 pub use export::export_csv;

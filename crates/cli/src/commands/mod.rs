@@ -6,3 +6,4 @@ pub mod modes;
 pub mod new;
 pub mod orbit;
 pub mod run;
+pub mod verify;

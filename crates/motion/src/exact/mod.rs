@@ -69,7 +69,7 @@ use crate::{Flow, Law, Stretch, System};
 #[expect(missing_docs, reason = "each message names its fields")]
 #[non_exhaustive]
 pub enum MotionError {
-    /// The damping has no block form; the general integrator still serves.
+    /// The damping has no block form: motion is left to the general integrator, which orbits are not computed with.
     #[error(transparent)]
     MergedModes(#[from] MergedModes),
     /// No force step, however short, reached the tolerance.

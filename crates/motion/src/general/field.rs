@@ -11,6 +11,17 @@ pub struct Point<'a> {
     pub inside: &'a [bool],
 }
 
+/// What a column of an integration holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Column {
+    /// `z`.
+    State,
+    /// Derivative of `z` by an entry of the initial state.
+    ByState,
+    /// Derivative of `z` by the parameter.
+    ByParameter,
+}
+
 /// A vector field `dz/dt = g(t, z; p)`, smooth within regions bounded by zeros of switching functions `s_k(t, z)`.
 ///
 /// Across a boundary `g` has to be continuous (its derivatives may jump), so that sensitivities are continuous too.
@@ -26,6 +37,12 @@ pub trait VectorField {
     /// Number of equal parts of the state, each measured against its own magnitude: 2 for `[q; q']`.
     fn parts(&self) -> usize {
         1
+    }
+
+    /// Raises the magnitudes against which the errors of a column are measured, one for each part, where they may be zero for a
+    /// while: behind a boundary what was zero grows like a low power of time, which no step from its zero resolves.
+    fn raise_magnitudes(&self, column: Column, magnitudes: &mut [f64]) {
+        let _ = (column, magnitudes);
     }
 
     /// Writes `g(t, z; p)`.

@@ -5,11 +5,14 @@
 //! Behind a boundary forces grow like a low power of time, so that the first step there is corrected by
 //! `0.9 e^(-2/5)` if it fails, and its best length is remembered for the next crossing of that kind.
 
+use faer::Mat;
+
 use super::{
-    Counts, GeneralError, GeneralSettings, VectorField,
+    Counts, FieldFlow, GeneralError, GeneralSettings, VectorField,
     dense::Dense,
     stepper::Stepper,
     switching::{Region, Verdict},
+    watch::{Accepted, Place, Watcher},
 };
 
 /// Steps shorter than this fraction of the one before a crossing do not resolve what follows it.
@@ -26,15 +29,12 @@ pub(super) struct March<'a, F> {
     end: f64,
     pub(super) step: f64,
     finest: f64,
+    /// Where the march started afresh for the last time, and the length of a first step from there whose error does not count.
+    restart: f64,
+    negligible: f64,
     failed: bool,
     unmoved: usize,
     pub(super) counts: Counts,
-}
-
-/// States wanted at given times, in ascending order.
-pub(super) struct Samples<'a> {
-    pub(super) times: &'a [f64],
-    pub(super) states: Vec<Vec<f64>>,
 }
 
 impl<'a, F: VectorField> March<'a, F> {
@@ -52,7 +52,7 @@ impl<'a, F: VectorField> March<'a, F> {
         stepper.start(field, start, &region.inside);
         let dense = Dense::new(state.len());
         let counts = Counts::default();
-        let finest = FINEST * step;
+        let (finest, negligible) = (FINEST * step, negligible(step, settings));
         Self {
             field,
             settings,
@@ -63,6 +63,8 @@ impl<'a, F: VectorField> March<'a, F> {
             end,
             step,
             finest,
+            restart: start,
+            negligible,
             failed: false,
             unmoved: 0,
             counts,
@@ -70,14 +72,26 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     /// Marches to the end.
-    pub(super) fn run(&mut self, samples: &mut Samples<'_>) -> Result<(), GeneralError> {
-        self.take_start_samples(samples);
+    pub(super) fn run(&mut self, watcher: &mut impl Watcher<F>) -> Result<(), GeneralError> {
+        let start = Place { time: self.time, state: self.stepper.state(), inside: &self.region.inside };
+        watcher.begin(self.field, start);
         while self.time < self.end {
             self.check()?;
-            self.advance(samples);
+            self.advance(watcher);
         }
         self.counts.evaluations = self.stepper.evaluations;
         Ok(())
+    }
+
+    /// Where it has come to.
+    pub(super) fn flow(&self) -> FieldFlow {
+        let d = self.stepper.state().len();
+        let (state, columns) = self.stepper.value.split_at(d);
+        let (by_state, by_parameter) = match columns.len() {
+            0 => (Mat::new(), Vec::new()),
+            _ => (Mat::from_fn(d, d, |i, j| columns[j * d + i]), columns[d * d..].to_vec()),
+        };
+        FieldFlow { state: state.to_vec(), by_state, by_parameter, counts: self.counts, next_step: self.step }
     }
 
     fn check(&self) -> Result<(), GeneralError> {
@@ -95,51 +109,66 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     /// Tries a step, and moves on if it succeeds.
-    fn advance(&mut self, samples: &mut Samples<'_>) {
+    fn advance(&mut self, watcher: &mut impl Watcher<F>) {
         let remaining = self.end - self.time;
         let step = if 1.01 * self.step >= remaining { remaining } else { self.step };
         self.stepper.attempt(self.field, self.time, step, &self.region.inside);
         let error = self.stepper.error(step, self.settings.tolerance);
-        if error.is_nan() || error > 1.0 {
+        if !self.good_enough(step, error) {
             self.reject(step, error);
             return;
         }
         match self.inspect(step) {
             Verdict::Clear => {
                 self.lengthen(step, error);
-                self.accept(step, samples);
+                self.accept(step, watcher);
             }
-            Verdict::TooLong { .. } if step > self.finest => {
+            Verdict::TooLong { .. } if step > self.finest.max(self.instant()) => {
                 self.step = step / 16.0;
                 self.counts.rejected += 1;
             }
-            Verdict::TooLong { switch } => self.cross(switch),
+            Verdict::TooLong { switch } => self.cross(switch, watcher),
             Verdict::Crossing { fraction, switch } => {
                 let to_crossing = self.polish(switch, fraction, step);
-                if self.step_to_crossing(to_crossing, samples) {
+                if self.step_to_crossing(to_crossing, watcher) {
                     self.finest = FINEST * step;
-                    self.cross(switch);
+                    self.negligible = negligible(step, self.settings);
+                    self.cross(switch, watcher);
                 }
             }
         }
     }
 
+    /// Whether the error of the attempted step allows to accept it.
+    ///
+    /// Behind a boundary what was zero before may grow like `t^1.5`, and a step from its zero has the same relative error however
+    /// short it is. What grows within `tolerance^(2/3)` of the last smooth step is below the tolerance of what that step brings.
+    fn good_enough(&self, step: f64, error: f64) -> bool {
+        error <= 1.0 || error.is_finite() && self.time == self.restart && step <= self.negligible
+    }
+
+    /// Time that rounding does not resolve, or in which crossings are not told apart.
+    fn instant(&self) -> f64 {
+        64.0 * f64::EPSILON * self.time.abs() + 1e-3 * self.settings.tolerance * self.finest / FINEST
+    }
+
     fn lengthen(&mut self, step: f64, error: f64) {
-        let most = match self.region.fresh {
+        let most = match self.region.is_fresh() {
             _ if self.failed => 1.0,
-            Some(_) => 100.0,
-            None => 6.0,
+            true => 100.0,
+            false => 6.0,
         };
-        let next = step * (0.9 * error.powf(-0.125)).clamp(0.2, most);
+        let next =
+            step * (0.9 * error.powf(-0.125)).clamp(0.2, most).max(if error > 1.0 { 1.0 } else { 0.0 });
         self.step = if step < self.step { next.max(self.step) } else { next };
         self.region.moved(step * (0.9 * error.powf(-0.4)).clamp(0.2, 1e4));
     }
 
     fn reject(&mut self, step: f64, error: f64) {
-        let factor = match self.region.fresh {
+        let factor = match self.region.is_fresh() {
             _ if !error.is_finite() => 0.1,
-            Some(_) => (0.9 * error.powf(-0.4)).max(0.02),
-            None => (0.9 * error.powf(-0.125)).max(0.2),
+            true => (0.9 * error.powf(-0.4)).max(0.02),
+            false => (0.9 * error.powf(-0.125)).max(0.2),
         };
         self.step = factor * step;
         self.failed = true;
@@ -182,59 +211,62 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     /// Steps onto the boundary; tells whether the step was good enough.
-    fn step_to_crossing(&mut self, step: f64, samples: &mut Samples<'_>) -> bool {
+    fn step_to_crossing(&mut self, step: f64, watcher: &mut impl Watcher<F>) -> bool {
         if self.time + step > self.time {
             self.stepper.attempt(self.field, self.time, step, &self.region.inside);
             let error = self.stepper.error(step, self.settings.tolerance);
-            if error.is_nan() || error > 1.0 {
+            if !self.good_enough(step, error) {
                 self.reject(step, error);
                 return false;
             }
-            self.accept(step, samples);
+            self.accept(step, watcher);
         }
         true
     }
 
-    fn cross(&mut self, switch: usize) {
-        self.step = self.region.cross(switch).unwrap_or(self.step);
+    fn cross(&mut self, switch: usize, watcher: &mut impl Watcher<F>) {
+        let moment = (self.time, self.instant());
+        let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
+        self.step = first_step.unwrap_or(self.step);
+        self.restart = self.time;
         self.unmoved += 1;
         self.counts.crossings += 1;
         self.stepper.start(self.field, self.time, &self.region.inside);
+        let at = Place { time: self.time, state: self.stepper.state(), inside: &self.region.inside };
+        watcher.crossed(self.field, at);
     }
 
-    fn accept(&mut self, step: f64, samples: &mut Samples<'_>) {
+    fn accept(&mut self, step: f64, watcher: &mut impl Watcher<F>) {
         let end = if step == self.end - self.time { self.end } else { self.time + step };
         self.stepper.finish(self.field, end, &self.region.inside);
-        self.take_samples(step, end, samples);
-        self.stepper.accept();
+        self.show(step, end, watcher);
+        self.stepper.accept(self.field);
         self.time = end;
         self.failed = false;
         self.unmoved = 0;
         self.counts.steps += 1;
     }
 
-    fn take_start_samples(&self, samples: &mut Samples<'_>) {
-        while samples.times.get(samples.states.len()).is_some_and(|&time| time <= self.time) {
-            samples.states.push(self.stepper.state().to_vec());
-        }
-    }
-
-    fn take_samples(&mut self, step: f64, end: f64, samples: &mut Samples<'_>) {
-        let due =
-            |samples: &Samples<'_>| samples.times.get(samples.states.len()).copied().filter(|&t| t <= end);
-        if due(samples).is_none() {
+    fn show(&mut self, step: f64, end: f64, watcher: &mut impl Watcher<F>) {
+        if !watcher.wants(end) {
             return;
         }
         self.stepper.densify(self.field, self.time, step, &self.region.inside, true);
         self.dense.load(&self.stepper, step);
-        while let Some(time) = due(samples) {
-            let mut state = self.stepper.end_state().to_vec();
-            if time < end {
-                self.dense.state((time - self.time) / step, &mut state);
-            }
-            samples.states.push(state);
-        }
+        let accepted = Accepted {
+            stepper: &self.stepper,
+            dense: &self.dense,
+            inside: &self.region.inside,
+            time: self.time,
+            length: step,
+            end,
+        };
+        watcher.step(self.field, &accepted);
     }
+}
+
+fn negligible(smooth_step: f64, settings: &GeneralSettings) -> f64 {
+    smooth_step * settings.tolerance.powf(2.0 / 3.0)
 }
 
 /// A hundredth of the time in which a part of the state would double, at most a tenth of the stretch.

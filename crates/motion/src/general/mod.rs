@@ -11,7 +11,9 @@
 //!
 //! where the columns are `z`, those of `Y`, and `y_p`; the parts of a column are its displacements and its velocities
 //! (for a field of its own kind: what [`VectorField::parts`] says); and `a` is the largest entry of that part of that
-//! column met on the way. A step ends where the field switches its smooth region, at the onset and the release of a
+//! column met on the way; a field may raise it ([`VectorField::raise_magnitudes`]), and a system does: velocities count at least as
+//! much as displacements times the circular frequency of the excitation, displacements at least a thousandth of the shortest length
+//! in the clearances of the contacts. A step ends where the field switches its smooth region, at the onset and the release of a
 //! contact.
 //!
 //! This is the independent check of the integrator that uses the structure of the equations, and the baseline of
@@ -25,18 +27,22 @@ mod dense;
 mod error;
 mod field;
 mod march;
+mod observe;
 mod stepper;
 mod switching;
 mod system_field;
 mod tableau;
+mod watch;
 
 use faer::Mat;
 
-use march::{March, Samples};
+use march::March;
 use system_field::SystemField;
+use watch::Samples;
 
 pub use error::GeneralError;
-pub use field::{Point, VectorField};
+pub use field::{Column, Point, VectorField};
+pub use observe::{Observed, observe};
 
 use crate::{Flow, Stretch, System};
 
@@ -166,13 +172,7 @@ pub fn integrate(
     check(field, (start, end), state, settings)?;
     let mut march = March::new(field, settings, (start, end), state);
     march.run(&mut Samples { times: &[], states: Vec::new() })?;
-    let (d, counts, next_step) = (state.len(), march.counts, march.step);
-    let (state, columns) = march.stepper.value.split_at(d);
-    let (by_state, by_parameter) = match columns.len() {
-        0 => (Mat::new(), Vec::new()),
-        _ => (Mat::from_fn(d, d, |i, j| columns[j * d + i]), columns[d * d..].to_vec()),
-    };
-    Ok(FieldFlow { state: state.to_vec(), by_state, by_parameter, counts, next_step })
+    Ok(march.flow())
 }
 
 /// States along a vector field at given times, ascending and within the stretch `(start, end)`.

@@ -11,7 +11,7 @@
 //! fundamental matrix against itself.
 
 use super::{
-    Point, VectorField,
+    Column, Point, VectorField,
     tableau::{
         ARGUMENTS, Combination, DENSE_ARGUMENTS, DENSE_NODES, END, ERROR_3, ERROR_5, NODES, STAGES, VALUE,
     },
@@ -61,7 +61,7 @@ impl Stepper {
             switches,
             evaluations: 0,
         };
-        stepper.remember_magnitudes();
+        stepper.remember_magnitudes(field);
         stepper
     }
 
@@ -180,16 +180,25 @@ impl Stepper {
     }
 
     /// Moves on: the end of the attempted step becomes the start of the next.
-    pub(super) fn accept(&mut self) {
+    pub(super) fn accept(&mut self, field: &impl VectorField) {
         std::mem::swap(&mut self.value, &mut self.trial);
         let length = self.value.len();
         self.slopes.copy_within(END * length..(END + 1) * length, 0);
-        self.remember_magnitudes();
+        self.remember_magnitudes(field);
     }
 
-    fn remember_magnitudes(&mut self) {
+    fn remember_magnitudes(&mut self, field: &impl VectorField) {
         for (largest, part) in self.largest.iter_mut().zip(self.value.chunks_exact(self.part)) {
             *largest = largest.max(magnitude(part));
+        }
+        let last = self.dimension + 1;
+        for (index, magnitudes) in self.largest.chunks_exact_mut(self.dimension / self.part).enumerate() {
+            let column = match index {
+                0 => Column::State,
+                _ if index == last => Column::ByParameter,
+                _ => Column::ByState,
+            };
+            field.raise_magnitudes(column, magnitudes);
         }
     }
 

@@ -23,8 +23,8 @@ pub(super) enum Verdict {
 pub(super) struct Region {
     /// For each switching function whether it is positive.
     pub(super) inside: Vec<bool>,
-    /// The switching function whose zero is the start of the step.
-    pub(super) fresh: Option<usize>,
+    /// For each switching function whether its zero is the start of the step.
+    fresh: Vec<bool>,
     first_steps: Vec<Option<f64>>,
     samples: Vec<f64>,
     state: Vec<f64>,
@@ -35,7 +35,7 @@ impl Region {
     pub(super) fn new(dimension: usize, switches: usize) -> Self {
         Self {
             inside: vec![false; switches],
-            fresh: None,
+            fresh: vec![false; switches],
             first_steps: vec![None; 2 * switches],
             samples: vec![0.0; (SAMPLES + 1) * switches],
             state: vec![0.0; dimension],
@@ -49,28 +49,67 @@ impl Region {
 
     /// Takes the region of a state; where a switching function is zero, that of a state a moment later counts.
     pub(super) fn locate(&mut self, field: &impl VectorField, time: f64, stepper: &Stepper, moment: f64) {
+        let now = self.now_and_then(field, time, stepper, moment);
+        for (switch, inside) in self.inside.iter_mut().enumerate() {
+            *inside = if now[switch] == 0.0 { self.values[switch] > 0.0 } else { now[switch] > 0.0 };
+        }
+    }
+
+    /// The switching functions of the state; those of a moment later stand in `values` then.
+    fn now_and_then(
+        &mut self,
+        field: &impl VectorField,
+        time: f64,
+        stepper: &Stepper,
+        moment: f64,
+    ) -> Vec<f64> {
         field.switching(time, stepper.state(), &mut self.values);
         let now = self.values.clone();
         for (i, state) in self.state.iter_mut().enumerate() {
             *state = stepper.state()[i] + moment * stepper.slope(0)[i];
         }
         field.switching(time + moment, &self.state, &mut self.values);
-        for (switch, inside) in self.inside.iter_mut().enumerate() {
-            *inside = if now[switch] == 0.0 { self.values[switch] > 0.0 } else { now[switch] > 0.0 };
-        }
+        now
     }
 
-    /// Crosses the boundary; returns a good length of the first step, if there was such a crossing before.
-    pub(super) fn cross(&mut self, switch: usize) -> Option<f64> {
-        self.inside[switch] = !self.inside[switch];
-        self.fresh = Some(switch);
-        self.first_steps[2 * switch + usize::from(self.inside[switch])]
+    /// Whether the step starts on a boundary.
+    pub(super) fn is_fresh(&self) -> bool {
+        self.fresh.contains(&true)
+    }
+
+    /// Crosses the boundary, and all others that are reached within `moment` from now: stops that act together act at one
+    /// instant up to rounding.
+    ///
+    /// Returns a good length of the first step, if there was such a crossing before.
+    pub(super) fn cross(
+        &mut self,
+        field: &impl VectorField,
+        stepper: &Stepper,
+        (time, moment): (f64, f64),
+        switch: usize,
+    ) -> Option<f64> {
+        let now = self.now_and_then(field, time, stepper, moment);
+        self.fresh.fill(false);
+        let mut first_step: Option<f64> = None;
+        for other in 0..self.inside.len() {
+            let sign = self.sign(other);
+            let meets = sign * self.values[other] < 0.0 && sign * self.values[other] < sign * now[other];
+            if other == switch || meets {
+                self.inside[other] = !self.inside[other];
+                self.fresh[other] = true;
+                let known = self.first_steps[2 * other + usize::from(self.inside[other])];
+                first_step = first_step.into_iter().chain(known).reduce(f64::min);
+            }
+        }
+        first_step
     }
 
     /// Tells that a step was accepted which had better been of that length.
     pub(super) fn moved(&mut self, best: f64) {
-        if let Some(switch) = self.fresh.take() {
-            self.first_steps[2 * switch + usize::from(self.inside[switch])] = Some(best);
+        for switch in 0..self.inside.len() {
+            if std::mem::take(&mut self.fresh[switch]) {
+                self.first_steps[2 * switch + usize::from(self.inside[switch])] = Some(best);
+            }
         }
     }
 
@@ -151,7 +190,7 @@ impl Region {
         let (sign, switches) = (self.sign(switch), self.inside.len());
         let samples = &self.samples;
         let sample = |k: usize| sign * samples[k * switches + switch];
-        let clear_start = sample(0) > 0.0 && self.fresh != Some(switch);
+        let clear_start = sample(0) > 0.0 && !self.fresh[switch];
         let (state, values) = (&mut self.state, &mut self.values);
         let mut distance = |x: f64| {
             dense.state(x, state);
@@ -186,7 +225,7 @@ fn fraction(sample: usize) -> f64 {
 }
 
 /// Zero of a function that is not negative at `low` and negative at `high`, by the Illinois method.
-fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+pub(super) fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let (mut at_low, mut at_high) = (function(low), function(high));
     let mut kept = 0;
     for _ in 0..60 {
@@ -213,7 +252,7 @@ fn zero(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f
 }
 
 /// Place of the lowest value between two places, by golden section.
-fn minimum(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+pub(super) fn minimum(function: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
     let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
     let (mut at_a, mut at_b) = (function(a), function(b));

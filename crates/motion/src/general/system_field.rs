@@ -15,17 +15,19 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{Point, VectorField};
+use super::{Column, Point, VectorField};
 use crate::{Contact, Force, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
-    system: &'a System,
-    period: f64,
+    pub(super) system: &'a System,
+    pub(super) period: f64,
     damping: Damping,
     stiffness: Vec<f64>,
     loads: Vec<ModalLoad>,
     switches: usize,
+    /// Least modal displacement that counts [kg^1/2 m].
+    length: f64,
     /// `exp(i 2 pi m x)` for each order at the last point.
     rotations: Vec<c64>,
     /// `df_e/dr` at the last point.
@@ -51,6 +53,7 @@ impl<'a> SystemField<'a> {
             rotations: vec![c64::new(0.0, 0.0); loads.len()],
             loads,
             switches: system.elements().iter().map(|element| element.law.contacts().len()).sum(),
+            length: 1e-3 * shortest_length(system),
             slopes: vec![0.0; system.elements().len()],
         }
     }
@@ -74,13 +77,22 @@ impl<'a> SystemField<'a> {
 
     /// `u = Re sum_m U_m exp(i 2 pi m x)`.
     fn support_displacement(&self, phase: f64) -> f64 {
-        let terms = self.system.support_amplitudes().iter().zip(self.system.orders());
-        terms
-            .map(|(amplitude, &order)| {
-                let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
-                amplitude.re * cos - amplitude.im * sin
-            })
-            .sum()
+        self.support_motion(phase)[0]
+    }
+
+    /// `u`, `u'` and `u''`.
+    pub(super) fn support_motion(&self, phase: f64) -> [f64; 3] {
+        let mut motion = [0.0; 3];
+        for (amplitude, &order) in self.system.support_amplitudes().iter().zip(self.system.orders()) {
+            let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
+            let (real, imaginary) =
+                (amplitude.re * cos - amplitude.im * sin, amplitude.re * sin + amplitude.im * cos);
+            let rate = TAU * f64::from(order) / self.period;
+            motion[0] += real;
+            motion[1] -= rate * imaginary;
+            motion[2] -= rate * rate * real;
+        }
+        motion
     }
 
     fn relative_displacement(&self, element: &LocalElement, q: &[f64], phase: f64) -> f64 {
@@ -112,6 +124,16 @@ impl VectorField for SystemField<'_> {
 
     fn parts(&self) -> usize {
         2
+    }
+
+    fn raise_magnitudes(&self, column: Column, magnitudes: &mut [f64]) {
+        let least = match column {
+            Column::State => self.length,
+            Column::ByState => 0.0,
+            Column::ByParameter => self.length * self.period,
+        };
+        magnitudes[0] = magnitudes[0].max(least);
+        magnitudes[1] = magnitudes[1].max(TAU / self.period * magnitudes[0]);
     }
 
     fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]) {
@@ -161,6 +183,18 @@ impl VectorField for SystemField<'_> {
     }
 }
 
+/// Shortest modal displacement among those that take an element from rest to its contact, or as far as the support moves it; zero
+/// if there are none.
+fn shortest_length(system: &System) -> f64 {
+    let support: f64 = system.support_amplitudes().iter().map(|u| u.norm()).sum();
+    let lengths = system.elements().iter().flat_map(|element| {
+        let moved = (element.support_ratio * support).abs();
+        let levels = element.law.contacts().iter().map(move |contact| contact.level.abs().max(moved));
+        levels.map(|length| length / dot(&element.shape, &element.shape).sqrt())
+    });
+    lengths.filter(|length| *length > 0.0 && length.is_finite()).reduce(f64::min).unwrap_or(0.0)
+}
+
 impl Damping {
     fn of(system: &System) -> Self {
         let (n, matrix) = (system.dof(), &system.model().damping);
@@ -198,7 +232,7 @@ fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64]
 }
 
 /// Force of an element whose contacts are held closed or open.
-fn force_in_region(element: &LocalElement, r: f64, inside: &[bool]) -> Force {
+pub(super) fn force_in_region(element: &LocalElement, r: f64, inside: &[bool]) -> Force {
     let contacts = element.law.contacts();
     if contacts.is_empty() {
         return element.law.force(r);
@@ -223,7 +257,7 @@ fn continued_force(element: &LocalElement, r: f64, contact: &Contact) -> Force {
 }
 
 #[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sum = 0.0;
     for (a, b) in a.iter().zip(b) {
         sum += a * b;

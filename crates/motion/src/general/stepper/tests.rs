@@ -35,7 +35,7 @@ fn errors(steps: usize) -> [f64; 3] {
         stepper.start(&mut Witch, time, &[]);
         stepper.attempt(&mut Witch, time, step, &[]);
         stepper.finish(&mut Witch, time + step, &[]);
-        stepper.accept();
+        stepper.accept(&Witch);
     }
     let value = &stepper.value;
     [value[0] - 0.5, value[1] - 0.25, value[2] + 0.25].map(f64::abs)

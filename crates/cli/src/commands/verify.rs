@@ -1,0 +1,158 @@
+//! `hammerbeam verify`: stored solutions, computed again by the independent integrator.
+
+use std::time::{Duration, Instant};
+
+use hammerbeam_study::{
+    Model, Store, StudyFile,
+    verify::{Disagreement, Quantity, Verification, VerifySettings, Worst, verify},
+};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+use crate::{args::VerifyOptions, failure::Failure, interrupt::Interrupt, output::Output};
+
+/// Disagreements shown as text; all of them are in the document.
+const SHOWN: usize = 50;
+
+pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
+    let store = Store::open(&options.results)?;
+    let file = StudyFile::parse("study.toml", store.about("study")?)?;
+    let model = Model::build(&file)?;
+    let settings = VerifySettings {
+        sample: (!options.all).then_some(options.sample),
+        seed: options.seed,
+        tolerance: options.tolerance,
+        jobs: usize::from(options.jobs),
+    };
+    let interrupt = Interrupt::listen()?;
+    let bar = progress_bar();
+    let begun = Instant::now();
+    let watch = |done: u64, total: u64| {
+        if begun.elapsed() > Duration::from_secs(1) {
+            bar.set_length(total);
+            bar.set_position(done);
+        }
+        !interrupt.raised()
+    };
+    let verified = verify(&store, &model, &settings, &watch);
+    bar.finish_and_clear();
+    let Some(verification) = verified? else {
+        return Err(Failure::Interrupted("interrupted; nothing was changed".to_owned()));
+    };
+    let folder = options.results.display().to_string();
+    if verification.stored == 0 {
+        return Err(Failure::NoResult(format!("no solutions are stored in {folder}")));
+    }
+    output.give(&document(&verification, &settings), || text(&verification, &folder, begun.elapsed()));
+    if verification.disagreements.is_empty() {
+        return Ok(());
+    }
+    let (disagree, sampled) = (verification.disagreeing(), verification.sampled);
+    Err(Failure::Disagreement(format!("{disagree} of {sampled} solutions disagree")))
+}
+
+fn progress_bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("[{bar:24}] {pos} of {len} solutions, {eta} left");
+    let bar = ProgressBar::new(0);
+    bar.set_style(style.expect("the template is constant").progress_chars("=> "));
+    bar
+}
+
+fn document(verification: &Verification, settings: &VerifySettings) -> Value {
+    json!({
+        "stored": verification.stored,
+        "sampled": verification.sampled,
+        "seed": settings.seed,
+        "tolerance": settings.tolerance,
+        "agree": verification.disagreements.is_empty(),
+        "solutions_disagreeing": verification.disagreeing(),
+        "solutions_grazing": verification.grazing,
+        "quantities": verification.worst.iter().map(of_quantity).collect::<Vec<_>>(),
+        "disagreements": verification.disagreements.iter().map(of_disagreement).collect::<Vec<_>>(),
+    })
+}
+
+fn of_quantity(worst: &Worst) -> Value {
+    json!({
+        "quantity": worst.quantity.name(),
+        "worst_difference": number(worst.difference),
+        "bound": worst.bound,
+        "branch": worst.place.map(|(branch, _)| branch),
+        "frequency_hz": worst.place.map(|(_, frequency_hz)| frequency_hz),
+        "compared": worst.compared,
+        "disagree": worst.disagree,
+        "grazing": worst.grazing,
+    })
+}
+
+fn of_disagreement(found: &Disagreement) -> Value {
+    json!({
+        "branch": found.branch,
+        "frequency_hz": found.frequency_hz,
+        "quantity": found.quantity.name(),
+        "stored": number(found.stored),
+        "recomputed": number(found.recomputed),
+        "difference": number(found.difference),
+        "bound": found.bound,
+        "message": found.message,
+    })
+}
+
+/// JSON has no infinity: null.
+fn number(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { Value::Null }
+}
+
+fn text(verification: &Verification, folder: &str, elapsed: Duration) -> String {
+    let mut lines = vec![format!(
+        "{} of {} solutions in {folder} computed again, in {:.1} s\n",
+        verification.sampled,
+        verification.stored,
+        elapsed.as_secs_f64()
+    )];
+    let [quantity, worst, bound, place, compared, disagree] =
+        ["quantity", "worst", "bound", "where", "compared", "disagree"];
+    lines.push(format!("{quantity:<26} {worst:>9} {bound:>9}  {place:<28} {compared:>8} {disagree:>8}"));
+    lines.extend(verification.worst.iter().filter(|worst| worst.compared > 0).map(row));
+    lines.push(String::new());
+    lines.extend(verification.disagreements.iter().take(SHOWN).map(line));
+    if verification.disagreements.len() > SHOWN {
+        let more = verification.disagreements.len() - SHOWN;
+        lines.push(format!("  and {more} more, with --json"));
+    }
+    if verification.grazing > 0 {
+        lines.push(format!("{} solutions are allowed for: a contact grazes there", verification.grazing));
+    }
+    if verification.disagreements.is_empty() {
+        lines.push("all agree".to_owned());
+    }
+    lines.join("\n")
+}
+
+fn row(worst: &Worst) -> String {
+    let place = worst
+        .place
+        .map_or(String::new(), |(branch, frequency_hz)| format!("branch {branch}, {frequency_hz:.6} Hz"));
+    format!(
+        "{:<26} {:>9.1e} {:>9.1e}  {place:<28} {:>8} {:>8}",
+        worst.quantity.name(),
+        worst.difference,
+        worst.bound,
+        worst.compared,
+        worst.disagree
+    )
+}
+
+fn line(found: &Disagreement) -> String {
+    let place = format!("branch {}, {:.9} Hz: {}", found.branch, found.frequency_hz, found.quantity.name());
+    match (&found.message, found.quantity) {
+        (Some(message), _) => format!("{place}: {message}"),
+        (None, Quantity::Residual | Quantity::Events) => {
+            format!("{place} {:.2e}, at most {:.1e} is allowed", found.difference, found.bound)
+        }
+        (None, _) => format!(
+            "{place} stored {:.10e}, recomputed {:.10e}, difference {:.2e}, at most {:.1e} is allowed",
+            found.stored, found.recomputed, found.difference, found.bound
+        ),
+    }
+}

@@ -1,0 +1,305 @@
+//! Maxima of a motion and its contacts, by the integrator's own means.
+//!
+//! Displacements have their extrema where their velocity vanishes: each change of its sign between samples of the dense output is
+//! bracketed, and the extremum is taken from a step of the method itself that ends there. The acceleration has no such derivative; its
+//! maximum is sought between samples, and taken from a step that ends there too. Impulses are integrals of the forces on the dense output
+//! by Gauss' rule with eight nodes in each step.
+
+use super::{
+    Counts, GeneralError, GeneralSettings, Point, VectorField, check, check_frequency,
+    march::March,
+    stepper::Stepper,
+    switching::{minimum, zero},
+    system_field::{SystemField, dot, force_in_region},
+    watch::{Accepted, Place, Watcher},
+};
+use crate::{Contact, Flow, Stretch, System};
+
+/// A motion over a stretch, with its maxima and contacts.
+#[derive(Debug, Clone)]
+pub struct Observed {
+    /// Final state and sensitivities.
+    pub flow: Flow,
+    /// Work done.
+    pub counts: Counts,
+    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of the stretch that follows.
+    pub next_step: f64,
+    /// Largest absolute displacement of the response point, `max |y|` [m].
+    pub displacement: f64,
+    /// Largest absolute acceleration of the response point, `max |y''|` [m/s^2].
+    pub acceleration: f64,
+    /// Largest contact force over all elements with a contact [N].
+    pub contact_force: f64,
+    /// Largest speed with which a contact closes [m/s].
+    pub impact_velocity: f64,
+    /// Sum of the impulses of all contacts [N s].
+    pub impulse: f64,
+    /// Number of contacts that closed.
+    pub touches: u32,
+    /// Elements with a contact that was closed all the time, one bit each (the first 64).
+    pub closed_throughout: u64,
+    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero.
+    pub extrema: Vec<f64>,
+}
+
+/// Motion of a system over a stretch, observed at a response point of displacement `shape . q + support_ratio u`.
+///
+/// * `state`: `[q; q']` in modal coordinates at the start, length 2n.
+///
+/// # Errors
+/// See [`GeneralError`].
+pub fn observe(
+    system: &System,
+    stretch: &Stretch,
+    state: &[f64],
+    (shape, support_ratio): (&[f64], f64),
+    settings: &GeneralSettings,
+) -> Result<Observed, GeneralError> {
+    check_frequency(stretch)?;
+    let mut field = SystemField::new(system, stretch.frequency_hz);
+    check(&field, (stretch.start, stretch.end), state, settings)?;
+    let mut observer = Observer::new(&field, state, (shape, support_ratio));
+    let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
+    march.run(&mut observer)?;
+    let flow = march.flow();
+    let Observer { maxima, closed, extrema, contacts, .. } = observer;
+    let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed);
+    Ok(Observed {
+        flow: Flow { state: flow.state, by_state: flow.by_state, by_frequency: flow.by_parameter },
+        counts: flow.counts,
+        next_step: flow.next_step,
+        displacement: maxima.displacement,
+        acceleration: maxima.acceleration,
+        contact_force: maxima.contact_force,
+        impact_velocity: maxima.impact_velocity,
+        impulse: maxima.impulse,
+        touches: maxima.touches,
+        closed_throughout: closed
+            .fold(0, |bits, ((element, _), _)| bits | 1_u64.checked_shl(*element as u32).unwrap_or(0)),
+        extrema,
+    })
+}
+
+const SAMPLES: usize = 8;
+
+/// Nodes in (-1, 1) and weights of Gauss' rule of order 16, one half of each.
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_5),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
+];
+
+#[derive(Default)]
+struct Maxima {
+    displacement: f64,
+    acceleration: f64,
+    contact_force: f64,
+    impact_velocity: f64,
+    impulse: f64,
+    touches: u32,
+}
+
+/// What is read off: the response, or the relative displacement of an element.
+#[derive(Clone, Copy)]
+enum Output {
+    Response,
+    Element(usize),
+}
+
+struct Observer<'a> {
+    shape: &'a [f64],
+    support_ratio: f64,
+    /// Element and contact of each switching function.
+    contacts: Vec<(usize, Contact)>,
+    inside: Vec<bool>,
+    /// Which were positive all the time.
+    closed: Vec<bool>,
+    maxima: Maxima,
+    extrema: Vec<f64>,
+    /// Takes steps of its own to where something is largest.
+    exact: Stepper,
+    state: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl<'a> Observer<'a> {
+    fn new(field: &SystemField<'_>, state: &[f64], (shape, support_ratio): (&'a [f64], f64)) -> Self {
+        let elements = field.system.elements().iter().enumerate();
+        let contacts: Vec<(usize, Contact)> =
+            elements.flat_map(|(e, element)| element.law.contacts().iter().map(move |c| (e, *c))).collect();
+        Self {
+            shape,
+            support_ratio,
+            inside: vec![false; contacts.len()],
+            closed: vec![true; contacts.len()],
+            contacts,
+            maxima: Maxima::default(),
+            extrema: Vec::new(),
+            exact: Stepper::new(field, state, false),
+            state: state.to_vec(),
+            rates: state.to_vec(),
+        }
+    }
+
+    /// Value and velocity of an output.
+    fn read(&self, field: &SystemField<'_>, output: Output, phase: f64, state: &[f64]) -> [f64; 2] {
+        let (shape, ratio) = match output {
+            Output::Response => (self.shape, self.support_ratio),
+            Output::Element(e) => {
+                let element = &field.system.elements()[e];
+                (element.shape.as_slice(), element.support_ratio)
+            }
+        };
+        let (q, v) = state.split_at(shape.len());
+        let [u, velocity, _] = if ratio == 0.0 { [0.0; 3] } else { field.support_motion(phase) };
+        [dot(shape, q) + ratio * u, dot(shape, v) + ratio * velocity]
+    }
+
+    fn acceleration(&mut self, field: &mut SystemField<'_>, at: Place<'_>) -> f64 {
+        field.evaluate(Point { time: at.time, state: at.state, inside: at.inside }, &mut self.rates);
+        let elastic = dot(self.shape, &self.rates[self.shape.len()..]) / field.period;
+        elastic + self.support_ratio * field.support_motion(at.time)[2]
+    }
+
+    /// Takes every maximum at a place of the motion itself.
+    fn take(&mut self, field: &mut SystemField<'_>, at: Place<'_>) {
+        let [displacement, _] = self.read(field, Output::Response, at.time, at.state);
+        let acceleration = self.acceleration(field, at).abs();
+        self.maxima.displacement = self.maxima.displacement.max(displacement.abs());
+        self.maxima.acceleration = self.maxima.acceleration.max(acceleration);
+        let largest = self.forces(field, at).fold(0.0, f64::max);
+        self.maxima.contact_force = self.maxima.contact_force.max(largest);
+    }
+
+    /// Contact forces of the elements.
+    fn forces<'b>(&'b self, field: &'b SystemField<'_>, at: Place<'b>) -> impl Iterator<Item = f64> + 'b {
+        let mut flags = at.inside;
+        field.system.elements().iter().enumerate().map(move |(e, element)| {
+            let (inside, rest) = flags.split_at(element.law.contacts().len());
+            flags = rest;
+            if inside.is_empty() {
+                return 0.0;
+            }
+            let [r, _] = self.read(field, Output::Element(e), at.time, at.state);
+            force_in_region(element, r, inside).value.abs()
+        })
+    }
+
+    /// State at a fraction of a step, from a step of the method itself.
+    fn exact_state(&mut self, field: &mut SystemField<'_>, step: &Accepted<'_>, fraction: f64) -> Vec<f64> {
+        self.exact.value.copy_from_slice(step.stepper.state());
+        self.exact.start(field, step.time, step.inside);
+        self.exact.attempt_state(field, step.time, fraction * step.length, step.inside);
+        self.exact.end_state().to_vec()
+    }
+
+    fn take_at(&mut self, field: &mut SystemField<'_>, step: &Accepted<'_>, fraction: f64) -> Vec<f64> {
+        let state = self.exact_state(field, step, fraction);
+        let time = step.time + fraction * step.length;
+        self.take(field, Place { time, state: &state, inside: step.inside });
+        state
+    }
+
+    /// Extrema of an output within a step.
+    fn extrema_of(&mut self, field: &mut SystemField<'_>, step: &Accepted<'_>, output: Output) {
+        let mut state = std::mem::take(&mut self.state);
+        let mut velocity = |field: &SystemField<'_>, x: f64| {
+            step.dense.state(x, &mut state);
+            self.read(field, output, step.time + x * step.length, &state)[1]
+        };
+        let velocities: Vec<f64> = (0..=SAMPLES).map(|k| velocity(field, sample(k))).collect();
+        let mut places = Vec::new();
+        for (k, pair) in velocities.windows(2).enumerate() {
+            if (pair[0] > 0.0) != (pair[1] > 0.0) {
+                let sign = if pair[0] > 0.0 { 1.0 } else { -1.0 };
+                places.push(zero(&mut |x| sign * velocity(field, x), sample(k), sample(k + 1)));
+            }
+        }
+        self.state = state;
+        for place in places {
+            let state = self.take_at(field, step, place);
+            if let Output::Element(e) = output {
+                let [r, _] = self.read(field, output, step.time + place * step.length, &state);
+                let contacts = self.contacts.iter().filter(|(element, _)| *element == e);
+                self.extrema.extend(contacts.map(|(_, contact)| contact.sign * (r - contact.level)));
+            }
+        }
+    }
+
+    fn largest_acceleration(&mut self, field: &mut SystemField<'_>, step: &Accepted<'_>) {
+        let mut state = vec![0.0; self.state.len()];
+        let mut negative = |observer: &mut Self, field: &mut SystemField<'_>, x: f64| {
+            step.dense.state(x, &mut state);
+            let time = step.time + x * step.length;
+            -observer.acceleration(field, Place { time, state: &state, inside: step.inside }).abs()
+        };
+        let values: Vec<f64> = (0..=SAMPLES).map(|k| negative(self, field, sample(k))).collect();
+        let best = (0..=SAMPLES).fold(0, |best, k| if values[k] < values[best] { k } else { best });
+        let spread = values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - values[best];
+        // Between samples a maximum is higher by a part of what the samples differ by.
+        if -values[best] + 0.2 * spread <= self.maxima.acceleration {
+            return;
+        }
+        let (low, high) = (sample(best.saturating_sub(1)), sample((best + 1).min(SAMPLES)));
+        let place = minimum(&mut |x| negative(self, field, x), low, high);
+        self.take_at(field, step, place);
+    }
+
+    fn add_impulse(&mut self, field: &SystemField<'_>, step: &Accepted<'_>) {
+        let mut state = std::mem::take(&mut self.state);
+        let mut sum = 0.0;
+        for (node, weight) in GAUSS.iter().flat_map(|&(node, weight)| [(-node, weight), (node, weight)]) {
+            let x = 0.5 + 0.5 * node;
+            step.dense.state(x, &mut state);
+            let at = Place { time: step.time + x * step.length, state: &state, inside: step.inside };
+            sum += weight * self.forces(field, at).sum::<f64>();
+        }
+        self.state = state;
+        self.maxima.impulse += 0.5 * step.length * field.period * sum;
+    }
+}
+
+fn sample(k: usize) -> f64 {
+    k as f64 / SAMPLES as f64
+}
+
+impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
+    fn begin(&mut self, field: &mut SystemField<'f>, start: Place<'_>) {
+        self.inside.copy_from_slice(start.inside);
+        self.closed.copy_from_slice(start.inside);
+        self.take(field, start);
+    }
+
+    fn wants(&self, _: f64) -> bool {
+        true
+    }
+
+    fn step(&mut self, field: &mut SystemField<'f>, step: &Accepted<'_>) {
+        let end = Place { time: step.end, state: step.stepper.end_state(), inside: step.inside };
+        self.take(field, end);
+        self.extrema_of(field, step, Output::Response);
+        for element in 0..field.system.elements().len() {
+            if !field.system.elements()[element].law.contacts().is_empty() {
+                self.extrema_of(field, step, Output::Element(element));
+            }
+        }
+        self.largest_acceleration(field, step);
+        if step.inside.contains(&true) {
+            self.add_impulse(field, step);
+        }
+    }
+
+    fn crossed(&mut self, field: &mut SystemField<'f>, at: Place<'_>) {
+        for switch in 0..self.contacts.len() {
+            if at.inside[switch] && !self.inside[switch] {
+                let (element, _) = self.contacts[switch];
+                let [_, velocity] = self.read(field, Output::Element(element), at.time, at.state);
+                self.maxima.touches += 1;
+                self.maxima.impact_velocity = self.maxima.impact_velocity.max(velocity.abs());
+            }
+            self.closed[switch] &= at.inside[switch];
+        }
+        self.inside.copy_from_slice(at.inside);
+    }
+}

@@ -1,0 +1,178 @@
+//! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
+
+use hammerbeam_motion::System;
+use hammerbeam_orbit::PeriodicSolution;
+
+use super::{Quantity, recompute::Recomputed};
+use crate::store::Row;
+
+/// How far a multiplier may be from where an event puts it, beside what it is known to: events are located to a part of the step.
+const EVENT: f64 = 1e-5;
+
+/// A comparison: `difference` may be `tolerance` at most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Comparison {
+    pub(super) quantity: Quantity,
+    pub(super) stored: f64,
+    pub(super) recomputed: f64,
+    /// Over what it may be, in units of the tolerance.
+    pub(super) difference: f64,
+    /// Whether it is allowed for since a contact grazes.
+    pub(super) grazing: bool,
+}
+
+/// The measures of an orbit by which differences are judged.
+struct Measures {
+    gain: f64,
+    /// Largest relative displacement [m] and velocity [m/s] of an element that a unit of the relative state makes.
+    contact: [f64; 2],
+    /// The same of the response point, and its acceleration [m/s^2].
+    displacement: f64,
+    acceleration: f64,
+}
+
+impl Measures {
+    fn of(system: &System, response: &[f64], scales: &[f64], gain: f64) -> Self {
+        let n = system.dof();
+        let (lengths, velocities) = scales.split_at(n);
+        let size = |shape: &[f64], scale: &dyn Fn(usize) -> f64| {
+            shape.iter().enumerate().map(|(i, phi)| (phi * scale(i)).powi(2)).sum::<f64>().sqrt()
+        };
+        let stops = || system.elements().iter().filter(|element| !element.law.contacts().is_empty());
+        let most = |scale: &dyn Fn(usize) -> f64| stops().map(|e| size(&e.shape, scale)).fold(0.0, f64::max);
+        let frequencies = &system.model().natural_frequencies;
+        Self {
+            gain,
+            contact: [most(&|i| lengths[i]), most(&|i| velocities[i])],
+            displacement: size(response, &|i| lengths[i]),
+            acceleration: size(response, &|i| frequencies[i] * velocities[i]),
+        }
+    }
+
+    /// `g = 1 + min(V_r / v, L_r / p)`.
+    fn contact_factor(&self, found: &Recomputed) -> f64 {
+        let deepest = found.extrema.iter().copied().fold(0.0, f64::max);
+        let by_velocity = self.contact[1] / found.maxima.impact_velocity;
+        1.0 + by_velocity.min(self.contact[0] / deepest)
+    }
+}
+
+/// Every comparison of a solution.
+pub(super) fn compare(
+    (system, response): (&System, &[f64]),
+    (row, solution): (&Row, &PeriodicSolution),
+    scales: &[f64],
+    found: &Recomputed,
+    tolerance: f64,
+) -> Vec<Comparison> {
+    let measures = Measures::of(system, response, scales, found.gain);
+    let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
+    maxima(row, found, &measures, &mut list);
+    let margin = tolerance * found.gain * measures.contact[0];
+    let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
+    list.push(contacts(row, found, grazing));
+    list.extend(multipliers(solution, found, grazing > 0));
+    list.extend(leading(row, solution));
+    list.extend(events(row, found, &measures));
+    list
+}
+
+fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> Comparison {
+    Comparison { quantity, stored, recomputed, difference, grazing: false }
+}
+
+fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Comparison>) {
+    let (stored, new) = (&row.maxima, &found.maxima);
+    let factor = if new.contact_force > 0.0 { measures.contact_factor(found) } else { 1.0 };
+    let mut push = |quantity, stored: f64, new: f64, measure: f64| {
+        // Without a contact both are zero.
+        let difference = if stored == new { 0.0 } else { (stored - new).abs() / (measures.gain * measure) };
+        list.push(plain(quantity, stored, new, difference));
+    };
+    push(
+        Quantity::Displacement,
+        stored.displacement,
+        new.displacement,
+        new.displacement.max(measures.displacement),
+    );
+    let acceleration = (factor * new.acceleration).max(measures.acceleration);
+    push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
+    push(Quantity::ContactForce, stored.contact_force, new.contact_force, factor * new.contact_force);
+    push(
+        Quantity::ImpactVelocity,
+        stored.impact_velocity,
+        new.impact_velocity,
+        new.impact_velocity.max(measures.contact[1]),
+    );
+    push(Quantity::Impulse, stored.impulse, new.impulse, factor * new.impulse);
+}
+
+/// As many contacts may come or go as graze.
+fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
+    let (stored, new) = (row.maxima.contacts, found.maxima.contacts);
+    let missing = stored.abs_diff(new);
+    let allowed = missing > 0 && missing as usize <= grazing;
+    Comparison {
+        grazing: allowed,
+        ..plain(Quantity::Contacts, stored.into(), new.into(), if missing > 0 { f64::INFINITY } else { 0.0 })
+    }
+}
+
+fn multipliers(solution: &PeriodicSolution, found: &Recomputed, grazing: bool) -> Vec<Comparison> {
+    let mut left = found.multipliers.clone();
+    let mut list = Vec::new();
+    for [re, im] in &solution.floquet_multipliers {
+        let stored = faer::c64::new(*re, *im);
+        let distance = |k: usize, left: &[super::spectrum::Multiplier]| (left[k].value - stored).norm();
+        let nearest = (0..left.len()).min_by(|a, b| distance(*a, &left).total_cmp(&distance(*b, &left)));
+        let Some(nearest) = nearest else { break };
+        let error = distance(nearest, &left);
+        let multiplier = left.swap_remove(nearest);
+        let measure = multiplier.condition * (1.0 + found.monodromy);
+        let difference = if error.is_nan() { f64::INFINITY } else { error / measure };
+        let (stored, new) = (stored.norm(), multiplier.value.norm());
+        list.push(Comparison { grazing, ..plain(Quantity::Multipliers, stored, new, difference) });
+    }
+    if solution.floquet_multipliers.len() != found.multipliers.len() {
+        let counts = (solution.floquet_multipliers.len() as f64, found.multipliers.len() as f64);
+        list.push(plain(Quantity::Multipliers, counts.0, counts.1, f64::INFINITY));
+    }
+    list
+}
+
+/// What the row says of the multipliers is what is stored of them.
+fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
+    let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or_default();
+    let same = row.leading_multiplier == [re, im.abs()] && row.stable == solution.stable();
+    let [row_re, row_im] = row.leading_multiplier;
+    (!same).then(|| plain(Quantity::Multipliers, row_re.hypot(row_im), re.hypot(im), f64::INFINITY))
+}
+
+/// Where each event puts a multiplier; a grazing has an extremum of a penetration at zero.
+fn events(row: &Row, found: &Recomputed, measures: &Measures) -> Vec<Comparison> {
+    let nearest = |distance: &dyn Fn(faer::c64) -> f64| {
+        let distances = found.multipliers.iter().map(|multiplier| distance(multiplier.value));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    let mut list = Vec::new();
+    let mut claim = |claimed: bool, distance: f64| {
+        if claimed {
+            list.push(plain(Quantity::Events, 0.0, distance, distance));
+        }
+    };
+    claim(row.events.fold, nearest(&|m| (m - 1.0).norm()));
+    claim(row.events.flip, nearest(&|m| (m + 1.0).norm()));
+    let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
+    claim(row.events.neimark_sacker, nearest(&circle));
+    let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
+    claim(row.events.grazing, touch / measures.contact[0]);
+    list
+}
+
+/// Bound of the difference of a quantity.
+pub(super) fn bound(quantity: Quantity, tolerance: f64) -> f64 {
+    match quantity {
+        Quantity::Events => EVENT.max(tolerance),
+        _ => tolerance,
+    }
+}

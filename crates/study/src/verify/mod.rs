@@ -1,0 +1,176 @@
+//! Stored solutions, held against the general integrator.
+mod compare;
+mod recompute;
+mod report;
+mod sample;
+mod spectrum;
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use hammerbeam_motion::general::GeneralSettings;
+use hammerbeam_orbit::{PeriodicSolution, Side};
+
+pub use report::{Disagreement, Quantity, Verification, Worst};
+
+use crate::{
+    Model, Store, StoreError,
+    store::{BranchRecord, Row},
+};
+use compare::{Comparison, compare};
+use recompute::{recompute, scales};
+
+/// What to verify, and how closely.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VerifySettings {
+    /// Number of solutions; `None` for all.
+    pub sample: Option<u64>,
+    /// Which sample.
+    pub seed: u64,
+    /// The tolerance `tau` of all comparisons; see the module.
+    pub tolerance: f64,
+    /// Number of threads, at least 1; the result does not depend on it.
+    pub jobs: usize,
+}
+
+impl Default for VerifySettings {
+    /// A thousand solutions on one thread.
+    fn default() -> Self {
+        Self { sample: Some(1000), seed: 0, tolerance: TOLERANCE, jobs: 1 }
+    }
+}
+
+/// Default of [`VerifySettings::tolerance`].
+pub const TOLERANCE: f64 = 1e-8;
+
+/// Tolerance of the general integrator: that of the comparisons, with a hundredth for what the steps of an orbit add up to.
+fn motion_tolerance(tolerance: f64) -> f64 {
+    (0.01 * tolerance).clamp(1e-13, 1e-6)
+}
+
+/// Solutions that are in memory at once.
+const BATCH: usize = 1024;
+
+/// A stored solution and where it stands.
+#[derive(Debug)]
+struct Stored {
+    branch: u32,
+    row: Row,
+    solution: PeriodicSolution,
+}
+
+/// Computes stored solutions again and compares.
+///
+/// * `watch`: is told from any thread how many solutions of how many are done, and says whether to go on.
+///
+/// Returns `None` if `watch` said no.
+///
+/// # Errors
+/// The store refuses.
+pub fn verify(
+    store: &Store,
+    model: &Model,
+    settings: &VerifySettings,
+    watch: &(dyn Fn(u64, u64) -> bool + Sync),
+) -> Result<Option<Verification>, StoreError> {
+    let _snapshot = store.snapshot()?;
+    let branches = store.branches()?;
+    let stored: u64 = branches.iter().map(|branch| branch.up.solutions + branch.down.solutions).sum();
+    let chosen = sample::sample(stored, settings.sample.unwrap_or(stored), settings.seed);
+    let places = places(store, &branches, &chosen)?;
+    let mut verification = Verification::new(stored, settings);
+    for batch in places.chunks(BATCH) {
+        let solutions: Vec<Stored> = batch.iter().map(|place| place.read(store)).collect::<Result<_, _>>()?;
+        let done = verification.sampled;
+        let go_on = |more: u64| watch(done + more, places.len() as u64);
+        let Some(results) = compare_all(model, &solutions, settings, &go_on) else { return Ok(None) };
+        for (stored, result) in solutions.iter().zip(results) {
+            verification.add(stored.branch, stored.solution.frequency_hz, result);
+        }
+    }
+    Ok(Some(verification))
+}
+
+/// Where a chosen solution stands.
+#[derive(Debug)]
+struct Place {
+    branch: u32,
+    side: Side,
+    number: u32,
+    row: Row,
+}
+
+impl Place {
+    fn read(&self, store: &Store) -> Result<Stored, StoreError> {
+        let solution = store.solution(self.branch, self.side, self.number)?;
+        Ok(Stored { branch: self.branch, row: self.row, solution })
+    }
+}
+
+/// Places of the chosen solutions, counted end to end along one branch after the other.
+fn places(store: &Store, branches: &[BranchRecord], chosen: &[u64]) -> Result<Vec<Place>, StoreError> {
+    let mut wanted = chosen.iter().copied().peekable();
+    let mut places = Vec::with_capacity(chosen.len());
+    let mut first = 0;
+    for branch in branches {
+        let (down, up) = (branch.down.solutions, branch.up.solutions);
+        let mut index = 0;
+        store.each_row::<StoreError>(branch, |row| {
+            if wanted.next_if_eq(&(first + index)).is_some() {
+                // The down side is read from its end.
+                let (side, number) =
+                    if index < down { (Side::Down, down - 1 - index) } else { (Side::Up, index - down) };
+                places.push(Place { branch: branch.id, side, number: number as u32, row });
+            }
+            index += 1;
+            Ok(())
+        })?;
+        first += down + up;
+    }
+    Ok(places)
+}
+
+type Compared = Result<Vec<Comparison>, String>;
+
+/// Comparisons of each solution, in their order; `None` if stopped.
+fn compare_all(
+    model: &Model,
+    solutions: &[Stored],
+    settings: &VerifySettings,
+    go_on: &(dyn Fn(u64) -> bool + Sync),
+) -> Option<Vec<Compared>> {
+    let (next, done, stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
+    let work = || {
+        let mut results = Vec::new();
+        while !stopped.load(Ordering::Relaxed) {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(stored) = solutions.get(index) else { break };
+            results.push((index, compare_one(model, stored, settings)));
+            if !go_on(done.fetch_add(1, Ordering::Relaxed) as u64 + 1) {
+                stopped.store(true, Ordering::Relaxed);
+            }
+        }
+        results
+    };
+    let mut results: Vec<(usize, Compared)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..settings.jobs.max(1)).map(|_| scope.spawn(work)).collect();
+        let mut results = work();
+        for other in others {
+            results.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        }
+        results
+    });
+    if results.len() < solutions.len() {
+        return None;
+    }
+    results.sort_unstable_by_key(|(index, _)| *index);
+    Some(results.into_iter().map(|(_, result)| result).collect())
+}
+
+fn compare_one(model: &Model, stored: &Stored, settings: &VerifySettings) -> Compared {
+    let scales = scales(&model.system, &stored.solution);
+    let motion = GeneralSettings::with_tolerance(motion_tolerance(settings.tolerance));
+    let found = recompute(model, &stored.solution, &scales, &motion).map_err(|failed| failed.to_string())?;
+    let (system, solution) =
+        ((&model.system, model.response.shape.as_slice()), (&stored.row, &stored.solution));
+    Ok(compare(system, solution, &scales, &found, settings.tolerance))
+}

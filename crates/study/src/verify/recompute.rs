@@ -1,0 +1,129 @@
+//! One stored solution, computed again with the general integrator.
+
+use std::f64::consts::TAU;
+
+use faer::Mat;
+use hammerbeam_motion::{
+    Stretch, System,
+    general::{GeneralError, GeneralSettings, Observed, observe},
+};
+use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
+
+use super::spectrum::{Multiplier, norm, spectrum};
+use crate::Model;
+
+/// What the general integrator makes of the stored first node.
+#[derive(Debug, Clone)]
+pub(super) struct Recomputed {
+    /// Largest `|Z_k - z_k| / (1 + |A_k|)` over the nodes, the last of which is the first.
+    pub(super) residual: f64,
+    /// `G = 1 + max_k |A_k|`.
+    pub(super) gain: f64,
+    /// `|A_m|`.
+    pub(super) monodromy: f64,
+    /// Eigenvalues of `A_m`.
+    pub(super) multipliers: Vec<Multiplier>,
+    pub(super) maxima: OrbitMaxima,
+    /// Extrema of the penetrations of all contacts [m].
+    pub(super) extrema: Vec<f64>,
+}
+
+/// Why a stored solution could not be computed again.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Failed {
+    Motion(GeneralError),
+    /// No node, or nodes of another length.
+    Nodes,
+    Spectrum,
+}
+
+impl std::fmt::Display for Failed {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Motion(error) => error.fmt(formatter),
+            Self::Nodes => formatter.write_str("the stored nodes are not states of the system"),
+            Self::Spectrum => formatter.write_str("the multipliers were not found"),
+        }
+    }
+}
+
+/// Scales of a state: displacements `V / max(w_i, 2 pi f)`, velocities `V`, so that the largest node has the norm 1.
+pub(super) fn scales(system: &System, solution: &PeriodicSolution) -> Vec<f64> {
+    let reference = TAU * solution.frequency_hz;
+    let rates = system.model().natural_frequencies.iter().map(|w| w.max(reference));
+    let unit: Vec<f64> = rates.map(f64::recip).chain(vec![1.0; system.dof()]).collect();
+    let largest = solution.nodes.iter().map(|node| distance(node, None, &unit)).fold(0.0, f64::max);
+    let velocity = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
+    unit.iter().map(|scale| scale * velocity).collect()
+}
+
+fn distance(a: &[f64], b: Option<&[f64]>, scales: &[f64]) -> f64 {
+    let part = |i: usize| (a[i] - b.map_or(0.0, |b| b[i])) / scales[i];
+    (0..a.len()).map(|i| part(i).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Follows the motion from the first node over the whole orbit, and compares it with the others on the way.
+pub(super) fn recompute(
+    model: &Model,
+    solution: &PeriodicSolution,
+    scales: &[f64],
+    settings: &GeneralSettings,
+) -> Result<Recomputed, Failed> {
+    let (system, size, segments) = (&model.system, scales.len(), solution.nodes.len());
+    if segments == 0 || solution.nodes.iter().any(|node| node.len() != size) {
+        return Err(Failed::Nodes);
+    }
+    let response = (model.response.shape.as_slice(), model.response.support_ratio);
+    let mut settings = *settings;
+    let (mut state, mut product) = (solution.nodes[0].clone(), Mat::<f64>::identity(size, size));
+    let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
+    let mut joined: Option<Observed> = None;
+    for k in 0..segments {
+        let phase = |k: usize| f64::from(solution.period_multiple) * k as f64 / segments as f64;
+        let stretch = Stretch { frequency_hz: solution.frequency_hz, start: phase(k), end: phase(k + 1) };
+        let observed = observe(system, &stretch, &state, response, &settings).map_err(Failed::Motion)?;
+        settings.first_step = Some(observed.next_step);
+        state.clone_from(&observed.flow.state);
+        let matrix = &observed.flow.by_state;
+        product = Mat::from_fn(size, size, |i, j| matrix[(i, j)] / scales[i] * scales[j]) * &product;
+        let gain = norm(&product);
+        let miss = distance(&state, Some(&solution.nodes[(k + 1) % segments]), scales);
+        residual = residual.max(miss / (1.0 + gain));
+        largest = largest.max(gain);
+        joined = Some(match joined {
+            None => observed,
+            Some(earlier) => join(earlier, observed),
+        });
+    }
+    let observed = joined.ok_or(Failed::Nodes)?;
+    let multipliers = spectrum(&product).ok_or(Failed::Spectrum)?;
+    Ok(Recomputed {
+        residual,
+        gain: 1.0 + largest,
+        monodromy: norm(&product),
+        multipliers,
+        maxima: OrbitMaxima {
+            displacement: observed.displacement,
+            acceleration: observed.acceleration,
+            contact_force: observed.contact_force,
+            impact_velocity: observed.impact_velocity,
+            impulse: observed.impulse,
+            contacts: observed.touches + observed.closed_throughout.count_ones(),
+        },
+        extrema: observed.extrema,
+    })
+}
+
+fn join(earlier: Observed, later: Observed) -> Observed {
+    Observed {
+        displacement: earlier.displacement.max(later.displacement),
+        acceleration: earlier.acceleration.max(later.acceleration),
+        contact_force: earlier.contact_force.max(later.contact_force),
+        impact_velocity: earlier.impact_velocity.max(later.impact_velocity),
+        impulse: earlier.impulse + later.impulse,
+        touches: earlier.touches + later.touches,
+        closed_throughout: earlier.closed_throughout & later.closed_throughout,
+        extrema: [earlier.extrema, later.extrema].concat(),
+        ..later
+    }
+}
