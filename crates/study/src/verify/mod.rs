@@ -94,6 +94,7 @@ pub fn verify(
 #[derive(Debug)]
 struct Place {
     branch: u32,
+    start: u32,
     side: Side,
     number: u32,
     row: Row,
@@ -101,7 +102,7 @@ struct Place {
 
 impl Place {
     fn read(&self, store: &Store) -> Result<Stored, StoreError> {
-        let solution = store.solution(self.branch, self.side, self.number)?;
+        let solution = store.solution(self.start, self.side, self.number)?;
         Ok(Stored { branch: self.branch, row: self.row, solution })
     }
 }
@@ -119,7 +120,13 @@ fn places(store: &Store, branches: &[BranchRecord], chosen: &[u64]) -> Result<Ve
                 // The down side is read from its end.
                 let (side, number) =
                     if index < down { (Side::Down, down - 1 - index) } else { (Side::Up, index - down) };
-                places.push(Place { branch: branch.id, side, number: number as u32, row });
+                places.push(Place {
+                    branch: branch.id,
+                    start: branch.start,
+                    side,
+                    number: number as u32,
+                    row,
+                });
             }
             index += 1;
             Ok(())
