@@ -1,6 +1,7 @@
 //! Work counts along fixed stretches of the harmonic branch: evaluations of the shooting equations per accepted solution.
 //!
-//! The counts are deterministic. The bounds lie a few percent above what was measured, so that a change which costs evaluations is seen.
+//! The counts are deterministic; they hold what it takes to locate flips, Neimark-Sacker points and grazing. The bounds lie a few percent above
+//! what was measured, so that a change which costs evaluations is seen.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 mod common;
@@ -30,9 +31,9 @@ macro_rules! pinned {
 }
 
 pinned! {
-    thickets_of_folds_at_the_default_step: 30.0 to 19.0 Hz at 0.02 Hz <= 2.35;
-    resonance_and_beyond_at_the_default_step: 30.0 to 60.0 Hz at 0.02 Hz <= 2.15;
-    smooth_part_at_the_default_step: 50.0 to 55.0 Hz at 0.02 Hz <= 2.05;
+    thickets_of_folds_at_the_default_step: 30.0 to 19.0 Hz at 0.02 Hz <= 2.76;
+    resonance_and_beyond_at_the_default_step: 30.0 to 60.0 Hz at 0.02 Hz <= 2.30;
+    smooth_part_at_the_default_step: 50.0 to 55.0 Hz at 0.02 Hz <= 2.13;
     smooth_part_at_a_step_of_0_001_hz: 50.0 to 50.5 Hz at 0.001 Hz <= 1.02;
     resonance_at_a_step_of_0_001_hz: 36.0 to 36.5 Hz at 0.001 Hz <= 1.02;
 }

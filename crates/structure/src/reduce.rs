@@ -46,7 +46,7 @@ impl Structure {
     ) -> Result<Reduced, StructureError> {
         let coordinates = self.coordinates("the interface", interface)?;
         let full = self.supported_modes()?;
-        let basis = reduction.basis(self, &coordinates)?;
+        let basis = reduction.basis(self, &full, &coordinates)?;
         let (frequencies, shapes) = self.relative_modes(&full, basis.as_ref())?;
         let shapes = orient(self.over_all(shapes), &coordinates, &self.assembly.translation);
         let model = self.modal_form(frequencies, &shapes, self.support_shape(&full), damping)?;
@@ -123,7 +123,8 @@ impl Structure {
         let kept_hz = basis.map(|basis| basis.kept_hz).unwrap_or_default();
         let (free_interface_hz, fixed_interface_hz) = match reduction {
             Reduction::FixedInterface { .. } => (Vec::new(), kept_hz),
-            _ => (kept_hz, Vec::new()),
+            Reduction::Truncation { .. } => (Vec::new(), Vec::new()),
+            Reduction::FreeInterface { .. } | Reduction::None => (kept_hz, Vec::new()),
         };
         ModeTables {
             clamped_hz,

@@ -9,7 +9,7 @@ mod interface;
 
 use faer::Mat;
 
-use crate::{Structure, StructureError, error::positive, structure::Kind};
+use crate::{Structure, StructureError, error::positive, modes::Modes, structure::Kind};
 
 /// How a structure is reduced.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +30,11 @@ pub enum Reduction {
         /// Highest eigenfrequency kept [Hz].
         cut_off_hz: f64,
     },
+    /// The modes of the supported structure up to a cut-off frequency, without static corrections: a local force meets too stiff a structure.
+    Truncation {
+        /// Highest eigenfrequency kept [Hz].
+        cut_off_hz: f64,
+    },
 }
 
 /// What a method hands over.
@@ -46,14 +51,19 @@ impl Reduction {
     pub fn cut_off_hz(&self) -> Option<f64> {
         match *self {
             Self::None => None,
-            Self::FreeInterface { cut_off_hz } | Self::FixedInterface { cut_off_hz } => Some(cut_off_hz),
+            Self::FreeInterface { cut_off_hz }
+            | Self::FixedInterface { cut_off_hz }
+            | Self::Truncation { cut_off_hz } => Some(cut_off_hz),
         }
     }
 
     /// The basis, or `None` if the structure stays as it is.
+    ///
+    /// * `full`: modes of the supported structure.
     pub(crate) fn basis(
         &self,
         structure: &Structure,
+        full: &Modes,
         interface: &[usize],
     ) -> Result<Option<Basis>, StructureError> {
         let Some(cut_off_hz) = self.cut_off_hz() else { return Ok(None) };
@@ -62,6 +72,10 @@ impl Reduction {
             return Err(StructureError::LumpedIsNotReduced);
         }
         let basis = match self {
+            Self::Truncation { .. } => full.kept(cut_off_hz).map(|kept| Basis {
+                relative: full.shapes.subcols(0, kept).to_owned(),
+                kept_hz: full.frequencies_hz()[..kept].to_vec(),
+            }),
             Self::FixedInterface { .. } => fixed_interface::basis(structure, cut_off_hz, interface),
             _ => free_interface::basis(structure, cut_off_hz, interface),
         };

@@ -23,13 +23,16 @@ pub enum ReductionMethod {
     FreeInterface,
     /// Fixed-interface modes with constraint modes.
     FixedInterface,
+    /// The eigenmodes of the supported structure up to the cut-off.
+    Truncation,
     /// The eigenmodes of the supported structure themselves.
     None,
 }
 
-const METHODS: [(&str, ReductionMethod); 3] = [
+const METHODS: [(&str, ReductionMethod); 4] = [
     ("free-interface", ReductionMethod::FreeInterface),
     ("fixed-interface", ReductionMethod::FixedInterface),
+    ("truncation", ReductionMethod::Truncation),
     ("none", ReductionMethod::None),
 ];
 

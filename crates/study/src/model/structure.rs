@@ -66,6 +66,7 @@ fn reduction(study: &Study) -> linear::Reduction {
     let cut_off_hz = study.reduction.cut_off_hz;
     match study.reduction.method {
         ReductionMethod::FreeInterface => linear::Reduction::FreeInterface { cut_off_hz },
+        ReductionMethod::Truncation => linear::Reduction::Truncation { cut_off_hz },
         ReductionMethod::FixedInterface => linear::Reduction::FixedInterface { cut_off_hz },
         ReductionMethod::None => linear::Reduction::None,
     }
