@@ -29,6 +29,15 @@ pub enum OrbitError {
         "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts"
     )]
     NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },
+    /// The period asked for is not one that is looked for.
+    #[error("the period multiple is {found}, must be from 1 to {most}")]
+    PeriodMultiple { found: u32, most: u32 },
+    /// A search has used up the solutions it may spend on following branches; there may be more orbits.
+    #[error("the search at {frequency_hz} Hz ended after following branches over {solutions} solutions")]
+    SearchBudget { frequency_hz: f64, solutions: usize },
+    /// The caller asked to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// A stored checkpoint does not fit this system or version.
     #[error("the checkpoint does not belong to this system")]
     Checkpoint,

@@ -11,6 +11,7 @@
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
 //! | `start.rs`, `find.rs` | the first orbit of a branch; all orbits at one frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
+//! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
 //! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
@@ -54,6 +55,7 @@ mod eigenvalues;
 mod error;
 mod find;
 mod free;
+mod recompute;
 mod resegment;
 mod settings;
 mod shooting;
@@ -64,9 +66,10 @@ mod walk;
 
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
-pub use find::{find_orbits, reach_orbit};
+pub use find::{FoundOrbits, find_orbits, reach_orbit};
 pub use free::{FreeOrbit, free_orbit};
+pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
-pub use start::find_start;
+pub use start::{Interruption, find_start, find_start_unless};
 pub use walk::BranchWalk;

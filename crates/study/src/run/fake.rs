@@ -42,7 +42,15 @@ impl FakeSolver {
 }
 
 impl Solver for FakeSolver {
-    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String> {
+    fn find_start(
+        &self,
+        frequency_hz: f64,
+        period_multiple: u32,
+        interrupted: hammerbeam_orbit::Interruption<'_>,
+    ) -> Result<PeriodicSolution, String> {
+        if interrupted() {
+            return Err("interrupted".to_owned());
+        }
         match period_multiple {
             1 => Ok(self.solution(1, 0.0)),
             2 => Ok(self.solution(2, frequency_hz - 15.0)),

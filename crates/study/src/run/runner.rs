@@ -52,7 +52,12 @@ pub fn run(
             None if observer.interrupted() => return Ok(RunOutcome::Interrupted),
             None => search(store, solver, target, observer)?,
         };
-        let Some(branch) = branch else { continue };
+        let Some(branch) = branch else {
+            if observer.interrupted() {
+                return Ok(RunOutcome::Interrupted);
+            }
+            continue;
+        };
         if follow_branch(store, solver, plan, branch, &mut done, observer)? == Ended::Interrupted {
             return Ok(RunOutcome::Interrupted);
         }
@@ -89,7 +94,7 @@ fn is_covered(store: &Store, target: &Target) -> Result<bool, RunError> {
     Ok(false)
 }
 
-/// Looks for a start; the new branch, if there is one.
+/// Looks for a start; the new branch, if there is one. A search that is interrupted is not noted, so that it is made again.
 fn search(
     store: &mut Store,
     solver: &dyn Solver,
@@ -97,7 +102,9 @@ fn search(
     observer: &mut dyn Observer,
 ) -> Result<Option<u32>, RunError> {
     observer.searching(target);
-    let outcome = match solver.find_start(target.frequency_hz, target.period_multiple) {
+    let interrupted = &mut || observer.interrupted();
+    let outcome = match solver.find_start(target.frequency_hz, target.period_multiple, interrupted) {
+        Err(_) if observer.interrupted() => return Ok(None),
         Err(message) => message,
         Ok(start) => match known::branch_of(store, &start)? {
             Some(branch) => format!("on branch {branch}"),

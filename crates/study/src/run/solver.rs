@@ -1,14 +1,21 @@
 //! What a run needs of the numerics; the rest of this module knows no more of them than this.
 
-use hammerbeam_orbit::{BranchRow, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{BranchRow, Interruption, PeriodicSolution, Side, StopReason};
 
 /// Finds periodic solutions and follows their branches.
 pub trait Solver {
     /// A periodic solution of minimal period `period_multiple` near which a branch can begin.
     ///
+    /// * `interrupted`: asked now and then; the search ends with an error when it says true.
+    ///
     /// # Errors
     /// Why there is none, in words.
-    fn find_start(&self, frequency_hz: f64, period_multiple: u32) -> Result<PeriodicSolution, String>;
+    fn find_start(
+        &self,
+        frequency_hz: f64,
+        period_multiple: u32,
+        interrupted: Interruption<'_>,
+    ) -> Result<PeriodicSolution, String>;
 
     /// A walk along the branch from its start.
     ///
