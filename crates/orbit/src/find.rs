@@ -2,7 +2,7 @@
 //!
 //! Three sources, none of which needs a guess, the cheap ones first: motion that has settled, from several starts; near-returns of motion that has not settled,
 //! which Newton's method takes to unstable orbits; and the crossings of that frequency by the branch of any orbit found within the range.
-//! If nothing is found at the frequency itself, branches are begun elsewhere in the range.
+//! If nothing is found at the frequency itself, motions are followed there for longer, then branches are begun elsewhere in the range.
 //!
 //! The work is bounded: motion ends where it has settled, and the branches may take [`MOST_SOLUTIONS`] together. A search that was bounded by that, or by motion that
 //! could not be computed, says so.
@@ -27,7 +27,7 @@ const RETURNS: usize = 160;
 /// Near-returns tried per start.
 const TRIED: usize = 8;
 /// Steps of the branches followed are this many times longer than those of a run; corrector and contacts shorten them where needed.
-const COARSER: f64 = 4.0;
+const COARSER: f64 = 20.0;
 /// Solutions on one side of a branch,
 const MOST_ON_A_SIDE: usize = 5000;
 /// and on all branches of a search.
@@ -273,19 +273,15 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// An orbit where a branch can begin: by a longer look at the frequency itself, then at others.
     fn start_elsewhere(&mut self) -> Result<Option<PeriodicSolution>, OrbitError> {
         let (low, high) = self.range_hz;
-        for part in LADDER {
-            let orbit = (low + part * (high - low), self.orbit.1);
-            let (system, response) = (self.system, self.response);
-            let start = search_start(
-                system,
-                response,
-                orbit,
-                ELSEWHERE_EFFORT,
-                self.settings,
-                &mut *self.interrupted,
-            );
+        let (system, response) = (self.system, self.response);
+        let here = std::iter::once((self.orbit.0, Effort::FULL));
+        let elsewhere = LADDER.iter().map(|part| (low + part * (high - low), ELSEWHERE_EFFORT));
+        for (frequency_hz, effort) in here.chain(elsewhere) {
+            let orbit = (frequency_hz, self.orbit.1);
+            let start = search_start(system, response, orbit, effort, self.settings, &mut *self.interrupted);
             match start {
                 Err(OrbitError::NoOrbit { .. }) => {}
                 start => {
@@ -340,7 +336,11 @@ impl Search<'_> {
         } else {
             after.to_vec()
         };
-        let found = attempt_nodes(self.system, self.response, &guess, self.orbit, self.settings)?;
+        let found = match attempt_nodes(self.system, self.response, &guess, self.orbit, self.settings)? {
+            Some(solution) => Some(solution),
+            // The motion from the first node may be a better guess than nodes on a chord.
+            None => attempt(self.system, self.response, &guess[0], self.orbit, self.settings)?,
+        };
         let Some(solution) = found else { return Ok(()) };
         let scale = state_scale(self.system, &solution.nodes[0], self.orbit.0);
         let near = scale.distance(&solution.nodes[0], &guess[0]) <= scale.distance(&before[0], &after[0]);

@@ -14,7 +14,7 @@ use crate::{
 
 const MAX_ITERATIONS: u32 = 25;
 /// After so many iterations,
-const MANY: u32 = 25;
+const MANY: u32 = 12;
 /// a correction that is still larger than this, relative to the orbit, means that the guess leads nowhere.
 const STILL_FAR: f64 = 0.3;
 

@@ -29,6 +29,11 @@ pub(crate) struct Effort {
     pub attempts: usize,
 }
 
+impl Effort {
+    /// What [`find_start`] spends.
+    pub const FULL: Self = Self { starts: STARTS + 1, attempts: ATTEMPTS };
+}
+
 /// Asked now and then: true if the caller wants the search to end.
 pub type Interruption<'a> = &'a mut dyn FnMut() -> bool;
 
@@ -60,8 +65,7 @@ pub fn find_start_unless(
     settings: &OrbitSettings,
     interrupted: Interruption<'_>,
 ) -> Result<PeriodicSolution, OrbitError> {
-    let effort = Effort { starts: STARTS + 1, attempts: ATTEMPTS };
-    search_start(system, response, (frequency_hz, period_multiple), effort, settings, interrupted)
+    search_start(system, response, (frequency_hz, period_multiple), Effort::FULL, settings, interrupted)
 }
 
 /// [`find_start_unless`] with a given effort.
