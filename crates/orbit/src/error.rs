@@ -32,6 +32,15 @@ pub enum OrbitError {
     /// No other branch was found where one should leave.
     #[error("no other branch was found beside the crossing at {frequency_hz} Hz")]
     NoCrossing { frequency_hz: f64 },
+    /// The period asked for is not one that is looked for.
+    #[error("the period multiple is {found}, must be from 1 to {most}")]
+    PeriodMultiple { found: u32, most: u32 },
+    /// A search has used up the solutions it may spend on following branches; there may be more orbits.
+    #[error("the search at {frequency_hz} Hz ended after following branches over {solutions} solutions")]
+    SearchBudget { frequency_hz: f64, solutions: usize },
+    /// The caller asked to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// A stored checkpoint does not fit this system or version.
     #[error("the checkpoint does not belong to this system")]
     Checkpoint,

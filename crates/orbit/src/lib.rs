@@ -11,6 +11,7 @@
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
 //! | `start.rs`, `find.rs` | the first orbit of a branch; all orbits at one frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
+//! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
@@ -59,6 +60,7 @@ mod find;
 mod free;
 mod located;
 mod matching;
+mod recompute;
 mod resegment;
 mod settings;
 mod shooting;
@@ -72,13 +74,14 @@ mod walk;
 
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
-pub use find::{find_orbits, reach_orbit};
+pub use find::{FoundOrbits, find_orbits, reach_orbit};
 pub use free::{FreeOrbit, free_orbit};
 pub use located::{ContactChange, EventStatus, LocatedEvent};
 pub use matching::Matcher;
+pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
-pub use start::find_start;
+pub use start::{Interruption, find_start, find_start_unless};
 pub use survey::{SurveyEffort, survey};
 pub use switch::Crossing;
 pub use walk::BranchWalk;

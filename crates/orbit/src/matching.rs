@@ -8,7 +8,7 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     shooting::StateScale,
-    solve::{integrator, orbit_near, state_scale},
+    solve::{integrator, nodes_from, orbit_near, state_scale},
 };
 
 /// States of an orbit at phase 0 of each of its excitation periods.
@@ -77,11 +77,16 @@ impl<'a> Matcher<'a> {
         if distance > FAR {
             return false;
         }
-        let Ok(integrator) = integrator(self.system, self.response, self.settings) else { return false };
-        let shape = (self.orbit.frequency_hz, self.orbit.period_multiple, self.orbit.nodes.len());
-        match orbit_near(integrator, guess, shape, self.settings) {
-            Ok((found, _)) => self.distance(&found.nodes[0]) < SAME.max(1e-3 * distance.min(NEAR)),
+        match self.correct(guess) {
+            Ok(found) => self.distance(&found.nodes[0]) < SAME.max(1e-3 * distance.min(NEAR)),
             Err(_) => distance < NEAR,
         }
+    }
+
+    fn correct(&self, guess: &[f64]) -> Result<PeriodicSolution, OrbitError> {
+        let mut integrator = integrator(self.system, self.response, self.settings)?;
+        let orbit = (self.orbit.frequency_hz, self.orbit.period_multiple);
+        let nodes = nodes_from(&mut integrator, guess, orbit.0, orbit.1, self.orbit.nodes.len())?;
+        Ok(orbit_near(integrator, &nodes, orbit, self.settings)?.0)
     }
 }

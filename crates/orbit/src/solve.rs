@@ -12,6 +12,10 @@ use crate::{
 };
 
 const MAX_ITERATIONS: u32 = 25;
+/// After so many iterations,
+const MANY: u32 = 12;
+/// a correction that is still larger than this, relative to the orbit, means that the guess leads nowhere.
+const STILL_FAR: f64 = 0.3;
 
 /// An integrator of the system that observes the response.
 pub(crate) fn integrator(
@@ -40,19 +44,25 @@ pub(crate) fn correct(
     settings: &OrbitSettings,
 ) -> Result<f64, OrbitError> {
     let last = point.len() - 1;
-    let frequency_hz = point[last];
     let mut row = vec![0.0; point.len()];
     row[last] = 1.0;
+    correct_in_plane(problem, point, &row, settings)
+}
+
+/// Newton's method in the plane with this border through `point`, which ends at the orbit; returns the correction that is still due.
+pub(crate) fn correct_in_plane(
+    problem: &mut ShootingProblem,
+    point: &mut [f64],
+    row: &[f64],
+    settings: &OrbitSettings,
+) -> Result<f64, OrbitError> {
+    let frequency_hz = point[point.len() - 1];
     let mut correction = f64::INFINITY;
-    for _ in 0..MAX_ITERATIONS {
-        evaluate(problem, point)?;
-        let failed = OrbitError::NotConverged { frequency_hz, correction, iterations: MAX_ITERATIONS };
-        problem.factorise(&row).map_err(|_| failed.clone())?;
-        let mut update: Vec<f64> = problem.residual().iter().map(|r| -r).chain([0.0]).collect();
-        problem.solve(&mut update);
-        let squares = update.iter().zip(problem.weights()).map(|(u, w)| w * u * u);
-        correction = squares.sum::<f64>().sqrt();
-        if !correction.is_finite() {
+    for iterations in 1..=MAX_ITERATIONS {
+        let failed = OrbitError::NotConverged { frequency_hz, correction, iterations };
+        let update;
+        (update, correction) = newton_update(problem, point, row)?;
+        if !correction.is_finite() || (iterations >= MANY && correction > STILL_FAR) {
             return Err(failed);
         }
         if correction <= settings.tolerance {
@@ -60,9 +70,26 @@ pub(crate) fn correct(
         }
         // A guess that is far off is approached in steps as large as the motion itself.
         let factor = (1.0 / correction).min(1.0);
-        point[..last].iter_mut().zip(&update).for_each(|(x, u)| *x += factor * u);
+        point.iter_mut().zip(&update).for_each(|(x, u)| *x += factor * u);
     }
     Err(OrbitError::NotConverged { frequency_hz, correction, iterations: MAX_ITERATIONS })
+}
+
+/// Newton's correction at a point in the plane with this border, and its norm; the problem was then evaluated last there.
+pub(crate) fn newton_update(
+    problem: &mut ShootingProblem,
+    point: &[f64],
+    row: &[f64],
+) -> Result<(Vec<f64>, f64), OrbitError> {
+    evaluate(problem, point)?;
+    let frequency_hz = point[point.len() - 1];
+    let failed = OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: 0 };
+    problem.factorise(row).map_err(|_| failed)?;
+    let mut update: Vec<f64> = problem.residual().iter().map(|r| -r).chain([0.0]).collect();
+    problem.solve(&mut update);
+    let squares = update.iter().zip(problem.weights()).map(|(u, w)| w * u * u);
+    let size = squares.sum::<f64>().sqrt();
+    Ok((update, size))
 }
 
 /// Evaluates the problem and keeps the reason of a failure.
@@ -170,20 +197,19 @@ pub(crate) fn distance_to_shorter_period(
     Ok(smallest)
 }
 
-/// Corrects an orbit near `state` at a fixed frequency.
+/// Corrects an orbit near these nodes, one per segment, at a fixed frequency.
 ///
 /// # Errors
 /// [`OrbitError::NotConverged`] if Newton's method fails, [`OrbitError::Motion`] if the motion does.
 pub(crate) fn orbit_near(
     integrator: ExactIntegrator,
-    state: &[f64],
-    (frequency_hz, period_multiple, segments): (f64, u32, usize),
+    nodes: &[Vec<f64>],
+    (frequency_hz, period_multiple): (f64, u32),
     settings: &OrbitSettings,
 ) -> Result<(PeriodicSolution, ShootingProblem), OrbitError> {
-    let scale = state_scale(integrator.system(), state, frequency_hz);
-    let mut problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, 1.0);
-    let nodes = nodes_from(problem.integrator(), state, frequency_hz, period_multiple, segments)?;
-    let mut point = problem.point(&nodes, frequency_hz);
+    let scale = state_scale(integrator.system(), &nodes[0], frequency_hz);
+    let mut problem = ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0);
+    let mut point = problem.point(nodes, frequency_hz);
     let correction = correct(&mut problem, &mut point, settings)?;
     let solution = solution(&mut problem, &point, correction)?;
     Ok((solution, problem))

@@ -4,7 +4,7 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
-    solve::{has_minimal_period, integrator, orbit_near, state_scale},
+    solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_scale},
 };
 
 /// Excitation periods simulated between two attempts of Newton's method.
@@ -14,12 +14,36 @@ const ATTEMPTS: usize = 12;
 /// Starts besides the linear response.
 pub(crate) const STARTS: usize = 6;
 
+/// Distance over an orbit period, relative to the motion, below which it has settled: what Newton's method does not find there, it
+/// will not find later.
+pub(crate) const SETTLED: f64 = 1e-8;
+/// Longest period that is looked for, in excitation periods.
+const MOST_PERIODS: u32 = 64;
+
+/// How much motion a search for a start may spend.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Effort {
+    /// States from which the motion begins, the linear response among them.
+    pub starts: usize,
+    /// Attempts of Newton's method along each motion.
+    pub attempts: usize,
+}
+
+impl Effort {
+    /// What [`find_start`] spends.
+    pub const FULL: Self = Self { starts: STARTS + 1, attempts: ATTEMPTS };
+}
+
+/// Asked now and then: true if the caller wants the search to end.
+pub type Interruption<'a> = &'a mut dyn FnMut() -> bool;
+
 /// Finds one orbit whose minimal period is `period_multiple` excitation periods.
 ///
 /// The motion is simulated from the linear response and from several states about it; now and then Newton's method is tried.
 ///
 /// # Errors
-/// [`OrbitError::NoOrbit`] if no start leads to such an orbit.
+/// [`OrbitError::NoOrbit`] if no start leads to such an orbit; [`OrbitError::Motion`] if none does and some motion could not be computed;
+/// [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64.
 pub fn find_start(
     system: &System,
     response: &Response,
@@ -27,13 +51,51 @@ pub fn find_start(
     period_multiple: u32,
     settings: &OrbitSettings,
 ) -> Result<PeriodicSolution, OrbitError> {
-    for start in starting_states(system, response, frequency_hz, STARTS, settings)? {
-        let found = settle(system, response, &start, (frequency_hz, period_multiple), settings)?;
-        if let Some(solution) = found {
-            return Ok(solution);
+    find_start_unless(system, response, (frequency_hz, period_multiple), settings, &mut || false)
+}
+
+/// [`find_start`], unless it is interrupted.
+///
+/// # Errors
+/// Those of [`find_start`], and [`OrbitError::Interrupted`].
+pub fn find_start_unless(
+    system: &System,
+    response: &Response,
+    (frequency_hz, period_multiple): (f64, u32),
+    settings: &OrbitSettings,
+    interrupted: Interruption<'_>,
+) -> Result<PeriodicSolution, OrbitError> {
+    search_start(system, response, (frequency_hz, period_multiple), Effort::FULL, settings, interrupted)
+}
+
+/// [`find_start_unless`] with a given effort.
+pub(crate) fn search_start(
+    system: &System,
+    response: &Response,
+    (frequency_hz, period_multiple): (f64, u32),
+    effort: Effort,
+    settings: &OrbitSettings,
+    interrupted: Interruption<'_>,
+) -> Result<PeriodicSolution, OrbitError> {
+    check_multiple(period_multiple)?;
+    let mut failure = OrbitError::NoOrbit { frequency_hz, period_multiple, starts: effort.starts };
+    for start in starting_states(system, response, frequency_hz, effort.starts - 1, settings)? {
+        let orbit = (frequency_hz, period_multiple);
+        match settle(system, response, (&start, effort.attempts), orbit, settings, &mut *interrupted) {
+            Ok(Some(solution)) => return Ok(solution),
+            Ok(None) => {}
+            Err(error @ OrbitError::Motion(_)) => failure = error,
+            Err(error) => return Err(error),
         }
     }
-    Err(OrbitError::NoOrbit { frequency_hz, period_multiple, starts: STARTS + 1 })
+    Err(failure)
+}
+
+/// # Errors
+/// [`OrbitError::PeriodMultiple`].
+pub(crate) fn check_multiple(found: u32) -> Result<(), OrbitError> {
+    let most = MOST_PERIODS;
+    if (1..=most).contains(&found) { Ok(()) } else { Err(OrbitError::PeriodMultiple { found, most }) }
 }
 
 /// The linear response, and states in its neighbourhood and well beyond it, always the same ones.
@@ -67,24 +129,29 @@ pub(crate) fn starting_states(
     Ok(states)
 }
 
-/// Simulates from `state` and tries Newton's method now and then.
+/// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has settled on one of another period.
 fn settle(
     system: &System,
     response: &Response,
-    state: &[f64],
-    (frequency_hz, period_multiple): (f64, u32),
+    (state, attempts): (&[f64], usize),
+    orbit: (f64, u32),
     settings: &OrbitSettings,
+    interrupted: Interruption<'_>,
 ) -> Result<Option<PeriodicSolution>, OrbitError> {
+    let (frequency_hz, lag) = (orbit.0, orbit.1 as usize);
     let mut simulation = integrator(system, response, settings)?;
     let mut state = state.to_vec();
-    for _ in 0..ATTEMPTS {
-        let rest = simulate(&mut simulation, &mut state, frequency_hz, PERIODS);
-        if rest.is_err() {
-            return Ok(None);
+    for _ in 0..attempts {
+        if interrupted() {
+            return Err(OrbitError::Interrupted);
         }
-        let found = attempt(system, response, &state, (frequency_hz, period_multiple), settings)?;
-        if let Some(solution) = found {
-            return Ok(Some(solution));
+        simulate(&mut simulation, &mut state, frequency_hz, PERIODS.saturating_sub(lag))?;
+        let before = state.clone();
+        simulate(&mut simulation, &mut state, frequency_hz, lag.min(PERIODS))?;
+        let found = attempt(system, response, &state, orbit, settings)?;
+        let scale = state_scale(system, &state, frequency_hz);
+        if found.is_some() || scale.distance(&before, &state) < SETTLED {
+            return Ok(found);
         }
     }
     Ok(None)
@@ -116,9 +183,29 @@ pub(crate) fn attempt(
         Segments::Automatic => 1,
         Segments::Fixed(count) => count.max(1),
     };
+    let mut motion = integrator(system, response, settings)?;
+    let nodes = nodes_from(&mut motion, state, frequency_hz, period_multiple, segments)?;
+    attempt_nodes(system, response, &nodes, (frequency_hz, period_multiple), settings)
+}
+
+/// Newton's method from nodes, one per segment; `None` as in [`attempt`].
+///
+/// Far from an orbit Newton's iterates may go where no motion can be computed: that is no more than a guess that was not good enough.
+pub(crate) fn attempt_nodes(
+    system: &System,
+    response: &Response,
+    nodes: &[Vec<f64>],
+    orbit: (f64, u32),
+    settings: &OrbitSettings,
+) -> Result<Option<PeriodicSolution>, OrbitError> {
     let integrator = integrator(system, response, settings)?;
-    let shape = (frequency_hz, period_multiple, segments);
-    let Ok((solution, mut problem)) = orbit_near(integrator, state, shape, settings) else { return Ok(None) };
+    let (solution, mut problem) = match orbit_near(integrator, nodes, orbit, settings) {
+        Ok(found) => found,
+        Err(OrbitError::NotConverged { .. } | OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => {
+            return Ok(None);
+        }
+        Err(error) => return Err(error),
+    };
     let scale = problem.scale().clone();
     Ok(has_minimal_period(problem.integrator(), &scale, &solution)?.then_some(solution))
 }

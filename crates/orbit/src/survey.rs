@@ -11,7 +11,7 @@ use crate::{
     matching::{distance_in_phase, phases},
     shooting::StateScale,
     solve::{integrator, state_scale},
-    start::{attempt, simulate, starting_states},
+    start::{attempt, attempt_nodes, simulate, starting_states},
 };
 
 /// How much is simulated.
@@ -106,8 +106,9 @@ impl Survey<'_> {
         }
         let mut orbits = Vec::new();
         for &multiple in self.multiples {
-            for state in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
-                orbits.extend(self.orbit(state, multiple)?);
+            for nodes in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
+                let orbit = (self.frequency_hz, multiple);
+                orbits.extend(attempt_nodes(self.system, self.response, nodes, orbit, self.settings)?);
             }
         }
         Ok(orbits)
@@ -135,16 +136,16 @@ fn repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Opt
     (1..=largest.min(last)).find(|&period| scale.distance(&states[last], &states[last - period]) < REPEATED)
 }
 
-/// States that come back closest after `lag` periods, the closest first.
-fn nearest_returns<'s>(
+/// Stretches of `lag` periods, one state for each, that end closest to where they begin, the closest first.
+pub(crate) fn nearest_returns<'s>(
     states: &'s [Vec<f64>],
     scale: &StateScale,
     lag: usize,
     most: usize,
-) -> Vec<&'s Vec<f64>> {
+) -> Vec<&'s [Vec<f64>]> {
     let distance = |k: usize| scale.distance(&states[k + lag], &states[k]);
     let mut returns: Vec<(f64, usize)> =
         (0..states.len().saturating_sub(lag)).map(|k| (distance(k), k)).collect();
     returns.sort_by(|x, y| x.0.total_cmp(&y.0));
-    returns.iter().take(most).map(|&(_, k)| &states[k]).collect()
+    returns.iter().take(most).map(|&(_, k)| &states[k..k + lag]).collect()
 }

@@ -195,10 +195,10 @@ impl BranchWalk {
         }
     }
 
-    /// Goes to the next solution but gives only its frequency and first node.
+    /// Goes to the next solution but gives only its frequency and nodes.
     pub(crate) fn step_without_maxima(
         &mut self,
-        states: &mut Vec<(f64, Vec<f64>)>,
+        states: &mut Vec<(f64, Vec<Vec<f64>>)>,
     ) -> Result<Option<StopReason>, OrbitError> {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
@@ -207,11 +207,16 @@ impl BranchWalk {
         match self.advance(&mut from)? {
             None => {
                 let current = self.follower.current();
-                states.push((current.parameter(), self.problem.nodes(&current.point).swap_remove(0)));
+                states.push((current.parameter(), self.problem.nodes(&current.point)));
                 Ok(None)
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
+    }
+
+    /// Why the motion could not be computed at the last evaluation, if so.
+    pub(crate) fn motion_failure(&self) -> Option<OrbitError> {
+        self.problem.failure().map(|failure| OrbitError::Motion(failure.clone()))
     }
 
     /// Shooting evaluations since the start of the walk.

@@ -11,12 +11,18 @@ use hammerbeam_motion::{
     Stretch, System,
     general::{GeneralSettings, advance},
 };
-use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, Segments, find_start};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, Segments, find_start, recompute};
 
 /// What two computations of a multiplier may differ by, relative to the largest (or to 1 if that is smaller).
 const BOUND: f64 = 1e-8;
 /// Multipliers closer than this are compared by their sum and product: each alone is known to the square root only.
 const NEARLY_DOUBLE: f64 = 1e-4;
+
+/// The same closer than [`BESIDE`] to a fold or a grazing point: multipliers change there by up to 1e7 per relative change of the orbit, and
+/// rounding leaves 1e-13 of it open.
+const BOUND_BESIDE: f64 = 5e-6;
+/// Distance from a fold or a grazing point [Hz].
+const BESIDE: f64 = 2e-4;
 
 type Multiplier = [f64; 2];
 
@@ -25,24 +31,37 @@ fn subject() -> &'static (System, Response) {
     BEAM.get_or_init(beam)
 }
 
-/// Orbits along the harmonic branch: some forty spread evenly over its rows, and the most unstable ones below 25 Hz.
-///
-/// Closer than 1e-3 Hz to a fold or a grazing point multipliers change by up to 1e6 per hertz, and an orbit is given here by its frequency: there
-/// the tolerance of the orbit shows, with `BOUND` missed by a factor of 2 at 2e-4 Hz and of 40 at 6e-6 Hz (19.314 Hz).
-fn orbits() -> &'static [PeriodicSolution] {
-    static ORBITS: OnceLock<Vec<PeriodicSolution>> = OnceLock::new();
-    ORBITS.get_or_init(|| {
+/// An orbit of the harmonic branch, and whether a fold or a grazing point lies within [`BESIDE`].
+struct Subject {
+    orbit: PeriodicSolution,
+    beside: bool,
+}
+
+/// Orbits along the harmonic branch: some forty spread evenly over its rows, the most unstable ones below 25 Hz, and all folds and
+/// grazing points with the rows beside them.
+fn subjects() -> &'static [Subject] {
+    static SUBJECTS: OnceLock<Vec<Subject>> = OnceLock::new();
+    SUBJECTS.get_or_init(|| {
         let settings = OrbitSettings { max_step_hz: 0.05, ..OrbitSettings::default() };
         let (rows, _) = walk_both(subject(), 30.0, (19.0, 110.0), &settings);
-        let singular = rows.iter().filter(|row| row.events.fold || row.events.grazing);
-        let singular: Vec<f64> = singular.map(|row| row.solution.frequency_hz).collect();
-        let clear =
-            |orbit: &&PeriodicSolution| singular.iter().all(|f| (f - orbit.frequency_hz).abs() > 1e-3);
-        let mut orbits: Vec<_> = rows.iter().map(|row| &row.solution).filter(clear).collect();
-        let spread: Vec<_> = orbits.iter().step_by(orbits.len() / 40).copied().collect();
-        orbits.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
-        spread.into_iter().chain(orbits.into_iter().step_by(20).take(12)).cloned().collect()
+        let inner = 1..rows.len() - 1;
+        let special = |k: usize| rows[k].events.fold || rows[k].events.grazing;
+        let mut chosen: Vec<usize> = inner.clone().step_by(rows.len() / 40).collect();
+        chosen.extend(inner.clone().filter(|&k| special(k - 1) || special(k) || special(k + 1)));
+        let mut unstable: Vec<usize> = inner.collect();
+        unstable.sort_by(|&a, &b| largest(&rows[b].solution).total_cmp(&largest(&rows[a].solution)));
+        chosen.extend(unstable.into_iter().step_by(20).take(12));
+        let near = |k: usize, j: usize| {
+            (rows[k].solution.frequency_hz - rows[j].solution.frequency_hz).abs() < BESIDE
+        };
+        let beside = |k: usize| (0..rows.len()).any(|j| special(j) && near(k, j));
+        let subject = |k: usize| Subject { orbit: rows[k].solution.clone(), beside: beside(k) };
+        chosen.into_iter().map(subject).collect()
     })
+}
+
+fn orbits() -> impl Iterator<Item = &'static PeriodicSolution> {
+    subjects().iter().map(|subject| &subject.orbit)
 }
 
 fn largest(orbit: &PeriodicSolution) -> f64 {
@@ -94,37 +113,50 @@ fn difference(found: &[Multiplier], expected: &[Multiplier]) -> f64 {
     worst / expected.iter().map(|value| modulus(*value)).fold(1.0, f64::max)
 }
 
-fn assert_unchanged(orbit: &PeriodicSolution, settings: &OrbitSettings, what: &str) {
+/// The same point of the branch with other settings has the same multipliers, to this bound; returns the difference.
+fn assert_unchanged(orbit: &PeriodicSolution, bound: f64, settings: &OrbitSettings, what: &str) -> f64 {
     let (system, response) = subject();
-    let reference = recomputed(system, response, orbit, &with_segments(1));
-    let other = recomputed(system, response, orbit, settings);
+    let reference = recompute(system, response, orbit, &with_segments(1)).unwrap();
+    let other = recompute(system, response, orbit, settings).unwrap();
     if let Segments::Fixed(count) = settings.segments {
         assert_eq!(other.nodes.len(), count);
     }
     let error = difference(&other.floquet_multipliers, &reference.floquet_multipliers);
     assert!(
-        error <= BOUND,
+        error <= bound,
         "{what}: {error:.1e} at {} Hz, |mu_1| = {}",
         orbit.frequency_hz,
         largest(&reference)
     );
+    error
+}
+
+fn assert_all_unchanged(settings: &OrbitSettings, what: &str) {
+    let mut above = 0;
+    for Subject { orbit, beside } in subjects() {
+        let bound = if *beside { BOUND_BESIDE } else { BOUND };
+        above += usize::from(assert_unchanged(orbit, bound, settings, what) > BOUND);
+    }
+    let beside = subjects().iter().filter(|subject| subject.beside).count();
+    // Even there most keep the general bound.
+    assert!(beside >= 38 && 2 * above < beside, "{what}: {above} of {beside} above the bound");
 }
 
 #[test]
 fn orbits_are_stable_and_strongly_unstable() {
-    assert!(orbits().iter().any(PeriodicSolution::stable));
-    assert!(orbits().iter().filter(|orbit| largest(orbit) > 300.0).count() >= 5);
-    assert!(orbits().iter().any(|orbit| orbit.maxima.contacts == 3));
+    assert!(orbits().any(PeriodicSolution::stable));
+    assert!(orbits().filter(|orbit| largest(orbit) > 300.0).count() >= 5);
+    assert!(orbits().any(|orbit| orbit.maxima.contacts == 3));
 }
 
 #[test]
 fn multipliers_of_four_segments_are_those_of_one() {
-    orbits().iter().for_each(|orbit| assert_unchanged(orbit, &with_segments(4), "4 segments"));
+    assert_all_unchanged(&with_segments(4), "4 segments");
 }
 
 #[test]
 fn multipliers_of_sixteen_segments_are_those_of_one() {
-    orbits().iter().for_each(|orbit| assert_unchanged(orbit, &with_segments(16), "16 segments"));
+    assert_all_unchanged(&with_segments(16), "16 segments");
 }
 
 #[test]
@@ -135,7 +167,7 @@ fn multipliers_do_not_change_when_every_tolerance_is_halved() {
         motion_tolerance: 0.5 * motion_tolerance,
         ..with_segments(1)
     };
-    orbits().iter().for_each(|orbit| assert_unchanged(orbit, &halved, "halved tolerances"));
+    assert_all_unchanged(&halved, "halved tolerances");
 }
 
 /// Near 53 Hz the orbit of two excitation periods has nine contacts and more.
@@ -145,7 +177,7 @@ fn multipliers_of_an_orbit_of_many_contacts_do_not_depend_on_the_segments() {
     let orbit = find_start(system, response, 53.0, 2, &OrbitSettings::default()).unwrap();
     assert!(orbit.maxima.contacts >= 9, "{} contacts", orbit.maxima.contacts);
     for segments in [4, 16] {
-        assert_unchanged(&orbit, &with_segments(segments), &format!("{segments} segments"));
+        assert_unchanged(&orbit, BOUND, &with_segments(segments), &format!("{segments} segments"));
     }
 }
 
@@ -166,7 +198,8 @@ fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<Multipl
 /// 1e-10 or so of that.
 #[test]
 fn multipliers_are_those_of_the_general_integrator() {
-    for orbit in orbits().iter().step_by(4) {
+    for orbit in subjects().iter().filter(|subject| !subject.beside).map(|subject| &subject.orbit).step_by(4)
+    {
         let error = difference(&orbit.floquet_multipliers, &general_multipliers(&subject().0, orbit));
         assert!(error <= BOUND, "{error:.1e} at {} Hz, |mu_1| = {}", orbit.frequency_hz, largest(orbit));
     }

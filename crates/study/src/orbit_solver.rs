@@ -1,8 +1,9 @@
 //! The numerics of the orbit crate, as a run needs them.
 
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, Crossing, Matcher, OrbitError, OrbitSettings, PeriodicSolution, Response,
-    Segments, Side, StopReason, SurveyEffort, find_orbits, find_start, reach_orbit, survey,
+    BranchRow, BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings,
+    PeriodicSolution, Response, Segments, Side, StopReason, SurveyEffort, find_orbits, find_start_unless,
+    reach_orbit, survey,
 };
 
 use crate::{
@@ -42,16 +43,19 @@ impl<'m> OrbitSolver<'m> {
     /// All periodic solutions of minimal period `period_multiple` that are found at a frequency: stable ones first,
     /// then the largest maximum displacement.
     ///
+    /// * `interrupted`: asked now and then; the search ends with an error when it says true.
+    ///
     /// # Errors
     /// Why the search failed, in words.
     pub fn find_orbits(
         &self,
         frequency_hz: f64,
         period_multiple: u32,
-    ) -> Result<Vec<PeriodicSolution>, String> {
+        interrupted: Interruption<'_>,
+    ) -> Result<FoundOrbits, String> {
         let orbit = (frequency_hz, period_multiple);
         let settings = OrbitSettings { max_solutions: self.budget, ..self.settings };
-        find_orbits(&self.model.system, self.response(), orbit, self.range_hz, &settings)
+        find_orbits(&self.model.system, self.response(), orbit, self.range_hz, &settings, interrupted)
             .map_err(|error| error.to_string())
     }
 
@@ -75,13 +79,18 @@ fn settings(continuation: &file::Continuation) -> OrbitSettings {
 }
 
 impl Solver for OrbitSolver<'_> {
-    fn find_harmonic(&self, frequency_hz: f64) -> Result<PeriodicSolution, String> {
-        let system = &self.model.system;
-        let found = find_start(system, self.response(), frequency_hz, 1, &self.settings);
+    fn find_harmonic(
+        &self,
+        frequency_hz: f64,
+        interrupted: Interruption<'_>,
+    ) -> Result<PeriodicSolution, String> {
+        let (system, response) = (&self.model.system, self.response());
+        let orbit = (frequency_hz, 1);
+        let found = find_start_unless(system, response, orbit, &self.settings, &mut *interrupted);
         // A harmonic branch passes every frequency; where it is unstable it is reached from elsewhere.
         let found = match found {
             Err(OrbitError::NoOrbit { .. }) => {
-                reach_orbit(system, self.response(), (frequency_hz, 1), &self.settings)
+                reach_orbit(system, response, orbit, &self.settings, interrupted)
             }
             found => found,
         };

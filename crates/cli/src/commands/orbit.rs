@@ -1,22 +1,31 @@
 //! `hammerbeam orbit`: the periodic solutions at one frequency.
 
-use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
 
-use crate::{args::OrbitOptions, failure::Failure, output::Output};
+use crate::{args::OrbitOptions, failure::Failure, interrupt::Interrupt, output::Output};
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
-    let found = solver.find_orbits(frequency_hz, multiple).map_err(Failure::NoResult)?;
-    let Some((first, others)) = found.split_first() else {
-        return Err(Failure::NoResult(format!(
-            "no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz"
-        )));
+    let interrupt = Interrupt::listen()?;
+    let found = solver.find_orbits(frequency_hz, multiple, &mut || interrupt.raised());
+    if interrupt.raised() {
+        return Err(Failure::Interrupted("interrupted".to_owned()));
+    }
+    let FoundOrbits { orbits, incomplete } = found.map_err(Failure::NoResult)?;
+    let incomplete = incomplete.map(|reason| format!("the search is not complete: {reason}"));
+    let Some((first, others)) = orbits.split_first() else {
+        let nothing =
+            format!("no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz");
+        return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
     };
+    if let Some(why) = incomplete {
+        anstream::eprintln!("{why}");
+    }
     output.give(&document(first, others), || text(first, others, &file.study.response.point));
     Ok(())
 }

@@ -42,7 +42,11 @@ impl FakeSolver {
 }
 
 impl Solver for FakeSolver {
-    fn find_harmonic(&self, _frequency_hz: f64) -> Result<PeriodicSolution, String> {
+    fn find_harmonic(
+        &self,
+        _frequency_hz: f64,
+        _interrupted: hammerbeam_orbit::Interruption<'_>,
+    ) -> Result<PeriodicSolution, String> {
         Ok(self.solution(1, 0.0))
     }
 

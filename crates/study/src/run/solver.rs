@@ -1,14 +1,20 @@
 //! What a run needs of the numerics; the rest of this module knows no more of them than this.
 
-use hammerbeam_orbit::{BranchRow, Crossing, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{BranchRow, Crossing, Interruption, PeriodicSolution, Side, StopReason};
 
 /// Finds periodic solutions and follows their branches; shared by all threads.
 pub trait Solver: Sync {
     /// A harmonic solution near which a branch can begin.
     ///
+    /// * `interrupted`: asked now and then; the search ends with an error when it says true.
+    ///
     /// # Errors
     /// Why there is none, in words.
-    fn find_harmonic(&self, frequency_hz: f64) -> Result<PeriodicSolution, String>;
+    fn find_harmonic(
+        &self,
+        frequency_hz: f64,
+        interrupted: Interruption<'_>,
+    ) -> Result<PeriodicSolution, String>;
 
     /// All periodic solutions of these minimal periods that simulation leads to.
     ///

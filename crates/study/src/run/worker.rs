@@ -66,7 +66,7 @@ pub(super) enum Report {
     Evaluated { job: u32, starts: Result<Vec<PeriodicSolution>, String> },
     /// More of a walk.
     Walked(Stretch),
-    /// A walk was told to leave; there is nothing more of it.
+    /// The task was given up as it was told; there is nothing more of it.
     Left,
     /// A stored walk cannot be taken up.
     Failed { key: u32, message: String },
@@ -102,8 +102,12 @@ pub(super) fn work(
         let heard = match task {
             Err(_) => return,
             Ok(Task::Evaluate(evaluation)) => {
-                let starts = evaluate(solver, &evaluation.what);
-                reports.send(Report::Evaluated { job: evaluation.job, starts }).is_ok()
+                let starts = evaluate(solver, &evaluation.what, stop);
+                // What was stopped on the way is asked again by the next run.
+                let stopped = starts.is_err() && stop.load(Ordering::Relaxed);
+                let report =
+                    if stopped { Report::Left } else { Report::Evaluated { job: evaluation.job, starts } };
+                reports.send(report).is_ok()
             }
             Ok(Task::Walk(task)) => walk(solver, &task, reports, stop),
         };
@@ -113,9 +117,16 @@ pub(super) fn work(
     }
 }
 
-fn evaluate(solver: &dyn Solver, question: &Question) -> Result<Vec<PeriodicSolution>, String> {
+fn evaluate(
+    solver: &dyn Solver,
+    question: &Question,
+    stop: &AtomicBool,
+) -> Result<Vec<PeriodicSolution>, String> {
     match question {
-        Question::Harmonic(frequency_hz) => Ok(vec![solver.find_harmonic(*frequency_hz)?]),
+        Question::Harmonic(frequency_hz) => {
+            let mut stopped = || stop.load(Ordering::Relaxed);
+            Ok(vec![solver.find_harmonic(*frequency_hz, &mut stopped)?])
+        }
         Question::Survey(frequency_hz, multiples) => solver.survey(*frequency_hz, multiples),
         Question::Leave(crossing) => {
             // Only a branch that can be begun is one.
