@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0002;
+const MAGIC: u64 = 0x4842_5741_4c4b_0003;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -39,7 +39,9 @@ impl BranchWalk {
             out.floats(&node.point);
             out.floats(&node.tangent);
         }
-        for value in [state.step_length, state.orientation, state.parameter_sign, state.change_ahead] {
+        for value in
+            [state.step_length, state.orientation, state.parameter_sign, state.unit, state.change_ahead]
+        {
             out.float(value);
         }
         out.word(state.tests.len() as u64);
@@ -168,6 +170,7 @@ fn read(
         step_length: reader.float()?,
         orientation: reader.float()?,
         parameter_sign: reader.float()?,
+        unit: reader.float()?,
         change_ahead: reader.float()?,
         tests: (0..reader.word()?).map(|_| reader.test()).collect::<Option<_>>()?,
         counters: Counters {

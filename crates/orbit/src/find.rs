@@ -244,8 +244,12 @@ impl Search<'_> {
         let scale = state_scale(self.system, &states[0], self.orbit.0);
         for nodes in nearest_returns(states, &scale, lag, TRIED) {
             self.check_interrupted()?;
+            // Newton's method from all states and from the first one alone go different ways; either may arrive.
             let found = attempt_nodes(self.system, self.response, nodes, self.orbit, self.settings)?;
             found.map(|solution| self.enter(solution)).transpose()?;
+            if lag > 1 {
+                self.try_state(&nodes[0])?;
+            }
         }
         Ok(())
     }

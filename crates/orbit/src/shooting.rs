@@ -50,6 +50,11 @@ impl StateScale {
         Self { scales }
     }
 
+    /// Multiplies the scales.
+    pub fn multiply(&mut self, factor: f64) {
+        self.scales.iter_mut().for_each(|scale| *scale *= factor);
+    }
+
     /// Scales, one per entry of a state.
     pub fn values(&self) -> &[f64] {
         &self.scales
@@ -142,6 +147,17 @@ impl ShootingProblem {
         self.by_frequency = vec![vec![0.0; size]; segments];
         self.frequency_sums = vec![vec![0.0; size]; segments + 1];
         self.condensed = vec![0.0; (size + 1) * (size + 1)];
+    }
+
+    /// Measures states in units this many times as large; the problem must be evaluated again.
+    pub fn rescale(&mut self, factor: f64) {
+        self.scale.multiply(factor);
+    }
+
+    /// Norm of the orbit at a point relative to the scale: the root of the mean square over the nodes.
+    pub fn size(&self, point: &[f64]) -> f64 {
+        let unknowns = &point[..self.residual.len()];
+        (unknowns.iter().map(|x| x * x).sum::<f64>() / self.segments as f64).sqrt()
     }
 
     /// Entries of a node, 2n.

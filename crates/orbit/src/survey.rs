@@ -107,8 +107,12 @@ impl Survey<'_> {
         let mut orbits = Vec::new();
         for &multiple in self.multiples {
             for nodes in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
+                // Newton's method from all states and from the first one alone go different ways; either may arrive.
                 let orbit = (self.frequency_hz, multiple);
                 orbits.extend(attempt_nodes(self.system, self.response, nodes, orbit, self.settings)?);
+                if multiple > 1 {
+                    orbits.extend(self.orbit(&nodes[0], multiple)?);
+                }
             }
         }
         Ok(orbits)

@@ -17,6 +17,9 @@ use crate::{
 /// about the square of this in frequency.
 const MERGED: f64 = 1e-3;
 
+/// An orbit that has become so many times as large or small as the units in which it is measured gets new units.
+const OUTGROWN: f64 = 4.0;
+
 /// One side of a branch, followed from its start.
 ///
 /// Drive it with [`BranchWalk::step`] until it gives a [`StopReason`]. Between two steps it can be stored with
@@ -147,11 +150,12 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
+        self.keep_to_scale();
         let mut from = self.follower.current().clone();
         match self.advance(&mut from)? {
             None => match self.row() {
                 Ok(row) => {
-                    self.journal.push(self.follower.current().clone());
+                    self.journal.push(self.follower.in_first_units(self.follower.current()));
                     self.append_densely(&from, row, rows)?;
                     Ok(None)
                 }
@@ -169,6 +173,20 @@ impl BranchWalk {
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
+    }
+
+    /// Measures in units that fit the present orbit, so that tolerances and steps stay relative to it.
+    fn keep_to_scale(&mut self) {
+        let size = self.problem.size(&self.follower.current().point);
+        if (1.0 / OUTGROWN..=OUTGROWN).contains(&size) || !size.is_normal() {
+            return;
+        }
+        // Powers of two change no digit.
+        let factor = 2f64.powi(size.log2().round() as i32);
+        self.problem.rescale(factor);
+        self.follower.rescale(factor);
+        let surplus = self.last_rows.0.len().saturating_sub(1);
+        self.last_rows.0.drain(..surplus);
     }
 
     /// Goes to the next point of the path, with more segments if it does not go on with the present ones; `from` becomes the point before it.
@@ -203,6 +221,7 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
+        self.keep_to_scale();
         let mut from = self.follower.current().clone();
         match self.advance(&mut from)? {
             None => {

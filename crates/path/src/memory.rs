@@ -59,14 +59,15 @@ impl PathMemory {
         }
     }
 
-    /// Adds the next accepted point of the branch.
-    pub fn remember(&mut self, point: &ContinuationPoint) {
+    /// Adds the next accepted point of the branch, whose unknowns have these units (one for those of the memory).
+    pub fn remember(&mut self, point: &ContinuationPoint, unit: f64) {
+        let tangent = in_units(&point.tangent, unit);
         let vertex = Vertex {
-            place: self.sketch(&point.point),
-            tangent: self.sketch(&point.tangent),
+            place: self.sketch(&in_units(&point.point, unit)),
+            tangent: self.sketch(&tangent),
             arc_length: point.arc_length,
             orientation: point.orientation,
-            log_determinant: self.log_determinant(point.log_determinant, &point.tangent),
+            log_determinant: self.log_determinant(point.log_determinant, &tangent),
             signature: point.signature,
         };
         self.vertices.push(vertex);
@@ -76,28 +77,32 @@ impl PathMemory {
     }
 
     /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
-    pub fn meets(&self, candidate: &Candidate, orientation: f64) -> Option<f64> {
+    pub fn meets(&self, candidate: &Candidate, orientation: f64, unit: f64) -> Option<f64> {
+        let tangent = in_units(&candidate.node.tangent, unit);
         let probe = Vertex {
-            place: self.sketch(&candidate.node.point),
-            tangent: self.sketch(&candidate.node.tangent),
+            place: self.sketch(&in_units(&candidate.node.point, unit)),
+            tangent: self.sketch(&tangent),
             arc_length: 0.0,
             orientation,
-            log_determinant: self.log_determinant(candidate.log_determinant, &candidate.node.tangent),
+            log_determinant: self.log_determinant(candidate.log_determinant, &tangent),
             signature: candidate.signature,
         };
         let (i, j) = self.cell_of(&probe.place);
         (-1..=1)
             .flat_map(|di| (-1..=1).map(move |dj| (i + di, j + dj)))
-            .find_map(|cell| self.meets_in(cell, &probe))
+            .find_map(|cell| self.meets_in(cell, &probe, unit))
     }
 
-    fn meets_in(&self, cell: (i64, i64), probe: &Vertex) -> Option<f64> {
+    fn meets_in(&self, cell: (i64, i64), probe: &Vertex, unit: f64) -> Option<f64> {
         let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
         while link != NONE {
             let (segment, next) = self.links[link as usize];
             let segment = segment as usize;
             if segment + RECENT < self.vertices.len() {
-                let found = self.meets_segment(&self.vertices[segment - 1], &self.vertices[segment], probe);
+                let found = {
+                    let ends = (&self.vertices[segment - 1], &self.vertices[segment]);
+                    self.meets_segment(ends, probe, unit)
+                };
                 if found.is_some() {
                     return found;
                 }
@@ -107,8 +112,10 @@ impl PathMemory {
         None
     }
 
-    fn meets_segment(&self, a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<f64> {
-        let margin = self.tolerance + self.largest_defect;
+    fn meets_segment(&self, (a, b): (&Vertex, &Vertex), probe: &Vertex, unit: f64) -> Option<f64> {
+        // Points are as accurate as their units are large.
+        let point_tolerance = unit.max(1.0) * self.tolerance;
+        let margin = point_tolerance + self.largest_defect;
         let (low, high) = (a.place[0].min(b.place[0]), a.place[0].max(b.place[0]));
         let near = probe.place[0] >= low - margin && probe.place[0] <= high + margin;
         if !near || !same_kind(a, b, probe) {
@@ -117,7 +124,7 @@ impl PathMemory {
         let (share, distance, cosine) = nearest(a, b, probe)?;
         let wanted = if a.orientation == probe.orientation { cosine } else { -cosine };
         let tolerance =
-            (self.tolerance + 0.25 * defect(a, b).min(self.largest_defect)).min(0.1 * length(a, b));
+            (point_tolerance + 0.25 * defect(a, b).min(self.largest_defect)).min(0.1 * length(a, b));
         let met = distance <= tolerance && wanted > 0.99;
         met.then_some(a.arc_length + share * (b.arc_length - a.arc_length))
     }
@@ -175,6 +182,14 @@ impl PathMemory {
             }
         }
     }
+}
+
+/// Unknowns in other units, `unit` times as small; the parameter, which comes last, stays.
+pub(crate) fn in_units(values: &[f64], unit: f64) -> Vec<f64> {
+    let mut values = values.to_vec();
+    let last = values.len() - 1;
+    values[..last].iter_mut().for_each(|value| *value *= unit);
+    values
 }
 
 /// Signature of either end, and a determinant like that of the segment: interpolation leaves it some room.
@@ -278,7 +293,7 @@ mod tests {
     fn helix_memory(step: f64) -> PathMemory {
         let settings = Settings { max_step_length: step, ..Settings::default() };
         let mut memory = PathMemory::new(&[1.0; 13], &settings);
-        (0..1000).for_each(|k| memory.remember(&on_helix(step * f64::from(k))));
+        (0..1000).for_each(|k| memory.remember(&on_helix(step * f64::from(k)), 1.0));
         memory
     }
 
@@ -286,7 +301,7 @@ mod tests {
     fn a_point_between_stored_ones_is_met_at_its_arc_length() {
         let memory = helix_memory(0.02);
         for s in [0.011, 3.337, 12.345] {
-            let met = memory.meets(&candidate(&on_helix(s)), 1.0).unwrap();
+            let met = memory.meets(&candidate(&on_helix(s)), 1.0, 1.0).unwrap();
             assert!((met - s).abs() < 1e-3, "{met} for {s}");
         }
     }
@@ -296,12 +311,12 @@ mod tests {
         let memory = helix_memory(0.02);
         let mut beside = on_helix(3.337);
         beside.point[3] += 1e-5;
-        assert_eq!(memory.meets(&candidate(&beside), 1.0), None);
+        assert_eq!(memory.meets(&candidate(&beside), 1.0, 1.0), None);
         let mut back = on_helix(3.337);
         back.tangent.iter_mut().for_each(|t| *t = -*t);
-        assert_eq!(memory.meets(&candidate(&back), 1.0), None);
+        assert_eq!(memory.meets(&candidate(&back), 1.0, 1.0), None);
         assert!(
-            memory.meets(&candidate(&back), -1.0).is_some(),
+            memory.meets(&candidate(&back), -1.0, 1.0).is_some(),
             "with the other orientation it is a retrace"
         );
     }
@@ -314,15 +329,19 @@ mod tests {
             let parameter = values.pop().unwrap();
             values.extend([7.0, -3.0, parameter]);
         }
-        let met = memory.meets(&candidate(&longer), 1.0).unwrap();
+        let met = memory.meets(&candidate(&longer), 1.0, 1.0).unwrap();
         assert!((met - 3.337).abs() < 1e-3, "{met}");
     }
 
     #[test]
     fn the_end_of_the_stored_path_is_not_met() {
         let memory = helix_memory(0.02);
-        assert_eq!(memory.meets(&candidate(&on_helix(999.5 * 0.02)), 1.0), None);
-        assert_eq!(memory.meets(&candidate(&on_helix(998.5 * 0.02)), 1.0), None, "nor is the step before");
+        assert_eq!(memory.meets(&candidate(&on_helix(999.5 * 0.02)), 1.0, 1.0), None);
+        assert_eq!(
+            memory.meets(&candidate(&on_helix(998.5 * 0.02)), 1.0, 1.0),
+            None,
+            "nor is the step before"
+        );
     }
 
     #[test]

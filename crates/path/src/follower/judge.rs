@@ -40,7 +40,7 @@ impl Follower {
         if self.passes_start(step) {
             return Ok(Finding::Closing);
         }
-        if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation) {
+        if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation, self.state.unit) {
             return Err(Doubt::Retraced { arc_length });
         }
         let turned = self.trial.tangent_parameter() * self.state.parameter_sign < 0.0;

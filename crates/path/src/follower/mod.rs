@@ -8,6 +8,7 @@ mod fold;
 mod judge;
 mod range_end;
 mod recut;
+mod rescale;
 mod start;
 mod step_control;
 mod transfer;
@@ -145,10 +146,11 @@ impl Follower {
         }
     }
 
-    /// Adds a point that was accepted before the checkpoint to the memory; the start comes first. It may be one of before a
+    /// Adds a point that was accepted before the checkpoint, in the units of the start ([`in_first_units`](Self::in_first_units)), to the memory;
+    /// the start comes first. It may be one of before a
     /// [`transfer`](Self::transfer).
     pub fn remember(&mut self, point: &ContinuationPoint) {
-        self.memory.remember(point);
+        self.memory.remember(point, 1.0);
     }
 
     /// Goes to the next point of the path.
@@ -256,7 +258,7 @@ impl Follower {
         let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };
         self.store(events, arrival.uncertainty.max(of_change), arc_length);
         self.state.step_length = self.next_step(step, arrival, angle, attempts);
-        self.memory.remember(&self.state.current);
+        self.memory.remember(&self.state.current, self.state.unit);
     }
 
     /// Copies the trial into the current point.

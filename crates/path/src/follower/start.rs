@@ -64,7 +64,7 @@ impl Follower {
         let state = first_state(&trial, direction.sign(), &settings, counters);
         let mut follower = Self::resume(problem, state, range, settings);
         follower.stop_if_leaving();
-        follower.memory.remember(&follower.state.current);
+        follower.memory.remember(&follower.state.current, 1.0);
         Ok(follower)
     }
 
@@ -135,6 +135,7 @@ fn first_state(trial: &Candidate, sign: f64, settings: &Settings, counters: Coun
         orientation: current.orientation,
         parameter_sign: if current.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
         tests: trial.tests.clone(),
+        unit: 1.0,
         change_ahead: 0.0,
         counters,
         stop: None,
