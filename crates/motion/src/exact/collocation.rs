@@ -22,6 +22,9 @@ pub(crate) const TERMS: usize = 50;
 /// Largest `h max(sqrt(k) + c)` for which the power series serve.
 pub(crate) const REACH: f64 = 8.0;
 
+/// A matrix over the nodes, row by row.
+pub(crate) type NodeMatrix = [[f64; NODES]; NODES];
+
 /// How the force behaves at the ends of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Grading {
@@ -73,8 +76,10 @@ pub(crate) struct Rule {
     pub s: [f64; NODES],
     /// `c_k = c(s_k)`.
     pub c: [f64; NODES],
-    /// `w_mkj`, indexed `[m][k * NODES + j]`.
-    pub at_nodes: Vec<[f64; NODES * NODES]>,
+    /// `w_mkj`, indexed `[m][j][k]`.
+    pub at_nodes: Vec<NodeMatrix>,
+    /// `c_k^m/m!`, indexed `[m][k]`.
+    pub powers: Vec<[f64; NODES]>,
     /// `int_0^1 (1 - c)^m/m! l_j dc`, indexed `[m][j]`.
     pub at_end: Vec<[f64; NODES]>,
     /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed `[degree][node]`.
@@ -112,6 +117,7 @@ impl Rule {
             s,
             c,
             at_nodes: Vec::new(),
+            powers: powers(c),
             at_end: Vec::new(),
             coefficients,
             fine: Vec::new(),
@@ -127,7 +133,7 @@ impl Rule {
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
         rule.at_end = moments(1.0);
         rule.at_nodes = (0..TERMS)
-            .map(|m| std::array::from_fn(|index| node_moments[index / NODES][m][index % NODES]))
+            .map(|m| std::array::from_fn(|j| std::array::from_fn(|k| node_moments[k][m][j])))
             .collect();
         rule
     }
@@ -168,6 +174,14 @@ impl Rule {
         let values = self.recurrence.values(s);
         std::array::from_fn(|node| (0..NODES).map(|d| self.coefficients[d][node] * values[d]).sum())
     }
+}
+
+/// `c_k^m/m!`.
+fn powers(c: [f64; NODES]) -> Vec<[f64; NODES]> {
+    let next = |(m, power): &(usize, [f64; NODES])| {
+        Some((m + 1, std::array::from_fn(|k| power[k] * c[k] / (m + 1) as f64)))
+    };
+    std::iter::successors(Some((0, [1.0; NODES])), next).take(TERMS).map(|(_, power)| power).collect()
 }
 
 /// Derivatives of the Lagrange polynomials at their nodes: `(w_j/w_k)/(s_k - s_j)` with the barycentric weights w.

@@ -4,9 +4,9 @@
 //! by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`.
 
 use super::{
-    collocation::{Grading, NODES},
+    collocation::{Grading, NODES, NodeMatrix},
     drive::{Drive, Jet},
-    lanes::{add_multiple, dot, raise, vectorised},
+    lanes::{add_products, dot, raise, vectorised},
     lu::{FixedLu, SmallLu},
     output::Output,
     sensitivity::{ColumnTail, Sensitivity},
@@ -15,11 +15,15 @@ use super::{
 };
 use crate::Law;
 
-/// Newton's method has converged when what is left is this small against the range of the displacements.
-const CONVERGED: f64 = 1e-15;
 /// Slower convergence than this calls for a new factorisation.
 const FACTORISE_ABOVE: f64 = 0.03;
 const MAX_ITERATIONS: usize = 30;
+/// Substitutions by which a first guess is improved at most.
+const MAX_SUBSTITUTIONS: usize = 3;
+/// Largest response of the last displacement to a unit change of all displacements for which that is tried.
+const SHORT: f64 = 2.0;
+/// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom longer.
+const READ_AHEAD: f64 = 1.3;
 
 /// Forces of a step and what they were solved with. Node values are indexed `[a * NODES + k]` with the a-th active element.
 #[derive(Debug, Clone, Default)]
@@ -36,6 +40,8 @@ pub(crate) struct ForceStep {
     pub unresolved: Vec<f64>,
     free: Vec<f64>,
     readings: Vec<Readings>,
+    /// Longest step that the readings serve [s].
+    readings_reach: f64,
     correction: Vec<f64>,
     lu: SmallLu,
     fixed_lu: FixedLu<NODES>,
@@ -65,17 +71,27 @@ impl ForceStep {
         self.grading.unwrap_or(Grading::Smooth)
     }
 
+    /// Forgets what was read of the state at the start of the last step.
+    pub fn start_anew(&mut self) {
+        self.active.clear();
+        self.readings.clear();
+    }
+
     /// Displacements at the nodes if no force acted in the step that starts from `state`.
     pub fn set_free_motion(&mut self, series: &Series, drive: &Drive, outputs: &[Output], state: &[f64]) {
         self.free.clear();
-        self.readings.clear();
+        if self.weights.length > self.readings_reach {
+            self.readings.clear();
+        }
         for (a, &e) in self.active.iter().enumerate() {
             let mut free = if self.weights.complete {
                 rows_times_state(&self.weights.rows[a], state)
             } else {
-                let readings = series.readings(e, state, self.weights.length);
-                self.readings.push(readings);
-                series.free_values(&readings, self.grading(), self.weights.length)
+                if self.readings.len() == a {
+                    self.readings_reach = READ_AHEAD * self.weights.length;
+                    self.readings.push(series.readings(e, state, self.readings_reach));
+                }
+                series.free_values(&self.readings[a], self.grading(), self.weights.length)
             };
             let span = (self.start, self.weights.length);
             drive.add_values(e, &outputs[e], span, &self.grading().rule().c, &mut free);
@@ -105,16 +121,25 @@ impl ForceStep {
         Jet { value: read(&o.row), slope: read(&o.velocity_row), curvature: read(&o.acceleration_row) }
     }
 
-    /// Solves for the displacements from the guess in `displacement`. `scale` is a length below which corrections are rounding.
+    /// Solves for the displacements from the guess in `displacement`, until what is left is below `precision` times their range, or a
+    /// correction below `rounding`.
     ///
     /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with, and so is that of the
     /// last step solved if this one is nearly the same (`again`).
-    pub fn solve(&mut self, laws: &[Law], scale: f64, again: bool) -> Result<(), NotSolved> {
+    pub fn solve(
+        &mut self,
+        laws: &[Law],
+        (rounding, precision): (f64, f64),
+        again: bool,
+    ) -> Result<(), NotSolved> {
         let size = self.free.len();
         self.force.resize(size, 0.0);
         self.slope.resize(size, 0.0);
         self.correction.resize(size, 0.0);
         self.evaluate(laws);
+        if !again {
+            self.improve_guess(laws);
+        }
         let (mut previous, mut fresh) = (f64::NAN, !again);
         for _ in 0..MAX_ITERATIONS {
             self.fill_defect();
@@ -134,13 +159,38 @@ impl ForceStep {
             self.evaluate(laws);
             // What is left after this correction: its square after a fresh matrix, else as before times the rate.
             let rate = if fresh { largest / range } else { largest / previous };
-            if largest * rate <= CONVERGED * range || largest <= scale {
+            if largest * rate <= precision * range || largest <= rounding {
                 return Ok(());
             }
             fresh = rate > FACTORISE_ABOVE;
             previous = largest;
         }
         Err(NotSolved)
+    }
+
+    /// Puts the forces of the guess into the equations for the next one, as long as that brings it nearer, where the step is short against
+    /// the period of the loaded contact: an error of the guess grows with a power p of the time, and of it only `(w t)^2/((p + 1)(p + 2))` are left.
+    fn improve_guess(&mut self, laws: &[Law]) {
+        let count = self.active.len();
+        let mut before = f64::INFINITY;
+        for _ in 0..MAX_SUBSTITUTIONS {
+            let gain = |w: &NodeMatrix, slope: &[f64]| -> f64 {
+                w.iter().zip(slope).map(|(w, slope)| (w[NODES - 1] * slope).abs()).sum()
+            };
+            let slopes = || self.slope.chunks_exact(NODES).cycle();
+            let largest = self.weights.convolution.iter().zip(slopes()).map(|(w, slope)| gain(w, slope));
+            if largest.fold(0.0, f64::max) * count as f64 > SHORT {
+                return;
+            }
+            self.fill_defect();
+            let size = self.correction.iter().fold(0.0_f64, |size, defect| size.max(defect.abs()));
+            if size.is_nan() || size > 0.5 * before {
+                return;
+            }
+            self.displacement.iter_mut().zip(&self.correction).for_each(|(r, defect)| *r -= defect);
+            self.evaluate(laws);
+            before = size;
+        }
     }
 
     fn solve_correction(&mut self) {
@@ -166,15 +216,12 @@ impl ForceStep {
     /// `r - r_free - W f(r)`.
     fn fill_defect(&mut self) {
         let count = self.active.len();
-        for a in 0..count {
-            for k in 0..NODES {
-                let mut defect = self.displacement[a * NODES + k] - self.free[a * NODES + k];
-                for b in 0..count {
-                    let row = &self.weights.convolution[a * count + b][k * NODES..(k + 1) * NODES];
-                    let force = &self.force[b * NODES..(b + 1) * NODES];
-                    defect -= dot(row, force);
-                }
-                self.correction[a * NODES + k] = defect;
+        self.correction.clear();
+        self.correction.extend(self.displacement.iter().zip(&self.free).map(|(r, free)| r - free));
+        let targets = self.correction.as_chunks_mut::<NODES>().0.iter_mut();
+        for (target, convolutions) in targets.zip(self.weights.convolution.chunks_exact(count.max(1))) {
+            for (w, force) in convolutions.iter().zip(self.force.as_chunks::<NODES>().0) {
+                add_products(target, w.as_flattened(), NODES, |_| force.iter().map(|f| -f));
             }
         }
     }
@@ -189,13 +236,12 @@ impl ForceStep {
                 .factorise(
                     #[inline(always)]
                     |matrix| {
-                        let rows = matrix.iter_mut().zip(convolution.chunks_exact(NODES)).enumerate();
-                        for (k, (row, from)) in rows {
-                            for j in 0..NODES {
-                                row[j] = -from[j] * slope[j];
+                        for (j, (column, slope)) in convolution.iter().zip(slope).enumerate() {
+                            for (row, entry) in matrix.iter_mut().zip(column) {
+                                row[j] = -entry * slope;
                             }
-                            row[k] += 1.0;
                         }
+                        (0..NODES).for_each(|k| matrix[k][k] += 1.0);
                     },
                 )
                 .ok_or(NotSolved);
@@ -208,7 +254,7 @@ impl ForceStep {
                     for k in 0..NODES {
                         for j in 0..NODES {
                             matrix[(a * NODES + k) * size + b * NODES + j] =
-                                -convolution[k * NODES + j] * slope[b * NODES + j];
+                                -convolution[j][k] * slope[b * NODES + j];
                         }
                     }
                 }
@@ -291,21 +337,15 @@ impl ForceStep {
         let mut velocities = vec![0.0; columns];
         sensitivity.raise_velocity_norms(&mut velocities);
         let mut largest = vec![0.0; columns];
-        let mut sums =
-            [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| (degree, vec![0.0; columns]));
         vectorised(
             #[inline(always)]
-            || {
-                for (k, row) in work.chunks_exact(columns).enumerate() {
-                    raise(&mut largest, row);
-                    for (degree, sum) in &mut sums {
-                        add_multiple(sum, coefficients[*degree][k], row);
-                    }
-                }
-            },
+            || work.chunks_exact(columns).for_each(|row| raise(&mut largest, row)),
         );
+        let degrees = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1];
+        let mut sums = vec![0.0; degrees.len() * columns];
+        add_products(&mut sums, work, columns, |row| coefficients[degrees[row]].iter().copied());
         let of_column = |c: usize| {
-            let pair = |first: usize| sums[first].1[c].abs() + sums[first + 1].1[c].abs();
+            let pair = |first: usize| sums[first * columns + c].abs() + sums[(first + 1) * columns + c].abs();
             let tail = Tail { highest: pair(0), middle: pair(2) };
             ColumnTail { velocity: velocities[c], largest: largest[c], tail }
         };

@@ -174,7 +174,7 @@ impl ExactIntegrator {
             parts.into_iter().map(|part| part / total).collect()
         });
         let shares = shares.collect();
-        let rates = blocks.stiffness.iter().zip(&blocks.damping).map(|(k, c)| k.sqrt() + c.abs()).collect();
+        let rates = blocks.rates();
         let laws: Vec<Law> = system.elements().iter().map(|e| e.law).collect();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.0 };
         Ok(Self {

@@ -9,9 +9,9 @@ use std::sync::OnceLock;
 
 use super::{
     block::{Blocks, Propagator},
-    collocation::{Grading, NODES, REACH, TERMS},
+    collocation::{Grading, NODES, NodeMatrix, REACH, TERMS},
     drive::Jet,
-    lanes::{add_multiple, dot, vectorised},
+    lanes::{add_multiple, add_products, dot, vectorised},
     output::Output,
 };
 
@@ -27,8 +27,8 @@ pub(crate) struct StepWeights {
     pub propagators: Vec<Propagator>,
     /// `X` of each active element.
     pub rows: Vec<NodeRows>,
-    /// `W`, indexed `[a * active + b][k * NODES + j]`.
-    pub convolution: Vec<[f64; NODES * NODES]>,
+    /// `W`, indexed `[a * active + b][j][k]`: a column per node that reads, a row per force.
+    pub convolution: Vec<NodeMatrix>,
     /// `P` of each active element, `[i * NODES + j]`.
     pub to_state: Vec<Vec<f64>>,
     /// Whether more than the convolution has been made.
@@ -42,10 +42,14 @@ pub(crate) type Readings = [f64; TERMS + 2];
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
     rate: f64,
+    /// Rate of each block [1/s].
+    rates: Vec<f64>,
     /// Row of element e times `(A/rate)^m`, `[e][m][i]`.
     rows: Vec<Vec<Vec<f64>>>,
     /// `(A/rate)^m` times the column of element e, `[e][m][i]`.
     columns: Vec<Vec<Vec<f64>>>,
+    /// The same of each element entry by entry, `[i * TERMS + m]`: rows and columns.
+    entries: Vec<(Vec<f64>, Vec<f64>)>,
     /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
     markov: Vec<Vec<f64>>,
 }
@@ -53,7 +57,7 @@ pub(crate) struct Series {
 impl Series {
     pub fn new(blocks: &Blocks, outputs: &[Output], inputs: &[Vec<f64>]) -> Self {
         // Powers of a rigid block end by themselves; they only need a scale.
-        let rate = blocks.fastest_rate().max(1e-6);
+        let rate = blocks.rates().into_iter().fold(1e-6, f64::max);
         let scaled = |values: Vec<f64>| values.into_iter().map(|value| value / rate).collect::<Vec<f64>>();
         let powers = |first: &Vec<f64>, next: &dyn Fn(&[f64]) -> Vec<f64>| {
             let mut list = vec![first.clone()];
@@ -73,7 +77,8 @@ impl Series {
                 columns.iter().map(move |powers| powers.iter().map(|c| dot(&output.row, c)).collect())
             })
             .collect();
-        Self { rate, rows, columns, markov }
+        let entries = rows.iter().zip(&columns).map(|(r, c)| (by_entry(r), by_entry(c))).collect();
+        Self { rate, rates: blocks.rates(), entries, rows, columns, markov }
     }
 
     /// Longest step that the series serve [s].
@@ -118,8 +123,8 @@ impl Series {
             for (a, &e) in active.iter().enumerate() {
                 let weight = factor * self.markov[output * count + e][m + derivative];
                 let force = &force[a * NODES..(a + 1) * NODES];
-                for (value, row) in values.iter_mut().zip(rule.at_nodes[m].chunks_exact(NODES)) {
-                    *value += weight * dot(row, force);
+                for (row, force) in rule.at_nodes[m].iter().zip(force) {
+                    add_multiple(&mut values, weight * force, row);
                 }
             }
             factor *= z;
@@ -138,6 +143,22 @@ impl Series {
         limits.partition_point(|&limit| limit <= z) + 3
     }
 
+    /// `first z^m`.
+    fn factors(first: f64, z: f64, terms: usize) -> [f64; TERMS] {
+        let mut factors = [0.0; TERMS];
+        let mut factor = first;
+        for entry in &mut factors[..terms] {
+            *entry = factor;
+            factor *= z;
+        }
+        factors
+    }
+
+    /// Terms that each block needs: slow ones need few.
+    fn terms_of_blocks(&self, length: f64) -> Vec<usize> {
+        self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
+    }
+
     /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
     /// [`Series::complete`].
     pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
@@ -147,22 +168,18 @@ impl Series {
         let count = self.columns.len();
         into.length = length;
         into.complete = false;
-        into.convolution.resize(active.len() * active.len(), [0.0; NODES * NODES]);
+        into.convolution.resize(active.len() * active.len(), [[0.0; NODES]; NODES]);
+        let factors = Self::factors(length, z, terms);
         for (a, &e) in active.iter().enumerate() {
             for (b, &f) in active.iter().enumerate() {
                 let convolution = &mut into.convolution[a * active.len() + b];
                 let (markov, at_nodes) = (&self.markov[e * count + f], &rule.at_nodes[..terms]);
-                vectorised(
-                    #[inline(always)]
-                    || {
-                        convolution.fill(0.0);
-                        let mut factor = length;
-                        for (rule, markov) in at_nodes.iter().zip(markov) {
-                            add_multiple(convolution, factor * markov, rule);
-                            factor *= z;
-                        }
-                    },
-                );
+                let mut weights = factors;
+                weights.iter_mut().zip(markov).for_each(|(weight, markov)| *weight *= markov);
+                convolution.fill([0.0; NODES]);
+                let target = convolution.as_flattened_mut();
+                let source = at_nodes.as_flattened().as_flattened();
+                add_products(target, source, NODES * NODES, |_| weights[..terms].iter().copied());
             }
         }
     }
@@ -176,23 +193,12 @@ impl Series {
         let terms = Self::terms(z);
         step.resize(active.len(), size);
         step.complete = true;
+        let needed = self.terms_of_blocks(length);
+        let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
         for (a, &e) in active.iter().enumerate() {
-            let (rows, to_state) = (&mut step.rows[a], &mut step.to_state[a]);
-            vectorised(
-                #[inline(always)]
-                || {
-                    self.node_rows(e, rule.c, z, terms, rows);
-                    to_state.fill(0.0);
-                    let mut factor = length;
-                    for (column, at_end) in self.columns[e].iter().zip(&rule.at_end[..terms]) {
-                        let weights = at_end.map(|weight| factor * weight);
-                        for (target, &entry) in to_state.chunks_exact_mut(NODES).zip(column) {
-                            add_multiple(target, entry, &weights);
-                        }
-                        factor *= z;
-                    }
-                },
-            );
+            let (rows, columns) = &self.entries[e];
+            sum_powers(rows, &powers, &rule.powers, &needed, &mut step.rows[a]);
+            sum_powers(columns, &factors, &rule.at_end, &needed, &mut step.to_state[a]);
         }
     }
 
@@ -264,18 +270,29 @@ impl Series {
         }
         Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
     }
+}
 
-    #[inline(always)]
-    fn node_rows(&self, element: usize, c: [f64; NODES], z: f64, terms: usize, rows: &mut [f64]) {
-        rows.fill(0.0);
-        let mut powers = [1.0; NODES];
-        for m in 0..terms {
-            for (target, &entry) in rows.chunks_exact_mut(NODES).zip(&self.rows[element][m]) {
-                target.iter_mut().zip(&powers).for_each(|(t, p)| *t += p * entry);
-            }
-            powers.iter_mut().zip(&c).for_each(|(p, c)| *p *= z * c / (m + 1) as f64);
-        }
-    }
+/// `sum_m L_im f_m R_m` for each entry i of the state, with as many terms as its block needs; `list` is indexed `[i * TERMS + m]`.
+#[inline(always)]
+fn sum_powers(
+    list: &[f64],
+    factors: &[f64; TERMS],
+    rows: &[[f64; NODES]],
+    terms: &[usize],
+    into: &mut [f64],
+) {
+    let list = list.as_chunks::<TERMS>().0;
+    let weights = |i: usize| {
+        let needed = list[i][..terms[i % terms.len()]].iter().zip(factors);
+        needed.map(|(entry, factor)| entry * factor)
+    };
+    into.fill(0.0);
+    add_products(into, rows.as_flattened(), NODES, weights);
+}
+
+/// Entry i of each power, `[i * TERMS + m]`.
+fn by_entry(powers: &[Vec<f64>]) -> Vec<f64> {
+    (0..powers[0].len()).flat_map(|i| powers[..TERMS].iter().map(move |power| power[i])).collect()
 }
 
 impl StepWeights {
@@ -284,7 +301,7 @@ impl StepWeights {
         self.rows.iter_mut().for_each(|row| row.resize(size * NODES, 0.0));
         self.to_state.resize(active, Vec::new());
         self.to_state.iter_mut().for_each(|p| p.resize(size * NODES, 0.0));
-        self.convolution.resize(active * active, [0.0; NODES * NODES]);
+        self.convolution.resize(active * active, [[0.0; NODES]; NODES]);
     }
 
     pub fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
