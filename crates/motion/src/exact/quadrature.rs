@@ -5,8 +5,9 @@
 
 use super::{
     block::{Blocks, Propagator},
-    collocation::{Grading, NODES, gauss_sixteen},
+    collocation::{Grading, NODES},
     output::Output,
+    recurrence::gauss_sixteen,
     weights::StepWeights,
 };
 
@@ -143,7 +144,7 @@ fn advance(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::weights::Series;
+    use crate::exact::series::Series;
 
     /// Within the reach of the series both ways give the same matrices.
     #[test]
