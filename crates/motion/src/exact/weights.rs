@@ -2,7 +2,7 @@
 //!
 //! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate docs). For short steps all of
 //! them come from power series in h (`collocation.rs`, `series.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
-//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`], they come from quadrature (`quadrature.rs`)
+//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`](super::collocation::REACH), they come from quadrature (`quadrature.rs`)
 //! fine enough for every mode; such steps have lengths on a grid and are cached.
 
 use super::{
