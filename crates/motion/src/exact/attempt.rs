@@ -28,9 +28,26 @@ impl ExactIntegrator {
     }
 
     /// Solves a step of about `length` (shorter where the lengths are discrete); its error see `step_error.rs`.
+    pub(super) fn attempt(&mut self, run: &Run, length: f64, grading: Grading) -> Option<f64> {
+        self.solve_step(run, length, (grading, false), self.full_precision())?;
+        Some(self.state_error(run))
+    }
+
+    /// What Newton's method may leave of the displacements, relative to their range: next to nothing against the error of a step.
+    pub(super) fn full_precision(&self) -> f64 {
+        (1e-4 * self.settings.tolerance).max(1e-15)
+    }
+
+    /// Solves a step of about `length` to some precision.
     ///
     /// * `again`: the last step solved had the same start and grading, and about the same length.
-    pub(super) fn attempt(&mut self, run: &Run, length: f64, grading: Grading, again: bool) -> Option<f64> {
+    pub(super) fn solve_step(
+        &mut self,
+        run: &Run,
+        length: f64,
+        (grading, again): (Grading, bool),
+        precision: f64,
+    ) -> Option<()> {
         self.counts.solves += 1;
         let before = self.step.weights.length;
         self.set_weights(length, run.remaining, grading);
@@ -45,8 +62,7 @@ impl ExactIntegrator {
             self.guess(run);
         }
         let margin = self.step.active.iter().map(|&e| run.start[e].margin).fold(0.0, f64::max);
-        self.step.solve(&self.laws, margin, again && change.abs() < NEARLY_THE_SAME).ok()?;
-        Some(self.state_error(run))
+        self.step.solve(&self.laws, (margin, precision), again && change.abs() < NEARLY_THE_SAME).ok()
     }
 
     fn set_weights(&mut self, length: f64, remaining: f64, grading: Grading) {

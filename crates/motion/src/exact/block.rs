@@ -151,9 +151,9 @@ impl Blocks {
         product
     }
 
-    /// Fastest rate in the structure, `max (sqrt(k) + c)` [1/s]; it bounds the norm of the blocks in their energy norm.
-    pub fn fastest_rate(&self) -> f64 {
-        (0..self.count()).map(|i| self.stiffness[i].sqrt() + self.damping[i]).fold(0.0, f64::max)
+    /// Rate of each block, `sqrt(k) + c` [1/s]; it bounds the norm of the block in its energy norm.
+    pub fn rates(&self) -> Vec<f64> {
+        self.stiffness.iter().zip(&self.damping).map(|(k, c)| k.sqrt() + c.abs()).collect()
     }
 }
 

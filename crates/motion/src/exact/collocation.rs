@@ -11,9 +11,12 @@
 
 use std::sync::OnceLock;
 
-use faer::{Mat, Side, linalg::solvers::DenseSolveCore};
+use faer::{Mat, linalg::solvers::DenseSolveCore};
 
-use super::lanes::dot;
+use super::{
+    lanes::dot,
+    recurrence::{Recurrence, gauss_legendre},
+};
 
 /// Force nodes in a step.
 pub(crate) const NODES: usize = 12;
@@ -21,6 +24,9 @@ pub(crate) const NODES: usize = 12;
 pub(crate) const TERMS: usize = 50;
 /// Largest `h max(sqrt(k) + c)` for which the power series serve.
 pub(crate) const REACH: f64 = 8.0;
+
+/// A matrix over the nodes, row by row.
+pub(crate) type NodeMatrix = [[f64; NODES]; NODES];
 
 /// How the force behaves at the ends of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -73,8 +79,10 @@ pub(crate) struct Rule {
     pub s: [f64; NODES],
     /// `c_k = c(s_k)`.
     pub c: [f64; NODES],
-    /// `w_mkj`, indexed `[m][k * NODES + j]`.
-    pub at_nodes: Vec<[f64; NODES * NODES]>,
+    /// `w_mkj`, indexed `[m][j][k]`.
+    pub at_nodes: Vec<NodeMatrix>,
+    /// `c_k^m/m!`, indexed `[m][k]`.
+    pub powers: Vec<[f64; NODES]>,
     /// `int_0^1 (1 - c)^m/m! l_j dc`, indexed `[m][j]`.
     pub at_end: Vec<[f64; NODES]>,
     /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed `[degree][node]`.
@@ -112,6 +120,7 @@ impl Rule {
             s,
             c,
             at_nodes: Vec::new(),
+            powers: powers(c),
             at_end: Vec::new(),
             coefficients,
             fine: Vec::new(),
@@ -127,7 +136,7 @@ impl Rule {
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
         rule.at_end = moments(1.0);
         rule.at_nodes = (0..TERMS)
-            .map(|m| std::array::from_fn(|index| node_moments[index / NODES][m][index % NODES]))
+            .map(|m| std::array::from_fn(|j| std::array::from_fn(|k| node_moments[k][m][j])))
             .collect();
         rule
     }
@@ -170,6 +179,14 @@ impl Rule {
     }
 }
 
+/// `c_k^m/m!`.
+fn powers(c: [f64; NODES]) -> Vec<[f64; NODES]> {
+    let next = |(m, power): &(usize, [f64; NODES])| {
+        Some((m + 1, std::array::from_fn(|k| power[k] * c[k] / (m + 1) as f64)))
+    };
+    std::iter::successors(Some((0, [1.0; NODES])), next).take(TERMS).map(|(_, power)| power).collect()
+}
+
 /// Derivatives of the Lagrange polynomials at their nodes: `(w_j/w_k)/(s_k - s_j)` with the barycentric weights w.
 fn derivative(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
     let weight = |j: usize| (0..NODES).filter(|&i| i != j).map(|i| 1.0 / (s[j] - s[i])).product::<f64>();
@@ -196,110 +213,9 @@ fn to_bernstein(s: &[f64; NODES], start: f64) -> [[f64; NODES]; NODES] {
     std::array::from_fn(|i| std::array::from_fn(|k| inverse[(i, k)]))
 }
 
-/// Three-term recurrence of the orthonormal polynomials of a weight on [0, 1].
-#[derive(Debug, Clone)]
-struct Recurrence {
-    alpha: [f64; NODES],
-    /// Square roots of the beta coefficients; the first is the root of the total weight.
-    beta: [f64; NODES],
-}
-
-impl Recurrence {
-    /// Stieltjes' procedure on a fine quadrature.
-    fn stieltjes(weight: impl Fn(f64) -> f64, fine: &[(f64, f64)]) -> Self {
-        let measure: Vec<f64> = fine.iter().map(|&(s, w)| w * weight(s)).collect();
-        let (mut alpha, mut beta) = ([0.0; NODES], [0.0; NODES]);
-        let mut previous = vec![0.0; fine.len()];
-        let mut current = vec![1.0; fine.len()];
-        for degree in 0..NODES {
-            let norm = current.iter().zip(&measure).map(|(p, w)| p * p * w).sum::<f64>().sqrt();
-            beta[degree] = norm;
-            current.iter_mut().for_each(|p| *p /= norm);
-            alpha[degree] = (0..fine.len()).map(|i| fine[i].0 * current[i] * current[i] * measure[i]).sum();
-            let next = (0..fine.len())
-                .map(|i| {
-                    (fine[i].0 - alpha[degree]) * current[i]
-                        - if degree > 0 { norm * previous[i] } else { 0.0 }
-                })
-                .collect();
-            previous = std::mem::replace(&mut current, next);
-        }
-        Self { alpha, beta }
-    }
-
-    /// Orthonormal polynomials of degree 0 to `NODES - 1` at `s`.
-    fn values(&self, s: f64) -> [f64; NODES] {
-        let mut values = [0.0; NODES];
-        values[0] = 1.0 / self.beta[0];
-        for degree in 0..NODES - 1 {
-            let before = if degree > 0 { self.beta[degree] * values[degree - 1] } else { 0.0 };
-            values[degree + 1] = ((s - self.alpha[degree]) * values[degree] - before) / self.beta[degree + 1];
-        }
-        values
-    }
-
-    /// Largest magnitude of the two polynomials of highest degree: like all Jacobi polynomials with weights that do not grow beyond
-    /// the ends faster than a root, they have it at an end.
-    fn highest(&self) -> f64 {
-        let ends = [self.values(0.0), self.values(1.0)];
-        ends.iter()
-            .flat_map(|values| &values[NODES - 2..])
-            .fold(0.0, |largest, value| value.abs().max(largest))
-    }
-
-    /// Nodes and weights of Gauss, from the eigenvalues of the Jacobi matrix (Golub and Welsch 1969).
-    fn gauss(&self) -> ([f64; NODES], [f64; NODES]) {
-        let jacobi = Mat::from_fn(NODES, NODES, |i, j| match i.abs_diff(j) {
-            0 => self.alpha[i],
-            1 => self.beta[i.max(j)],
-            _ => 0.0,
-        });
-        let nodes =
-            jacobi.self_adjoint_eigenvalues(Side::Lower).expect("a small symmetric matrix has eigenvalues");
-        let nodes: [f64; NODES] = std::array::from_fn(|i| nodes[i]);
-        let weights = nodes.map(|s| 1.0 / self.values(s).iter().map(|p| p * p).sum::<f64>());
-        (nodes, weights)
-    }
-}
-
-/// Sixteen nodes and weights of Gauss-Legendre on [0, 1], made once.
-pub(crate) fn gauss_sixteen() -> &'static [(f64, f64)] {
-    static SIXTEEN: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
-    SIXTEEN.get_or_init(|| gauss_legendre(16))
-}
-
-/// Nodes and weights of Gauss-Legendre on [0, 1], by Newton's method on the Legendre polynomial.
-pub(crate) fn gauss_legendre(count: usize) -> Vec<(f64, f64)> {
-    let node = |i: usize| {
-        let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (count as f64 + 0.5)).cos();
-        let mut slope = 1.0;
-        for _ in 0..100 {
-            let (mut previous, mut current) = (1.0, x);
-            for degree in 2..=count {
-                let d = degree as f64;
-                (previous, current) = (current, ((2.0 * d - 1.0) * x * current - (d - 1.0) * previous) / d);
-            }
-            slope = count as f64 * (x * current - previous) / (x * x - 1.0);
-            let correction = current / slope;
-            x -= correction;
-            if correction.abs() < 1e-16 {
-                break;
-            }
-        }
-        (0.5 * (1.0 + x), 1.0 / ((1.0 - x * x) * slope * slope))
-    };
-    (0..count).map(node).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn gauss_legendre_integrates_a_polynomial_of_high_degree() {
-        let sum: f64 = gauss_legendre(20).iter().map(|(x, w)| w * x.powi(39)).sum();
-        assert!((sum - 1.0 / 40.0).abs() < 1e-15);
-    }
 
     #[test]
     fn every_grading_integrates_powers_of_its_variable_exactly() {

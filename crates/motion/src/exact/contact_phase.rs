@@ -88,7 +88,7 @@ impl ExactIntegrator {
     }
 
     pub(super) fn set_active(&mut self, run: &Run) {
-        self.step.active.clear();
+        self.step.start_anew();
         let active =
             (0..self.laws.len()).filter(|&e| run.closed[e].is_some() || self.laws[e].contacts().is_empty());
         self.step.active.extend(active);
@@ -148,15 +148,16 @@ impl ExactIntegrator {
         let Some(grading) = self.grading(run, touched, aim.event) else { return free(aim.otherwise) };
         let solved = match aim.event {
             Some(event) => self.locate(run, event, grading, aim.length, remaining),
-            None => {
-                self.attempt(run, aim.length, grading, false).map(|error| Solved { error, at_event: false })
-            }
+            None => self.attempt(run, aim.length, grading).map(|error| Solved {
+                error,
+                at_event: false,
+                length: self.step.weights.length,
+            }),
         };
-        let Some(Solved { error, at_event }) = solved else {
+        let Some(Solved { error, at_event, length }) = solved else {
             run.release = None;
             return free(if aim.event.is_some() { aim.otherwise } else { 0.5 * self.step.weights.length });
         };
-        let length = self.step.weights.length;
         let event = aim.event.filter(|_| at_event);
         let release = match event {
             Some(Event::Release(element)) => Some((element, length)),

@@ -20,6 +20,12 @@ const MAX_TRIES: usize = 8;
 /// their ends more, and another try is cheap.
 const RELATIVE_ACCURACY: f64 = 0.02;
 
+/// Precision of the displacements at the first try of a length.
+const COARSE: f64 = 1e-5;
+
+/// A step that ends with a release and is longer than what the last step allows by this factor fails as a rule.
+const HOPELESS: f64 = 1.5;
+
 /// What ends a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
@@ -45,6 +51,8 @@ pub(super) struct Solved {
     pub error: f64,
     /// Whether the step ends with its event, not with the stretch.
     pub at_event: bool,
+    /// Length of the step [s]; of one whose error is infinite, the length that it would have.
+    pub length: f64,
 }
 
 impl ExactIntegrator {
@@ -60,27 +68,42 @@ impl ExactIntegrator {
         let exponent = self.contact_of(run, event).onset_exponent;
         let accuracy = self.location_accuracy(exponent);
         let mut length = length.min(remaining);
+        // The first try tells little more than the length of the next, unless the event was located before.
+        let first = if run.release.is_some() { self.full_precision() } else { COARSE };
+        let mut precision = first;
         let mut last = false;
         for tries in 0..MAX_TRIES {
-            let error = self.attempt(run, length, grading, tries > 0)?;
+            self.solve_step(run, length, (grading, tries > 0), precision)?;
             if self.step.weights.length != length {
                 return None;
             }
             if last {
-                return Some(Solved { error, at_event: true });
+                return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
             let change = time_to_zero(self.distance_at_end(run, event), length)?;
-            if change.abs() <= accuracy * length {
-                return Some(Solved { error, at_event: true });
+            let fine = precision < COARSE;
+            if fine && change.abs() <= accuracy * length {
+                return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
-            if length == remaining && change > 0.0 {
-                return Some(Solved { error, at_event: false });
+            if fine && length == remaining && change > 0.0 {
+                return Some(Solved { error: self.state_error(run), at_event: false, length });
+            }
+            if length + change > self.longest_with_sensitivities(run) {
+                return Some(Solved { error: f64::INFINITY, at_event: true, length: length + change });
             }
             // Newton's method with the curvature: the next error is below the power 2.5 of this one.
-            last = change.abs() <= 0.3 * accuracy.powf(0.4) * length && length + change < remaining;
+            let near = change.abs() <= 0.3 * accuracy.powf(0.4) * length;
+            last = fine && near && length + change < remaining;
+            precision = self.full_precision();
             length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
         }
         None
+    }
+
+    /// Length above which the sensitivities of the step would hardly be accurate enough, as the last step tells; it is not worth
+    /// locating its end.
+    fn longest_with_sensitivities(&self, run: &Run) -> f64 {
+        if run.sensitivity.is_some() && run.proposal > 0.0 { HOPELESS * run.proposal } else { f64::INFINITY }
     }
 
     /// Accuracy of the length of a step that ends with a contact that sets in or ends with that exponent, relative to it.

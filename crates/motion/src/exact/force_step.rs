@@ -6,20 +6,18 @@
 use super::{
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
-    lanes::{add_multiple, dot, raise, vectorised},
+    lanes::{add_products, dot, raise, vectorised},
     lu::{FixedLu, SmallLu},
+    newton::NotSolved,
     output::Output,
     sensitivity::{ColumnTail, Sensitivity},
+    series::{Readings, Series},
     step_error::Tail,
-    weights::{Readings, Series, StepWeights},
+    weights::StepWeights,
 };
-use crate::Law;
 
-/// Newton's method has converged when what is left is this small against the range of the displacements.
-const CONVERGED: f64 = 1e-15;
-/// Slower convergence than this calls for a new factorisation.
-const FACTORISE_ABOVE: f64 = 0.03;
-const MAX_ITERATIONS: usize = 30;
+/// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom longer.
+const READ_AHEAD: f64 = 1.3;
 
 /// Forces of a step and what they were solved with. Node values are indexed `[a * NODES + k]` with the a-th active element.
 #[derive(Debug, Clone, Default)]
@@ -34,11 +32,13 @@ pub(crate) struct ForceStep {
     pub slope: Vec<f64>,
     /// What each block has in the force per unit of its turning, relative to the velocities; see `step_error.rs` [1/s].
     pub unresolved: Vec<f64>,
-    free: Vec<f64>,
+    pub(super) free: Vec<f64>,
     readings: Vec<Readings>,
-    correction: Vec<f64>,
-    lu: SmallLu,
-    fixed_lu: FixedLu<NODES>,
+    /// Longest step that the readings serve [s].
+    readings_reach: f64,
+    pub(super) correction: Vec<f64>,
+    pub(super) lu: SmallLu,
+    pub(super) fixed_lu: FixedLu<NODES>,
     work: Vec<f64>,
 }
 
@@ -49,10 +49,6 @@ fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
     }
     values
 }
-
-/// The forces of a step were not found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct NotSolved;
 
 impl ForceStep {
     /// Time of node k since the start of the step.
@@ -65,17 +61,27 @@ impl ForceStep {
         self.grading.unwrap_or(Grading::Smooth)
     }
 
+    /// Forgets what was read of the state at the start of the last step.
+    pub fn start_anew(&mut self) {
+        self.active.clear();
+        self.readings.clear();
+    }
+
     /// Displacements at the nodes if no force acted in the step that starts from `state`.
     pub fn set_free_motion(&mut self, series: &Series, drive: &Drive, outputs: &[Output], state: &[f64]) {
         self.free.clear();
-        self.readings.clear();
+        if self.weights.length > self.readings_reach {
+            self.readings.clear();
+        }
         for (a, &e) in self.active.iter().enumerate() {
             let mut free = if self.weights.complete {
                 rows_times_state(&self.weights.rows[a], state)
             } else {
-                let readings = series.readings(e, state, self.weights.length);
-                self.readings.push(readings);
-                series.free_values(&readings, self.grading(), self.weights.length)
+                if self.readings.len() == a {
+                    self.readings_reach = READ_AHEAD * self.weights.length;
+                    self.readings.push(series.readings(e, state, self.readings_reach));
+                }
+                series.free_values(&self.readings[a], self.grading(), self.weights.length)
             };
             let span = (self.start, self.weights.length);
             drive.add_values(e, &outputs[e], span, &self.grading().rule().c, &mut free);
@@ -103,119 +109,6 @@ impl ForceStep {
         let o = &outputs[output];
         let read = |row: &[f64]| row.iter().zip(&end).map(|(r, x)| r * x).sum();
         Jet { value: read(&o.row), slope: read(&o.velocity_row), curvature: read(&o.acceleration_row) }
-    }
-
-    /// Solves for the displacements from the guess in `displacement`. `scale` is a length below which corrections are rounding.
-    ///
-    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with, and so is that of the
-    /// last step solved if this one is nearly the same (`again`).
-    pub fn solve(&mut self, laws: &[Law], scale: f64, again: bool) -> Result<(), NotSolved> {
-        let size = self.free.len();
-        self.force.resize(size, 0.0);
-        self.slope.resize(size, 0.0);
-        self.correction.resize(size, 0.0);
-        self.evaluate(laws);
-        let (mut previous, mut fresh) = (f64::NAN, !again);
-        for _ in 0..MAX_ITERATIONS {
-            self.fill_defect();
-            if fresh {
-                self.factorise()?;
-            }
-            self.solve_correction();
-            let (mut largest, mut range) = (0.0_f64, 0.0_f64);
-            for i in 0..size {
-                self.displacement[i] -= self.correction[i];
-                largest = largest.max(self.correction[i].abs());
-                range = range.max((self.displacement[i] - self.displacement[0]).abs());
-            }
-            if !largest.is_finite() {
-                return Err(NotSolved);
-            }
-            self.evaluate(laws);
-            // What is left after this correction: its square after a fresh matrix, else as before times the rate.
-            let rate = if fresh { largest / range } else { largest / previous };
-            if largest * rate <= CONVERGED * range || largest <= scale {
-                return Ok(());
-            }
-            fresh = rate > FACTORISE_ABOVE;
-            previous = largest;
-        }
-        Err(NotSolved)
-    }
-
-    fn solve_correction(&mut self) {
-        if let [_] = self.active.as_slice() {
-            let mut right: [f64; NODES] = std::array::from_fn(|k| self.correction[k]);
-            self.fixed_lu.solve(&mut right);
-            self.correction.copy_from_slice(&right);
-        } else {
-            self.lu.solve(&mut self.correction, 1);
-        }
-    }
-
-    fn evaluate(&mut self, laws: &[Law]) {
-        for (a, &e) in self.active.iter().enumerate() {
-            for i in a * NODES..(a + 1) * NODES {
-                let force = laws[e].force(self.displacement[i]);
-                self.force[i] = force.value;
-                self.slope[i] = force.slope;
-            }
-        }
-    }
-
-    /// `r - r_free - W f(r)`.
-    fn fill_defect(&mut self) {
-        let count = self.active.len();
-        for a in 0..count {
-            for k in 0..NODES {
-                let mut defect = self.displacement[a * NODES + k] - self.free[a * NODES + k];
-                for b in 0..count {
-                    let row = &self.weights.convolution[a * count + b][k * NODES..(k + 1) * NODES];
-                    let force = &self.force[b * NODES..(b + 1) * NODES];
-                    defect -= dot(row, force);
-                }
-                self.correction[a * NODES + k] = defect;
-            }
-        }
-    }
-
-    /// Factorises `I - W f'`.
-    fn factorise(&mut self) -> Result<(), NotSolved> {
-        let (count, weights, slope) = (self.active.len(), &self.weights, &self.slope);
-        if count == 1 {
-            let (convolution, slope) = (&weights.convolution[0], &slope[..NODES]);
-            return self
-                .fixed_lu
-                .factorise(
-                    #[inline(always)]
-                    |matrix| {
-                        let rows = matrix.iter_mut().zip(convolution.chunks_exact(NODES)).enumerate();
-                        for (k, (row, from)) in rows {
-                            for j in 0..NODES {
-                                row[j] = -from[j] * slope[j];
-                            }
-                            row[k] += 1.0;
-                        }
-                    },
-                )
-                .ok_or(NotSolved);
-        }
-        let size = count * NODES;
-        let fill = |matrix: &mut [f64]| {
-            for a in 0..count {
-                for b in 0..count {
-                    let convolution = &weights.convolution[a * count + b];
-                    for k in 0..NODES {
-                        for j in 0..NODES {
-                            matrix[(a * NODES + k) * size + b * NODES + j] =
-                                -convolution[k * NODES + j] * slope[b * NODES + j];
-                        }
-                    }
-                }
-            }
-            (0..size).for_each(|i| matrix[i * size + i] += 1.0);
-        };
-        self.lu.factorise(size, fill).ok_or(NotSolved)
     }
 
     /// State at the end of the step.
@@ -291,21 +184,15 @@ impl ForceStep {
         let mut velocities = vec![0.0; columns];
         sensitivity.raise_velocity_norms(&mut velocities);
         let mut largest = vec![0.0; columns];
-        let mut sums =
-            [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1].map(|degree| (degree, vec![0.0; columns]));
         vectorised(
             #[inline(always)]
-            || {
-                for (k, row) in work.chunks_exact(columns).enumerate() {
-                    raise(&mut largest, row);
-                    for (degree, sum) in &mut sums {
-                        add_multiple(sum, coefficients[*degree][k], row);
-                    }
-                }
-            },
+            || work.chunks_exact(columns).for_each(|row| raise(&mut largest, row)),
         );
+        let degrees = [NODES - 1, NODES - 2, NODES / 2, NODES / 2 - 1];
+        let mut sums = vec![0.0; degrees.len() * columns];
+        add_products(&mut sums, work, columns, |row| coefficients[degrees[row]].iter().copied());
         let of_column = |c: usize| {
-            let pair = |first: usize| sums[first].1[c].abs() + sums[first + 1].1[c].abs();
+            let pair = |first: usize| sums[first * columns + c].abs() + sums[(first + 1) * columns + c].abs();
             let tail = Tail { highest: pair(0), middle: pair(2) };
             ColumnTail { velocity: velocities[c], largest: largest[c], tail }
         };

@@ -31,6 +31,80 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + tail
 }
 
+/// `T_r += sum_k w_rk S_k` for the rows `T_r` of `target` and the rows `S_k` of `source`, of `columns` entries each, a multiple of four.
+///
+/// * `weights`: the `w_rk` of a row r; where they end the sum ends.
+#[inline(always)]
+pub(crate) fn add_products<W: Iterator<Item = f64> + Clone>(
+    target: &mut [f64],
+    source: &[f64],
+    columns: usize,
+    weights: impl Fn(usize) -> W,
+) {
+    pulp::Arch::new().dispatch(Products { target, source, columns, weights });
+}
+
+struct Products<'a, F> {
+    target: &'a mut [f64],
+    source: &'a [f64],
+    columns: usize,
+    weights: F,
+}
+
+impl<W: Iterator<Item = f64> + Clone, F: Fn(usize) -> W> pulp::WithSimd for Products<'_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        for (r, row) in self.target.chunks_exact_mut(self.columns).enumerate() {
+            add_to_row(simd, row, self.source, (self.weights)(r));
+        }
+    }
+}
+
+/// One row of [`add_products`], six vectors at a time, which stay in registers.
+#[inline(always)]
+pub(crate) fn add_to_row<S: pulp::Simd>(
+    simd: S,
+    row: &mut [f64],
+    source: &[f64],
+    weights: impl Iterator<Item = f64> + Clone,
+) {
+    let (row, source) = (S::as_mut_simd_f64s(row).0, S::as_simd_f64s(source).0);
+    let (columns, mut first) = (row.len(), 0);
+    while first + 6 <= columns {
+        add_to_vectors::<S, 6>(simd, row, source, first, weights.clone());
+        first += 6;
+    }
+    match columns - first {
+        1 => add_to_vectors::<S, 1>(simd, row, source, first, weights),
+        2 => add_to_vectors::<S, 2>(simd, row, source, first, weights),
+        3 => add_to_vectors::<S, 3>(simd, row, source, first, weights),
+        4 => add_to_vectors::<S, 4>(simd, row, source, first, weights),
+        5 => add_to_vectors::<S, 5>(simd, row, source, first, weights),
+        _ => {}
+    }
+}
+
+#[inline(always)]
+fn add_to_vectors<S: pulp::Simd, const N: usize>(
+    simd: S,
+    row: &mut [S::f64s],
+    source: &[S::f64s],
+    first: usize,
+    weights: impl Iterator<Item = f64>,
+) {
+    let columns = row.len();
+    let target = &mut row[first..first + N];
+    let mut sum: [S::f64s; N] = std::array::from_fn(|i| target[i]);
+    for (source, weight) in source.chunks_exact(columns).zip(weights) {
+        let (weight, part) = (simd.splat_f64s(weight), &source[first..first + N]);
+        for i in 0..N {
+            sum[i] = simd.add_f64s(sum[i], simd.mul_f64s(weight, part[i]));
+        }
+    }
+    target.copy_from_slice(&sum);
+}
+
 /// Adds a multiple of a row to another.
 #[inline(always)]
 pub(crate) fn add_multiple(to: &mut [f64], factor: f64, row: &[f64]) {

@@ -1,6 +1,6 @@
 //! A small dense LU factorisation for the forces of a step.
 
-use super::lanes::vectorised;
+use super::lanes::{add_to_row, vectorised};
 
 /// `P A = L U` of a small square matrix, row by row.
 #[derive(Debug, Clone, Default)]
@@ -147,7 +147,7 @@ impl<const N: usize> FixedLu<N> {
         }
     }
 
-    /// Solves in place for `columns` right-hand sides stored row by row (`[row * columns + column]`).
+    /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row * columns + column]`).
     pub fn solve_rows(&self, right: &mut [f64], columns: usize) {
         for (k, &pivot) in self.pivots.iter().enumerate() {
             if pivot != k {
@@ -155,28 +155,31 @@ impl<const N: usize> FixedLu<N> {
                 upper[k * columns..(k + 1) * columns].swap_with_slice(&mut lower[..columns]);
             }
         }
-        vectorised(
-            #[inline(always)]
-            || self.substitute(right, columns),
-        );
+        pulp::Arch::new().dispatch(Substitution { lu: self, right, columns });
     }
+}
 
+/// Both substitutions for several right-hand sides at once.
+struct Substitution<'a, const N: usize> {
+    lu: &'a FixedLu<N>,
+    right: &'a mut [f64],
+    columns: usize,
+}
+
+impl<const N: usize> pulp::WithSimd for Substitution<'_, N> {
+    type Output = ();
     #[inline(always)]
-    fn substitute(&self, right: &mut [f64], columns: usize) {
+    fn with_simd<S: pulp::Simd>(self, simd: S) {
+        let Self { lu, right, columns } = self;
         for i in 1..N {
             let (known, open) = right.split_at_mut(i * columns);
-            let target = &mut open[..columns];
-            for (source, factor) in known.chunks_exact(columns).zip(&self.lower[i]) {
-                target.iter_mut().zip(source).for_each(|(t, s)| *t -= factor * s);
-            }
+            add_to_row(simd, &mut open[..columns], known, lu.lower[i].iter().map(|factor| -factor));
         }
         for i in (0..N).rev() {
             let (open, known) = right.split_at_mut((i + 1) * columns);
             let target = &mut open[i * columns..];
-            for (source, factor) in known.chunks_exact(columns).zip(&self.upper[i][i + 1..]) {
-                target.iter_mut().zip(source).for_each(|(t, s)| *t -= factor * s);
-            }
-            target.iter_mut().for_each(|t| *t *= self.inverse[i]);
+            add_to_row(simd, target, known, lu.upper[i][i + 1..].iter().map(|factor| -factor));
+            target.iter_mut().for_each(|t| *t *= lu.inverse[i]);
         }
     }
 }
@@ -209,13 +212,19 @@ mod tests {
         fixed.factorise(|m| *m = matrix).unwrap();
         variable.factorise(6, |m| m.copy_from_slice(matrix.as_flattened())).unwrap();
         let mut single = [1.0, -2.0, 3.0, 0.5, 0.0, 7.0];
-        let (mut rows, mut expected) = (single.to_vec(), single.to_vec());
-        fixed.solve(&mut single);
-        fixed.solve_rows(&mut rows, 1);
+        let mut expected = single.to_vec();
         variable.solve(&mut expected, 1);
-        for i in 0..6 {
-            assert!((single[i] - expected[i]).abs() < 1e-12 && (rows[i] - expected[i]).abs() < 1e-12);
+        for columns in [4, 12, 16] {
+            let mut rows: Vec<f64> =
+                (0..6 * columns).map(|i| single[i / columns] * (1 + i % columns) as f64).collect();
+            fixed.solve_rows(&mut rows, columns);
+            for (i, found) in rows.iter().enumerate() {
+                let factor = (1 + i % columns) as f64;
+                assert!((found - factor * expected[i / columns]).abs() < 1e-12 * factor);
+            }
         }
+        fixed.solve(&mut single);
+        (0..6).for_each(|i| assert!((single[i] - expected[i]).abs() < 1e-12));
     }
 
     #[test]

@@ -52,21 +52,60 @@ impl InvariantPlane {
     /// One step, and the size of its correction.
     fn newton_step(&self, model: &ReducedModel, group: &[usize]) -> Option<(Self, f64)> {
         let m = group.len();
-        let (k, c) = (self.stiffness, self.damping);
-        // Displacements of s count as much as those of p over this rate.
-        let rate = k.abs().sqrt().max(c.abs());
+        let (rate, length) = (self.rate(), self.length());
+        let (mut matrix, mut defect) = self.equations(model, group);
+        for column in 0..2 {
+            for i in 0..2 * m {
+                matrix[(i, 2 * m + column)] /= length;
+                matrix[(2 * m + column, i)] /= length;
+            }
+        }
+        for row in 0..2 * m {
+            let size = (0..2 * m).map(|j| matrix[(row, j)].abs()).fold(f64::MIN_POSITIVE, f64::max);
+            (0..2 * m + 2).for_each(|j| matrix[(row, j)] /= size);
+            defect[(row, 0)] /= size * length;
+        }
+        let change = matrix.partial_piv_lu().solve(&defect);
+        let size = change.norm_l2();
+        if !size.is_finite() {
+            return None;
+        }
+        let candidate = Self {
+            stiffness: self.stiffness - change[(2 * m, 0)] * rate * rate,
+            damping: self.damping - change[(2 * m + 1, 0)] * rate,
+            p: (0..m).map(|i| self.p[i] - change[(i, 0)] * rate * length).collect(),
+            s: (0..m).map(|i| self.s[i] - change[(m + i, 0)] * length).collect(),
+        };
+        Some((candidate, size))
+    }
+
+    /// Displacements of s count as much as those of p over this rate.
+    fn rate(&self) -> f64 {
+        self.stiffness.abs().sqrt().max(self.damping.abs())
+    }
+
+    /// Size of the plane's displacements.
+    fn length(&self) -> f64 {
+        let rate = self.rate();
+        self.p.iter().map(|p| (p / rate).powi(2)).chain(self.s.iter().map(|s| s * s)).sum::<f64>().sqrt()
+    }
+
+    /// Matrix and defect of the linearised equations in the file header, then the two rows that hold the changes within the plane.
+    ///
+    /// Columns: p over the rate, s, k over the rate squared, c over the rate.
+    fn equations(&self, model: &ReducedModel, group: &[usize]) -> (Mat<f64>, Mat<f64>) {
+        let m = group.len();
+        let (k, c, rate) = (self.stiffness, self.damping, self.rate());
         let (k_scale, c_scale) = (rate * rate, rate);
-        let damping = |i: usize, j: usize| model.damping[(group[i], group[j])];
         let square = |i: usize| model.natural_frequencies[group[i]].powi(2);
-        let length =
-            self.p.iter().map(|p| (p / rate).powi(2)).chain(self.s.iter().map(|s| s * s)).sum::<f64>().sqrt();
         let mut matrix = Mat::<f64>::zeros(2 * m + 2, 2 * m + 2);
         let mut defect = Mat::<f64>::zeros(2 * m + 2, 1);
         for i in 0..m {
             let (mut first, mut second) = ((k - square(i)) * self.p[i], (k - square(i)) * self.s[i]);
             for j in 0..m {
                 let unit = if i == j { 1.0 } else { 0.0 };
-                let (full, relative) = (damping(i, j), damping(i, j) - c * unit);
+                let full = model.damping[(group[i], group[j])];
+                let relative = full - c * unit;
                 first += k * relative * self.s[j];
                 second += -relative * self.p[j] + c * relative * self.s[j];
                 matrix[(i, j)] = (k - square(i)) * unit * rate;
@@ -87,28 +126,6 @@ impl InvariantPlane {
             matrix[(2 * m + 1, i)] = -k * self.s[i] / (rate * rate);
             matrix[(2 * m + 1, m + i)] = (self.p[i] - c * self.s[i]) / rate;
         }
-        for column in 0..2 {
-            for i in 0..2 * m {
-                matrix[(i, 2 * m + column)] /= length;
-                matrix[(2 * m + column, i)] /= length;
-            }
-        }
-        for row in 0..2 * m {
-            let size = (0..2 * m).map(|j| matrix[(row, j)].abs()).fold(f64::MIN_POSITIVE, f64::max);
-            (0..2 * m + 2).for_each(|j| matrix[(row, j)] /= size);
-            defect[(row, 0)] /= size * length;
-        }
-        let change = matrix.partial_piv_lu().solve(&defect);
-        let size = change.norm_l2();
-        if !size.is_finite() {
-            return None;
-        }
-        let candidate = Self {
-            stiffness: k - change[(2 * m, 0)] * k_scale,
-            damping: c - change[(2 * m + 1, 0)] * c_scale,
-            p: (0..m).map(|i| self.p[i] - change[(i, 0)] * rate * length).collect(),
-            s: (0..m).map(|i| self.s[i] - change[(m + i, 0)] * length).collect(),
-        };
-        Some((candidate, size))
+        (matrix, defect)
     }
 }

@@ -5,8 +5,9 @@
 
 use super::{
     block::{Blocks, Propagator},
-    collocation::{Grading, NODES, gauss_sixteen},
+    collocation::{Grading, NODES},
     output::Output,
+    recurrence::gauss_sixteen,
     weights::StepWeights,
 };
 
@@ -29,8 +30,7 @@ impl StepWeights {
         let n = blocks.count();
         let mut weights = Self { length, complete: true, ..Self::default() };
         weights.resize(active.len(), 2 * n);
-        weights.convolution.resize(active.len() * active.len(), [0.0; NODES * NODES]);
-        weights.convolution.iter_mut().for_each(|w| w.fill(0.0));
+        weights.convolution.fill([[0.0; NODES]; NODES]);
         weights.set_propagators(blocks, length);
         for i in 0..n {
             let block = (blocks.stiffness[i], blocks.damping[i]);
@@ -85,7 +85,7 @@ impl StepWeights {
             return;
         }
         for (a, &e) in active.iter().enumerate() {
-            self.convolution[a * active.len() + b][node * NODES + j] +=
+            self.convolution[a * active.len() + b][j][node] +=
                 outputs[e].row[i] * p + outputs[e].row[n + i] * s;
         }
     }
@@ -144,7 +144,7 @@ fn advance(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::weights::Series;
+    use crate::exact::series::Series;
 
     /// Within the reach of the series both ways give the same matrices.
     #[test]
@@ -174,7 +174,10 @@ mod tests {
                 assert!(near(&found.to_state[a], &expected.to_state[a]), "{grading:?}");
                 for b in 0..2 {
                     assert!(
-                        near(&found.convolution[2 * a + b], &expected.convolution[2 * a + b]),
+                        near(
+                            found.convolution[2 * a + b].as_flattened(),
+                            expected.convolution[2 * a + b].as_flattened()
+                        ),
                         "{grading:?}"
                     );
                 }

@@ -1,11 +1,7 @@
 //! Reading outputs inside a force step, at any time.
 
 use super::{
-    ExactIntegrator,
-    block::Propagator,
-    collocation::{NODES, gauss_sixteen},
-    drive::Jet,
-    lanes::dot,
+    ExactIntegrator, block::Propagator, collocation::NODES, drive::Jet, lanes::dot, recurrence::gauss_sixteen,
 };
 
 /// Radians of a block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding.

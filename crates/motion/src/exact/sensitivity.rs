@@ -5,7 +5,7 @@ use faer::Mat;
 use super::{
     block::{Blocks, Propagator},
     collocation::NODES,
-    lanes::{add_multiple, raise, vectorised},
+    lanes::{add_products, raise, vectorised},
     step_error::Tail,
 };
 
@@ -79,34 +79,15 @@ impl Sensitivity {
         );
     }
 
-    /// `X V` for the rows of one element, into `[k * columns + column]`.
+    /// Adds `X V` for the rows of one element to `[k * columns + column]`.
     pub fn read(&self, rows: &[f64], into: &mut [f64]) {
-        vectorised(
-            #[inline(always)]
-            || {
-                for (row, weights) in self.values.chunks_exact(self.columns).zip(rows.chunks_exact(NODES)) {
-                    for (target, &weight) in into.chunks_exact_mut(self.columns).zip(weights) {
-                        add_multiple(target, weight, row);
-                    }
-                }
-            },
-        );
+        add_products(into, &self.values, self.columns, |k| rows[k..].iter().step_by(NODES).copied());
     }
 
     /// Adds `P dF` for one element.
     pub fn add(&mut self, to_state: &[f64], force: &[f64]) {
-        let columns = self.columns;
-        vectorised(
-            #[inline(always)]
-            || {
-                for (row, weights) in self.values.chunks_exact_mut(columns).zip(to_state.chunks_exact(NODES))
-                {
-                    for (source, &weight) in force.chunks_exact(columns).zip(weights) {
-                        add_multiple(row, weight, source);
-                    }
-                }
-            },
-        );
+        let weights = to_state.as_chunks::<NODES>().0;
+        add_products(&mut self.values, force, self.columns, |i| weights[i].iter().copied());
     }
 
     /// Largest velocity of each column, raised from what is in `norms`.

@@ -36,7 +36,7 @@ fn steps(law: Law, state: &[f64], duration: f64, count: usize, grading: Grading)
         integrator.set_active(&run);
         let grading = if step == 0 { grading } else { Grading::Smooth };
         let length = duration / count as f64;
-        integrator.attempt(&run, length, grading, false).unwrap();
+        integrator.attempt(&run, length, grading).unwrap();
         assert_eq!(integrator.step.weights.length, length, "the lengths are those asked for");
         integrator.step.weights.set_propagators(&integrator.blocks, length);
         integrator.step.advance_state(&integrator.series, &mut run.state);

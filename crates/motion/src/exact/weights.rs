@@ -1,18 +1,13 @@
 //! Matrices of one force step of length h, for the active elements.
 //!
 //! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate docs). For short steps all of
-//! them come from power series in h (`collocation.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
-//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`], they come from quadrature (`quadrature.rs`)
+//! them come from power series in h (`collocation.rs`, `series.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
+//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`](super::collocation::REACH), they come from quadrature (`quadrature.rs`)
 //! fine enough for every mode; such steps have lengths on a grid and are cached.
-
-use std::sync::OnceLock;
 
 use super::{
     block::{Blocks, Propagator},
-    collocation::{Grading, NODES, REACH, TERMS},
-    drive::Jet,
-    lanes::{add_multiple, dot, vectorised},
-    output::Output,
+    collocation::{NODES, NodeMatrix},
 };
 
 /// Row over the block state at each node, `[i * NODES + k]`.
@@ -27,255 +22,12 @@ pub(crate) struct StepWeights {
     pub propagators: Vec<Propagator>,
     /// `X` of each active element.
     pub rows: Vec<NodeRows>,
-    /// `W`, indexed `[a * active + b][k * NODES + j]`.
-    pub convolution: Vec<[f64; NODES * NODES]>,
+    /// `W`, indexed `[a * active + b][j][k]`: a column per node that reads, a row per force.
+    pub convolution: Vec<NodeMatrix>,
     /// `P` of each active element, `[i * NODES + j]`.
     pub to_state: Vec<Vec<f64>>,
     /// Whether more than the convolution has been made.
     pub complete: bool,
-}
-
-/// `C (A/rate)^m x` of one output, from `m = 0` on.
-pub(crate) type Readings = [f64; TERMS + 2];
-
-/// What the weights are made of: powers of the system on the rows and columns of the elements.
-#[derive(Debug, Clone)]
-pub(crate) struct Series {
-    rate: f64,
-    /// Row of element e times `(A/rate)^m`, `[e][m][i]`.
-    rows: Vec<Vec<Vec<f64>>>,
-    /// `(A/rate)^m` times the column of element e, `[e][m][i]`.
-    columns: Vec<Vec<Vec<f64>>>,
-    /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
-    markov: Vec<Vec<f64>>,
-}
-
-impl Series {
-    pub fn new(blocks: &Blocks, outputs: &[Output], inputs: &[Vec<f64>]) -> Self {
-        // Powers of a rigid block end by themselves; they only need a scale.
-        let rate = blocks.fastest_rate().max(1e-6);
-        let scaled = |values: Vec<f64>| values.into_iter().map(|value| value / rate).collect::<Vec<f64>>();
-        let powers = |first: &Vec<f64>, next: &dyn Fn(&[f64]) -> Vec<f64>| {
-            let mut list = vec![first.clone()];
-            for m in 1..=TERMS {
-                list.push(scaled(next(&list[m - 1])));
-            }
-            list
-        };
-        let rows: Vec<_> =
-            outputs.iter().map(|o| powers(&o.row, &|row| blocks.row_times_system(row))).collect();
-        let columns: Vec<_> =
-            inputs.iter().map(|b| powers(b, &|column| blocks.system_times_column(column))).collect();
-        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
-        let markov = outputs
-            .iter()
-            .flat_map(|output| {
-                columns.iter().map(move |powers| powers.iter().map(|c| dot(&output.row, c)).collect())
-            })
-            .collect();
-        Self { rate, rows, columns, markov }
-    }
-
-    /// Longest step that the series serve [s].
-    pub fn reach(&self) -> f64 {
-        REACH / self.rate
-    }
-
-    /// Impulse response `C_e A^d exp(A t) B_f` of output e to input f (d = 0, 1, 2), for `t` within the reach.
-    pub fn impulse_response(&self, e: usize, f: usize, derivative: usize, time: f64) -> f64 {
-        let markov = &self.markov[e * self.columns.len() + f];
-        let z = time * self.rate;
-        let mut sum = 0.0;
-        for m in (derivative..=(Self::terms(z) + derivative).min(TERMS)).rev() {
-            sum = markov[m] + sum * z / (m - derivative + 1) as f64;
-        }
-        sum * self.rate.powi(derivative as i32)
-    }
-
-    /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part and from direct forces:
-    /// `C A^d (exp(A t) x + int exp(A (t - s)) B F ds)`.
-    ///
-    /// * `state`: block state at the start of the step; `force`: node values, `[a * NODES + k]`.
-    pub fn node_values(
-        &self,
-        (output, derivative): (usize, usize),
-        (grading, length): (Grading, f64),
-        state: &[f64],
-        (active, force): (&[usize], &[f64]),
-    ) -> [f64; NODES] {
-        let rule = grading.rule();
-        let z = length * self.rate;
-        let terms = Self::terms(z).min(TERMS - derivative);
-        let mut values = [0.0; NODES];
-        let mut powers = [1.0; NODES];
-        let mut factor = length;
-        let count = self.columns.len();
-        for m in 0..terms {
-            let row = &self.rows[output][m + derivative];
-            let free = dot(row, state);
-            (0..NODES).for_each(|k| values[k] += powers[k] * free);
-            (0..NODES).for_each(|k| powers[k] *= z * rule.c[k] / (m + 1) as f64);
-            for (a, &e) in active.iter().enumerate() {
-                let weight = factor * self.markov[output * count + e][m + derivative];
-                let force = &force[a * NODES..(a + 1) * NODES];
-                for (value, row) in values.iter_mut().zip(rule.at_nodes[m].chunks_exact(NODES)) {
-                    *value += weight * dot(row, force);
-                }
-            }
-            factor *= z;
-        }
-        values.map(|value| value * self.rate.powi(derivative as i32))
-    }
-
-    /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
-    fn terms(z: f64) -> usize {
-        // Up to which z the term m is rounding: `z^m/m! < 1e-18`.
-        static LIMITS: OnceLock<Vec<f64>> = OnceLock::new();
-        let limits = LIMITS.get_or_init(|| {
-            let logarithm = |m: usize| (1..=m).map(|k| (k as f64).ln()).sum::<f64>();
-            (1..TERMS - 4).map(|m| ((logarithm(m) + 1e-18_f64.ln()) / m as f64).exp()).collect()
-        });
-        limits.partition_point(|&limit| limit <= z) + 3
-    }
-
-    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
-    /// [`Series::complete`].
-    pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
-        let rule = grading.rule();
-        let z = length * self.rate;
-        let terms = Self::terms(z);
-        let count = self.columns.len();
-        into.length = length;
-        into.complete = false;
-        into.convolution.resize(active.len() * active.len(), [0.0; NODES * NODES]);
-        for (a, &e) in active.iter().enumerate() {
-            for (b, &f) in active.iter().enumerate() {
-                let convolution = &mut into.convolution[a * active.len() + b];
-                let (markov, at_nodes) = (&self.markov[e * count + f], &rule.at_nodes[..terms]);
-                vectorised(
-                    #[inline(always)]
-                    || {
-                        convolution.fill(0.0);
-                        let mut factor = length;
-                        for (rule, markov) in at_nodes.iter().zip(markov) {
-                            add_multiple(convolution, factor * markov, rule);
-                            factor *= z;
-                        }
-                    },
-                );
-            }
-        }
-    }
-
-    /// Completes a prepared step: `X` and `P`.
-    pub fn complete(&self, active: &[usize], grading: Grading, step: &mut StepWeights) {
-        let rule = grading.rule();
-        let size = self.columns[0][0].len();
-        let length = step.length;
-        let z = length * self.rate;
-        let terms = Self::terms(z);
-        step.resize(active.len(), size);
-        step.complete = true;
-        for (a, &e) in active.iter().enumerate() {
-            let (rows, to_state) = (&mut step.rows[a], &mut step.to_state[a]);
-            vectorised(
-                #[inline(always)]
-                || {
-                    self.node_rows(e, rule.c, z, terms, rows);
-                    to_state.fill(0.0);
-                    let mut factor = length;
-                    for (column, at_end) in self.columns[e].iter().zip(&rule.at_end[..terms]) {
-                        let weights = at_end.map(|weight| factor * weight);
-                        for (target, &entry) in to_state.chunks_exact_mut(NODES).zip(column) {
-                            add_multiple(target, entry, &weights);
-                        }
-                        factor *= z;
-                    }
-                },
-            );
-        }
-    }
-
-    /// Adds `P F` of one element to a state.
-    pub fn add_force(
-        &self,
-        element: usize,
-        (grading, length): (Grading, f64),
-        force: &[f64],
-        state: &mut [f64],
-    ) {
-        let z = length * self.rate;
-        let mut factor = length;
-        for (column, at_end) in self.columns[element].iter().zip(&grading.rule().at_end[..Self::terms(z)]) {
-            add_multiple(state, factor * dot(at_end, force), column);
-            factor *= z;
-        }
-    }
-
-    /// Row of output `o` and its derivatives read from `state`: `C (A/rate)^m x`.
-    pub fn readings(&self, output: usize, state: &[f64], length: f64) -> Readings {
-        let terms = Self::terms(length * self.rate) + 2;
-        let mut readings = [0.0; TERMS + 2];
-        vectorised(
-            #[inline(always)]
-            || {
-                for (reading, row) in readings.iter_mut().zip(&self.rows[output]).take(terms) {
-                    *reading = dot(row, state);
-                }
-            },
-        );
-        readings
-    }
-
-    /// Free motion at the nodes of a step from the readings at its start, apart from the particular part.
-    pub fn free_values(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
-        let rule = grading.rule();
-        let z = length * self.rate;
-        let mut values = [0.0; NODES];
-        for m in (0..Self::terms(z)).rev() {
-            let share = z / (m + 1) as f64;
-            (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
-        }
-        values
-    }
-
-    /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the direct part of the forces.
-    pub fn end_jet(
-        &self,
-        (output, readings): (usize, &Readings),
-        (grading, length): (Grading, f64),
-        (active, force): (&[usize], &[f64]),
-    ) -> Jet {
-        let rule = grading.rule();
-        let z = length * self.rate;
-        let mut sums = [0.0; 3];
-        let (mut power, mut factor) = (1.0, length);
-        let count = self.columns.len();
-        for m in 0..Self::terms(z) {
-            (0..3).for_each(|d| sums[d] += power * readings[m + d]);
-            power *= z / (m + 1) as f64;
-            for (a, &e) in active.iter().enumerate() {
-                let force = &force[a * NODES..(a + 1) * NODES];
-                let moment = factor * dot(&rule.at_end[m], force);
-                let markov = &self.markov[output * count + e];
-                (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
-            }
-            factor *= z;
-        }
-        Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
-    }
-
-    #[inline(always)]
-    fn node_rows(&self, element: usize, c: [f64; NODES], z: f64, terms: usize, rows: &mut [f64]) {
-        rows.fill(0.0);
-        let mut powers = [1.0; NODES];
-        for m in 0..terms {
-            for (target, &entry) in rows.chunks_exact_mut(NODES).zip(&self.rows[element][m]) {
-                target.iter_mut().zip(&powers).for_each(|(t, p)| *t += p * entry);
-            }
-            powers.iter_mut().zip(&c).for_each(|(p, c)| *p *= z * c / (m + 1) as f64);
-        }
-    }
 }
 
 impl StepWeights {
@@ -284,7 +36,7 @@ impl StepWeights {
         self.rows.iter_mut().for_each(|row| row.resize(size * NODES, 0.0));
         self.to_state.resize(active, Vec::new());
         self.to_state.iter_mut().for_each(|p| p.resize(size * NODES, 0.0));
-        self.convolution.resize(active * active, [0.0; NODES * NODES]);
+        self.convolution.resize(active * active, [[0.0; NODES]; NODES]);
     }
 
     pub fn set_propagators(&mut self, blocks: &Blocks, length: f64) {

@@ -1,0 +1,186 @@
+//! A run over a stretch: from its start through flights and contacts to the state and the sensitivities at its end.
+
+use faer::Mat;
+
+use super::{
+    ExactIntegrator, MotionError,
+    drive::{Drive, Jet},
+    flight::{Touch, clearance_of},
+    maxima::closed_bits,
+    run::Run,
+};
+use crate::{Flow, Stretch};
+
+impl ExactIntegrator {
+    /// State at the end of a stretch, from `state` (`[q; q']`, length 2n) at its start.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn advance(&mut self, stretch: &Stretch, state: &[f64]) -> Result<Vec<f64>, MotionError> {
+        let mut run = self.begin(stretch, state, false);
+        let result = self.complete(&mut run, stretch);
+        let end = self.modal_state(&run, stretch.duration());
+        self.run = run;
+        result.map(|()| end)
+    }
+
+    /// State of the steady motion without local forces at the start of a stretch (of the motion from rest, where resonant).
+    pub fn steady_state(&mut self, stretch: &Stretch) -> Vec<f64> {
+        let n = self.blocks.count();
+        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
+        let mut block = vec![0.0; 2 * n];
+        self.drive.add_state(0.0, 1.0, &mut block);
+        let mut modal = vec![0.0; 2 * n];
+        self.blocks.to_modal(&block, &mut modal);
+        modal
+    }
+
+    /// Flow over a stretch: the state at its end and its sensitivities.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn flow(&mut self, stretch: &Stretch, state: &[f64]) -> Result<Flow, MotionError> {
+        let mut run = self.begin(stretch, state, true);
+        let result = self.complete(&mut run, stretch);
+        let flow = result.map(|()| self.flow_of(&mut run, stretch));
+        self.run = run;
+        flow
+    }
+
+    pub(super) fn begin(&mut self, stretch: &Stretch, state: &[f64], sensitivities: bool) -> Run {
+        let n = self.blocks.count();
+        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
+        let mut run = std::mem::take(&mut self.run);
+        run.time = 0.0;
+        run.proposal = 0.0;
+        run.touched = None;
+        run.slack = 0.0;
+        run.release = None;
+        run.state.resize(2 * n, 0.0);
+        self.blocks.of_modal(state, &mut run.state);
+        self.drive.add_state(0.0, -1.0, &mut run.state);
+        let reused = run.sensitivity.take();
+        run.sensitivity = sensitivities.then(|| {
+            let mut by_frequency = vec![0.0; 2 * n];
+            self.drive.for_state_by_frequency(0.0, n, |i, value| by_frequency[i] -= value);
+            let mut sensitivity = reused.unwrap_or_default();
+            sensitivity.start(&self.blocks, |i| by_frequency[i]);
+            sensitivity
+        });
+        run.closed.clear();
+        for element in 0..self.laws.len() {
+            let closed = self.contact_at_start(&run, element, stretch.duration());
+            run.closed.push(closed);
+        }
+        self.touches.fill(0);
+        self.counts.stretches += 1;
+        run
+    }
+
+    /// The contact of an element that is closed at the start of a stretch.
+    fn contact_at_start(&self, run: &Run, element: usize, duration: f64) -> Option<usize> {
+        let jet = self.output_jet(&run.state, element, 0.0);
+        let margin = self.bounds(&run.state, element, duration).margin;
+        self.laws[element].contacts().iter().position(|c| {
+            let clearance = clearance_of(jet, c.level, c.sign);
+            clearance.value < -margin
+        })
+    }
+
+    /// Runs to the end of the stretch.
+    pub(super) fn complete(&mut self, run: &mut Run, stretch: &Stretch) -> Result<(), MotionError> {
+        let end = stretch.duration();
+        self.closed_throughout = closed_bits(run);
+        while run.time < end {
+            if self.forces_act(run) {
+                self.contact_phase(run, end)?;
+            } else if let Some(touch) = self.fly(run, end)? {
+                self.close(run, touch);
+            }
+            if !run.state.iter().all(|value| value.is_finite()) {
+                return Err(MotionError::NotFinite { time: run.time });
+            }
+            self.closed_throughout &= closed_bits(run);
+        }
+        Ok(())
+    }
+
+    pub(super) fn forces_act(&self, run: &Run) -> bool {
+        self.laws.iter().zip(&run.closed).any(|(law, closed)| closed.is_some() || law.contacts().is_empty())
+    }
+
+    /// Notes that a contact closes.
+    pub(super) fn close(&mut self, run: &mut Run, touch: Touch) {
+        if let Some(mut observation) = self.observation.take() {
+            observation.touch(self.output_jet(&run.state, touch.element, run.time).slope);
+            self.observation = Some(observation);
+        }
+        run.closed[touch.element] = Some(touch.contact);
+        run.touched = Some(touch.element);
+        run.proposal = 0.0;
+        run.release = None;
+        run.slack = 0.0;
+        let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();
+        self.touches[before + touch.contact] += 1;
+    }
+
+    /// An output and its derivatives from the homogeneous block state at `time`, apart from the direct part of forces.
+    pub(super) fn output_jet(&self, state: &[f64], output: usize, time: f64) -> Jet {
+        let o = &self.outputs[output];
+        let mut jet = self.drive.jet(output, o, time);
+        for (i, &x) in state.iter().enumerate() {
+            jet.value += o.row[i] * x;
+            jet.slope += o.velocity_row[i] * x;
+            jet.curvature += o.acceleration_row[i] * x;
+        }
+        jet
+    }
+
+    pub(super) fn modal_state(&self, run: &Run, time: f64) -> Vec<f64> {
+        let mut block = run.state.clone();
+        self.drive.add_state(time, 1.0, &mut block);
+        let mut modal = vec![0.0; block.len()];
+        self.blocks.to_modal(&block, &mut modal);
+        modal
+    }
+
+    fn flow_of(&mut self, run: &mut Run, stretch: &Stretch) -> Flow {
+        let n = self.blocks.count();
+        let time = stretch.duration();
+        let state = self.modal_state(run, time);
+        let mut by_state = Mat::zeros(2 * n, 2 * n);
+        let mut by_frequency = vec![0.0; 2 * n];
+        let duration_by_frequency = -time / stretch.frequency_hz;
+        let rate = self.modal_rate(run, &state, stretch);
+        if let Some(sensitivity) = &mut run.sensitivity {
+            self.drive.for_state_by_frequency(time, n, |i, value| sensitivity.add_frequency(i, value));
+            sensitivity.write(&self.blocks, &mut by_state, &mut by_frequency);
+        }
+        by_frequency.iter_mut().zip(&rate).for_each(|(b, r)| *b += duration_by_frequency * r);
+        Flow { state, by_state, by_frequency }
+    }
+
+    /// `z'` at the end of a stretch: the equations of motion in modal coordinates.
+    fn modal_rate(&self, run: &Run, state: &[f64], stretch: &Stretch) -> Vec<f64> {
+        let (n, model) = (self.blocks.count(), self.system.model());
+        let (q, v) = state.split_at(n);
+        let mut rate = v.to_vec();
+        for i in 0..n {
+            let damping: f64 = (0..n).map(|j| model.damping[(i, j)] * v[j]).sum();
+            rate.push(-model.natural_frequencies[i].powi(2) * q[i] - damping);
+        }
+        let omega = std::f64::consts::TAU * stretch.frequency_hz;
+        for (index, &order) in self.system.orders().iter().enumerate() {
+            let load = self.system.modal_load(index, omega);
+            let angle = std::f64::consts::TAU * f64::from(order) * (stretch.end - stretch.end.floor());
+            let rotation = faer::c64::new(angle.cos(), angle.sin());
+            (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * rotation).re);
+        }
+        for (e, element) in self.system.elements().iter().enumerate() {
+            let displacement = self.output_jet(&run.state, e, stretch.duration()).value;
+            let force = element.law.force(displacement).value;
+            (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
+        }
+        rate
+    }
+}

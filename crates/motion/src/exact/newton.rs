@@ -1,0 +1,164 @@
+//! Newton's method for the forces of a step: `r = r_free + W f(r)` with the small matrix `I - W f'`.
+
+use super::{
+    collocation::{NODES, NodeMatrix},
+    force_step::ForceStep,
+    lanes::add_products,
+};
+use crate::Law;
+
+/// Slower convergence than this calls for a new factorisation.
+const FACTORISE_ABOVE: f64 = 0.03;
+const MAX_ITERATIONS: usize = 30;
+/// Substitutions by which a first guess is improved at most.
+const MAX_SUBSTITUTIONS: usize = 3;
+/// Largest response of the last displacement to a unit change of all displacements for which that is tried.
+const SHORT: f64 = 2.0;
+/// The forces of a step were not found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NotSolved;
+
+impl ForceStep {
+    /// Solves for the displacements from the guess in `displacement`, until what is left is below `precision` times their range, or a
+    /// correction below `rounding`.
+    ///
+    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with, and so is that of the
+    /// last step solved if this one is nearly the same (`again`).
+    pub fn solve(
+        &mut self,
+        laws: &[Law],
+        (rounding, precision): (f64, f64),
+        again: bool,
+    ) -> Result<(), NotSolved> {
+        let size = self.free.len();
+        self.force.resize(size, 0.0);
+        self.slope.resize(size, 0.0);
+        self.correction.resize(size, 0.0);
+        self.evaluate(laws);
+        if !again {
+            self.improve_guess(laws);
+        }
+        let (mut previous, mut fresh) = (f64::NAN, !again);
+        for _ in 0..MAX_ITERATIONS {
+            self.fill_defect();
+            if fresh {
+                self.factorise()?;
+            }
+            self.solve_correction();
+            let (mut largest, mut range) = (0.0_f64, 0.0_f64);
+            for i in 0..size {
+                self.displacement[i] -= self.correction[i];
+                largest = largest.max(self.correction[i].abs());
+                range = range.max((self.displacement[i] - self.displacement[0]).abs());
+            }
+            if !largest.is_finite() {
+                return Err(NotSolved);
+            }
+            self.evaluate(laws);
+            // What is left after this correction: its square after a fresh matrix, else as before times the rate.
+            let rate = if fresh { largest / range } else { largest / previous };
+            if largest * rate <= precision * range || largest <= rounding {
+                return Ok(());
+            }
+            fresh = rate > FACTORISE_ABOVE;
+            previous = largest;
+        }
+        Err(NotSolved)
+    }
+
+    /// Puts the forces of the guess into the equations for the next one, as long as that brings it nearer, where the step is short against
+    /// the period of the loaded contact: an error of the guess grows with a power p of the time, and of it only `(w t)^2/((p + 1)(p + 2))` are left.
+    fn improve_guess(&mut self, laws: &[Law]) {
+        let count = self.active.len();
+        let mut before = f64::INFINITY;
+        for _ in 0..MAX_SUBSTITUTIONS {
+            let gain = |w: &NodeMatrix, slope: &[f64]| -> f64 {
+                w.iter().zip(slope).map(|(w, slope)| (w[NODES - 1] * slope).abs()).sum()
+            };
+            let slopes = || self.slope.chunks_exact(NODES).cycle();
+            let largest = self.weights.convolution.iter().zip(slopes()).map(|(w, slope)| gain(w, slope));
+            if largest.fold(0.0, f64::max) * count as f64 > SHORT {
+                return;
+            }
+            self.fill_defect();
+            let size = self.correction.iter().fold(0.0_f64, |size, defect| size.max(defect.abs()));
+            if size.is_nan() || size > 0.5 * before {
+                return;
+            }
+            self.displacement.iter_mut().zip(&self.correction).for_each(|(r, defect)| *r -= defect);
+            self.evaluate(laws);
+            before = size;
+        }
+    }
+
+    fn solve_correction(&mut self) {
+        if let [_] = self.active.as_slice() {
+            let mut right: [f64; NODES] = std::array::from_fn(|k| self.correction[k]);
+            self.fixed_lu.solve(&mut right);
+            self.correction.copy_from_slice(&right);
+        } else {
+            self.lu.solve(&mut self.correction, 1);
+        }
+    }
+
+    fn evaluate(&mut self, laws: &[Law]) {
+        for (a, &e) in self.active.iter().enumerate() {
+            for i in a * NODES..(a + 1) * NODES {
+                let force = laws[e].force(self.displacement[i]);
+                self.force[i] = force.value;
+                self.slope[i] = force.slope;
+            }
+        }
+    }
+
+    /// `r - r_free - W f(r)`.
+    fn fill_defect(&mut self) {
+        let count = self.active.len();
+        self.correction.clear();
+        self.correction.extend(self.displacement.iter().zip(&self.free).map(|(r, free)| r - free));
+        let targets = self.correction.as_chunks_mut::<NODES>().0.iter_mut();
+        for (target, convolutions) in targets.zip(self.weights.convolution.chunks_exact(count.max(1))) {
+            for (w, force) in convolutions.iter().zip(self.force.as_chunks::<NODES>().0) {
+                add_products(target, w.as_flattened(), NODES, |_| force.iter().map(|f| -f));
+            }
+        }
+    }
+
+    /// Factorises `I - W f'`.
+    pub(super) fn factorise(&mut self) -> Result<(), NotSolved> {
+        let (count, weights, slope) = (self.active.len(), &self.weights, &self.slope);
+        if count == 1 {
+            let (convolution, slope) = (&weights.convolution[0], &slope[..NODES]);
+            return self
+                .fixed_lu
+                .factorise(
+                    #[inline(always)]
+                    |matrix| {
+                        for (j, (column, slope)) in convolution.iter().zip(slope).enumerate() {
+                            for (row, entry) in matrix.iter_mut().zip(column) {
+                                row[j] = -entry * slope;
+                            }
+                        }
+                        (0..NODES).for_each(|k| matrix[k][k] += 1.0);
+                    },
+                )
+                .ok_or(NotSolved);
+        }
+        let size = count * NODES;
+        let fill = |matrix: &mut [f64]| {
+            for a in 0..count {
+                for b in 0..count {
+                    let convolution = &weights.convolution[a * count + b];
+                    for k in 0..NODES {
+                        for j in 0..NODES {
+                            matrix[(a * NODES + k) * size + b * NODES + j] =
+                                -convolution[j][k] * slope[b * NODES + j];
+                        }
+                    }
+                }
+            }
+            (0..size).for_each(|i| matrix[i * size + i] += 1.0);
+        };
+        self.lu.factorise(size, fill).ok_or(NotSolved)
+    }
+}

@@ -1,0 +1,275 @@
+//! Power series of a step of length h: its matrices, and outputs in it, from the Markov parameters `C A^m B`.
+//!
+//! All sums over the modes are made once; a new length costs next to nothing. Terms are scaled by the fastest rate, so that `z = h rate` tells how many
+//! are needed; a slow block needs fewer.
+
+use std::sync::OnceLock;
+
+use super::{
+    block::Blocks,
+    collocation::{Grading, NODES, REACH, TERMS},
+    drive::Jet,
+    lanes::{add_multiple, add_products, dot, vectorised},
+    output::Output,
+    weights::StepWeights,
+};
+
+/// `C (A/rate)^m x` of one output, from `m = 0` on.
+pub(crate) type Readings = [f64; TERMS + 2];
+
+/// What the weights are made of: powers of the system on the rows and columns of the elements.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    rate: f64,
+    /// Rate of each block [1/s].
+    rates: Vec<f64>,
+    /// Row of element e times `(A/rate)^m`, `[e][m][i]`.
+    rows: Vec<Vec<Vec<f64>>>,
+    /// `(A/rate)^m` times the column of element e, `[e][m][i]`.
+    columns: Vec<Vec<Vec<f64>>>,
+    /// The same of each element entry by entry, `[i * TERMS + m]`: rows and columns.
+    entries: Vec<(Vec<f64>, Vec<f64>)>,
+    /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
+    markov: Vec<Vec<f64>>,
+}
+
+impl Series {
+    pub fn new(blocks: &Blocks, outputs: &[Output], inputs: &[Vec<f64>]) -> Self {
+        // Powers of a rigid block end by themselves; they only need a scale.
+        let rate = blocks.rates().into_iter().fold(1e-6, f64::max);
+        let scaled = |values: Vec<f64>| values.into_iter().map(|value| value / rate).collect::<Vec<f64>>();
+        let powers = |first: &Vec<f64>, next: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let mut list = vec![first.clone()];
+            for m in 1..=TERMS {
+                list.push(scaled(next(&list[m - 1])));
+            }
+            list
+        };
+        let rows: Vec<_> =
+            outputs.iter().map(|o| powers(&o.row, &|row| blocks.row_times_system(row))).collect();
+        let columns: Vec<_> =
+            inputs.iter().map(|b| powers(b, &|column| blocks.system_times_column(column))).collect();
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
+        let markov = outputs
+            .iter()
+            .flat_map(|output| {
+                columns.iter().map(move |powers| powers.iter().map(|c| dot(&output.row, c)).collect())
+            })
+            .collect();
+        let entries = rows.iter().zip(&columns).map(|(r, c)| (by_entry(r), by_entry(c))).collect();
+        Self { rate, rates: blocks.rates(), entries, rows, columns, markov }
+    }
+
+    /// Longest step that the series serve [s].
+    pub fn reach(&self) -> f64 {
+        REACH / self.rate
+    }
+
+    /// Impulse response `C_e A^d exp(A t) B_f` of output e to input f (d = 0, 1, 2), for `t` within the reach.
+    pub fn impulse_response(&self, e: usize, f: usize, derivative: usize, time: f64) -> f64 {
+        let markov = &self.markov[e * self.columns.len() + f];
+        let z = time * self.rate;
+        let mut sum = 0.0;
+        for m in (derivative..=(Self::terms(z) + derivative).min(TERMS)).rev() {
+            sum = markov[m] + sum * z / (m - derivative + 1) as f64;
+        }
+        sum * self.rate.powi(derivative as i32)
+    }
+
+    /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part and from direct forces:
+    /// `C A^d (exp(A t) x + int exp(A (t - s)) B F ds)`.
+    ///
+    /// * `state`: block state at the start of the step; `force`: node values, `[a * NODES + k]`.
+    pub fn node_values(
+        &self,
+        (output, derivative): (usize, usize),
+        (grading, length): (Grading, f64),
+        state: &[f64],
+        (active, force): (&[usize], &[f64]),
+    ) -> [f64; NODES] {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let terms = Self::terms(z).min(TERMS - derivative);
+        let mut values = [0.0; NODES];
+        let mut powers = [1.0; NODES];
+        let mut factor = length;
+        let count = self.columns.len();
+        for m in 0..terms {
+            let row = &self.rows[output][m + derivative];
+            let free = dot(row, state);
+            (0..NODES).for_each(|k| values[k] += powers[k] * free);
+            (0..NODES).for_each(|k| powers[k] *= z * rule.c[k] / (m + 1) as f64);
+            for (a, &e) in active.iter().enumerate() {
+                let weight = factor * self.markov[output * count + e][m + derivative];
+                let force = &force[a * NODES..(a + 1) * NODES];
+                for (row, force) in rule.at_nodes[m].iter().zip(force) {
+                    add_multiple(&mut values, weight * force, row);
+                }
+            }
+            factor *= z;
+        }
+        values.map(|value| value * self.rate.powi(derivative as i32))
+    }
+
+    /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
+    fn terms(z: f64) -> usize {
+        // Up to which z the term m is rounding: `z^m/m! < 1e-18`.
+        static LIMITS: OnceLock<Vec<f64>> = OnceLock::new();
+        let limits = LIMITS.get_or_init(|| {
+            let logarithm = |m: usize| (1..=m).map(|k| (k as f64).ln()).sum::<f64>();
+            (1..TERMS - 4).map(|m| ((logarithm(m) + 1e-18_f64.ln()) / m as f64).exp()).collect()
+        });
+        limits.partition_point(|&limit| limit <= z) + 3
+    }
+
+    /// `first z^m`.
+    fn factors(first: f64, z: f64, terms: usize) -> [f64; TERMS] {
+        let mut factors = [0.0; TERMS];
+        let mut factor = first;
+        for entry in &mut factors[..terms] {
+            *entry = factor;
+            factor *= z;
+        }
+        factors
+    }
+
+    /// Terms that each block needs: slow ones need few.
+    fn terms_of_blocks(&self, length: f64) -> Vec<usize> {
+        self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
+    }
+
+    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
+    /// [`Series::complete`].
+    pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let terms = Self::terms(z);
+        let count = self.columns.len();
+        into.length = length;
+        into.complete = false;
+        into.convolution.resize(active.len() * active.len(), [[0.0; NODES]; NODES]);
+        let factors = Self::factors(length, z, terms);
+        for (a, &e) in active.iter().enumerate() {
+            for (b, &f) in active.iter().enumerate() {
+                let convolution = &mut into.convolution[a * active.len() + b];
+                let (markov, at_nodes) = (&self.markov[e * count + f], &rule.at_nodes[..terms]);
+                let mut weights = factors;
+                weights.iter_mut().zip(markov).for_each(|(weight, markov)| *weight *= markov);
+                convolution.fill([0.0; NODES]);
+                let target = convolution.as_flattened_mut();
+                let source = at_nodes.as_flattened().as_flattened();
+                add_products(target, source, NODES * NODES, |_| weights[..terms].iter().copied());
+            }
+        }
+    }
+
+    /// Completes a prepared step: `X` and `P`.
+    pub fn complete(&self, active: &[usize], grading: Grading, step: &mut StepWeights) {
+        let rule = grading.rule();
+        let size = self.columns[0][0].len();
+        let length = step.length;
+        let z = length * self.rate;
+        let terms = Self::terms(z);
+        step.resize(active.len(), size);
+        step.complete = true;
+        let needed = self.terms_of_blocks(length);
+        let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
+        for (a, &e) in active.iter().enumerate() {
+            let (rows, columns) = &self.entries[e];
+            sum_powers(rows, &powers, &rule.powers, &needed, &mut step.rows[a]);
+            sum_powers(columns, &factors, &rule.at_end, &needed, &mut step.to_state[a]);
+        }
+    }
+
+    /// Adds `P F` of one element to a state.
+    pub fn add_force(
+        &self,
+        element: usize,
+        (grading, length): (Grading, f64),
+        force: &[f64],
+        state: &mut [f64],
+    ) {
+        let z = length * self.rate;
+        let mut factor = length;
+        for (column, at_end) in self.columns[element].iter().zip(&grading.rule().at_end[..Self::terms(z)]) {
+            add_multiple(state, factor * dot(at_end, force), column);
+            factor *= z;
+        }
+    }
+
+    /// Row of output `o` and its derivatives read from `state`: `C (A/rate)^m x`.
+    pub fn readings(&self, output: usize, state: &[f64], length: f64) -> Readings {
+        let terms = Self::terms(length * self.rate) + 2;
+        let mut readings = [0.0; TERMS + 2];
+        vectorised(
+            #[inline(always)]
+            || {
+                for (reading, row) in readings.iter_mut().zip(&self.rows[output]).take(terms) {
+                    *reading = dot(row, state);
+                }
+            },
+        );
+        readings
+    }
+
+    /// Free motion at the nodes of a step from the readings at its start, apart from the particular part.
+    pub fn free_values(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let mut values = [0.0; NODES];
+        for m in (0..Self::terms(z)).rev() {
+            let share = z / (m + 1) as f64;
+            (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
+        }
+        values
+    }
+
+    /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the direct part of the forces.
+    pub fn end_jet(
+        &self,
+        (output, readings): (usize, &Readings),
+        (grading, length): (Grading, f64),
+        (active, force): (&[usize], &[f64]),
+    ) -> Jet {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let mut sums = [0.0; 3];
+        let (mut power, mut factor) = (1.0, length);
+        let count = self.columns.len();
+        for m in 0..Self::terms(z) {
+            (0..3).for_each(|d| sums[d] += power * readings[m + d]);
+            power *= z / (m + 1) as f64;
+            for (a, &e) in active.iter().enumerate() {
+                let force = &force[a * NODES..(a + 1) * NODES];
+                let moment = factor * dot(&rule.at_end[m], force);
+                let markov = &self.markov[output * count + e];
+                (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
+            }
+            factor *= z;
+        }
+        Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
+    }
+}
+
+/// `sum_m L_im f_m R_m` for each entry i of the state, with as many terms as its block needs; `list` is indexed `[i * TERMS + m]`.
+#[inline(always)]
+fn sum_powers(
+    list: &[f64],
+    factors: &[f64; TERMS],
+    rows: &[[f64; NODES]],
+    terms: &[usize],
+    into: &mut [f64],
+) {
+    let list = list.as_chunks::<TERMS>().0;
+    let weights = |i: usize| {
+        let needed = list[i][..terms[i % terms.len()]].iter().zip(factors);
+        needed.map(|(entry, factor)| entry * factor)
+    };
+    into.fill(0.0);
+    add_products(into, rows.as_flattened(), NODES, weights);
+}
+
+/// Entry i of each power, `[i * TERMS + m]`.
+fn by_entry(powers: &[Vec<f64>]) -> Vec<f64> {
+    (0..powers[0].len()).flat_map(|i| powers[..TERMS].iter().map(move |power| power[i])).collect()
+}
