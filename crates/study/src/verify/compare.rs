@@ -3,11 +3,19 @@
 use hammerbeam_motion::System;
 use hammerbeam_orbit::PeriodicSolution;
 
-use super::{Quantity, recompute::Recomputed};
+use super::{
+    Quantity,
+    recompute::Recomputed,
+    spectrum::{Multiplier, norm},
+};
 use crate::store::Row;
 
-/// How far a multiplier may be from where an event puts it, beside what it is known to: events are located to a part of the step.
+/// How far a multiplier may be from where an event puts it: events are located to a part of the step, and multipliers change fast there.
 const EVENT: f64 = 1e-5;
+/// A run takes the largest force from the polynomial of a force step, and the time of the largest acceleration: these are less accurate
+/// than the motion.
+const FORCE: f64 = 1e-6;
+const ACCELERATION: f64 = 1e-7;
 
 /// A comparison: `difference` may be `tolerance` at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,12 +66,14 @@ impl Measures {
 }
 
 /// Every comparison of a solution.
+///
+/// * `sensitivity`: how much the monodromy matrix changes with the first node, as far as that is wanted.
 pub(super) fn compare(
     (system, response): (&System, &[f64]),
     (row, solution): (&Row, &PeriodicSolution),
     scales: &[f64],
     found: &Recomputed,
-    tolerance: f64,
+    (tolerance, sensitivity): (f64, f64),
 ) -> Vec<Comparison> {
     let measures = Measures::of(system, response, scales, found.gain);
     let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
@@ -71,7 +81,7 @@ pub(super) fn compare(
     let margin = tolerance * found.gain * measures.contact[0];
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
-    list.extend(multipliers(solution, found, grazing > 0));
+    list.extend(multipliers(solution, found, sensitivity));
     list.extend(leading(row, solution));
     list.extend(events(row, found, &measures));
     list
@@ -118,20 +128,20 @@ fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     }
 }
 
-fn multipliers(solution: &PeriodicSolution, found: &Recomputed, grazing: bool) -> Vec<Comparison> {
+fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64) -> Vec<Comparison> {
     let mut left = found.multipliers.clone();
     let mut list = Vec::new();
     for [re, im] in &solution.floquet_multipliers {
         let stored = faer::c64::new(*re, *im);
-        let distance = |k: usize, left: &[super::spectrum::Multiplier]| (left[k].value - stored).norm();
+        let distance = |k: usize, left: &[Multiplier]| (left[k].value - stored).norm();
         let nearest = (0..left.len()).min_by(|a, b| distance(*a, &left).total_cmp(&distance(*b, &left)));
         let Some(nearest) = nearest else { break };
         let error = distance(nearest, &left);
         let multiplier = left.swap_remove(nearest);
-        let measure = multiplier.condition * (1.0 + found.monodromy);
+        let measure = multiplier.condition * (1.0 + norm(&found.monodromy) + sensitivity);
         let difference = if error.is_nan() { f64::INFINITY } else { error / measure };
         let (stored, new) = (stored.norm(), multiplier.value.norm());
-        list.push(Comparison { grazing, ..plain(Quantity::Multipliers, stored, new, difference) });
+        list.push(plain(Quantity::Multipliers, stored, new, difference));
     }
     if solution.floquet_multipliers.len() != found.multipliers.len() {
         let counts = (solution.floquet_multipliers.len() as f64, found.multipliers.len() as f64);
@@ -173,6 +183,8 @@ fn events(row: &Row, found: &Recomputed, measures: &Measures) -> Vec<Comparison>
 pub(super) fn bound(quantity: Quantity, tolerance: f64) -> f64 {
     match quantity {
         Quantity::Events => EVENT.max(tolerance),
+        Quantity::ContactForce => FORCE.max(tolerance),
+        Quantity::Acceleration => ACCELERATION.max(tolerance),
         _ => tolerance,
     }
 }
