@@ -32,8 +32,8 @@ pub(super) struct Comparison {
 /// The measures of an orbit by which differences are judged.
 struct Measures {
     gain: f64,
-    /// Largest relative displacement [m] and velocity [m/s] of an element that a unit of the relative state makes.
-    contact: [f64; 2],
+    /// Largest relative displacement [m], velocity [m/s] and acceleration [m/s^2] of an element that a unit of the relative state makes.
+    contact: [f64; 3],
     /// The same of the response point, and its acceleration [m/s^2].
     displacement: f64,
     acceleration: f64,
@@ -51,17 +51,22 @@ impl Measures {
         let frequencies = &system.model().natural_frequencies;
         Self {
             gain,
-            contact: [most(&|i| lengths[i]), most(&|i| velocities[i])],
+            contact: [
+                most(&|i| lengths[i]),
+                most(&|i| velocities[i]),
+                most(&|i| frequencies[i] * velocities[i]),
+            ],
             displacement: size(response, &|i| lengths[i]),
             acceleration: size(response, &|i| frequencies[i] * velocities[i]),
         }
     }
 
-    /// `g = 1 + min(V_r / v, L_r / p)`.
+    /// `g = 1 + min(V_r / v + W_r L_r / v^2, L_r / p)`.
     fn contact_factor(&self, found: &Recomputed) -> f64 {
+        let [length, velocity, acceleration] = self.contact;
         let deepest = found.extrema.iter().copied().fold(0.0, f64::max);
-        let by_velocity = self.contact[1] / found.maxima.impact_velocity;
-        1.0 + by_velocity.min(self.contact[0] / deepest)
+        let impact = found.maxima.impact_velocity;
+        1.0 + (velocity / impact + acceleration * length / (impact * impact)).min(length / deepest)
     }
 }
 
@@ -108,12 +113,7 @@ fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Com
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
     push(Quantity::ContactForce, stored.contact_force, new.contact_force, factor * new.contact_force);
-    push(
-        Quantity::ImpactVelocity,
-        stored.impact_velocity,
-        new.impact_velocity,
-        new.impact_velocity.max(measures.contact[1]),
-    );
+    push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, factor * new.impact_velocity);
     push(Quantity::Impulse, stored.impulse, new.impulse, factor * new.impulse);
 }
 
