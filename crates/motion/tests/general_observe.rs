@@ -12,7 +12,7 @@ use hammerbeam_motion::{
     Harmonic, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, Observed, observe},
-    law::{HertzStop, LinearStop},
+    law::{CubicSpring, HertzStop, LinearStop},
 };
 
 fn watch(system: &System, stretch: &Stretch, state: &[f64], response: (&[f64], f64)) -> Observed {
@@ -73,6 +73,22 @@ fn a_stop_under_heavy_preload_is_closed_throughout() {
     assert_eq!((found.touches, found.closed_throughout), (0, 1));
     assert_near(found.contact_force, 56.0, 1e-9, "force");
     assert_near(found.impulse, 50.0 * stretch.duration(), 1e-8, "impulse");
+}
+
+/// `q'' + q + q^3 = 0` at the speed v through the middle: `q^2 = sqrt(1 + 2 v^2) - 1` at the top, and `q + q^3` is its acceleration.
+#[test]
+fn the_top_of_a_cubic_spring_is_that_of_its_energy() {
+    let spring = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let stiffening = model(&[1.0], diagonal(&[0.0]));
+    let system = System::new(stiffening, &Load::default(), vec![element(&[1.0], 0.0, spring)]).unwrap();
+    for speed in [0.3_f64, 1.0, 3.0] {
+        let stretch = Stretch { frequency_hz: 0.1, start: 0.0, end: 1.0 };
+        let found = watch(&system, &stretch, &[0.0, speed], (&[1.0], 0.0));
+        let top = ((1.0 + 2.0 * speed * speed).sqrt() - 1.0).sqrt();
+        assert_near(found.displacement, top, 1e-11 * top, "displacement");
+        assert_near(found.acceleration, top + top.powi(3), 1e-11 * (top + top.powi(3)), "acceleration");
+        assert_eq!((found.touches, found.contact_force, found.impulse), (0, 0.0, 0.0));
+    }
 }
 
 /// Displacement, velocity and impulse to rounding of the tolerance; forces of the exact one are read off polynomials.

@@ -12,9 +12,10 @@ use crate::store::Row;
 
 /// How far a multiplier may be from where an event puts it: events are located to a part of the step, and multipliers change fast there.
 const EVENT: f64 = 1e-5;
-/// A run takes the largest force from the polynomial of a force step, and the time of the largest acceleration: these are less accurate
-/// than the motion.
+/// A run takes the largest force and the largest displacement in contact from the polynomial of a force step, and the time of the
+/// largest acceleration: these are less accurate than the motion.
 const FORCE: f64 = 1e-6;
+const DISPLACEMENT: f64 = 1e-8;
 const ACCELERATION: f64 = 1e-7;
 
 /// A comparison: `difference` may be `tolerance` at most.
@@ -183,6 +184,7 @@ fn events(row: &Row, found: &Recomputed, measures: &Measures) -> Vec<Comparison>
 pub(super) fn bound(quantity: Quantity, tolerance: f64) -> f64 {
     match quantity {
         Quantity::Events => EVENT.max(tolerance),
+        Quantity::Displacement => DISPLACEMENT.max(tolerance),
         Quantity::ContactForce => FORCE.max(tolerance),
         Quantity::Acceleration => ACCELERATION.max(tolerance),
         _ => tolerance,

@@ -10,7 +10,7 @@
 //! |---|---|
 //! | residual | `max_k |Z_k - z_k| / (1 + |A_k|) <= tau` |
 //! | multipliers | `|mu - mu'| <= tau k (1 + |A_m| + S)`, with the condition `k` of the eigenvalue |
-//! | displacement | `|d - d'| <= tau G max(d', L)` |
+//! | displacement | `|d - d'| <= max(tau, 1e-8) G max(d', L)` |
 //! | acceleration | `|a - a'| <= max(tau, 1e-7) G max(g a', w)` |
 //! | impact velocity | `|v - v'| <= tau G g v'` |
 //! | impulse | `|J - J'| <= tau G g J'` |
@@ -22,10 +22,10 @@
 //! velocity `V_r` and the acceleration `W_r`. `g = 1 + min(V_r / v' + W_r L_r / v'^2, L_r / p)`, with the deepest penetration p: what a
 //! contact does depends on the velocity it begins with, which just behind grazing is `sqrt(2 W p)`, so weak contacts are known less well. A contact grazes where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
 //!
-//! `S = |A_m(z_0 + tau d) - A_m(z_0)| / tau` is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
+//! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
-//! Bounds of 1e-7 and 1e-6 above are what the stored maxima are good for: a run reads them off polynomials.
+//! Bounds of 1e-8, 1e-7 and 1e-6 above are what the stored maxima are good for: a run reads them off polynomials.
 //!
 //! | file | idea |
 //! |---|---|

@@ -128,7 +128,8 @@ fn join(earlier: Observed, later: Observed) -> Observed {
     }
 }
 
-/// `|A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a direction that has all modes in it.
+/// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a direction that has all modes in it: along
+/// the worst direction the change is about `sqrt(2n)` times that along any one.
 pub(super) fn sensitivity(
     model: &Model,
     solution: &PeriodicSolution,
@@ -142,5 +143,5 @@ pub(super) fn sensitivity(
         *entry += if i % 2 == 0 { each * scale } else { -each * scale };
     }
     let other = recompute(model, &changed, scales, settings)?;
-    Ok(norm(&(&other.monodromy - &found.monodromy)) / change)
+    Ok(norm(&(&other.monodromy - &found.monodromy)) / each)
 }
