@@ -192,3 +192,28 @@ fn a_long_stretch_is_the_product_of_its_parts() {
     assert!((&whole.by_state - &product).norm_max() < 1e-8 * scale);
     assert!(general_common::column_error(&whole.state, &state) < 1e-8);
 }
+
+/// `q = sin(w t)` just touches its level, at any place within a step, borders included. The touch lasts `2 acos(1 - depth) / w`.
+#[test]
+fn short_touches_are_found_wherever_they_fall() {
+    let w = 3.0;
+    let rate = std::f64::consts::TAU;
+    for depth in [1e-6, 1e-8] {
+        let stop = element(&[1.0], 0.0, linear(1e-3, 1.0 - depth));
+        let system = System::new(model(&[w], diagonal(&[0.0])), &Load::default(), vec![stop]).unwrap();
+        for place in 0..300 {
+            let angle = 1e-2 * f64::from(place) - 2.0;
+            let stretch =
+                Stretch { frequency_hz: w / rate, start: 0.0, end: 0.6 + 1e-3 * f64::from(place % 7) };
+            let found = run(&system, &stretch, &[angle.sin(), w * angle.cos()], 1e-12).counts;
+            let end = angle + rate * stretch.end;
+            // Tops at a quarter of a turn, and a whole one later; those within the touch of an end do not count.
+            let top = 0.25 * rate;
+            let near = |at: f64| ((at - top) / rate - ((at - top) / rate).round()).abs() < 1e-3;
+            if !near(angle) && !near(end) {
+                let tops = ((end - top) / rate).floor() - ((angle - top) / rate).floor();
+                assert_eq!(found.crossings, 2 * tops as usize, "depth {depth:e} from {angle}");
+            }
+        }
+    }
+}

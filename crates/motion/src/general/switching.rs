@@ -1,7 +1,7 @@
 //! Where a step leaves the smooth region in which it began.
 //!
 //! Between the ends of a step a switching function is followed on the dense output: at equidistant samples, in the
-//! dips between them, and by bracketing of its first zero. A touch is missed only where the seventh-order polynomial
+//! dips between them and at the ends of the step, and by bracketing of its first zero. A touch is missed only where the seventh-order polynomial
 //! has two zeros between neighbouring samples without a lowest sample at one of them.
 
 use super::{VectorField, dense::Dense, stepper::Stepper};
@@ -197,6 +197,12 @@ impl Region {
             field.switching(time + x * step, state, values);
             sign * values[switch]
         };
+        if clear_start && dips_at_border([0, 1, 2].map(sample)) {
+            let lowest = minimum(&mut distance, 0.0, fraction(1));
+            if distance(lowest) < 0.0 {
+                return Verdict::Crossing { fraction: zero(&mut distance, 0.0, lowest), switch };
+            }
+        }
         for k in 1..=SAMPLES {
             if sample(k) < 0.0 {
                 if k == 1 && !clear_start {
@@ -216,8 +222,23 @@ impl Region {
                 }
             }
         }
+        if dips_at_border([0, 1, 2].map(|k| sample(SAMPLES - k))) {
+            let lowest = minimum(&mut distance, fraction(SAMPLES - 1), 1.0);
+            if distance(lowest) < 0.0 {
+                let fraction = zero(&mut distance, fraction(SAMPLES - 1), lowest);
+                return Verdict::Crossing { fraction, switch };
+            }
+        }
         Verdict::Clear
     }
+}
+
+/// Whether there may be a dip between the border of a step and the next sample: the parabola through three samples from the border on has
+/// its lowest place there, or as little beyond the border as it may be wrong.
+fn dips_at_border([border, next, last]: [f64; 3]) -> bool {
+    let curvature = border - 2.0 * next + last;
+    let lowest = 0.5 * (3.0 * border - 4.0 * next + last) / curvature;
+    curvature > 0.0 && border <= next && lowest > -0.2
 }
 
 fn fraction(sample: usize) -> f64 {

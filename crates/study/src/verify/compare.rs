@@ -3,11 +3,20 @@
 use hammerbeam_motion::System;
 use hammerbeam_orbit::PeriodicSolution;
 
-use super::{Quantity, recompute::Recomputed};
+use super::{
+    Quantity,
+    recompute::Recomputed,
+    spectrum::{Multiplier, norm},
+};
 use crate::store::Row;
 
-/// How far a multiplier may be from where an event puts it, beside what it is known to: events are located to a part of the step.
+/// How far a multiplier may be from where an event puts it: events are located to a part of the step, and multipliers change fast there.
 const EVENT: f64 = 1e-5;
+/// A run takes the largest force and the largest displacement in contact from the polynomial of a force step, and the time of the
+/// largest acceleration: these are less accurate than the motion.
+const FORCE: f64 = 1e-6;
+const DISPLACEMENT: f64 = 1e-8;
+const ACCELERATION: f64 = 1e-7;
 
 /// A comparison: `difference` may be `tolerance` at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,8 +33,8 @@ pub(super) struct Comparison {
 /// The measures of an orbit by which differences are judged.
 struct Measures {
     gain: f64,
-    /// Largest relative displacement [m] and velocity [m/s] of an element that a unit of the relative state makes.
-    contact: [f64; 2],
+    /// Largest relative displacement [m], velocity [m/s] and acceleration [m/s^2] of an element that a unit of the relative state makes.
+    contact: [f64; 3],
     /// The same of the response point, and its acceleration [m/s^2].
     displacement: f64,
     acceleration: f64,
@@ -43,27 +52,34 @@ impl Measures {
         let frequencies = &system.model().natural_frequencies;
         Self {
             gain,
-            contact: [most(&|i| lengths[i]), most(&|i| velocities[i])],
+            contact: [
+                most(&|i| lengths[i]),
+                most(&|i| velocities[i]),
+                most(&|i| frequencies[i] * velocities[i]),
+            ],
             displacement: size(response, &|i| lengths[i]),
             acceleration: size(response, &|i| frequencies[i] * velocities[i]),
         }
     }
 
-    /// `g = 1 + min(V_r / v, L_r / p)`.
+    /// `g = 1 + min(V_r / v + W_r L_r / v^2, L_r / p)`.
     fn contact_factor(&self, found: &Recomputed) -> f64 {
+        let [length, velocity, acceleration] = self.contact;
         let deepest = found.extrema.iter().copied().fold(0.0, f64::max);
-        let by_velocity = self.contact[1] / found.maxima.impact_velocity;
-        1.0 + by_velocity.min(self.contact[0] / deepest)
+        let impact = found.maxima.impact_velocity;
+        1.0 + (velocity / impact + acceleration * length / (impact * impact)).min(length / deepest)
     }
 }
 
 /// Every comparison of a solution.
+///
+/// * `sensitivity`: how much the monodromy matrix changes with the first node, as far as that is wanted.
 pub(super) fn compare(
     (system, response): (&System, &[f64]),
     (row, solution): (&Row, &PeriodicSolution),
     scales: &[f64],
     found: &Recomputed,
-    tolerance: f64,
+    (tolerance, sensitivity): (f64, f64),
 ) -> Vec<Comparison> {
     let measures = Measures::of(system, response, scales, found.gain);
     let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
@@ -71,7 +87,7 @@ pub(super) fn compare(
     let margin = tolerance * found.gain * measures.contact[0];
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
-    list.extend(multipliers(solution, found, grazing > 0));
+    list.extend(multipliers(solution, found, sensitivity));
     list.extend(leading(row, solution));
     list.extend(events(row, found, &measures));
     list
@@ -98,12 +114,7 @@ fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Com
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
     push(Quantity::ContactForce, stored.contact_force, new.contact_force, factor * new.contact_force);
-    push(
-        Quantity::ImpactVelocity,
-        stored.impact_velocity,
-        new.impact_velocity,
-        new.impact_velocity.max(measures.contact[1]),
-    );
+    push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, factor * new.impact_velocity);
     push(Quantity::Impulse, stored.impulse, new.impulse, factor * new.impulse);
 }
 
@@ -118,20 +129,20 @@ fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     }
 }
 
-fn multipliers(solution: &PeriodicSolution, found: &Recomputed, grazing: bool) -> Vec<Comparison> {
+fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64) -> Vec<Comparison> {
     let mut left = found.multipliers.clone();
     let mut list = Vec::new();
     for [re, im] in &solution.floquet_multipliers {
         let stored = faer::c64::new(*re, *im);
-        let distance = |k: usize, left: &[super::spectrum::Multiplier]| (left[k].value - stored).norm();
+        let distance = |k: usize, left: &[Multiplier]| (left[k].value - stored).norm();
         let nearest = (0..left.len()).min_by(|a, b| distance(*a, &left).total_cmp(&distance(*b, &left)));
         let Some(nearest) = nearest else { break };
         let error = distance(nearest, &left);
         let multiplier = left.swap_remove(nearest);
-        let measure = multiplier.condition * (1.0 + found.monodromy);
+        let measure = multiplier.condition * (1.0 + norm(&found.monodromy) + sensitivity);
         let difference = if error.is_nan() { f64::INFINITY } else { error / measure };
         let (stored, new) = (stored.norm(), multiplier.value.norm());
-        list.push(Comparison { grazing, ..plain(Quantity::Multipliers, stored, new, difference) });
+        list.push(plain(Quantity::Multipliers, stored, new, difference));
     }
     if solution.floquet_multipliers.len() != found.multipliers.len() {
         let counts = (solution.floquet_multipliers.len() as f64, found.multipliers.len() as f64);
@@ -173,6 +184,9 @@ fn events(row: &Row, found: &Recomputed, measures: &Measures) -> Vec<Comparison>
 pub(super) fn bound(quantity: Quantity, tolerance: f64) -> f64 {
     match quantity {
         Quantity::Events => EVENT.max(tolerance),
+        Quantity::Displacement => DISPLACEMENT.max(tolerance),
+        Quantity::ContactForce => FORCE.max(tolerance),
+        Quantity::Acceleration => ACCELERATION.max(tolerance),
         _ => tolerance,
     }
 }

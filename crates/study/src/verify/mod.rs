@@ -1,4 +1,39 @@
-//! Stored solutions, held against the general integrator.
+//! Stored solutions, computed again by the general integrator, which shares nothing with the one that made them but the laws.
+//!
+//! # Formulae
+//! States are scaled: displacements with `V / max(w_i, 2 pi f)`, velocities with `V`, so that the largest node has the norm 1; `|.|` is the
+//! Euclidean norm, of matrices Frobenius'. From the first node `z_0` of a solution the motion goes over the whole orbit period; `Z_k` is its
+//! state at the phase of node k, `A_k = dZ_k/dz_0`, `k = 1..=m`, `z_m = z_0`. What is wrong with the first node by `e` is wrong by
+//! `|A_k| e` later, so all errors are judged by `G = 1 + max_k |A_k|`. With the tolerance `tau`:
+//!
+//! | quantity | agrees if |
+//! |---|---|
+//! | residual | `max_k |Z_k - z_k| / (1 + |A_k|) <= tau` |
+//! | multipliers | `|mu - mu'| <= tau k (1 + |A_m| + S)`, with the condition `k` of the eigenvalue |
+//! | displacement | `|d - d'| <= max(tau, 1e-8) G max(d', L)` |
+//! | acceleration | `|a - a'| <= max(tau, 1e-7) G max(g a', w)` |
+//! | impact velocity | `|v - v'| <= tau G g v'` |
+//! | impulse | `|J - J'| <= tau G g J'` |
+//! | contact force | `|F - F'| <= max(tau, 1e-6) G g F'` |
+//! | contacts | as many differ as contacts graze, at most |
+//! | events | fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle; grazing: `|s| <= 1e-5 L_r` |
+//!
+//! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and elements by `L_r` with the
+//! velocity `V_r` and the acceleration `W_r`. `g = 1 + min(V_r / v' + W_r L_r / v'^2, L_r / p)`, with the deepest penetration p: what a
+//! contact does depends on the velocity it begins with, which just behind grazing is `sqrt(2 W p)`, so weak contacts are known less well. A contact grazes where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
+//!
+//! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
+//! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
+//!
+//! Bounds of 1e-8, 1e-7 and 1e-6 above are what the stored maxima are good for: a run reads them off polynomials.
+//!
+//! | file | idea |
+//! |---|---|
+//! | `sample.rs` | which solutions |
+//! | `recompute.rs`, `spectrum.rs` | the motion over the orbit; multipliers and their conditions |
+//! | `compare.rs` | the table above |
+//! | `report.rs` | the worst of each quantity, and every disagreement |
+
 mod compare;
 mod recompute;
 mod report;
@@ -17,7 +52,7 @@ use crate::{
     store::{BranchRecord, Row},
 };
 use compare::{Comparison, compare};
-use recompute::{recompute, scales};
+use recompute::{recompute, scales, sensitivity};
 
 /// What to verify, and how closely.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +75,9 @@ impl Default for VerifySettings {
 }
 
 /// Default of [`VerifySettings::tolerance`].
-pub const TOLERANCE: f64 = 1e-8;
+pub const TOLERANCE: f64 = 1e-9;
 
-/// Tolerance of the general integrator: that of the comparisons, with a hundredth for what the steps of an orbit add up to.
+/// Tolerance of the steps of the general integrator: a hundredth of that of the comparisons, since steps add up and contacts amplify.
 fn motion_tolerance(tolerance: f64) -> f64 {
     (0.01 * tolerance).clamp(1e-13, 1e-6)
 }
@@ -174,10 +209,20 @@ fn compare_all(
 }
 
 fn compare_one(model: &Model, stored: &Stored, settings: &VerifySettings) -> Compared {
-    let scales = scales(&model.system, &stored.solution);
-    let motion = GeneralSettings::with_tolerance(motion_tolerance(settings.tolerance));
-    let found = recompute(model, &stored.solution, &scales, &motion).map_err(|failed| failed.to_string())?;
-    let (system, solution) =
-        ((&model.system, model.response.shape.as_slice()), (&stored.row, &stored.solution));
-    Ok(compare(system, solution, &scales, &found, settings.tolerance))
+    let (solution, tolerance) = (&stored.solution, settings.tolerance);
+    let scales = scales(&model.system, solution);
+    let motion = GeneralSettings::with_tolerance(motion_tolerance(tolerance));
+    let found = recompute(model, solution, &scales, &motion).map_err(|failed| failed.to_string())?;
+    let observed = (&model.system, model.response.shape.as_slice());
+    let with =
+        |sensitivity| compare(observed, (&stored.row, solution), &scales, &found, (tolerance, sensitivity));
+    let comparisons = with(0.0);
+    let doubtful = |comparison: &Comparison| {
+        comparison.quantity == Quantity::Multipliers && comparison.difference > tolerance
+    };
+    if !comparisons.iter().any(doubtful) {
+        return Ok(comparisons);
+    }
+    let sensitivity = sensitivity(model, solution, &scales, (&found, tolerance), &motion);
+    Ok(with(sensitivity.map_err(|failed| failed.to_string())?))
 }

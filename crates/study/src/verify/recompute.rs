@@ -19,8 +19,8 @@ pub(super) struct Recomputed {
     pub(super) residual: f64,
     /// `G = 1 + max_k |A_k|`.
     pub(super) gain: f64,
-    /// `|A_m|`.
-    pub(super) monodromy: f64,
+    /// `A_m`, in scaled states.
+    pub(super) monodromy: Mat<f64>,
     /// Eigenvalues of `A_m`.
     pub(super) multipliers: Vec<Multiplier>,
     pub(super) maxima: OrbitMaxima,
@@ -100,7 +100,7 @@ pub(super) fn recompute(
     Ok(Recomputed {
         residual,
         gain: 1.0 + largest,
-        monodromy: norm(&product),
+        monodromy: product,
         multipliers,
         maxima: OrbitMaxima {
             displacement: observed.displacement,
@@ -126,4 +126,22 @@ fn join(earlier: Observed, later: Observed) -> Observed {
         extrema: [earlier.extrema, later.extrema].concat(),
         ..later
     }
+}
+
+/// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a direction that has all modes in it: along
+/// the worst direction the change is about `sqrt(2n)` times that along any one.
+pub(super) fn sensitivity(
+    model: &Model,
+    solution: &PeriodicSolution,
+    scales: &[f64],
+    (found, change): (&Recomputed, f64),
+    settings: &GeneralSettings,
+) -> Result<f64, Failed> {
+    let mut changed = solution.clone();
+    let each = change / (scales.len() as f64).sqrt();
+    for (i, (entry, scale)) in changed.nodes[0].iter_mut().zip(scales).enumerate() {
+        *entry += if i % 2 == 0 { each * scale } else { -each * scale };
+    }
+    let other = recompute(model, &changed, scales, settings)?;
+    Ok(norm(&(&other.monodromy - &found.monodromy)) / each)
 }

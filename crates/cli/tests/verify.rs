@@ -1,0 +1,170 @@
+//! `hammerbeam verify`: what a run stores agrees; what was tampered with is found.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use std::{fs, process::Output, sync::OnceLock};
+
+use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use rusqlite::Connection;
+use serde_json::Value;
+
+/// Two masses around their second resonance, with contacts and folds, in steps that make some hundred solutions.
+fn results() -> &'static Workshop {
+    static RESULTS: OnceLock<Workshop> = OnceLock::new();
+    RESULTS.get_or_init(|| {
+        let workshop = Workshop::with(&format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.05\n"));
+        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+        workshop
+    })
+}
+
+/// A copy of the results, tampered with.
+fn tampered(statement: &str) -> Workshop {
+    let workshop = Workshop::with("");
+    fs::create_dir(workshop.path("results")).unwrap();
+    let copy = workshop.path("results/results.db");
+    fs::copy(results().path("results/results.db"), &copy).unwrap();
+    let connection = Connection::open(copy).unwrap();
+    let changed = connection.execute(statement, []).unwrap();
+    assert!(changed > 0, "{statement} changes nothing");
+    workshop
+}
+
+/// Key of the stored solution in the middle.
+fn middle() -> i64 {
+    let connection = Connection::open(results().path("results/results.db")).unwrap();
+    let select = "SELECT id FROM solution ORDER BY id LIMIT 1 OFFSET (SELECT count(*) / 2 FROM solution)";
+    connection.query_row(select, [], |row| row.get(0)).unwrap()
+}
+
+/// One entry of a blob multiplied, as an SQL literal.
+fn blob_with(column: &str, key: i64, index: usize, factor: f64) -> String {
+    let connection = Connection::open(results().path("results/results.db")).unwrap();
+    let select = format!("SELECT {column} FROM solution WHERE id = {key}");
+    let mut bytes: Vec<u8> = connection.query_row(&select, [], |row| row.get(0)).unwrap();
+    let entry = &mut bytes[8 * index..8 * (index + 1)];
+    let value = f64::from_le_bytes(entry.try_into().unwrap());
+    entry.copy_from_slice(&(factor * value).to_le_bytes());
+    let hex: String = bytes.iter().map(|byte| format!("{byte:02x}")).collect();
+    format!("x'{hex}'")
+}
+
+fn document(output: &Output) -> Value {
+    serde_json::from_str(&stdout(output)).expect("one JSON document")
+}
+
+#[test]
+fn what_a_run_stores_agrees_in_everything() {
+    let output = results().hammerbeam(&["verify", "results", "--all", "--json"]);
+    assert_success(&output);
+    let document = document(&output);
+    assert_eq!(document["agree"], true);
+    assert_eq!(document["sampled"], document["stored"]);
+    assert!(document["stored"].as_u64().unwrap() > 200);
+    for quantity in document["quantities"].as_array().unwrap() {
+        assert!(quantity["worst_difference"].as_f64().unwrap() <= quantity["bound"].as_f64().unwrap());
+        assert_eq!(quantity["disagree"], 0);
+        let name = quantity["quantity"].as_str().unwrap();
+        assert!(quantity["compared"].as_u64().unwrap() > 0, "{name} was not compared");
+    }
+}
+
+#[test]
+fn the_result_does_not_depend_on_threads_and_a_seed_chooses_the_sample() {
+    let verify = |more: &[&str]| {
+        let output =
+            results().hammerbeam(&[&["verify", "results", "--sample", "40", "--json"], more].concat());
+        assert_success(&output);
+        stdout(&output)
+    };
+    assert_eq!(verify(&["--jobs", "1"]), verify(&["--jobs", "3"]));
+    let places = |text: &str| {
+        let document: Value = serde_json::from_str(text).unwrap();
+        assert_eq!(document["sampled"], 40);
+        document["quantities"][0]["frequency_hz"].as_f64()
+    };
+    assert_ne!(places(&verify(&[])), places(&verify(&["--seed", "1"])));
+}
+
+#[test]
+fn as_text_it_is_a_table_and_nothing_on_standard_error() {
+    let output = results().hammerbeam(&["verify", "results", "--sample", "20"]);
+    assert_success(&output);
+    let text = stdout(&output);
+    assert!(text.contains("20 of") && text.contains("all agree"), "{text}");
+    assert!(text.contains("residual") && text.contains("max_abs_displacement_m"), "{text}");
+    assert_eq!(stderr(&output), "");
+}
+
+/// The solution that was tampered with, and no other, disagrees in that quantity.
+#[track_caller]
+fn assert_found(change: &str, key: i64, quantity: &str) {
+    let workshop = tampered(&format!("UPDATE solution SET {change} WHERE id = {key}"));
+    let output = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
+    assert_eq!(output.status.code(), Some(3), "{}", stderr(&output));
+    assert!(stderr(&output).contains("1 of"), "{}", stderr(&output));
+    let document = document(&output);
+    assert_eq!((&document["agree"], &document["solutions_disagreeing"]), (&false.into(), &1.into()));
+    let found = document["disagreements"].as_array().unwrap();
+    assert!(found.iter().any(|entry| entry["quantity"] == quantity), "{found:?}");
+    let text = workshop.hammerbeam(&["verify", "results", "--all"]);
+    assert_eq!(text.status.code(), Some(3));
+    assert!(stdout(&text).contains(&format!("Hz: {quantity}")), "{}", stdout(&text));
+}
+
+#[test]
+fn a_node_that_was_changed_is_found() {
+    let nodes = blob_with("nodes", middle(), 0, 1.0 + 1e-6);
+    assert_found(&format!("nodes = {nodes}"), middle(), "residual");
+}
+
+#[test]
+fn a_multiplier_that_was_changed_is_found() {
+    // The real part of one that is not the leading one, so that only the integrator knows.
+    let multipliers = blob_with("multipliers", middle(), 4, 1.0 + 1e-6);
+    assert_found(&format!("multipliers = {multipliers}"), middle(), "multiplier_modulus");
+    assert_found("leading_multiplier_re = leading_multiplier_re + 1e-9", middle(), "multiplier_modulus");
+    assert_found("stable = NOT stable", middle(), "multiplier_modulus");
+}
+
+#[test]
+fn maxima_that_were_changed_are_found() {
+    for (column, relative) in [
+        ("max_abs_displacement_m", 1e-6),
+        ("max_abs_acceleration_m_s2", 1e-5),
+        ("max_contact_force_n", 1e-4),
+        ("max_impact_velocity_m_s", 1e-5),
+        ("impulse_n_s", 1e-5),
+    ] {
+        assert_found(&format!("{column} = {column} * (1 + {relative:.6})"), middle(), column);
+    }
+    assert_found("contacts = contacts + 1", middle(), "contacts");
+}
+
+#[test]
+fn a_fold_that_is_none_is_found() {
+    assert_found("events = 1", middle(), "events");
+}
+
+#[test]
+fn a_folder_without_solutions_is_exit_code_1() {
+    let workshop = tampered("DELETE FROM solution");
+    let connection = Connection::open(workshop.path("results/results.db")).unwrap();
+    connection.execute("UPDATE walk SET solutions = 0", []).unwrap();
+    drop(connection);
+    let output = workshop.hammerbeam(&["verify", "results", "--json"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert_eq!(document(&output)["error"]["exit_code"], 1);
+}
+
+#[test]
+fn bad_input_is_exit_code_2() {
+    let workshop = Workshop::with("");
+    assert_bad_input(&workshop.hammerbeam(&["verify", "nowhere"]), &["there are no results in nowhere"]);
+    fs::create_dir(workshop.path("empty")).unwrap();
+    assert_bad_input(&workshop.hammerbeam(&["verify", "empty"]), &["there are no results in empty"]);
+    assert_bad_input(&results().hammerbeam(&["verify", "results", "--tolerance", "0"]), &["--tolerance"]);
+    assert_bad_input(&results().hammerbeam(&["verify", "results", "--sample", "0"]), &["--sample"]);
+    assert_bad_input(&results().hammerbeam(&["verify", "results", "--bogus"]), &["--bogus"]);
+}

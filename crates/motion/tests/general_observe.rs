@@ -1,0 +1,116 @@
+//! Maxima and contacts by the general integrator: closed forms, and the maxima of the exact one.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+mod general_common;
+
+use std::f64::consts::TAU;
+
+use common::{element, paper_beam, settled};
+use general_common::{assert_near, diagonal, harmonic_force, model, supported};
+use hammerbeam_motion::{
+    Harmonic, Law, Load, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    general::{GeneralSettings, Observed, observe},
+    law::{CubicSpring, HertzStop, LinearStop},
+};
+
+fn watch(system: &System, stretch: &Stretch, state: &[f64], response: (&[f64], f64)) -> Observed {
+    observe(system, stretch, state, response, &GeneralSettings::with_tolerance(1e-12)).unwrap()
+}
+
+/// 1 kg at 0.05 m/s: `p = v / sqrt(k)` and `(5/4 v^2 / k)^(2/5)`, the impulse is `2 v`, and it flies on for the rest of the time.
+#[test]
+fn a_bounce_has_the_force_and_impulse_of_its_speed() {
+    let (speed, gap, stiffness) = (0.05, 1e-2, 1e6);
+    let linear = Law::Linear(LinearStop::with_gap(stiffness, gap).unwrap());
+    let hertz = Law::Hertz(HertzStop::with_gap(stiffness, gap).unwrap());
+    let depths = [speed / f64::sqrt(stiffness), (1.25 * speed * speed / stiffness).powf(0.4)];
+    for (law, depth, exponent) in [(linear, depths[0], 1.0), (hertz, depths[1], 1.5)] {
+        let rigid = model(&[0.0], diagonal(&[0.0]));
+        let system = System::new(rigid, &Load::default(), vec![element(&[1.0], 0.0, law)]).unwrap();
+        let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.3 };
+        let found = watch(&system, &stretch, &[0.0, speed], (&[1.0], 0.0));
+        let force = stiffness * depth.powf(exponent);
+        assert_near(found.contact_force, force, 1e-9 * force, "force");
+        assert_near(found.acceleration, force, 1e-9 * force, "acceleration");
+        assert_near(found.displacement, gap + depth, 1e-12, "displacement");
+        assert_near(found.impulse, 2.0 * speed, 1e-9, "impulse");
+        assert_near(found.impact_velocity, speed, 1e-12, "speed");
+        assert_eq!((found.touches, found.closed_throughout), (1, 0));
+        assert_eq!(found.extrema.len(), 1);
+        assert_near(found.extrema[0], depth, 1e-9 * depth, "penetration");
+    }
+}
+
+/// A mass that nothing drives on a moving support: its point moves with the support, `u = A cos`, and a stop in space that stays open.
+#[test]
+fn a_response_takes_its_part_of_the_support() {
+    let resting = supported(model(&[TAU], diagonal(&[0.0])), &[0.0], &[0.0]);
+    let support = vec![Harmonic { order: 2, amplitude: 3e-3, phase: 0.3 }];
+    let stop = element(&[1.0], 1.0, Law::Linear(LinearStop::with_gap(1e3, 5e-3).unwrap()));
+    let system = System::new(resting, &Load { support, ..Load::default() }, vec![stop]).unwrap();
+    let stretch = Stretch { frequency_hz: 2.0, start: 0.0, end: 1.0 };
+    let found = watch(&system, &stretch, &[0.0, 0.0], (&[1.0], 0.5));
+    assert_near(found.displacement, 1.5e-3, 1e-12, "displacement");
+    assert_near(found.acceleration, 1.5e-3 * (4.0 * TAU).powi(2), 1e-9, "acceleration");
+    assert_eq!((found.touches, found.contact_force, found.impulse), (0, 0.0, 0.0));
+    // Twice in a period nearest to the stop, twice farthest from it.
+    let nearest = found.extrema.iter().filter(|extremum| (*extremum + 2e-3).abs() < 1e-12).count();
+    let farthest = found.extrema.iter().filter(|extremum| (*extremum + 8e-3).abs() < 1e-12).count();
+    assert_eq!((nearest, farthest), (2, 2), "{:?}", found.extrema);
+}
+
+/// A stop that never opens counts as one contact, and its impulse is its mean force times the time: that of the preload and the load.
+#[test]
+fn a_stop_under_heavy_preload_is_closed_throughout() {
+    let stop = element(&[1.0], 0.0, Law::Linear(LinearStop::with_preload(300.0, 50.0).unwrap()));
+    let load = Load { support: vec![], forces: vec![harmonic_force(&[1.0], 0, 50.0, 0.0)] };
+    let system = System::new(model(&[10.0], diagonal(&[0.0])), &load, vec![stop]).unwrap();
+    // `q = 0.02 cos 20 t` about the balance of preload and load.
+    let stretch = Stretch { frequency_hz: 20.0 / TAU, start: 0.0, end: 3.0 };
+    let found = watch(&system, &stretch, &[0.02, 0.0], (&[1.0], 0.0));
+    assert_eq!((found.touches, found.closed_throughout), (0, 1));
+    assert_near(found.contact_force, 56.0, 1e-9, "force");
+    assert_near(found.impulse, 50.0 * stretch.duration(), 1e-8, "impulse");
+}
+
+/// `q'' + q + q^3 = 0` at the speed v through the middle: `q^2 = sqrt(1 + 2 v^2) - 1` at the top, and `q + q^3` is its acceleration.
+#[test]
+fn the_top_of_a_cubic_spring_is_that_of_its_energy() {
+    let spring = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let stiffening = model(&[1.0], diagonal(&[0.0]));
+    let system = System::new(stiffening, &Load::default(), vec![element(&[1.0], 0.0, spring)]).unwrap();
+    for speed in [0.3_f64, 1.0, 3.0] {
+        let stretch = Stretch { frequency_hz: 0.1, start: 0.0, end: 1.0 };
+        let found = watch(&system, &stretch, &[0.0, speed], (&[1.0], 0.0));
+        let top = ((1.0 + 2.0 * speed * speed).sqrt() - 1.0).sqrt();
+        assert_near(found.displacement, top, 1e-11 * top, "displacement");
+        assert_near(found.acceleration, top + top.powi(3), 1e-11 * (top + top.powi(3)), "acceleration");
+        assert_eq!((found.touches, found.contact_force, found.impulse), (0, 0.0, 0.0));
+    }
+}
+
+/// Displacement, velocity and impulse to rounding of the tolerance; forces of the exact one are read off polynomials.
+#[test]
+fn maxima_of_the_beam_are_those_of_the_exact_integrator() {
+    let system = paper_beam();
+    let shape = &system.model().points[0].shape.clone();
+    let settings = ExactSettings { tolerance: 1e-12 };
+    let mut exact = ExactIntegrator::watching(system.clone(), settings, Some((shape, 1.0))).unwrap();
+    for frequency_hz in [22.0, 36.0, 53.0, 75.0] {
+        let state = settled(&system, frequency_hz, 150, 0.0);
+        let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+        let found = watch(&system, &stretch, &state, (shape, 1.0));
+        let (_, expected) = exact.observe(&stretch, &state).unwrap();
+        let near = |found: f64, expected: f64, bound: f64, what: &str| {
+            assert_near(found / expected, 1.0, bound, &format!("{what} at {frequency_hz} Hz"));
+        };
+        near(found.displacement, expected.displacement, 1e-9, "displacement");
+        near(found.impact_velocity, expected.impact_velocity, 1e-9, "speed");
+        near(found.impulse, expected.impulse, 1e-8, "impulse");
+        near(found.acceleration, expected.acceleration, 1e-5, "acceleration");
+        near(found.contact_force, expected.contact_force, 1e-5, "force");
+        assert_eq!(found.touches, expected.touches);
+    }
+}
