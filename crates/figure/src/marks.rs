@@ -16,16 +16,24 @@ pub(crate) enum Mark {
     NeimarkSacker,
     BranchPoint,
     Grazing,
+    /// A flip or Neimark-Sacker point of solutions that are unstable on both sides.
+    OfUnstable,
 }
 
 impl Mark {
     /// All marks, in the order of the legend.
-    pub(crate) const ALL: [Self; 5] =
-        [Self::Fold, Self::Flip, Self::NeimarkSacker, Self::BranchPoint, Self::Grazing];
+    pub(crate) const ALL: [Self; 6] = [
+        Self::Fold,
+        Self::Flip,
+        Self::NeimarkSacker,
+        Self::BranchPoint,
+        Self::OfUnstable,
+        Self::Grazing,
+    ];
 
-    /// Whether the mark stands behind the lines: grazing is so frequent that it would bury them.
+    /// Whether the mark stands behind the lines: some events are so frequent that they would bury them.
     pub(crate) fn is_behind(self) -> bool {
-        self == Self::Grazing
+        matches!(self, Self::Grazing | Self::OfUnstable)
     }
 
     /// The places of the marks that are drawn.
@@ -41,6 +49,7 @@ impl Mark {
             Self::Flip => "flip",
             Self::NeimarkSacker => "Neimark–Sacker",
             Self::BranchPoint => "branch point",
+            Self::OfUnstable => "flip or Neimark–Sacker of unstable solutions",
         }
     }
 
@@ -53,6 +62,7 @@ impl Mark {
         let (fill, stroke) = match self {
             Self::Fold => (INK, Stroke { colour: PAPER, width: 0.3 }),
             Self::Grazing => ("none", Stroke { colour: PALE_INK, width: 0.45 }),
+            Self::OfUnstable => (PAPER, Stroke { colour: PALE_INK, width: 0.45 }),
             _ => (PAPER, Stroke { colour: INK, width: 0.6 }),
         };
         svg.path(&data, fill, stroke);
@@ -65,6 +75,7 @@ impl Mark {
             Self::Flip => diamond(at, 1.6 * radius),
             Self::NeimarkSacker => circle(at, 1.3 * radius),
             Self::BranchPoint => square(at, 1.1 * radius),
+            Self::OfUnstable => circle(at, 0.7 * radius),
         }
     }
 }

@@ -159,21 +159,34 @@ fn events(
     (from, to): (f64, f64),
     mark: Mark,
 ) -> Vec<(f64, f64)> {
-    let points = diagram.curves.iter().flat_map(|curve| &curve.points);
-    points
-        .filter(|point| is(point, mark) && (from..=to).contains(&point.frequency_hz))
-        .map(|point| (point.frequency_hz, quantity.value(point)))
-        .filter(|&(_, value)| kind.shows(value))
-        .collect()
+    let of_curve = |points: &[ResponsePoint]| -> Vec<(f64, f64)> {
+        let here = |index: &usize| {
+            is(points, *index, mark) && (from..=to).contains(&points[*index].frequency_hz)
+        };
+        let places = (0..points.len()).filter(here);
+        places
+            .map(|index| (points[index].frequency_hz, quantity.value(&points[index])))
+            .filter(|&(_, value)| kind.shows(value))
+            .collect()
+    };
+    diagram.curves.iter().flat_map(|curve| of_curve(&curve.points)).collect()
 }
 
-fn is(point: &ResponsePoint, mark: Mark) -> bool {
+/// Whether the point with this index has that mark. Flips and Neimark-Sacker points between unstable solutions change nothing that can be
+/// observed: they have a mark of their own.
+fn is(points: &[ResponsePoint], index: usize, mark: Mark) -> bool {
+    let point = &points[index];
+    let beside_stable = || {
+        let neighbours = [index.checked_sub(1), Some(index), index.checked_add(1)];
+        neighbours.into_iter().flatten().filter_map(|index| points.get(index)).any(|point| point.stable)
+    };
     match mark {
         Mark::Grazing => point.grazing,
         Mark::Fold => point.fold,
-        Mark::Flip => point.flip,
-        Mark::NeimarkSacker => point.neimark_sacker,
+        Mark::Flip => point.flip && beside_stable(),
+        Mark::NeimarkSacker => point.neimark_sacker && beside_stable(),
         Mark::BranchPoint => point.branch_point,
+        Mark::OfUnstable => (point.flip || point.neimark_sacker) && !beside_stable(),
     }
 }
 
