@@ -32,6 +32,13 @@ impl Follower {
         }
     }
 
+    /// How far the corrector may move a prediction: what the settings say, but ten times what rounding left of the last correction, too. At the
+    /// shortest steps that is more than a tenth of the step; without it they could not grow any more where a solution is known less well.
+    pub(super) fn allowed_displacement(&self, step: f64) -> f64 {
+        let rounding = 10.0 * self.state.current.correction_norm;
+        self.settings.allowed_displacement(step).max(rounding.min(self.settings.sheet_distance))
+    }
+
     pub(super) fn limits(&self, step: f64) -> Limits {
         Limits {
             tolerance: self.settings.tolerance_at(step),
@@ -40,7 +47,7 @@ impl Follower {
             residual_floor: self.settings.residual_floor,
             residual_tolerance: self.settings.residual_tolerance,
             max_iterations: self.settings.max_iterations,
-            max_displacement: self.settings.allowed_displacement(step),
+            max_displacement: self.allowed_displacement(step),
             max_angle: Some(self.settings.max_angle),
         }
     }

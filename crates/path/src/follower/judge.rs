@@ -63,7 +63,7 @@ impl Follower {
         add_scaled(offset, -0.5 * chord, &base.tangent);
         add_scaled(offset, -0.5 * chord, &node.tangent);
         let defect = product(weights, offset, offset).sqrt();
-        let allowed = self.settings.allowed_displacement(step) + 0.1 * chord * angle;
+        let allowed = self.allowed_displacement(step) + 0.1 * chord * angle;
         if defect > allowed { Err(Doubt::Defect { defect }) } else { Ok(()) }
     }
 

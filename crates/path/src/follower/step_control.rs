@@ -51,7 +51,7 @@ impl Follower {
     /// Length of the next step after an accepted one.
     pub(super) fn next_step(&self, step: f64, arrival: Arrival, angle: f64, attempts: Attempts) -> f64 {
         let by_angle = 0.5 * self.settings.max_angle / angle.max(1e-12);
-        let aim = 0.25 * self.settings.allowed_displacement(step);
+        let aim = 0.25 * self.allowed_displacement(step);
         let displacement = self.trial.displacement - NOISE * self.trial.correction_norm;
         let by_displacement = (aim / displacement.max(1e-300)).powf(1.0 / order(arrival.earlier));
         let effort = if self.trial.iterations > EFFORTLESS_ITERATIONS { 0.7 } else { MOST_GROWTH };
