@@ -22,14 +22,8 @@ pub(crate) enum Mark {
 
 impl Mark {
     /// All marks, in the order of the legend.
-    pub(crate) const ALL: [Self; 6] = [
-        Self::Fold,
-        Self::Flip,
-        Self::NeimarkSacker,
-        Self::BranchPoint,
-        Self::OfUnstable,
-        Self::Grazing,
-    ];
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Fold, Self::Flip, Self::NeimarkSacker, Self::BranchPoint, Self::OfUnstable, Self::Grazing];
 
     /// Whether the mark stands behind the lines: some events are so frequent that they would bury them.
     pub(crate) fn is_behind(self) -> bool {

@@ -160,9 +160,8 @@ fn events(
     mark: Mark,
 ) -> Vec<(f64, f64)> {
     let of_curve = |points: &[ResponsePoint]| -> Vec<(f64, f64)> {
-        let here = |index: &usize| {
-            is(points, *index, mark) && (from..=to).contains(&points[*index].frequency_hz)
-        };
+        let here =
+            |index: &usize| is(points, *index, mark) && (from..=to).contains(&points[*index].frequency_hz);
         let places = (0..points.len()).filter(here);
         places
             .map(|index| (points[index].frequency_hz, quantity.value(&points[index])))
