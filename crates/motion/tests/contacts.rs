@@ -9,7 +9,7 @@ use common::{assert_agreement, diagonal, element, hertz, integrator, model};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{HertzStop, LinearStop},
+    law::{HertzStop, LinearStop, TwoSidedStop},
 };
 
 /// A mass of 1 kg on a spring, with a constant force.
@@ -246,6 +246,28 @@ fn slow_touches_and_releases_do_not_stall() {
                 "{speed:e}: {:?}",
                 exact.counts()
             );
+        }
+    }
+}
+
+/// A stretch may end at any instant of a contact: the motion to its end and on from there is that of the whole, whichever instant it is.
+#[test]
+fn a_stretch_that_ends_within_a_contact_ends_there() {
+    for (system, state) in [(common::paper_beam(), vec![0.0; 12]), (common::uniform_beam(8), vec![0.0; 16])] {
+        let frequency_hz = 36.0;
+        let stretch = |start: f64, end: f64| Stretch { frequency_hz, start, end };
+        for tolerance in [1e-9, 1e-11, 1e-12] {
+            let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance }).unwrap();
+            let start = exact.advance(&stretch(0.0, 3.0), &state).unwrap();
+            let whole = exact.flow(&stretch(0.0, 1.0), &start).unwrap().state;
+            assert!(exact.touches().iter().sum::<u32>() >= 1);
+            let size = whole.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+            for k in 1..1000 {
+                let end = f64::from(k) / 1000.0;
+                let middle = exact.flow(&stretch(0.0, end), &start).unwrap().state;
+                let found = exact.advance(&stretch(end, 1.0), &middle).unwrap();
+                assert_close(&found, &whole, 1e-7 * size, &format!("cut at {end}"));
+            }
         }
     }
 }

@@ -48,6 +48,8 @@ impl ExactIntegrator {
         let remaining = end - run.time;
         let mut aim = self.first_aim(run, touched, remaining);
         for _ in 0..MAX_TRIES {
+            // Half the way to a release may lie behind the end of the stretch.
+            aim.length = aim.length.min(remaining);
             if aim.length < 1e-16 * end || aim.length.is_nan() {
                 break;
             }
