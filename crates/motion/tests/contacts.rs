@@ -9,7 +9,7 @@ use common::{assert_agreement, diagonal, element, hertz, integrator, model};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{HertzStop, LinearStop, TwoSidedStop},
+    law::{HertzStop, LinearStop},
 };
 
 /// A mass of 1 kg on a spring, with a constant force.
