@@ -9,7 +9,8 @@
 //! |---|---|
 //! | `shooting.rs` | the equations of multiple shooting, condensed to the first node; made for the path crate |
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
-//! | `start.rs`, `find.rs` | the first orbit of a branch; all orbits at one frequency |
+//! | `start.rs`, `reach.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere |
+//! | `find.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, the orbits known, Newton's method from many states, where branches cross the frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
@@ -52,7 +53,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod catalogue;
 mod checkpoint;
+mod crossings;
 mod density;
 mod eigenvalues;
 mod error;
@@ -60,8 +63,11 @@ mod find;
 mod free;
 mod located;
 mod matching;
+mod noise;
+mod reach;
 mod recompute;
 mod resegment;
+mod sampling;
 mod settings;
 mod shooting;
 mod solution;
@@ -74,10 +80,11 @@ mod walk;
 
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
-pub use find::{FoundOrbits, find_orbits, reach_orbit};
+pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
 pub use located::{ContactChange, EventStatus, LocatedEvent};
 pub use matching::Matcher;
+pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};

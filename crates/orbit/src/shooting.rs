@@ -182,6 +182,11 @@ impl ShootingProblem {
         &mut self.integrator
     }
 
+    /// Gives the integrator back.
+    pub fn into_integrator(self) -> ExactIntegrator {
+        self.integrator
+    }
+
     /// What went wrong in the last evaluation.
     pub fn failure(&self) -> Option<&MotionError> {
         self.failure.as_ref()

@@ -4,6 +4,7 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
+    noise::Noise,
     solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_scale},
 };
 
@@ -110,13 +111,7 @@ pub(crate) fn starting_states(
     let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
     let linear = integrator.steady_state(&stretch);
     let scale = state_scale(system, &linear, frequency_hz);
-    let mut sequence = 0u64;
-    let mut noise = move || {
-        sequence = sequence.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (sequence ^ (sequence >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    };
+    let mut noise = Noise::new(0);
     let n = system.dof();
     let mut states = vec![linear.clone()];
     for start in 0..starts {
@@ -124,7 +119,7 @@ pub(crate) fn starting_states(
         let reach = 0.5 * 2f64.powi((start % STARTS) as i32);
         // Low modes move most: their share falls with the order of the mode.
         let add = |i: usize, noise: f64| scale.values()[i] * reach * noise / (1 + i % n) as f64;
-        states.push((0..2 * n).map(|i| linear[i] + add(i, noise())).collect());
+        states.push((0..2 * n).map(|i| linear[i] + add(i, noise.signed())).collect());
     }
     Ok(states)
 }

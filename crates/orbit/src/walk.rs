@@ -6,7 +6,8 @@ use hammerbeam_path::{
 };
 
 use crate::{
-    BranchRow, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
+    BranchRow, Crossing, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side,
+    StopReason,
     density::{LastRows, Place},
     located,
     shooting::ShootingProblem,
@@ -231,6 +232,23 @@ impl BranchWalk {
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
+    }
+
+    /// Excitation periods of an orbit.
+    pub(crate) fn period_multiple(&self) -> u32 {
+        self.problem.period_multiple()
+    }
+
+    /// The flip at the present point, at which the problem was evaluated last, as a place to leave from; `None` where there is none.
+    pub(crate) fn flip_here(&mut self) -> Result<Option<Crossing>, OrbitError> {
+        if self.follower.current().events.zeros & 1 == 0 {
+            return Ok(None);
+        }
+        let row = self.row()?;
+        let Some(located) = row.located.filter(|located| !located.direction.is_empty()) else {
+            return Ok(None);
+        };
+        Ok(Some(Crossing { orbit: row.solution, direction: located.direction, factor: 2 }))
     }
 
     /// Why the motion could not be computed at the last evaluation, if so.

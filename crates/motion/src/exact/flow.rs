@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{
-    ExactIntegrator, MotionError,
+    ExactIntegrator, MOST_STEPS, MotionError,
     drive::{Drive, Jet},
     flight::{Touch, clearance_of},
     maxima::closed_bits,
@@ -91,7 +91,12 @@ impl ExactIntegrator {
     pub(super) fn complete(&mut self, run: &mut Run, stretch: &Stretch) -> Result<(), MotionError> {
         let end = stretch.duration();
         self.closed_throughout = closed_bits(run);
+        let steps = MOST_STEPS * (1 + (stretch.end - stretch.start) as u64);
+        let most = self.counts.steps + steps;
         while run.time < end {
+            if self.counts.steps > most {
+                return Err(MotionError::TooManySteps { time: run.time, steps });
+            }
             if self.forces_act(run) {
                 self.contact_phase(run, end)?;
             } else if let Some(touch) = self.fly(run, end)? {

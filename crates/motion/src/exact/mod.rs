@@ -81,6 +81,9 @@ pub enum MotionError {
     /// No force step, however short, reached the tolerance.
     #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
     StepTooShort { time: f64, step: f64 },
+    /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or forces far beyond those of the system.
+    #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
+    TooManySteps { time: f64, steps: u64 },
     /// The search for the next contact does not get on.
     #[error("flight does not advance at {time:.6e} s after the start of the stretch")]
     FlightStalled { time: f64 },
@@ -88,6 +91,9 @@ pub enum MotionError {
     #[error("state is not finite at {time:.6e} s after the start of the stretch")]
     NotFinite { time: f64 },
 }
+
+/// Most force steps in an excitation period: hundreds are many.
+const MOST_STEPS: u64 = 50_000;
 
 /// Settings of the exact integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]

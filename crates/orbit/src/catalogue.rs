@@ -1,0 +1,169 @@
+//! The orbits known at one frequency, each of them once, and Newton's method that adds to them.
+//!
+//! An orbit of N excitation periods has N states at phase 0 and is known if one of them is. Newton's method for N periods also ends at orbits whose
+//! period is a part of N; they are kept as what they are, so that they are recognised at once when they come again.
+
+use hammerbeam_motion::{System, exact::ExactIntegrator};
+
+use crate::{
+    OrbitError, OrbitSettings, PeriodicSolution, Response,
+    matching::{distance_in_phase, phases},
+    shooting::{ShootingProblem, StateScale},
+    solve::{correct, has_minimal_period, integrator, solution, state_scale},
+};
+
+/// Two orbits this close, relative to the orbit, are the same.
+const SAME: f64 = 1e-6;
+
+/// An orbit and what is needed to recognise it.
+#[derive(Debug)]
+pub(crate) struct Known {
+    pub solution: PeriodicSolution,
+    scale: StateScale,
+    phases: Vec<Vec<f64>>,
+    /// Whether its branch has been followed.
+    pub followed: bool,
+}
+
+/// The orbits known at one frequency.
+#[derive(Debug)]
+pub(crate) struct Catalogue<'a> {
+    pub system: &'a System,
+    pub response: &'a Response,
+    pub settings: &'a OrbitSettings,
+    pub frequency_hz: f64,
+    pub known: Vec<Known>,
+    /// Kept from one use to the next with the matrices it has made; `None` only while it is in use.
+    integrator: Option<ExactIntegrator>,
+}
+
+/// Where Newton's method has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Arrived {
+    /// Place in the list.
+    pub place: usize,
+    pub is_new: bool,
+}
+
+impl<'a> Catalogue<'a> {
+    /// An empty one.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if no integrator can be made for the system.
+    pub fn new(
+        system: &'a System,
+        response: &'a Response,
+        settings: &'a OrbitSettings,
+        frequency_hz: f64,
+    ) -> Result<Self, OrbitError> {
+        let integrator = Some(integrator(system, response, settings)?);
+        Ok(Self { system, response, settings, frequency_hz, known: Vec::new(), integrator })
+    }
+
+    /// The integrator.
+    pub fn integrator(&mut self) -> &mut ExactIntegrator {
+        self.integrator.as_mut().expect("it is back after every use")
+    }
+
+    /// Force steps taken so far.
+    pub fn steps(&mut self) -> u64 {
+        self.integrator().counts().steps
+    }
+
+    /// Number of orbits with this period.
+    pub fn count(&self, period_multiple: u32) -> usize {
+        self.known.iter().filter(|known| known.solution.period_multiple == period_multiple).count()
+    }
+
+    /// Scale of the states near `state`.
+    pub fn scale(&self, state: &[f64]) -> StateScale {
+        state_scale(self.system, state, self.frequency_hz)
+    }
+
+    /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at equal phases.
+    ///
+    /// `None` if it leads nowhere: where no motion can be computed either, that is no more than a guess that was not good enough.
+    pub fn probe(&mut self, nodes: &[Vec<f64>], period_multiple: u32) -> Result<Option<Arrived>, OrbitError> {
+        let integrator = self.integrator.take().expect("it is back after every use");
+        let shape = (period_multiple, nodes.len());
+        let mut problem = ShootingProblem::new(integrator, shape, self.scale(&nodes[0]), 1.0);
+        let result = self.newton(&mut problem, nodes);
+        self.integrator = Some(problem.into_integrator());
+        match result {
+            Ok(arrived) => Ok(arrived),
+            Err(OrbitError::NotConverged { .. } | OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => {
+                Ok(None)
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn newton(
+        &mut self,
+        problem: &mut ShootingProblem,
+        nodes: &[Vec<f64>],
+    ) -> Result<Option<Arrived>, OrbitError> {
+        let mut point = problem.point(nodes, self.frequency_hz);
+        let correction = correct(problem, &mut point, self.settings)?;
+        let multiple = problem.period_multiple();
+        if let Some(place) = self.place(&problem.nodes(&point)[0], multiple) {
+            return Ok(Some(Arrived { place, is_new: false }));
+        }
+        let found = solution(problem, &point, correction)?;
+        let scale = self.scale(&found.nodes[0]);
+        if has_minimal_period(problem.integrator(), &scale, &found)? {
+            return self.add(problem.integrator(), found, scale).map(Some);
+        }
+        for part in (1..multiple).filter(|part| multiple.is_multiple_of(*part)) {
+            let state = found.nodes[0].clone();
+            let shorter = self.correct_shorter(problem, &state, part)?;
+            if shorter.is_some() {
+                return Ok(shorter);
+            }
+        }
+        Ok(None)
+    }
+
+    /// The orbit of shorter period through a state, if it is one.
+    fn correct_shorter(
+        &mut self,
+        problem: &mut ShootingProblem,
+        state: &[f64],
+        part: u32,
+    ) -> Result<Option<Arrived>, OrbitError> {
+        let motion = integrator(self.system, self.response, self.settings)?;
+        let scale = self.scale(state);
+        let mut shorter = ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0);
+        let mut point = shorter.point(&[state.to_vec()], self.frequency_hz);
+        let Ok(correction) = correct(&mut shorter, &mut point, self.settings) else { return Ok(None) };
+        let found = solution(&mut shorter, &point, correction)?;
+        if scale.distance(&found.nodes[0], state) > SAME {
+            return Ok(None);
+        }
+        self.add(problem.integrator(), found, scale).map(Some)
+    }
+
+    fn add(
+        &mut self,
+        integrator: &mut ExactIntegrator,
+        solution: PeriodicSolution,
+        scale: StateScale,
+    ) -> Result<Arrived, OrbitError> {
+        let (multiple, count) = (solution.period_multiple as usize, solution.nodes.len());
+        let phases = if count.is_multiple_of(multiple) {
+            solution.nodes.iter().step_by(count / multiple).cloned().collect()
+        } else {
+            phases(integrator, &solution)?
+        };
+        self.known.push(Known { solution, scale, phases, followed: false });
+        Ok(Arrived { place: self.known.len() - 1, is_new: true })
+    }
+
+    /// Place of the orbit through a state whose period is `period_multiple` or a part of it.
+    fn place(&self, state: &[f64], period_multiple: u32) -> Option<usize> {
+        self.known.iter().position(|known| {
+            period_multiple.is_multiple_of(known.solution.period_multiple)
+                && distance_in_phase(&known.scale, &known.phases, state) < SAME
+        })
+    }
+}

@@ -1,0 +1,122 @@
+//! Newton's method from many states, until nothing new comes.
+//!
+//! The states are those that motions have passed through, transients included: they lie where the system moves, and near its unstable orbits,
+//! which a motion may pass but not settle on. Each trial begins in one of four ways, since each of them arrives where others do not:
+//!
+//! - from the states of one motion at all excitation periods, or from its first one alone;
+//! - from states of different motions, one for each excitation period: in chaotic motion an orbit exists for nearly every such order of
+//!   events, and the corrections are shared between the periods;
+//! - from a state at a random distance from one that was passed.
+
+use crate::{
+    Interruption, OrbitError,
+    catalogue::{Arrived, Catalogue},
+    noise::Noise,
+    solve::nodes_from,
+};
+
+/// Force steps of all trials: they tell what a trial costs where contacts are many.
+const MOST_STEPS: u64 = 2_000_000;
+
+/// States that motions have passed through, one motion after the other.
+#[derive(Debug, Default)]
+pub(crate) struct Passed {
+    pub motions: Vec<Vec<Vec<f64>>>,
+}
+
+impl Passed {
+    fn any<'s>(&'s self, noise: &mut Noise) -> &'s [f64] {
+        let motion = &self.motions[noise.below(self.motions.len())];
+        // Motion that gains or loses energy over many periods passes the orbits near its start in a few: every other state is from a period that is
+        // uniform in its logarithm.
+        let place = if noise.share() < 0.5 {
+            noise.below(motion.len())
+        } else {
+            ((motion.len() as f64).powf(noise.share()) as usize - 1).min(motion.len() - 1)
+        };
+        &motion[place]
+    }
+}
+
+/// How long to go on.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Patience {
+    /// Trials without a new orbit after which the search ends,
+    pub trials: usize,
+    /// and more for each orbit that is known,
+    pub for_each: usize,
+    /// but no more trials than these.
+    pub most: usize,
+}
+
+/// Looks for orbits of `period_multiple` excitation periods from states that were passed.
+pub(crate) fn sample(
+    catalogue: &mut Catalogue<'_>,
+    passed: &Passed,
+    period_multiple: u32,
+    patience: Patience,
+    interrupted: Interruption<'_>,
+) -> Result<(), OrbitError> {
+    if passed.motions.is_empty() {
+        return Ok(());
+    }
+    let mut noise = Noise::new(1);
+    let (mut since, mut work) = (0, 0);
+    for trial in 0..patience.most {
+        if interrupted() {
+            return Err(OrbitError::Interrupted);
+        }
+        let before = catalogue.steps();
+        let nodes = guess(catalogue, passed, (trial, period_multiple), &mut noise);
+        let arrived = match nodes {
+            Some(nodes) => catalogue.probe(&nodes, period_multiple)?,
+            None => None,
+        };
+        work += catalogue.steps() - before;
+        let is_new =
+            |a: Arrived| a.is_new && catalogue.known[a.place].solution.period_multiple == period_multiple;
+        since = if arrived.is_some_and(is_new) { 0 } else { since + 1 };
+        if since >= patience.trials + patience.for_each * catalogue.count(period_multiple)
+            || work > MOST_STEPS
+        {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Nodes of a trial; `None` where no motion can be computed.
+fn guess(
+    catalogue: &mut Catalogue<'_>,
+    passed: &Passed,
+    (trial, period_multiple): (usize, u32),
+    noise: &mut Noise,
+) -> Option<Vec<Vec<f64>>> {
+    let frequency_hz = catalogue.frequency_hz;
+    let state = passed.any(noise).to_vec();
+    let mut along = |state: &[f64], segments: usize| {
+        nodes_from(catalogue.integrator(), state, frequency_hz, period_multiple, segments).ok()
+    };
+    let count = period_multiple as usize;
+    match trial % 4 {
+        0 => along(&state, count),
+        1 => Some(vec![state]),
+        2 if count == 1 => {
+            // Half a period later another motion.
+            let other = along(passed.any(noise), 2)?.swap_remove(1);
+            Some(vec![state, other])
+        }
+        2 => Some((0..count).map(|_| passed.any(noise).to_vec()).collect()),
+        _ => {
+            let reach = 10f64.powf(-3.0 * noise.share());
+            let scale = catalogue.scale(passed.any(noise));
+            let moved: Vec<f64> =
+                state.iter().zip(scale.values()).map(|(z, s)| z + reach * s * noise.signed()).collect();
+            if trial % 8 == 3 {
+                Some(vec![moved])
+            } else {
+                nodes_from(catalogue.integrator(), &moved, frequency_hz, period_multiple, count).ok()
+            }
+        }
+    }
+}
