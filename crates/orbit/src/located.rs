@@ -16,6 +16,8 @@ use crate::shooting::ShootingProblem;
 const SHARP_FREQUENCY: f64 = 1e-8;
 /// Distance of the critical multiplier from its place that a located flip or Neimark-Sacker point may have.
 const SHARP_MULTIPLIER: f64 = 1e-5;
+/// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
+const MOST_SHIFTS: u32 = 8;
 
 /// How well an event was located.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -122,9 +124,15 @@ fn null_direction(problem: &ShootingProblem, [re, im]: [f64; 2]) -> Option<Vec<f
         }
     }
     let mut lu = DenseLu::new();
+    let largest = matrix.iter().fold(1.0_f64, |largest, entry| largest.max(entry.abs()));
+    let mut tries = 0;
     while lu.factorise(width, &matrix).is_err() {
-        // The multiplier is exact to the last bit: an inverse needs it a little off.
-        (0..width).for_each(|i| matrix[i * width + i] += 1e-14);
+        // The multiplier is exact to the last bit: an inverse needs it a little off, by what the largest entries do not round away.
+        (0..width).for_each(|i| matrix[i * width + i] += 1e-14 * largest);
+        tries += 1;
+        if tries == MOST_SHIFTS {
+            return None;
+        }
     }
     let mut vector = vec![1.0; width];
     for _ in 0..3 {
