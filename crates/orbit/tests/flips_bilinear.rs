@@ -15,13 +15,13 @@ use std::f64::consts::TAU;
 
 use common::{
     events::{
-        Subject, alternation, assert_same, exponent, general_multipliers, leaving, oscillator, settled_period,
+        Subject, alternation, assert_same, exponent, general_multipliers, growth, leaving, oscillator, settled_period,
         side, sorted, step_of, whole, with,
     },
     with_segments,
 };
 use hammerbeam_motion::{Law, law::LinearStop};
-use hammerbeam_orbit::{BranchRow, EventStatus, OrbitSettings, Side, StopReason, find_start};
+use hammerbeam_orbit::{BranchRow, EventStatus, OrbitSettings, PeriodicSolution, Side, StopReason, find_start};
 
 const DAMPER: f64 = 0.1;
 const FORCE: f64 = 1.0;
@@ -186,14 +186,9 @@ fn orbit_of_doubled_period_grows_with_the_root_of_the_distance() {
     let subject = subject();
     for flip in flips(0.3, &step_of(0.002)) {
         let at = flip.solution.frequency_hz;
-        let near = (at * (1.0 - 2e-3), at * (1.0 + 2e-3));
-        let (rows, _) = leaving(&subject, &flip, Side::Up, near, &step_of(1e-5));
-        assert!(rows.iter().all(|row| row.solution.period_multiple == 2));
-        let points: Vec<(f64, f64)> = rows
-            .iter()
-            .map(|row| ((row.solution.frequency_hz / at - 1.0).abs(), alternation(&subject.0, &row.solution)))
-            .filter(|(distance, _)| (1e-5..2e-4).contains(distance))
-            .collect();
+        let measure = |orbit: &PeriodicSolution| alternation(&subject.0, orbit);
+        let mut points = growth(&subject, &flip, (RANGE, &step_of(1e-5)), 0.08, measure);
+        points.retain(|(_, grown)| *grown > 0.005);
         assert!(points.len() > 3, "{} rows near {at} Hz", points.len());
         let found = exponent(&points);
         assert!((found - 0.5).abs() < 0.03, "exponent {found} at {at} Hz");

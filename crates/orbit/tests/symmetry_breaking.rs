@@ -8,7 +8,7 @@
 mod common;
 
 use common::events::{
-    Subject, apart, assert_same, exponent, general_multipliers, leaving, oscillator, step_of, whole, with,
+    Subject, apart, assert_same, exponent, general_multipliers, growth, leaving, oscillator, step_of, whole, with,
 };
 use hammerbeam_motion::{
     Law, Stretch,
@@ -132,12 +132,8 @@ fn asymmetry_grows_with_the_root_of_the_distance() {
     let points = branch_points(&symmetric(&step_of(5e-4)));
     for point in &points {
         let at = point.solution.frequency_hz;
-        let (rows, _) = leaving(&subject, point, Side::Up, (0.998 * at, 1.002 * at), &step_of(1e-5));
-        let grown: Vec<(f64, f64)> = rows
-            .iter()
-            .map(|row| ((row.solution.frequency_hz / at - 1.0).abs(), asymmetry(&row.solution)))
-            .filter(|(distance, _)| (2e-5..5e-4).contains(distance))
-            .collect();
+        let mut grown = growth(&subject, point, (RANGE, &step_of(1e-5)), 0.08, asymmetry);
+        grown.retain(|(_, asymmetry)| *asymmetry > 0.005);
         assert!(grown.len() > 3, "{}", grown.len());
         let found = exponent(&grown);
         assert!((found - 0.5).abs() < 0.03, "exponent {found} at {at} Hz");

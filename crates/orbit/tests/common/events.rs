@@ -75,6 +75,30 @@ pub fn leaving(
     (rows, reason)
 }
 
+/// The first rows of the branch that leaves at a row, over the distance from it relative to the frequency: `measure` of them as long as it grows
+/// to no more than `most`.
+pub fn growth(
+    (system, response): &Subject,
+    row: &BranchRow,
+    (range_hz, settings): ((f64, f64), &OrbitSettings),
+    most: f64,
+    measure: impl Fn(&PeriodicSolution) -> f64,
+) -> Vec<(f64, f64)> {
+    let crossing = crossing(row);
+    let mut walk =
+        BranchWalk::from_crossing(system, response, &crossing, Side::Up, range_hz, settings).unwrap();
+    let (mut rows, mut points) = (Vec::new(), Vec::new());
+    while walk.step(&mut rows).unwrap().is_none() {
+        let orbit = &rows[rows.len() - 1].solution;
+        let grown = measure(orbit);
+        if grown > most {
+            break;
+        }
+        points.push(((orbit.frequency_hz / row.solution.frequency_hz - 1.0).abs(), grown));
+    }
+    points
+}
+
 fn finish(walk: &mut BranchWalk, rows: &mut Vec<BranchRow>) -> StopReason {
     loop {
         if let Some(reason) = walk.step(rows).unwrap() {
@@ -167,8 +191,7 @@ pub fn alternation(system: &System, orbit: &PeriodicSolution) -> f64 {
     0.5 * apart(system, &orbit.nodes[0], &later)
 }
 
-/// Exponent of an amplitude over the distance from a crossing, from the rows of the leaving branch at distances within these
-/// bounds, relative to the frequency: the slope of the regression line of the logarithms.
+/// Exponent `p` of `y = c x^p` through points: the slope of the regression line of the logarithms.
 pub fn exponent(points: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
     let count = logs.len() as f64;
