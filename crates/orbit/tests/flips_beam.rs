@@ -7,7 +7,7 @@ mod common;
 use common::{
     beam,
     events::{
-        alternation, assert_same, exponent, general_multipliers, growth, settled_period, sorted, step_of,
+        alternation, assert_same, exponent, general_multipliers, growth, sorted, step_of,
         whole, with,
     },
 };
