@@ -16,6 +16,8 @@ use crate::shooting::ShootingProblem;
 const SHARP_FREQUENCY: f64 = 1e-8;
 /// Distance of the critical multiplier from its place that a located flip or Neimark-Sacker point may have.
 const SHARP_MULTIPLIER: f64 = 1e-5;
+/// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
+const MOST_SHIFTS: u32 = 8;
 
 /// How well an event was located.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,10 +123,25 @@ fn null_direction(problem: &ShootingProblem, [re, im]: [f64; 2]) -> Option<Vec<f
             }
         }
     }
+    let vector = null_vector(width, matrix)?;
+    let largest = vector[..n].iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let scaled = vector[..n].iter().zip(problem.scale().values());
+    let direction: Vec<f64> = scaled.map(|(v, scale)| v * scale * largest.signum()).chain([0.0]).collect();
+    direction.iter().all(|value| value.is_finite()).then_some(direction)
+}
+
+/// Null vector of a matrix that is singular to rounding, by inverse iteration, of length one; `None` if the matrix is not finite.
+fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
+    let largest = matrix.iter().fold(1.0_f64, |largest, entry| largest.max(entry.abs()));
     let mut lu = DenseLu::new();
+    let mut shifts = 0;
     while lu.factorise(width, &matrix).is_err() {
-        // The multiplier is exact to the last bit: an inverse needs it a little off.
-        (0..width).for_each(|i| matrix[i * width + i] += 1e-14);
+        if shifts == MOST_SHIFTS {
+            return None;
+        }
+        // Singular to the last bit: an inverse needs it a little off, by what the largest entries do not round away.
+        (0..width).for_each(|i| matrix[i * width + i] += 1e-14 * largest);
+        shifts += 1;
     }
     let mut vector = vec![1.0; width];
     for _ in 0..3 {
@@ -132,10 +149,7 @@ fn null_direction(problem: &ShootingProblem, [re, im]: [f64; 2]) -> Option<Vec<f
         let length = vector.iter().map(|v| v * v).sum::<f64>().sqrt();
         vector.iter_mut().for_each(|v| *v /= length);
     }
-    let largest = vector[..n].iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-    let scaled = vector[..n].iter().zip(problem.scale().values());
-    let direction: Vec<f64> = scaled.map(|(v, scale)| v * scale * largest.signum()).chain([0.0]).collect();
-    direction.iter().all(|value| value.is_finite()).then_some(direction)
+    Some(vector)
 }
 
 /// Direction in which the other branch leaves a branch point, orthogonal to the present one.
@@ -154,4 +168,23 @@ fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) 
     let first = vector[..problem.node_size()].iter().zip(problem.scale().values());
     let direction: Vec<f64> = first.map(|(v, scale)| v * scale).chain([vector[last]]).collect();
     direction.iter().all(|value| value.is_finite()).then_some(direction)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `[3 s, s; 6 s, 2 s]` has the null vector `(1, -3)`; for a large s a shift by 1e-14 would be rounded away.
+    #[test]
+    fn null_vector_of_an_exactly_singular_matrix_of_large_entries_is_found() {
+        for size in [1e-3, 1.0, 4096.0, 1e9] {
+            let vector = null_vector(2, vec![3.0 * size, size, 6.0 * size, 2.0 * size]).expect("it is finite");
+            assert!((vector[1] / vector[0] + 3.0).abs() < 1e-9, "{vector:?} at {size}");
+        }
+    }
+
+    #[test]
+    fn a_matrix_that_is_not_finite_has_no_null_vector() {
+        assert_eq!(null_vector(2, vec![f64::NAN, 1.0, 1.0, 1.0]), None);
+    }
 }

@@ -3,7 +3,8 @@
 //! At a flip with multiplier -1 and direction `v` the orbit of doubled period is `z + a v + O(a^2)`; at a branch point the crossing branch
 //! leaves along its tangent `v`. The first orbit is sought in the plane `<v, z - z_0> = a`, normal to `v` at a small amplitude `a`: the
 //! present branch does not lie in that plane, so Newton's method cannot fall back to it. `v` is carried along the orbit by the flow, so that it
-//! serves any number of segments; over the second half of a doubled orbit it comes with the other sign by itself.
+//! serves any number of segments; over the second half of a doubled orbit it comes with the other sign by itself. From `z_0 + a v` the orbit
+//! found differs by `O(a^2)` in its states and in its frequency; if either differs by more than `a`, relatively, a smaller amplitude is tried.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 use hammerbeam_path::{Direction, Follower, ParameterRange};
@@ -127,9 +128,13 @@ fn leave(
     else {
         return Ok(None);
     };
-    let moved: Vec<f64> = follower.current().point.iter().zip(&start).map(|(a, b)| a - b).collect();
-    let squares = moved.iter().zip(hammerbeam_path::PathProblem::weights(&problem)).map(|(v, w)| w * v * v);
-    if squares.sum::<f64>().sqrt() > reach.abs() {
+    let current = &follower.current().point;
+    let last = current.len() - 1;
+    let squares = (0..last).map(|i| (current[i] - start[i]).powi(2));
+    let weight = hammerbeam_path::PathProblem::weights(&problem)[0];
+    let away_in_states = (weight * squares.sum::<f64>()).sqrt();
+    let away_in_frequency = (current[last] - start[last]).abs() / orbit.frequency_hz;
+    if away_in_states > reach.abs() || away_in_frequency > amplitude.abs() {
         return Ok(None);
     }
     let mut walk = BranchWalk::of(problem, follower, orbit.maxima.displacement, (settings, range_hz));

@@ -21,6 +21,10 @@ const MERGED: f64 = 1e-3;
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new units.
 const OUTGROWN: f64 = 4.0;
 
+/// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more segments. A segment of 3e6 makes steps
+/// of a millionth of a hertz.
+const MOST_GROWTH: f64 = 1e4;
+
 /// One side of a branch, followed from its start.
 ///
 /// Drive it with [`BranchWalk::step`] until it gives a [`StopReason`]. Between two steps it can be stored with
@@ -157,7 +161,9 @@ impl BranchWalk {
             None => match self.row() {
                 Ok(row) => {
                     self.journal.push(self.follower.in_first_units(self.follower.current()));
+                    let multipliers = row.solution.floquet_multipliers.clone();
                     self.append_densely(&from, row, rows)?;
+                    self.keep_segments_short(&multipliers)?;
                     Ok(None)
                 }
                 Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
@@ -188,6 +194,19 @@ impl BranchWalk {
         self.follower.rescale(factor);
         let surplus = self.last_rows.0.len().saturating_sub(1);
         self.last_rows.0.drain(..surplus);
+    }
+
+    /// Cuts the orbit anew where its multipliers have outgrown the segments, before steps become so short that the walk crawls.
+    fn keep_segments_short(&mut self, multipliers: &[[f64; 2]]) -> Result<(), OrbitError> {
+        let largest = multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+        let outgrown = largest.ln() > self.problem.segments() as f64 * MOST_GROWTH.ln();
+        if self.settings.segments == Segments::Automatic && outgrown && self.follower.stop_reason().is_none() {
+            match self.resegment() {
+                Ok(_) | Err(OrbitError::Motion(_)) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
     }
 
     /// Goes to the next point of the path, with more segments if it does not go on with the present ones; `from` becomes the point before it.

@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "each test file uses some of them")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
+pub mod events;
+
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,

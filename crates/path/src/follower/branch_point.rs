@@ -36,10 +36,11 @@ impl Follower {
             return Err(Doubt::Reversed);
         }
         let parameter_sign = self.turn_at_branch_point(share)?;
+        let uncertainty = self.sharpen_branch_point(problem, step, share);
         self.interpolate_tangent(share);
         std::mem::swap(&mut self.trial, &mut self.probe);
         let events = Events { branch_point: true, fold: parameter_sign.is_some(), ..Events::default() };
-        Ok(Arrival { events, parameter_sign, anchors_anew: true, ..Arrival::default() })
+        Ok(Arrival { events, parameter_sign, anchors_anew: true, uncertainty, ..Arrival::default() })
     }
 
     /// Leaves the point with the smallest `|D|` found in the probe, evaluated last; returns its share of the step and

@@ -1,6 +1,7 @@
 //! The follower: from one accepted point to the next.
 
 mod attempt;
+mod beside;
 mod branch_point;
 mod closing;
 mod corner;

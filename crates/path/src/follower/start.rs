@@ -54,7 +54,11 @@ impl Follower {
         trial.point.copy_from_slice(start);
         let parameter = trial.parameter();
         let mut counters = Counters::default();
-        let limits = start_limits(&settings);
+        let mut limits = start_limits(&settings);
+        if let Direction::Along(_) = direction {
+            // Beside a branch point rounding leaves corrections along the other branch.
+            limits.singular_tolerance = limits.singular_tolerance.max(0.01 * settings.initial_step);
+        }
         trial
             .correct(problem, &weights, &row, limits, &mut counters)
             .map_err(|cause| PathError::Start { parameter, cause })?;

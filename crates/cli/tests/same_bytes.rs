@@ -1,0 +1,152 @@
+//! A study of several branches gives the same exported bytes with any number of threads, after kills, and in pieces.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use std::{
+    fs,
+    process::{Command, Stdio},
+    sync::OnceLock,
+    thread::sleep,
+    time::{Duration, Instant},
+};
+
+use common::{Workshop, assert_success, stdout};
+
+/// A bilinear oscillator with superharmonic and subharmonic branches and doublings of them: a second or two.
+const STUDY: &str = r#"
+title = "Bilinear oscillator"
+
+[structure]
+kind = "lumped"
+mass = [{ name = "mass", mass_kg = 1.0 }]
+spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.0 }]
+damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.1 }]
+
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 1.0
+frequency_hz = [0.12, 0.6]
+
+[[stop]]
+at = "mass"
+law = "linear"
+stiffness_n_m = 19.0
+side = "above"
+
+[search]
+frequencies = 8
+
+[response]
+period_multiples = [1, 2, 3]
+period_doubling_depth = 1
+"#;
+
+fn with_continuation(lines: &str) -> String {
+    format!("{STUDY}\n[continuation]\nmax_step_hz = 0.0004\n{lines}\n")
+}
+
+/// Everything exported.
+fn exported(workshop: &Workshop) -> (String, String) {
+    let branches = workshop.csv("results");
+    (branches, fs::read_to_string(workshop.path("exported/events.csv")).unwrap())
+}
+
+fn run(workshop: &Workshop, jobs: &str) -> String {
+    let output = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--jobs", jobs]);
+    assert_success(&output);
+    stdout(&output)
+}
+
+/// Exported bytes of an undisturbed run on one thread, and how long it took.
+fn undisturbed() -> &'static ((String, String), Duration) {
+    static BYTES: OnceLock<((String, String), Duration)> = OnceLock::new();
+    BYTES.get_or_init(|| {
+        let workshop = Workshop::with(&with_continuation(""));
+        let begun = Instant::now();
+        run(&workshop, "1");
+        let took = begun.elapsed();
+        (exported(&workshop), took)
+    })
+}
+
+/// Rows without the number of their branch, sorted: the same solutions, in whatever order branches were begun and walked.
+fn solutions(csv: &str) -> Vec<String> {
+    let rows = csv.lines().skip(1).map(|line| line.split_once(',').unwrap().1);
+    let mut rows: Vec<String> = rows.map(|row| row.replace("start", "").replace("end", "")).collect();
+    rows.sort();
+    rows
+}
+
+#[test]
+fn one_two_and_three_threads_give_the_same_bytes() {
+    let (expected, _) = undisturbed();
+    assert!(expected.0.lines().last().unwrap().split(',').next().unwrap().parse::<u32>().unwrap() >= 4);
+    for jobs in ["2", "3"] {
+        let workshop = Workshop::with(&with_continuation(""));
+        run(&workshop, jobs);
+        assert!(exported(&workshop) == *expected, "{jobs} threads");
+    }
+}
+
+#[test]
+fn three_threads_killed_at_ten_instants_and_resumed_end_with_the_same_bytes() {
+    let (expected, duration) = undisturbed();
+    let workshop = Workshop::with(&with_continuation(""));
+    let (mut seed, mut killed) = (20_u64, 0);
+    for _ in 0..10 {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let part = (seed >> 11) as f64 / (1_u64 << 53) as f64;
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+            .args(["run", "study.toml", "--out", "results", "--jobs", "3"])
+            .current_dir(workshop.path(""))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        sleep(duration.mul_f64(0.2 * part));
+        killed += usize::from(child.try_wait().unwrap().is_none());
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    run(&workshop, "3");
+    assert!(killed >= 3, "only {killed} runs were still at work");
+    assert!(exported(&workshop) == *expected);
+}
+
+#[test]
+fn a_depth_raised_later_gives_what_it_gives_at_once() {
+    let (expected, _) = undisturbed();
+    let shallow = with_continuation("").replace("period_doubling_depth = 1", "period_doubling_depth = 0");
+    let workshop = Workshop::with(&shallow);
+    run(&workshop, "2");
+    let before = solutions(&exported(&workshop).0).len();
+    fs::write(workshop.path("study.toml"), with_continuation("")).unwrap();
+    run(&workshop, "2");
+    let after = solutions(&exported(&workshop).0);
+    assert!(after.len() > before, "{before} solutions at depth 0, {} at depth 1", after.len());
+    assert!(after == solutions(&expected.0), "{} rows, {}", after.len(), solutions(&expected.0).len());
+}
+
+#[test]
+fn a_budget_of_solutions_that_is_raised_gives_the_same_solutions() {
+    let (expected, _) = undisturbed();
+    let workshop = Workshop::with(&with_continuation("budget_solutions = 150"));
+    assert!(run(&workshop, "2").contains("budget"));
+    fs::write(workshop.path("study.toml"), with_continuation("")).unwrap();
+    run(&workshop, "2");
+    let after = solutions(&exported(&workshop).0);
+    assert!(after == solutions(&expected.0), "{} rows, {}", after.len(), solutions(&expected.0).len());
+}
+
+#[test]
+fn a_budget_of_time_ends_a_run_and_running_again_goes_on_to_the_same_bytes() {
+    let (expected, _) = undisturbed();
+    let workshop = Workshop::with(&with_continuation("budget_time_s = 0.2"));
+    run(&workshop, "1");
+    assert!(exported(&workshop).0.lines().count() < expected.0.lines().count(), "it ended early");
+    fs::write(workshop.path("study.toml"), with_continuation("")).unwrap();
+    run(&workshop, "2");
+    assert!(exported(&workshop) == *expected);
+}

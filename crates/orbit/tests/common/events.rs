@@ -1,0 +1,202 @@
+//! Branches with all their events, and independent looks at an orbit by the general integrator.
+
+use faer::Mat;
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    general::{GeneralSettings, advance},
+};
+use hammerbeam_orbit::{
+    BranchRow, BranchWalk, Crossing, Events, OrbitSettings, PeriodicSolution, Response, Side, StopReason,
+};
+use hammerbeam_structure::{PointOutput, ReducedModel};
+
+pub type Subject = (System, Response);
+
+/// `x'' + c x' + k x = F cos(2 pi f t) + f(x)` with the force `f` of a law; unit mass.
+pub fn oscillator(stiffness: f64, damper: f64, force: f64, law: Law) -> Subject {
+    let model = ReducedModel {
+        natural_frequencies: vec![stiffness.sqrt()],
+        damping: Mat::from_fn(1, 1, |_, _| damper),
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+        support: None,
+        uniform_acceleration: vec![1.0],
+    };
+    let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let element = LocalElement { name: "element".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let system = System::new(model, &load, vec![element]).unwrap();
+    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+}
+
+pub fn step_of(max_step_hz: f64) -> OrbitSettings {
+    OrbitSettings { max_step_hz, ..OrbitSettings::default() }
+}
+
+/// One side of a branch with its start, and why it ended.
+pub fn side(
+    (system, response): &Subject,
+    start: &PeriodicSolution,
+    side: Side,
+    range_hz: (f64, f64),
+    settings: &OrbitSettings,
+) -> (Vec<BranchRow>, StopReason) {
+    let mut walk = BranchWalk::new(system, response, start, side, range_hz, settings).unwrap();
+    let mut rows = vec![walk.start_row().unwrap()];
+    let reason = finish(&mut walk, &mut rows);
+    (rows, reason)
+}
+
+/// Both sides end to end, the down side reversed.
+pub fn whole(
+    subject: &Subject,
+    start: &PeriodicSolution,
+    range_hz: (f64, f64),
+    settings: &OrbitSettings,
+) -> Vec<BranchRow> {
+    let (mut rows, _) = side(subject, start, Side::Down, range_hz, settings);
+    rows.reverse();
+    rows.extend(side(subject, start, Side::Up, range_hz, settings).0.into_iter().skip(1));
+    rows
+}
+
+/// The branch that leaves at a row, to one side.
+pub fn leaving(
+    (system, response): &Subject,
+    row: &BranchRow,
+    side: Side,
+    range_hz: (f64, f64),
+    settings: &OrbitSettings,
+) -> (Vec<BranchRow>, StopReason) {
+    let crossing = crossing(row);
+    let mut walk =
+        BranchWalk::from_crossing(system, response, &crossing, side, range_hz, settings).unwrap();
+    let mut rows = Vec::new();
+    let reason = finish(&mut walk, &mut rows);
+    (rows, reason)
+}
+
+/// The first rows of the branch that leaves at a row, over the distance from it relative to the frequency: `measure` of them as long as it grows
+/// to no more than `most`.
+pub fn growth(
+    (system, response): &Subject,
+    row: &BranchRow,
+    (range_hz, settings): ((f64, f64), &OrbitSettings),
+    most: f64,
+    measure: impl Fn(&PeriodicSolution) -> f64,
+) -> Vec<(f64, f64)> {
+    let crossing = crossing(row);
+    let mut walk =
+        BranchWalk::from_crossing(system, response, &crossing, Side::Up, range_hz, settings).unwrap();
+    let (mut rows, mut points) = (Vec::new(), Vec::new());
+    while walk.step(&mut rows).unwrap().is_none() {
+        let orbit = &rows[rows.len() - 1].solution;
+        let grown = measure(orbit);
+        if grown > most {
+            break;
+        }
+        points.push(((orbit.frequency_hz / row.solution.frequency_hz - 1.0).abs(), grown));
+    }
+    points
+}
+
+fn finish(walk: &mut BranchWalk, rows: &mut Vec<BranchRow>) -> StopReason {
+    loop {
+        if let Some(reason) = walk.step(rows).unwrap() {
+            return reason;
+        }
+    }
+}
+
+pub fn crossing(row: &BranchRow) -> Crossing {
+    let direction = row.located.as_ref().unwrap().direction.clone();
+    Crossing { orbit: row.solution.clone(), direction, factor: if row.events.flip { 2 } else { 1 } }
+}
+
+pub fn with(rows: &[BranchRow], which: fn(&Events) -> bool) -> Vec<&BranchRow> {
+    rows.iter().filter(|row| which(&row.events)).collect()
+}
+
+/// Frequencies of rows, ascending.
+pub fn sorted(rows: &[&BranchRow]) -> Vec<f64> {
+    let mut frequencies: Vec<f64> = rows.iter().map(|row| row.solution.frequency_hz).collect();
+    frequencies.sort_by(f64::total_cmp);
+    frequencies
+}
+
+/// The same frequencies to a relative tolerance.
+#[track_caller]
+pub fn assert_same(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}: {found:?} and {expected:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        let error = (found / expected - 1.0).abs();
+        assert!(error < tolerance, "{what}: {found} and {expected} Hz, {error:.1e}");
+    }
+}
+
+/// State after some excitation periods, by the general integrator.
+pub fn general_advance(system: &System, frequency_hz: f64, state: &[f64], periods: u32) -> Vec<f64> {
+    let settings = GeneralSettings::with_tolerance(1e-11).state_only();
+    let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+    let one = |state: Vec<f64>| advance(system, &stretch, &state, &settings).unwrap().flow.state;
+    (0..periods).fold(state.to_vec(), |state, _| one(state))
+}
+
+/// Floquet multipliers by the variational equations of the general integrator, largest modulus first.
+pub fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<[f64; 2]> {
+    let size = 2 * system.dof();
+    let settings = GeneralSettings::with_tolerance(1e-12);
+    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 1.0 };
+    let mut state = orbit.nodes[0].clone();
+    let mut monodromy = Mat::<f64>::identity(size, size);
+    for _ in 0..orbit.period_multiple {
+        let flow = advance(system, &stretch, &state, &settings).unwrap().flow;
+        monodromy = &flow.by_state * &monodromy;
+        state = flow.state;
+    }
+    let mut values: Vec<[f64; 2]> =
+        monodromy.eigenvalues().unwrap().iter().map(|value| [value.re, value.im]).collect();
+    values.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
+    values
+}
+
+/// Distance of two states in the energy norm, relative to the first.
+pub fn apart(system: &System, a: &[f64], b: &[f64]) -> f64 {
+    let n = system.dof();
+    let unit = |i: usize| if i < n { system.model().natural_frequencies[i] } else { 1.0 };
+    let norm = |value: &dyn Fn(usize) -> f64| {
+        (0..2 * n).map(|i| (value(i) * unit(i)).powi(2)).sum::<f64>().sqrt()
+    };
+    norm(&|i| a[i] - b[i]) / norm(&|i| a[i])
+}
+
+/// After how many excitation periods, up to `most`, motion from a state repeats to `tolerance` when it has settled for `settling` periods, by
+/// the general integrator; `None` if it does not.
+pub fn settled_period(
+    system: &System,
+    frequency_hz: f64,
+    state: &[f64],
+    (settling, most): (u32, usize),
+    tolerance: f64,
+) -> Option<usize> {
+    let mut states = vec![general_advance(system, frequency_hz, state, settling)];
+    for k in 0..most {
+        states.push(general_advance(system, frequency_hz, &states[k], 1));
+    }
+    (1..=most).find(|&period| apart(system, &states[0], &states[period]) < tolerance)
+}
+
+/// Half the distance of the states of an orbit an excitation period apart.
+pub fn alternation(system: &System, orbit: &PeriodicSolution) -> f64 {
+    let later = general_advance(system, orbit.frequency_hz, &orbit.nodes[0], orbit.period_multiple / 2);
+    0.5 * apart(system, &orbit.nodes[0], &later)
+}
+
+/// Exponent `p` of `y = c x^p` through points: the slope of the regression line of the logarithms.
+pub fn exponent(points: &[(f64, f64)]) -> f64 {
+    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
+    let count = logs.len() as f64;
+    let mean = |pick: fn(&(f64, f64)) -> f64| logs.iter().map(pick).sum::<f64>() / count;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let covariance: f64 = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
+    covariance / logs.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
+}

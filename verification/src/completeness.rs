@@ -1,0 +1,103 @@
+//! Whether computed branches hold every periodic attractor that simulation finds.
+//!
+//! At random frequencies random states are simulated until they repeat. Each attractor must be one of the orbits in which the branches of its period
+//! cross that frequency. What is not found is what a run misses, or where simulation and shooting disagree.
+
+use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
+
+use crate::{
+    attractors::{Attractor, Effort, Random, attractors, distance},
+    results::{Failure, Results},
+};
+
+/// Distance of an attractor from an orbit of a branch, relative to it, up to which they are the same.
+const SAME: f64 = 1e-4;
+
+/// What came of a check.
+#[derive(Debug, Default)]
+pub struct Report {
+    /// Frequencies looked at.
+    pub frequencies: usize,
+    /// Motions simulated.
+    pub motions: usize,
+    /// Motions that did not settle to a period that was looked for.
+    pub restless: usize,
+    /// Attractors found, by period.
+    pub found: Vec<usize>,
+    /// Attractors that are on no branch.
+    pub missing: Vec<Attractor>,
+}
+
+impl Report {
+    /// Number of attractors.
+    #[must_use]
+    pub fn attractors(&self) -> usize {
+        self.found.iter().sum()
+    }
+}
+
+/// Compares the branches of some results with what simulation finds at `frequencies` random frequencies.
+///
+/// # Errors
+/// A motion cannot be computed, or the store refuses.
+pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) -> Result<Report, Failure> {
+    let mut random = Random::new(seed);
+    let mut report = Report { frequencies, found: vec![0; effort.longest + 1], ..Report::default() };
+    let [low, high] = results.range_hz;
+    for _ in 0..frequencies {
+        let frequency_hz = low + (high - low) * random.part();
+        let mut orbits: Vec<Vec<PeriodicSolution>> = vec![Vec::new()];
+        for multiple in 1..=effort.longest {
+            let crossing = results.crossings(frequency_hz, multiple as u32)?;
+            orbits.push(crossing.into_iter().map(|(_, orbit)| orbit).collect());
+        }
+        let size = orbits.iter().flatten().map(|orbit| energy_norm(results, orbit)).fold(0.0, f64::max);
+        let system = &results.model.system;
+        let (found, restless) = attractors(system, frequency_hz, size, effort, &mut random)?;
+        report.motions += effort.states;
+        report.restless += restless;
+        for attractor in found {
+            let attractor = shortest(results, attractor);
+            let period = attractor.period();
+            report.found[period] += 1;
+            let same = |orbit: &PeriodicSolution| {
+                attractor.states.iter().any(|state| distance(system, state, &orbit.nodes[0]) < SAME)
+            };
+            if !orbits[period].iter().any(same) {
+                report.missing.push(attractor);
+            }
+        }
+    }
+    Ok(report)
+}
+
+fn energy_norm(results: &Results, orbit: &PeriodicSolution) -> f64 {
+    let n = results.model.system.dof();
+    let frequencies = &results.model.system.model().natural_frequencies;
+    let unit = |i: usize| if i < n { frequencies[i] } else { 1.0 };
+    orbit.nodes[0].iter().enumerate().map(|(i, z)| (z * unit(i)).powi(2)).sum::<f64>().sqrt()
+}
+
+/// A motion that creeps alternately towards an orbit seems to have a multiple of its period: shooting from there tells.
+fn shortest(results: &Results, attractor: Attractor) -> Attractor {
+    let guess = |state: &[f64], period: usize| PeriodicSolution {
+        frequency_hz: attractor.frequency_hz,
+        period_multiple: period as u32,
+        nodes: vec![state.to_vec()],
+        floquet_multipliers: Vec::new(),
+        residual: 0.0,
+        error_estimate: 0.0,
+        maxima: OrbitMaxima::default(),
+    };
+    let period = attractor.period();
+    for shorter in (1..period).filter(|shorter| period.is_multiple_of(*shorter)) {
+        if let Some(orbit) = results.corrected(guess(&attractor.states[0], shorter)) {
+            let off = distance(&results.model.system, &attractor.states[0], &orbit.nodes[0]);
+            if off < SAME {
+                let states = attractor.states[..shorter].to_vec();
+                return Attractor { states, ..attractor };
+            }
+        }
+    }
+    attractor
+}

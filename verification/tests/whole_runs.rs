@@ -1,0 +1,129 @@
+//! Two Duffing oscillators through the whole run: an isola, and a pair of asymmetric orbits that is one branch.
+//!
+//! `x'' + c x' + x + x^3 = F cos(2 pi f t)`.
+#![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
+
+use hammerbeam_orbit::OrbitSettings;
+use hammerbeam_verification::{
+    attractors::{Effort, Random, attractors, distance},
+    results::Results,
+};
+
+fn study(damper: f64, force: f64, range: [f64; 2], more: &str) -> String {
+    format!(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{{ name = "mass", mass_kg = 1.0 }}]
+        spring = [{{ between = ["mass", "ground"], stiffness_n_m = 1.0 }}]
+        damper = [{{ between = ["mass", "ground"], damping_n_s_m = {damper} }}]
+
+        [excitation]
+        kind = "force"
+        at = "mass"
+        amplitude_n = {force}
+        frequency_hz = [{}, {}]
+
+        [[stop]]
+        at = "mass"
+        law = "cubic"
+        stiffness_n_m3 = 1.0
+
+        {more}
+        "#,
+        range[0], range[1]
+    )
+}
+
+fn run(text: &str) -> Results {
+    Results::of_run(text, tempfile::tempdir().unwrap().path(), 2).unwrap()
+}
+
+fn frequencies(results: &Results, branch: usize, event: fn(&hammerbeam_orbit::Events) -> bool) -> Vec<f64> {
+    let rows = results.branches[branch].rows.iter().filter(|placed| event(&placed.row.events));
+    let mut found: Vec<f64> = rows.map(|placed| placed.row.frequency_hz).collect();
+    found.sort_by(f64::total_cmp);
+    found
+}
+
+/// The 1/3 subharmonic orbits of `c = 0.06`, `F = 3` are joined to no other branch.
+fn isola() -> Results {
+    let more = "[response]\nperiod_multiples = [3]\n[search]\nfrequencies = 6\n[continuation]\nmax_step_hz = 0.002";
+    run(&study(0.06, 3.0, [0.4, 1.3], more))
+}
+
+#[test]
+fn an_isola_is_found_closed_and_only_once() {
+    let results = isola();
+    assert_eq!(results.branches.len(), 1);
+    let record = &results.branches[0].record;
+    for walk in [&record.up, &record.down] {
+        assert!(walk.reason.as_ref().unwrap().is_closed(), "{:?}", walk.reason);
+    }
+    let folds = frequencies(&results, 0, |events| events.fold);
+    assert_eq!(folds.len(), 2, "a loop turns twice: {folds:?}");
+    let mut random = Random::new(3);
+    for _ in 0..30 {
+        let at = 0.4 + 0.9 * random.part();
+        let orbits = results.crossings(at, 3).unwrap();
+        let inside = (folds[0]..folds[1]).contains(&at);
+        assert_eq!(orbits.len(), if inside { 2 } else { 0 }, "{at} Hz");
+        let stable = orbits.iter().filter(|(_, orbit)| orbit.stable()).count();
+        assert_eq!(stable, orbits.len() / 2, "{at} Hz");
+    }
+}
+
+/// Motion from random states settles to a period of three within the loop, and never outside.
+#[test]
+fn simulation_finds_period_three_within_the_isola_only() {
+    let results = isola();
+    let folds = frequencies(&results, 0, |events| events.fold);
+    let mut random = Random::new(5);
+    let effort = Effort { states: 40, longest: 3, patience: 600 };
+    for share in [-0.05, 0.15, 0.5, 1.05] {
+        let at = folds[0] + share * (folds[1] - folds[0]);
+        let system = &results.model.system;
+        let (found, _) = attractors(system, at, 6.0, &effort, &mut random).unwrap();
+        let subharmonic: Vec<_> = found.iter().filter(|attractor| attractor.period() == 3).collect();
+        assert_eq!(subharmonic.len(), usize::from((0.0..1.0).contains(&share)), "{at} Hz");
+        for attractor in subharmonic {
+            let orbits = results.crossings(at, 3).unwrap();
+            let stable = &orbits.iter().find(|(_, orbit)| orbit.stable()).unwrap().1;
+            let off = attractor.states.iter().map(|state| distance(system, state, &stable.nodes[0]));
+            assert!(off.fold(f64::INFINITY, f64::min) < 1e-6, "{at} Hz");
+        }
+    }
+}
+
+/// The pair leaves the symmetric orbits at one branch point and meets them at the other, `c = 0.2`, `F = 15`: both arms and both ends are one branch.
+#[test]
+fn a_pair_of_mirror_images_is_one_closed_branch_met_from_either_end() {
+    let more = "[response]\nperiod_multiples = [1]\n[continuation]\nmax_step_hz = 0.0005";
+    let results = run(&study(0.2, 15.0, [0.095, 0.16], more));
+    let closed: Vec<usize> = (0..results.branches.len())
+        .filter(|&k| results.branches[k].record.up.reason.as_ref().unwrap().is_closed())
+        .collect();
+    let holding = |k: usize| frequencies(&results, k, |events| events.branch_point);
+    let [pair] = closed[..] else { panic!("{closed:?}") };
+    let ends = holding(pair);
+    assert_eq!(ends.len(), 2, "{ends:?}");
+    let symmetric: Vec<usize> = (0..results.branches.len()).filter(|&k| k != pair).collect();
+    let met: Vec<f64> = symmetric.iter().flat_map(|&k| holding(k)).collect();
+    for end in &ends {
+        let nearest = met.iter().map(|at| (at / end - 1.0).abs()).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-8, "{end} Hz is {nearest:.1e} off");
+    }
+    // Inside the interval the pair are two orbits, each the image of the other.
+    let at = 0.5 * (ends[0] + ends[1]);
+    let orbits: Vec<_> = results.crossings(at, 1).unwrap().into_iter().filter(|(k, _)| *k == pair).collect();
+    assert_eq!(orbits.len(), 2);
+    let mut exact = hammerbeam_motion::exact::ExactIntegrator::new(
+        results.model.system.clone(),
+        hammerbeam_motion::exact::ExactSettings { tolerance: OrbitSettings::default().motion_tolerance },
+    )
+    .unwrap();
+    let half = hammerbeam_motion::Stretch { frequency_hz: at, start: 0.0, end: 0.5 };
+    let turned: Vec<f64> = exact.advance(&half, &orbits[0].1.nodes[0]).unwrap().iter().map(|z| -z).collect();
+    let off = distance(&results.model.system, &turned, &orbits[1].1.nodes[0]);
+    assert!(off < 1e-7, "{off:.1e}");
+}
