@@ -84,8 +84,7 @@ fn simulation_on_both_sides_settles_to_period_one_and_two() {
     let (system, _) = subject();
     let flips = flips(0.28, &step_of(5e-4));
     let flip = &flips[3].solution;
-    let settle = |factor: f64| {
-        settled_period(&system, factor * flip.frequency_hz, &flip.nodes[0], (400, 4), 1e-6)
-    };
+    let settle =
+        |factor: f64| settled_period(&system, factor * flip.frequency_hz, &flip.nodes[0], (400, 4), 1e-6);
     assert_eq!([settle(1.005), settle(0.995)], [Some(1), Some(2)]);
 }

@@ -7,6 +7,7 @@ mod closing;
 mod corner;
 mod fold;
 mod judge;
+mod leap;
 mod range_end;
 mod recut;
 mod rescale;
@@ -203,13 +204,16 @@ impl Follower {
         }
     }
 
-    /// What is left when the shortest step is still in doubt: a corner, or other equations on the same path.
+    /// What is left when the shortest step is still in doubt: a corner, other equations on the same path, or a place that is known less well.
     fn pass_by_force(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         step: f64,
     ) -> Option<(Arrival, f64)> {
-        self.turn_corner(problem, step).or_else(|_| self.pass_recut(problem, step)).ok()
+        self.turn_corner(problem, step)
+            .or_else(|_| self.pass_recut(problem, step))
+            .or_else(|_| self.leap(problem))
+            .ok()
     }
 
     fn give_up_if_retraced(&self, doubt: Doubt, step: f64, attempts: Attempts) -> Result<(), StopReason> {
