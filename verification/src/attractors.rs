@@ -68,9 +68,8 @@ const BETWEEN_LOOKS: usize = 48;
 pub fn distance(system: &System, a: &[f64], b: &[f64]) -> f64 {
     let n = system.dof();
     let unit = |i: usize| if i < n { system.model().natural_frequencies[i] } else { 1.0 };
-    let norm = |value: &dyn Fn(usize) -> f64| {
-        (0..2 * n).map(|i| (value(i) * unit(i)).powi(2)).sum::<f64>().sqrt()
-    };
+    let norm =
+        |value: &dyn Fn(usize) -> f64| (0..2 * n).map(|i| (value(i) * unit(i)).powi(2)).sum::<f64>().sqrt();
     norm(&|i| a[i] - b[i]) / norm(&|i| a[i]).max(f64::MIN_POSITIVE)
 }
 
@@ -100,8 +99,7 @@ pub fn attractors(
                 settled = true;
                 break;
             }
-            let repeats =
-                |period: &usize| distance(system, &states[last], &states[last - period]) < REPEATED;
+            let repeats = |period: &usize| distance(system, &states[last], &states[last - period]) < REPEATED;
             if let Some(period) = (1..=effort.longest).find(repeats) {
                 let states = states[last + 1 - period..].to_vec();
                 found.push(Attractor { frequency_hz, states, motions: 1 });

@@ -92,7 +92,8 @@ impl Results {
                 let [a, b] = [&pair[0], &pair[1]].map(|placed| placed.row.frequency_hz);
                 if (a < frequency_hz) != (b < frequency_hz) {
                     let share = (frequency_hz - a) / (b - a);
-                    orbits.extend(self.between(branch, pair, share, frequency_hz)?.map(|orbit| (index, orbit)));
+                    orbits
+                        .extend(self.between(branch, pair, share, frequency_hz)?.map(|orbit| (index, orbit)));
                 }
             }
         }

@@ -48,7 +48,8 @@ fn frequencies(results: &Results, branch: usize, event: fn(&hammerbeam_orbit::Ev
 
 /// The 1/3 subharmonic orbits of `c = 0.06`, `F = 3` are joined to no other branch.
 fn isola() -> Results {
-    let more = "[response]\nperiod_multiples = [3]\n[search]\nfrequencies = 6\n[continuation]\nmax_step_hz = 0.002";
+    let more =
+        "[response]\nperiod_multiples = [3]\n[search]\nfrequencies = 6\n[continuation]\nmax_step_hz = 0.002";
     run(&study(0.06, 3.0, [0.4, 1.3], more))
 }
 

@@ -178,7 +178,8 @@ mod tests {
     #[test]
     fn null_vector_of_an_exactly_singular_matrix_of_large_entries_is_found() {
         for size in [1e-3, 1.0, 4096.0, 1e9] {
-            let vector = null_vector(2, vec![3.0 * size, size, 6.0 * size, 2.0 * size]).expect("it is finite");
+            let vector =
+                null_vector(2, vec![3.0 * size, size, 6.0 * size, 2.0 * size]).expect("it is finite");
             assert!((vector[1] / vector[0] + 3.0).abs() < 1e-9, "{vector:?} at {size}");
         }
     }

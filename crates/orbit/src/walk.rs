@@ -199,7 +199,8 @@ impl BranchWalk {
     fn keep_segments_short(&mut self, multipliers: &[[f64; 2]]) -> Result<(), OrbitError> {
         let largest = multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
         let outgrown = largest.ln() > self.problem.segments() as f64 * MOST_GROWTH.ln();
-        if self.settings.segments == Segments::Automatic && outgrown && self.follower.stop_reason().is_none() {
+        if self.settings.segments == Segments::Automatic && outgrown && self.follower.stop_reason().is_none()
+        {
             match self.resegment() {
                 Ok(_) | Err(OrbitError::Motion(_)) => {}
                 Err(error) => return Err(error),

@@ -6,10 +6,7 @@ mod common;
 
 use common::{
     beam,
-    events::{
-        alternation, assert_same, exponent, general_multipliers, growth, sorted, step_of,
-        whole, with,
-    },
+    events::{alternation, assert_same, exponent, general_multipliers, growth, sorted, step_of, whole, with},
 };
 use hammerbeam_orbit::{BranchRow, OrbitSettings, PeriodicSolution, find_start};
 
@@ -55,6 +52,10 @@ fn orbit_of_doubled_period_grows_with_the_root_of_the_distance() {
         let mut points = growth(&subject, &flip, (RANGE, &step_of(1e-3)), 0.02, measure);
         points.retain(|(_, grown)| *grown > 0.002);
         let found = exponent(&points);
-        assert!(points.len() > 3 && (found - 0.5).abs() < 0.05, "{found} at {} Hz", flip.solution.frequency_hz);
+        assert!(
+            points.len() > 3 && (found - 0.5).abs() < 0.05,
+            "{found} at {} Hz",
+            flip.solution.frequency_hz
+        );
     }
 }

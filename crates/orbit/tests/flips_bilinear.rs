@@ -15,13 +15,15 @@ use std::f64::consts::TAU;
 
 use common::{
     events::{
-        Subject, alternation, assert_same, exponent, general_multipliers, growth, leaving, oscillator, settled_period,
-        side, sorted, step_of, whole, with,
+        Subject, alternation, assert_same, exponent, general_multipliers, growth, leaving, oscillator,
+        settled_period, side, sorted, step_of, whole, with,
     },
     with_segments,
 };
 use hammerbeam_motion::{Law, law::LinearStop};
-use hammerbeam_orbit::{BranchRow, EventStatus, OrbitSettings, PeriodicSolution, Side, StopReason, find_start};
+use hammerbeam_orbit::{
+    BranchRow, EventStatus, OrbitSettings, PeriodicSolution, Side, StopReason, find_start,
+};
 
 const DAMPER: f64 = 0.1;
 const FORCE: f64 = 1.0;

@@ -8,16 +8,15 @@
 mod common;
 
 use common::events::{
-    Subject, apart, assert_same, exponent, general_multipliers, growth, leaving, oscillator, step_of, whole, with,
+    Subject, apart, assert_same, exponent, general_multipliers, growth, leaving, oscillator, step_of, whole,
+    with,
 };
 use hammerbeam_motion::{
     Law, Stretch,
     general::{GeneralSettings, advance},
     law::CubicSpring,
 };
-use hammerbeam_orbit::{
-    BranchRow, Matcher, OrbitSettings, PeriodicSolution, Side, StopReason, find_start,
-};
+use hammerbeam_orbit::{BranchRow, Matcher, OrbitSettings, PeriodicSolution, Side, StopReason, find_start};
 
 /// Around the two branch points between which an asymmetric pair lives.
 const RANGE: (f64, f64) = (0.09, 0.16);
@@ -34,8 +33,7 @@ fn symmetric(settings: &OrbitSettings) -> Vec<BranchRow> {
 }
 
 fn branch_points(rows: &[BranchRow]) -> Vec<BranchRow> {
-    let mut points: Vec<BranchRow> =
-        with(rows, |events| events.branch_point).into_iter().cloned().collect();
+    let mut points: Vec<BranchRow> = with(rows, |events| events.branch_point).into_iter().cloned().collect();
     points.sort_by(|a, b| a.solution.frequency_hz.total_cmp(&b.solution.frequency_hz));
     points
 }
@@ -117,8 +115,7 @@ fn the_arms_are_mirror_images() {
         let Some([a, b]) = between else { continue };
         let (a, b) = (&a.solution, &b.solution);
         let share = (orbit.frequency_hz - a.frequency_hz) / (b.frequency_hz - a.frequency_hz);
-        let other: Vec<f64> =
-            a.nodes[0].iter().zip(&b.nodes[0]).map(|(x, y)| x + share * (y - x)).collect();
+        let other: Vec<f64> = a.nodes[0].iter().zip(&b.nodes[0]).map(|(x, y)| x + share * (y - x)).collect();
         assert!(!matcher.is_near(&other), "the arms differ");
         assert!(matcher.is_near(&image(orbit.frequency_hz, &other)), "at {} Hz", orbit.frequency_hz);
         compared += 1;

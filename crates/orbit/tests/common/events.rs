@@ -68,8 +68,7 @@ pub fn leaving(
     settings: &OrbitSettings,
 ) -> (Vec<BranchRow>, StopReason) {
     let crossing = crossing(row);
-    let mut walk =
-        BranchWalk::from_crossing(system, response, &crossing, side, range_hz, settings).unwrap();
+    let mut walk = BranchWalk::from_crossing(system, response, &crossing, side, range_hz, settings).unwrap();
     let mut rows = Vec::new();
     let reason = finish(&mut walk, &mut rows);
     (rows, reason)
@@ -163,9 +162,8 @@ pub fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<[f6
 pub fn apart(system: &System, a: &[f64], b: &[f64]) -> f64 {
     let n = system.dof();
     let unit = |i: usize| if i < n { system.model().natural_frequencies[i] } else { 1.0 };
-    let norm = |value: &dyn Fn(usize) -> f64| {
-        (0..2 * n).map(|i| (value(i) * unit(i)).powi(2)).sum::<f64>().sqrt()
-    };
+    let norm =
+        |value: &dyn Fn(usize) -> f64| (0..2 * n).map(|i| (value(i) * unit(i)).powi(2)).sum::<f64>().sqrt();
     norm(&|i| a[i] - b[i]) / norm(&|i| a[i])
 }
 

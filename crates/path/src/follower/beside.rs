@@ -56,7 +56,8 @@ impl Follower {
         let (low, high) = (&beside[1].0, &beside[2].0);
         let of = |node: &Node| progress(&self.weights, &low.tangent, &node.point, &low.point);
         let places: Vec<(f64, f64)> = beside.iter().map(|(node, value)| (*value, of(node))).collect();
-        let falls = places.windows(2).all(|pair| pair[0].0 > pair[1].0) && places[1].0 > 0.0 && places[2].0 < 0.0;
+        let falls =
+            places.windows(2).all(|pair| pair[0].0 > pair[1].0) && places[1].0 > 0.0 && places[2].0 < 0.0;
         if !falls {
             return None;
         }
