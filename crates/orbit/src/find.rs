@@ -36,9 +36,9 @@ const PASSING: usize = 1;
 /// Solutions on all branches of a search.
 const MOST_SOLUTIONS: usize = 20_000;
 /// Trials from states that were passed,
-const PATIENCE: Patience = Patience { trials: 192, for_each: 16, most: 3000 };
+const PATIENCE: Patience = Patience { trials: 500, for_each: 20, most: 4000 };
 /// and for orbits of shorter period, which only lead to others.
-const PATIENCE_BELOW: Patience = Patience { trials: 96, for_each: 4, most: 500 };
+const PATIENCE_BELOW: Patience = Patience { trials: 100, for_each: 4, most: 400 };
 /// Halvings of the period from which branches are followed to their flips.
 const HALVINGS: u32 = 2;
 /// Frequencies at which a start of the branch is looked for, as parts of the range.
