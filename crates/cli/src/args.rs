@@ -72,7 +72,7 @@ pub struct OrbitOptions {
     pub study: PathBuf,
 
     /// Excitation frequency
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub frequency: f64,
 
     /// Orbit period over excitation period; solutions of a shorter period are not given

@@ -114,3 +114,45 @@ fn maxima_of_the_beam_are_those_of_the_exact_integrator() {
         assert_eq!(found.touches, expected.touches);
     }
 }
+
+/// Maxima of both integrators from the same states, over motions with one, several and many contacts of all kinds of laws. What the integrators'
+/// final states differ by, their maxima may differ by too.
+#[test]
+fn maxima_of_both_integrators_agree_to_1e_9_with_few_and_many_contacts() {
+    let mut touches = Vec::new();
+    for (amplitude, law) in [
+        (5.0, Law::Linear(LinearStop::with_gap(2e3, 0.01).unwrap())),
+        (50.0, Law::Linear(LinearStop::with_gap(2e5, 0.01).unwrap())),
+        (50.0, Law::Hertz(HertzStop::with_gap(1e6, 0.01).unwrap())),
+        (5.0, Law::Linear(LinearStop::with_preload(300.0, 3.0).unwrap())),
+        (0.5, Law::Cubic(CubicSpring::new(1e5).unwrap())),
+    ] {
+        let load = Load { support: vec![], forces: vec![harmonic_force(&[1.0, 0.4], 1, amplitude, 0.0)] };
+        let structure = model(&[10.0, 47.0], diagonal(&[0.4, 2.0]));
+        let system = System::new(structure, &load, vec![element(&[1.0, 0.7], 0.0, law)]).unwrap();
+        for periods in [1.0, 8.0] {
+            let stretch = Stretch { frequency_hz: 1.3, start: 0.0, end: periods };
+            let (state, response) = ([0.003, -0.001, 0.1, 0.02], ([1.0, -0.5].as_slice(), 0.0));
+            let settings = ExactSettings { tolerance: 1e-12 };
+            let mut exact = ExactIntegrator::watching(system.clone(), settings, Some(response)).unwrap();
+            let (end, found) = exact.observe(&stretch, &state).unwrap();
+            let general = watch(&system, &stretch, &state, response);
+            assert_eq!(found.touches, general.touches);
+            touches.push(found.touches);
+            let largest = |state: &[f64]| state.iter().fold(0.0_f64, |largest, z| largest.max(z.abs()));
+            let apart: Vec<f64> = end.iter().zip(&general.flow.state).map(|(a, b)| a - b).collect();
+            let drift = largest(&apart) / largest(&end);
+            let near = |a: f64, b: f64, what: &str| assert_near(a, b, (1e-9 + 10.0 * drift) * b.abs(), what);
+            near(found.displacement, general.displacement, "displacement");
+            near(found.acceleration, general.acceleration, "acceleration");
+            near(found.contact_force, general.contact_force, "force");
+            near(found.impact_velocity, general.impact_velocity, "speed");
+        }
+    }
+    assert!(
+        touches.contains(&1)
+            && touches.iter().any(|&t| (2..8).contains(&t))
+            && touches.iter().any(|&t| t > 20),
+        "{touches:?}"
+    );
+}

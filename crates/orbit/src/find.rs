@@ -36,9 +36,9 @@ const PASSING: usize = 1;
 /// Solutions on all branches of a search.
 const MOST_SOLUTIONS: usize = 20_000;
 /// Trials from states that were passed,
-const PATIENCE: Patience = Patience { trials: 192, for_each: 16, most: 3000 };
+const PATIENCE: Patience = Patience { trials: 500, for_each: 20, most: 4000 };
 /// and for orbits of shorter period, which only lead to others.
-const PATIENCE_BELOW: Patience = Patience { trials: 96, for_each: 4, most: 500 };
+const PATIENCE_BELOW: Patience = Patience { trials: 100, for_each: 4, most: 400 };
 /// Halvings of the period from which branches are followed to their flips.
 const HALVINGS: u32 = 2;
 /// Frequencies at which a start of the branch is looked for, as parts of the range.
@@ -51,16 +51,17 @@ const ELSEWHERE_EFFORT: Effort = Effort { starts: 3, attempts: 3 };
 pub struct FoundOrbits {
     /// The orbits: stable before unstable, then largest displacement first.
     pub orbits: Vec<PeriodicSolution>,
-    /// What kept the search from looking everywhere it meant to look: motion that could not be computed, or its bound.
+    /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its bound, or an interruption.
     pub incomplete: Option<OrbitError>,
 }
 
 /// Finds the orbits of minimal period `period_multiple` at `frequency_hz`.
 ///
 /// * `range_hz`: the frequencies within which branches are followed.
+/// * `interrupted`: asked now and then; once it says true the search ends with what it has found.
 ///
 /// # Errors
-/// [`OrbitError::Interrupted`]; [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64; [`OrbitError::Motion`] if not even the integrator can be made.
+/// [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64; [`OrbitError::Motion`] if not even the integrator can be made.
 /// Finding nothing is an empty list.
 pub fn find_orbits(
     system: &System,
@@ -76,11 +77,12 @@ pub fn find_orbits(
     let branches = Branches::new(range_hz, MOST_SOLUTIONS.min(settings.max_solutions));
     let passed = Passed::default();
     let mut search = Search { catalogue, branches, passed, period_multiple, interrupted };
-    for start in starting_states(system, response, frequency_hz, STARTS, settings)? {
-        search.search_motion(start)?;
+    let starts = starting_states(system, response, frequency_hz, STARTS, settings)?;
+    match search.run(starts) {
+        // What has been found by then is not lost.
+        Err(OrbitError::Interrupted) => search.branches.incomplete = Some(OrbitError::Interrupted),
+        searched => searched?,
     }
-    search.search_about_rest(system.dof())?;
-    search.search_periods()?;
     let incomplete = search.branches.incomplete;
     let known = search.catalogue.known.into_iter().map(|known| known.solution);
     let mut orbits: Vec<_> = known.filter(|orbit| orbit.period_multiple == period_multiple).collect();
@@ -99,6 +101,15 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    fn run(&mut self, starts: Vec<Vec<f64>>) -> Result<(), OrbitError> {
+        let dof = self.catalogue.system.dof();
+        for start in starts {
+            self.search_motion(start)?;
+        }
+        self.search_about_rest(dof)?;
+        self.search_periods()
+    }
+
     fn check_interrupted(&mut self) -> Result<(), OrbitError> {
         if (self.interrupted)() { Err(OrbitError::Interrupted) } else { Ok(()) }
     }

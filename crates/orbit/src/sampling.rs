@@ -15,8 +15,8 @@ use crate::{
     solve::nodes_from,
 };
 
-/// Force steps of all trials: they tell what a trial costs where contacts are many.
-const MOST_STEPS: u64 = 2_000_000;
+/// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where contacts are many.
+const MOST_WORK: u64 = 2_000_000;
 
 /// States that motions have passed through, one motion after the other.
 #[derive(Debug, Default)]
@@ -72,12 +72,11 @@ pub(crate) fn sample(
             Some(nodes) => catalogue.probe(&nodes, period_multiple)?,
             None => None,
         };
-        work += catalogue.steps() - before;
+        work += (catalogue.steps() - before) * (2 + 2 * catalogue.system.dof() as u64);
         let is_new =
             |a: Arrived| a.is_new && catalogue.known[a.place].solution.period_multiple == period_multiple;
         since = if arrived.is_some_and(is_new) { 0 } else { since + 1 };
-        if since >= patience.trials + patience.for_each * catalogue.count(period_multiple)
-            || work > MOST_STEPS
+        if since >= patience.trials + patience.for_each * catalogue.count(period_multiple) || work > MOST_WORK
         {
             break;
         }

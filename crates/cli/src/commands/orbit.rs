@@ -1,10 +1,15 @@
 //! `hammerbeam orbit`: the periodic solutions at one frequency.
 
-use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
+use std::time::{Duration, Instant};
+
+use hammerbeam_orbit::{FoundOrbits, OrbitError, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
 
 use crate::{args::OrbitOptions, failure::Failure, interrupt::Interrupt, output::Output};
+
+/// Time after which a search ends with what it has found.
+const LONGEST: Duration = Duration::from_secs(15);
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
@@ -12,12 +17,19 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let solver = OrbitSolver::new(&model, &file.study);
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
     let interrupt = Interrupt::listen()?;
-    let found = solver.find_orbits(frequency_hz, multiple, &mut || interrupt.raised());
+    let begun = Instant::now();
+    let mut ends = || interrupt.raised() || begun.elapsed() > LONGEST;
+    let found = solver.find_orbits(frequency_hz, multiple, &mut ends);
     if interrupt.raised() {
         return Err(Failure::Interrupted("interrupted".to_owned()));
     }
     let FoundOrbits { orbits, incomplete } = found.map_err(Failure::NoResult)?;
-    let incomplete = incomplete.map(|reason| format!("the search is not complete: {reason}"));
+    let incomplete = incomplete.map(|reason| match reason {
+        OrbitError::Interrupted => {
+            format!("the search is not complete: it ended after {} s", LONGEST.as_secs())
+        }
+        reason => format!("the search is not complete: {reason}"),
+    });
     let Some((first, others)) = orbits.split_first() else {
         let nothing =
             format!("no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz");

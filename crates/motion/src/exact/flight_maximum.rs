@@ -8,7 +8,7 @@
 use super::{ExactIntegrator, block::Propagator};
 
 /// Relative accuracy to which maxima in flight are enclosed.
-const ACCURACY: f64 = 1e-9;
+const ACCURACY: f64 = 1e-12;
 
 /// A flight that was flown.
 #[derive(Debug, Clone)]

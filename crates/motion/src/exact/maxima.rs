@@ -1,8 +1,10 @@
 //! Maxima of an orbit on the continuous motion.
 //!
-//! Flights are searched once the motion is complete (`flight_maximum.rs`). In a force step displacement, acceleration and force are
-//! polynomials in the variable of the step; the largest acceleration is then computed once more from the displacement at
-//! its time.
+//! Flights are searched once the motion is complete (`flight_maximum.rs`). In a force step the displacement of the response and the force of each
+//! element are taken as polynomials in the variable of the step, which tell where the largest value `r` is. They are not accurate enough for the
+//! value itself: that is computed once more from the convolution `r(t) = C exp(A t) x + int C exp(A (t - s)) B F(s) ds + r_particular(t)`, at the time
+//! where Newton's method finds `r'(t) = 0` for it, or at an end of the step. The force follows from it by its law, and so does the acceleration, at the
+//! place of its own maximum.
 
 use super::{
     ExactIntegrator, MotionError,
@@ -58,13 +60,46 @@ impl Maxima {
 pub(crate) struct Observation {
     maxima: Maxima,
     flights: Vec<Flown>,
-    peak: Option<Peak>,
+    /// Of the acceleration of the response,
+    fastest: Peaks,
+    /// of its displacement,
+    farthest: Peaks,
+    /// and of the force of elements with a contact.
+    hardest: Peaks,
 }
 
-/// The force step that holds the largest acceleration, as far as its polynomial tells.
+/// Force steps that may hold the largest value.
+#[derive(Debug, Clone, Default)]
+struct Peaks {
+    largest: f64,
+    peaks: Vec<Peak>,
+}
+
+/// Relative difference of two values up to which their polynomials do not tell which is larger.
+const ALIKE: f64 = 1e-5;
+
+impl Peaks {
+    /// Value that another one must exceed.
+    fn bar(&self) -> f64 {
+        (1.0 - ALIKE) * self.largest
+    }
+
+    fn note(&mut self, peak: Peak) {
+        if peak.value > self.largest {
+            self.largest = peak.value;
+            let bar = self.bar();
+            self.peaks.retain(|peak| peak.value >= bar);
+        }
+        self.peaks.push(peak);
+    }
+}
+
+/// A force step with a large value of an output, as far as its polynomial tells.
 #[derive(Debug, Clone)]
 struct Peak {
-    acceleration: f64,
+    output: usize,
+    /// The largest value, by the polynomial.
+    value: f64,
     /// Where in the variable of the step.
     place: f64,
     grading: Grading,
@@ -78,6 +113,8 @@ struct Peak {
 
 /// Parabolas by which the largest value of a polynomial is closed in.
 const PARABOLAS: usize = 6;
+/// Steps of Newton's method to the place of a largest displacement.
+const POLISHES: usize = 6;
 /// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as smooth as steps are.
 const BETWEEN_NODES: f64 = 1.5;
 
@@ -108,10 +145,19 @@ impl ExactIntegrator {
         let mut observation = self.observation.take().unwrap_or_default();
         self.run = run;
         result?;
+        let Observation { maxima, fastest, farthest, hardest, .. } = &mut observation;
+        for peak in std::mem::take(&mut hardest.peaks) {
+            let law = self.laws[peak.output];
+            let force = self.exact_extremum(peak, |displacement| law.force(displacement).value.abs());
+            maxima.contact_force = maxima.contact_force.max(force);
+        }
+        for peak in std::mem::take(&mut farthest.peaks) {
+            maxima.displacement = maxima.displacement.max(self.exact_extremum(peak, f64::abs));
+        }
+        for peak in std::mem::take(&mut fastest.peaks) {
+            maxima.acceleration = maxima.acceleration.max(self.exact_peak(peak));
+        }
         if self.watches() {
-            if let Some(peak) = observation.peak.take() {
-                observation.maxima.acceleration = self.exact_peak(peak);
-            }
             let flights = std::mem::take(&mut observation.flights);
             for flown in &flights {
                 let best = observation.maxima.displacement;
@@ -139,8 +185,8 @@ impl ExactIntegrator {
             let force = &step.force[a * NODES..(a + 1) * NODES];
             let impulse: f64 = (0..NODES).map(|j| rule.at_end[0][j] * force[j]).sum();
             observation.maxima.impulse += (impulse * step.weights.length).abs();
-            if let Some((largest, _)) = self.largest(force, observation.maxima.contact_force) {
-                observation.maxima.contact_force = largest;
+            if let Some(largest) = self.largest(force, observation.hardest.bar()) {
+                observation.hardest.note(self.peak(run, element, largest));
             }
         }
         if self.watches() {
@@ -149,39 +195,68 @@ impl ExactIntegrator {
     }
 
     fn observe_response(&self, run: &Run, observation: &mut Observation) {
-        let displacements = self.response_nodes(run, 0);
-        if let Some((largest, _)) = self.largest(&displacements, observation.maxima.displacement) {
-            observation.maxima.displacement = largest;
+        let response = self.laws.len();
+        if let Some(largest) = self.largest(&self.response_nodes(run, 0), observation.farthest.bar()) {
+            observation.farthest.note(self.peak(run, response, largest));
         }
-        let best = observation.peak.as_ref().map_or(0.0, |peak| peak.acceleration);
-        if let Some((acceleration, place)) = self.largest(&self.response_nodes(run, 2), best) {
-            observation.peak = Some(Peak {
-                acceleration,
-                place,
-                grading: self.step.grading(),
-                start: self.step.start,
-                length: self.step.weights.length,
-                state: run.state.clone(),
-                active: self.step.active.clone(),
-                force: self.step.force.clone(),
-            });
+        if let Some(largest) = self.largest(&self.response_nodes(run, 2), observation.fastest.bar()) {
+            observation.fastest.note(self.peak(run, response, largest));
         }
     }
 
-    /// The largest acceleration once more: the polynomial tells where it is, and there the forces follow from the
-    /// displacements, which are much more accurate.
-    fn exact_peak(&mut self, peak: Peak) -> f64 {
-        let response = self.laws.len();
+    /// The solved step, whose polynomial has this largest value at this place.
+    fn peak(&self, run: &Run, output: usize, (value, place): (f64, f64)) -> Peak {
+        Peak {
+            output,
+            value,
+            place,
+            grading: self.step.grading(),
+            start: self.step.start,
+            length: self.step.weights.length,
+            state: run.state.clone(),
+            active: self.step.active.clone(),
+            force: self.step.force.clone(),
+        }
+    }
+
+    /// Makes the step of a peak the present one; the state at its start, and the time of the peak in it.
+    fn recall(&mut self, peak: Peak) -> (Vec<f64>, f64) {
         self.step.grading = Some(peak.grading);
         self.step.start = peak.start;
         self.step.weights.length = peak.length;
         self.step.active = peak.active;
         self.step.force = peak.force;
-        let time = peak.grading.map(peak.place).0 * peak.length;
-        let mut exact = self.jet_in_step(&peak.state, response, time).curvature;
+        (peak.state, peak.grading.map(peak.place).0 * peak.length)
+    }
+
+    /// Largest value that a function of the displacement has in the step of a peak, near its place: at the extremum of the displacement or at an
+    /// end of the step.
+    fn exact_extremum(&mut self, peak: Peak, magnitude: impl Fn(f64) -> f64) -> f64 {
+        let (length, output) = (peak.length, peak.output);
+        let (state, mut time) = self.recall(peak);
+        let mut jet = self.jet_in_step(&state, output, time);
+        let mut largest = magnitude(jet.value);
+        for _ in 0..POLISHES {
+            let next = (time - jet.slope / jet.curvature).clamp(0.0, length);
+            if next.is_nan() || (next - time).abs() <= 1e-9 * length {
+                break;
+            }
+            time = next;
+            jet = self.jet_in_step(&state, output, time);
+            largest = largest.max(magnitude(jet.value));
+        }
+        largest
+    }
+
+    /// The largest acceleration once more: the polynomial tells where it is, and there the forces follow from the
+    /// displacements, which are much more accurate.
+    fn exact_peak(&mut self, peak: Peak) -> f64 {
+        let (response, place) = (self.laws.len(), peak.place);
+        let (state, time) = self.recall(peak);
+        let mut exact = self.jet_in_step(&state, response, time).curvature;
         for (a, &element) in self.step.active.iter().enumerate() {
-            let polynomial = self.step.interpolate(&self.step.force, a, peak.place);
-            let displacement = self.jet_in_step(&peak.state, element, time).value;
+            let polynomial = self.step.interpolate(&self.step.force, a, place);
+            let displacement = self.jet_in_step(&state, element, time).value;
             exact += self.mobility[response][element]
                 * (self.laws[element].force(displacement).value - polynomial);
         }

@@ -93,7 +93,7 @@ pub enum MotionError {
 }
 
 /// Most force steps in an excitation period: hundreds are many.
-const MOST_STEPS: u64 = 50_000;
+const MOST_STEPS: u64 = 20_000;
 
 /// Settings of the exact integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]

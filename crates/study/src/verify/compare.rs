@@ -12,10 +12,10 @@ use crate::store::Row;
 
 /// How far a multiplier may be from where an event puts it: events are located to a part of the step, and multipliers change fast there.
 const EVENT: f64 = 1e-5;
-/// A run takes the largest force and the largest displacement in contact from the polynomial of a force step, and the time of the
-/// largest acceleration: these are less accurate than the motion.
-const FORCE: f64 = 1e-6;
-const DISPLACEMENT: f64 = 1e-8;
+/// Accuracy of the stored maxima beside that of the motion. The time of the largest acceleration is taken from the polynomial of a force step: it is
+/// less accurate.
+const FORCE: f64 = 1e-9;
+const DISPLACEMENT: f64 = 1e-9;
 const ACCELERATION: f64 = 1e-7;
 
 /// A comparison: `difference` may be `tolerance` at most.

@@ -10,11 +10,11 @@
 //! |---|---|
 //! | residual | `max_k |Z_k - z_k| / (1 + |A_k|) <= tau` |
 //! | multipliers | `|mu - mu'| <= tau k (1 + |A_m| + S)`, with the condition `k` of the eigenvalue |
-//! | displacement | `|d - d'| <= max(tau, 1e-8) G max(d', L)` |
+//! | displacement | `|d - d'| <= max(tau, 1e-9) G max(d', L)` |
 //! | acceleration | `|a - a'| <= max(tau, 1e-7) G max(g a', w)` |
 //! | impact velocity | `|v - v'| <= tau G g v'` |
 //! | impulse | `|J - J'| <= tau G g J'` |
-//! | contact force | `|F - F'| <= max(tau, 1e-6) G g F'` |
+//! | contact force | `|F - F'| <= max(tau, 1e-9) G g F'` |
 //! | contacts | as many differ as contacts graze, at most |
 //! | events | fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle; grazing: `|s| <= 1e-5 L_r` |
 //!
@@ -25,7 +25,7 @@
 //! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
-//! Bounds of 1e-8, 1e-7 and 1e-6 above are what the stored maxima are good for: a run reads them off polynomials.
+//! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for: the time of the largest acceleration is read off a polynomial.
 //!
 //! | file | idea |
 //! |---|---|
