@@ -66,6 +66,7 @@
 
 pub mod exact;
 pub mod general;
+mod instant;
 pub mod law;
 mod load;
 mod parameter;

@@ -1,0 +1,184 @@
+//! Curves of bifurcations in two parameters: against closed forms, and against branches in the frequency at fixed values of the second parameter.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use common::{beam, duffing, walk_both};
+use faer::Mat;
+use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};
+use hammerbeam_orbit::{
+    BranchRow, CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, Events, OrbitSettings,
+    Response, Side,
+};
+use hammerbeam_structure::{PointOutput, ReducedModel};
+
+type Case = (System, Response);
+
+/// One degree of freedom: `x'' + c x' + x + f = F cos(2 pi f t)` with a local law.
+fn oscillator(damping: f64, force: f64, law: Law) -> Case {
+    let model = ReducedModel {
+        natural_frequencies: vec![1.0],
+        damping: Mat::from_fn(1, 1, |_, _| damping),
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+        support: None,
+        uniform_acceleration: vec![1.0],
+    };
+    let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let element = LocalElement { name: "local".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    (System::new(model, &load, vec![element]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+}
+
+/// Rows of a branch in the frequency with an event, sharply located.
+fn events(case: &Case, start_hz: f64, range_hz: (f64, f64), wanted: fn(&Events) -> bool) -> Vec<BranchRow> {
+    let settings = OrbitSettings::for_range(range_hz);
+    let (rows, _) = walk_both(case, start_hz, range_hz, &settings);
+    let sharp = |row: &BranchRow| row.located.as_ref().is_some_and(|l| l.status == EventStatus::Located);
+    rows.into_iter().filter(|row| wanted(&row.events) && sharp(row)).collect()
+}
+
+fn settings(parameter: Parameter, range: (f64, f64), range_hz: (f64, f64)) -> CurveSettings {
+    CurveSettings { parameter, range, range_hz, max_step: 0.5, max_rows: 5000 }
+}
+
+fn curve(
+    (system, response): &Case,
+    start: &BranchRow,
+    (kind, side): (CurveKind, Side),
+    settings: &CurveSettings,
+) -> (Vec<CurveRow>, CurveEnd) {
+    let orbits = OrbitSettings::default();
+    let mut walk =
+        CurveWalk::new(system, response, &start.solution, (kind, side), settings, &orbits).unwrap();
+    let mut rows = vec![walk.start_row().unwrap()];
+    loop {
+        match walk.step().unwrap() {
+            Ok(row) => rows.push(row),
+            Err(end) => return (rows, end),
+        }
+    }
+}
+
+/// The fold of a curve at the end of its range is the fold of the branch of that system.
+fn assert_meets_branch(
+    case: &Case,
+    row: &CurveRow,
+    parameter: Parameter,
+    (start_hz, range_hz): (f64, (f64, f64)),
+    wanted: fn(&Events) -> bool,
+) -> f64 {
+    let system = case.0.clone().with_parameter(parameter, row.parameter).unwrap();
+    let found = events(&(system, case.1.clone()), start_hz, range_hz, wanted);
+    let hz = row.solution.frequency_hz;
+    let errors = found.iter().map(|other| (other.solution.frequency_hz / hz - 1.0).abs());
+    let error = errors.fold(f64::INFINITY, f64::min);
+    println!("at {}: {hz} Hz, off by {error:e} of {} events", row.parameter, found.len());
+    assert!(error < 1e-8, "at {}: {hz} Hz, off by {error:e}", row.parameter);
+    error
+}
+
+const DUFFING_HZ: (f64, f64) = (0.1, 0.6);
+
+#[test]
+fn fold_curves_of_the_duffing_oscillator_meet_its_branches() {
+    let case = duffing();
+    let folds = events(&case, 0.1, DUFFING_HZ, |events| events.fold);
+    assert_eq!(folds.len(), 2);
+    for fold in &folds {
+        for (side, range) in [(Side::Up, (0.5, 1.6)), (Side::Down, (0.6, 1.6))] {
+            let settings = settings(Parameter::ExcitationScale, range, DUFFING_HZ);
+            let (rows, end) = curve(&case, fold, (CurveKind::Fold, side), &settings);
+            assert_eq!(end, CurveEnd::RangeEnd);
+            let last = rows.last().unwrap();
+            assert_meets_branch(&case, last, Parameter::ExcitationScale, (0.1, DUFFING_HZ), |e| e.fold);
+            for row in &rows {
+                let nearest = row.solution.floquet_multipliers.iter().map(|[re, im]| (re - 1.0).hypot(*im));
+                assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-6);
+            }
+        }
+    }
+}
+
+/// Of one harmonic, with `c = d W`: `W^2 = 1 + 3^1/2 c` and `F^2 = 32 c^3 / (9 3^1/2 a)`; what it leaves out, the third harmonic, is of relative order
+/// `a x^2`, thus proportional to the damping d.
+#[test]
+fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
+    let errors: Vec<[f64; 2]> = [0.1, 0.05]
+        .iter()
+        .map(|damping| {
+            let root = 3.0_f64.sqrt();
+            let w = 0.5 * (root * damping + (3.0 * damping * damping + 4.0).sqrt());
+            let force = (32.0 * (damping * w).powi(3) / (9.0 * root)).sqrt();
+            // Twice the force of the cusp, so that there are folds to begin at.
+            let cubic = Law::Cubic(law::CubicSpring::new(1.0).unwrap());
+            let case = oscillator(*damping, 2.0 * force, cubic);
+            let range_hz = (0.12, 0.3);
+            let folds = events(&case, 0.12, range_hz, |events| events.fold);
+            let settings = settings(Parameter::ExcitationScale, (0.3, 1.5), range_hz);
+            let (rows, end) = curve(&case, &folds[0], (CurveKind::Fold, Side::Down), &settings);
+            // Round the cusp and back on the other folds.
+            assert_eq!(end, CurveEnd::RangeEnd);
+            let cusps: Vec<&CurveRow> = rows.iter().filter(|row| row.events.cusp).collect();
+            assert_eq!(cusps.len(), 1);
+            let hz = w / std::f64::consts::TAU;
+            let found = [cusps[0].parameter / 0.5 - 1.0, cusps[0].solution.frequency_hz / hz - 1.0];
+            println!("damping {damping}: cusp off by {found:?}");
+            found
+        })
+        .collect();
+    for k in 0..2 {
+        assert!(errors[0][k].abs() < 0.01);
+        let ratio = errors[0][k] / errors[1][k];
+        assert!((1.6..4.6).contains(&ratio), "entry {k}: {errors:?}");
+    }
+}
+
+const FLIPS_HZ: (f64, f64) = (54.5, 62.0);
+
+/// The flips of the paper's beam at 55.0147 and 58.9989 Hz.
+#[test]
+fn flip_curves_of_the_beam_meet_its_branches() {
+    let case = beam();
+    let flips = events(&case, 61.5, FLIPS_HZ, |events| events.flip);
+    for hz in [55.0147, 58.9989] {
+        let flip = flips.iter().find(|row| (row.solution.frequency_hz - hz).abs() < 2e-4).unwrap();
+        let settings = settings(Parameter::ExcitationScale, (0.5, 1.05), FLIPS_HZ);
+        let (rows, end) = curve(&case, flip, (CurveKind::Flip, Side::Up), &settings);
+        assert_eq!(end, CurveEnd::RangeEnd, "{hz}");
+        let last = rows.last().unwrap();
+        assert_meets_branch(&case, last, Parameter::ExcitationScale, (61.5, FLIPS_HZ), |e| e.flip);
+    }
+}
+
+/// Grazing of the linear oscillator: the linear amplitude equals the gap, `a F / |1 - w^2 + i c w| = g`.
+#[test]
+fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
+    let amplitude = |hz: f64| {
+        let w = std::f64::consts::TAU * hz;
+        1.0 / (1.0 - w * w).hypot(0.2 * w)
+    };
+    let gap = 2.0;
+    let case = oscillator(0.2, 1.0, Law::Linear(law::LinearStop::with_gap(3.0, gap).unwrap()));
+    let range_hz = (0.05, 0.4);
+    let grazings = events(&case, 0.06, range_hz, |events| events.grazing);
+    let first = &grazings[0];
+    for (parameter, range) in
+        [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::Gap { element: 0 }, (0.5, 6.0))]
+    {
+        for side in [Side::Up, Side::Down] {
+            let settings = settings(parameter, range, range_hz);
+            let (rows, end) = curve(&case, first, (CurveKind::Grazing { contact: 0 }, side), &settings);
+            println!("{parameter:?} {side:?}: {} rows, {end:?}", rows.len());
+            assert!(rows.len() > 20 && end != CurveEnd::Budget);
+            for row in &rows {
+                let linear = amplitude(row.solution.frequency_hz);
+                let ratio = match parameter {
+                    Parameter::ExcitationScale => row.parameter * linear / gap,
+                    _ => linear / row.parameter,
+                };
+                assert!((ratio - 1.0).abs() < 1e-8, "{parameter:?} at {}: {ratio}", row.parameter);
+                assert!((row.solution.nodes[0][0].abs()) <= linear * row.parameter.max(1.0) * 1.001);
+            }
+        }
+    }
+}
