@@ -3,12 +3,12 @@
 
 mod common;
 
-use common::{beam, duffing, walk_both};
+use common::{beam, duffing};
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};
 use hammerbeam_orbit::{
-    BranchRow, CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, Events, OrbitSettings,
-    Response, Side,
+    BranchRow, BranchWalk, CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, Events,
+    OrbitSettings, Response, Side, find_start, reach_orbit,
 };
 use hammerbeam_structure::{PointOutput, ReducedModel};
 
@@ -32,7 +32,15 @@ fn oscillator(damping: f64, force: f64, law: Law) -> Case {
 /// Rows of a branch in the frequency with an event, sharply located.
 fn events(case: &Case, start_hz: f64, range_hz: (f64, f64), wanted: fn(&Events) -> bool) -> Vec<BranchRow> {
     let settings = OrbitSettings::for_range(range_hz);
-    let (rows, _) = walk_both(case, start_hz, range_hz, &settings);
+    let orbit = (start_hz, 1);
+    let start = find_start(&case.0, &case.1, start_hz, 1, &settings)
+        .or_else(|_| reach_orbit(&case.0, &case.1, orbit, &OrbitSettings::default(), &mut || false))
+        .unwrap();
+    let mut rows = Vec::new();
+    for side in [Side::Down, Side::Up] {
+        let mut walk = BranchWalk::new(&case.0, &case.1, &start, side, range_hz, &settings).unwrap();
+        while walk.step(&mut rows).unwrap().is_none() {}
+    }
     let sharp = |row: &BranchRow| row.located.as_ref().is_some_and(|l| l.status == EventStatus::Located);
     rows.into_iter().filter(|row| wanted(&row.events) && sharp(row)).collect()
 }
@@ -139,14 +147,14 @@ const FLIPS_HZ: (f64, f64) = (54.5, 62.0);
 #[test]
 fn flip_curves_of_the_beam_meet_its_branches() {
     let case = beam();
-    let flips = events(&case, 61.5, FLIPS_HZ, |events| events.flip);
+    let flips = events(&case, 57.0, FLIPS_HZ, |events| events.flip);
     for hz in [55.0147, 58.9989] {
         let flip = flips.iter().find(|row| (row.solution.frequency_hz - hz).abs() < 2e-4).unwrap();
         let settings = settings(Parameter::ExcitationScale, (0.5, 1.05), FLIPS_HZ);
         let (rows, end) = curve(&case, flip, (CurveKind::Flip, Side::Up), &settings);
         assert_eq!(end, CurveEnd::RangeEnd, "{hz}");
         let last = rows.last().unwrap();
-        assert_meets_branch(&case, last, Parameter::ExcitationScale, (61.5, FLIPS_HZ), |e| e.flip);
+        assert_meets_branch(&case, last, Parameter::ExcitationScale, (57.0, FLIPS_HZ), |e| e.flip);
     }
 }
 
@@ -181,4 +189,97 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
             }
         }
     }
+}
+
+/// Two modes with two cubic springs, `q_2'' + ... + w_2^2 q_2`, driven so hard that modes interact.
+fn two_modes(second: f64, force: f64) -> Case {
+    let model = ReducedModel {
+        natural_frequencies: vec![1.0, second],
+        damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.05 } else { 0.0 }),
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0, 1.0], support_ratio: 0.0 }],
+        support: None,
+        uniform_acceleration: vec![1.0, 0.0],
+    };
+    let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0, 0.3], harmonic }] };
+    let spring = |shape: [f64; 2], k| LocalElement {
+        name: "spring".into(),
+        shape: shape.to_vec(),
+        support_ratio: 0.0,
+        law: Law::Cubic(law::CubicSpring::new(k).unwrap()),
+    };
+    let springs = vec![spring([1.0, 1.0], 1.0), spring([1.0, -1.0], 0.5)];
+    (System::new(model, &load, springs).unwrap(), Response { shape: vec![1.0, 1.0], support_ratio: 0.0 })
+}
+
+const TWO_MODES_HZ: (f64, f64) = (0.1, 0.6);
+
+/// The Neimark-Sacker points of the two modes at the force 1.5.
+fn first_of(case: &Case, hz: f64) -> BranchRow {
+    let found = events(case, 0.11, TWO_MODES_HZ, |events| events.neimark_sacker);
+    let places: Vec<f64> = found.iter().map(|row| row.solution.frequency_hz).collect();
+    let first = found.into_iter().find(|row| (row.solution.frequency_hz - hz).abs() < 1e-4);
+    first.unwrap_or_else(|| panic!("{hz}: {places:?}"))
+}
+
+#[test]
+fn neimark_sacker_curves_meet_branches() {
+    let parameter = Parameter::ExcitationScale;
+    let case = two_modes(1.5, 1.5);
+    let first = first_of(&case, 0.14912);
+    for (side, range) in [(Side::Up, (0.7, 1.3)), (Side::Down, (0.8, 1.3))] {
+        let settings = settings(parameter, range, TWO_MODES_HZ);
+        let (rows, end) = curve(&case, &first, (CurveKind::NeimarkSacker, side), &settings);
+        assert_eq!(end, CurveEnd::RangeEnd);
+        for row in &rows {
+            let off = row.solution.floquet_multipliers.iter().map(|[re, im]| (re.hypot(*im) - 1.0).abs());
+            assert!(off.fold(f64::INFINITY, f64::min) < 1e-6);
+        }
+        let last = rows.last().unwrap();
+        assert_meets_branch(&case, last, parameter, (0.11, TWO_MODES_HZ), |e| e.neimark_sacker);
+    }
+}
+
+/// Where a pair crosses a resonance it is `exp(+-i angle)` of that resonance, and two ways round one curve find the same places.
+#[test]
+fn neimark_sacker_curves_pass_resonances() {
+    let case = two_modes(1.5, 1.5);
+    let settings = settings(Parameter::Stiffness { element: 1 }, (0.05, 3.0), TWO_MODES_HZ);
+    let resonances = |hz: f64, side: Side| -> Vec<(u8, f64, f64)> {
+        let (rows, _) = curve(&case, &first_of(&case, hz), (CurveKind::NeimarkSacker, side), &settings);
+        let marked = rows.iter().filter_map(|row| row.events.resonance.map(|order| (order, row)));
+        let check = |(order, row): (u8, &CurveRow)| {
+            let expected = [1.0, -1.0, -0.5, 0.0][usize::from(order) - 1];
+            let off = row
+                .solution
+                .floquet_multipliers
+                .iter()
+                .map(|[re, im]| (re - expected).hypot(im.abs() - (1.0_f64 - expected * expected).sqrt()));
+            assert!(off.fold(f64::INFINITY, f64::min) < 1e-6, "{:?}", row.solution.floquet_multipliers);
+            (order, row.parameter, row.solution.frequency_hz)
+        };
+        marked.map(check).collect()
+    };
+    for (there, back) in
+        [((0.14912, Side::Up), (0.15394, Side::Down)), ((0.14912, Side::Down), (0.15394, Side::Up))]
+    {
+        let (there, back) = (resonances(there.0, there.1), resonances(back.0, back.1));
+        println!("{there:?} {back:?}");
+        assert_eq!(there.len(), 2);
+        for ((order, parameter, hz), other) in there.iter().zip(&back) {
+            assert_eq!(*order, other.0);
+            assert!((parameter - other.1).abs() < 1e-6 && (hz - other.2).abs() < 1e-6);
+        }
+    }
+}
+
+/// Where the pair meets at +1 there is no torus any more.
+#[test]
+fn a_neimark_sacker_curve_ends_at_the_strong_resonance() {
+    let case = two_modes(1.5, 1.5);
+    let settings = settings(Parameter::ExcitationScale, (0.1, 6.0), TWO_MODES_HZ);
+    let first = first_of(&case, 0.14912);
+    let (rows, end) = curve(&case, &first, (CurveKind::NeimarkSacker, Side::Down), &settings);
+    assert_eq!(end, CurveEnd::Resonance);
+    assert_eq!(rows.last().unwrap().events.resonance, Some(1));
 }

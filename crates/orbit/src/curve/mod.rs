@@ -38,4 +38,7 @@ mod problem;
 mod shooting;
 mod walk;
 
+#[cfg(test)]
+mod tests;
+
 pub use walk::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
