@@ -25,7 +25,10 @@
 //! `t = h s^2` it is smooth, so a contact takes a step up to its middle and one down to its release, whose time is part of the solution.
 //!
 //! **Sensitivities** `V` go through the same equations differentiated: `dr = (1 - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. The laws are
-//! continuous, so nothing jumps where a contact opens or closes.
+//! continuous, so nothing jumps where a contact opens or closes. One further column can be the derivative by a [`Parameter`] `p` of the system. The
+//! particular solution is linear in the scale of the excitation; a gap shifts the argument of its law, `dr -> dr - 1`; a stiffness has the direct part
+//! `F/k` in `dF = f' (1 - W f')^-1 (X V + d r_particular + W F/k) + F/k`. By the damping, which is in every matrix, it is a difference of
+//! fourth order of four motions.
 //!
 //! **The check.** [`general`] integrates any vector field with its variational equations, by a Runge-Kutta method of order eight. It
 //! shares no code with [`exact`] beyond the laws and is what that is tested against, and measured against.
@@ -63,12 +66,15 @@
 
 pub mod exact;
 pub mod general;
+mod instant;
 pub mod law;
 mod load;
+mod parameter;
 mod stretch;
 mod system;
 
 pub use law::{Contact, Force, Law, LawError};
 pub use load::{Harmonic, HarmonicForce, Load};
+pub use parameter::{Parameter, ParameterError};
 pub use stretch::{Flow, Stretch};
 pub use system::{LocalElement, ModalLoad, System, SystemError};

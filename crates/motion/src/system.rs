@@ -6,7 +6,7 @@
 use faer::c64;
 use hammerbeam_structure::ReducedModel;
 
-use crate::{Harmonic, Law, Load};
+use crate::{Harmonic, Law, Load, ParameterError};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -46,6 +46,12 @@ pub struct System {
     orders: Vec<u32>,
     support: Vec<c64>,
     forces: Vec<Vec<c64>>,
+    /// The load as given: support and forces at the scale one.
+    unscaled: (Vec<c64>, Vec<Vec<c64>>),
+    excitation_scale: f64,
+    added_damping_ratio: f64,
+    /// Diagonal of the damping matrix as given.
+    given_damping: Vec<f64>,
 }
 
 /// Modal load of one order and its derivative by the circular frequency.
@@ -74,16 +80,70 @@ impl System {
         orders.dedup();
         let of_order =
             |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
-        let support = orders
+        let support: Vec<c64> = orders
             .iter()
             .map(|&order| load.support.iter().map(|harmonic| of_order(order, harmonic)).sum())
             .collect();
         let force_of = |order: u32, mode: usize| {
             load.forces.iter().map(|force| of_order(order, &force.harmonic) * force.shape[mode]).sum()
         };
-        let forces =
+        let forces: Vec<Vec<c64>> =
             orders.iter().map(|&order| (0..model.dof()).map(|i| force_of(order, i)).collect()).collect();
-        Ok(Self { model, elements, orders, support, forces })
+        let unscaled = (support.clone(), forces.clone());
+        let given_damping = (0..model.dof()).map(|i| model.damping[(i, i)]).collect();
+        Ok(Self {
+            model,
+            elements,
+            orders,
+            support,
+            forces,
+            unscaled,
+            excitation_scale: 1.0,
+            added_damping_ratio: 0.0,
+            given_damping,
+        })
+    }
+
+    /// Factor of the harmonics of order 1 and above, see [`Parameter::ExcitationScale`](crate::Parameter::ExcitationScale).
+    #[must_use]
+    pub fn excitation_scale(&self) -> f64 {
+        self.excitation_scale
+    }
+
+    /// Damping ratio of every mode besides the damping as given.
+    #[must_use]
+    pub fn added_damping_ratio(&self) -> f64 {
+        self.added_damping_ratio
+    }
+
+    pub(crate) fn elements_mut(&mut self) -> &mut [LocalElement] {
+        &mut self.elements
+    }
+
+    pub(crate) fn set_excitation_scale(&mut self, scale: f64) -> Result<(), ParameterError> {
+        if !(scale.is_finite() && scale > 0.0) {
+            return Err(ParameterError::ExcitationScale { found: scale });
+        }
+        self.excitation_scale = scale;
+        for (index, &order) in self.orders.iter().enumerate() {
+            let factor = if order == 0 { 1.0 } else { scale };
+            self.support[index] = self.unscaled.0[index] * factor;
+            let forces = self.forces[index].iter_mut().zip(&self.unscaled.1[index]);
+            forces.for_each(|(force, given)| *force = given * factor);
+        }
+        Ok(())
+    }
+
+    pub(crate) fn set_added_damping_ratio(&mut self, ratio: f64) -> Result<(), ParameterError> {
+        let frequencies = &self.model.natural_frequencies;
+        let damping: Vec<f64> =
+            self.given_damping.iter().zip(frequencies).map(|(given, w)| given + 2.0 * ratio * w).collect();
+        if !damping.iter().all(|value| value.is_finite() && *value >= 0.0) {
+            return Err(ParameterError::DampingRatio { found: ratio });
+        }
+        self.added_damping_ratio = ratio;
+        damping.iter().enumerate().for_each(|(i, value)| self.model.damping[(i, i)] = *value);
+        Ok(())
     }
 
     /// Number of modes n; states have length 2n.

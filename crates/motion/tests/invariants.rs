@@ -149,7 +149,12 @@ fn pieces_make_a_whole() {
         let phase = |piece: u32| f64::from(piece) / f64::from(pieces);
         let tolerance = 1e-13;
         let whole = flow(&system, &Stretch { frequency_hz, start: 0.0, end: 1.0 }, &state, tolerance);
-        let mut joined = Flow { state, by_state: Mat::identity(12, 12), by_frequency: vec![0.0; 12] };
+        let mut joined = Flow {
+            state,
+            by_state: Mat::identity(12, 12),
+            by_frequency: vec![0.0; 12],
+            by_parameter: vec![],
+        };
         for piece in 0..pieces {
             let stretch = Stretch { frequency_hz, start: phase(piece), end: phase(piece + 1) };
             let next = flow(&system, &stretch, &joined.state, tolerance);
@@ -160,6 +165,7 @@ fn pieces_make_a_whole() {
                 state: next.state,
                 by_state: &next.by_state * &joined.by_state,
                 by_frequency: carried.iter().zip(&next.by_frequency).map(|(a, b)| a + b).collect(),
+                by_parameter: vec![],
             };
         }
         let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };

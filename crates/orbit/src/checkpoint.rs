@@ -4,7 +4,7 @@
 //! accepted points by which the follower recognises a stretch that it has walked before (appended to). All numbers are
 //! little-endian, floats by their bits.
 
-use hammerbeam_motion::System;
+use hammerbeam_motion::{Parameter, System};
 use hammerbeam_path::{
     Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, StopReason,
     TestValue,
@@ -13,7 +13,7 @@ use hammerbeam_path::{
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
     density::{LastRows, Place},
-    shooting::{ShootingProblem, StateScale},
+    shooting::{ContinuationParameter, ShootingProblem, StateScale},
     solve::integrator,
     walk::{hertz_per_norm, path_settings},
 };
@@ -28,7 +28,7 @@ impl BranchWalk {
         let mut out = Writer::default();
         let state = self.follower.checkpoint();
         out.word(MAGIC);
-        out.word(u64::from(self.problem.period_multiple()));
+        write_varied(&mut out, self.problem.period_multiple(), self.problem.varied());
         out.word(self.problem.segments() as u64);
         out.floats(self.problem.scale().values());
         out.point(&state.current);
@@ -136,7 +136,7 @@ fn read(
     if reader.word()? != MAGIC {
         return None;
     }
-    let period_multiple = u32::try_from(reader.word()?).ok()?;
+    let (period_multiple, varied) = read_varied(reader)?;
     let segments = usize::try_from(reader.word()?).ok()?;
     let scale = StateScale::from_values(reader.floats()?);
     if scale.values().len() != 2 * system.dof() || segments == 0 {
@@ -191,8 +191,41 @@ fn read(
             displacement: reader.float()?,
         });
     }
-    let problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, length);
+    let mut problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, length);
+    if let Err(error) = problem.vary(varied) {
+        return Some(Err(error.into()));
+    }
     Some(Ok(Stored { problem, state, evaluations_between, last_rows }))
+}
+
+/// The period and what varies: a word with the period below and the kind of parameter and its element above, and the fixed frequency, if there is
+/// one.
+fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationParameter) {
+    let (kind, element) = match varied.parameter() {
+        None => (0, 0),
+        Some(Parameter::ExcitationScale) => (1, 0),
+        Some(Parameter::AddedDampingRatio) => (2, 0),
+        Some(Parameter::Gap { element }) => (3, element),
+        Some(Parameter::Stiffness { element }) => (4, element),
+    };
+    out.word(u64::from(period_multiple) | kind << 32 | (element as u64) << 40);
+    if let ContinuationParameter::Other { frequency_hz, .. } = varied {
+        out.float(frequency_hz);
+    }
+}
+
+fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> {
+    let word = reader.word()?;
+    let element = usize::try_from(word >> 40).ok()?;
+    let parameter = match word >> 32 & 0xff {
+        0 => return Some((word as u32, ContinuationParameter::Frequency)),
+        1 => Parameter::ExcitationScale,
+        2 => Parameter::AddedDampingRatio,
+        3 => Parameter::Gap { element },
+        4 => Parameter::Stiffness { element },
+        _ => return None,
+    };
+    Some((word as u32, ContinuationParameter::Other { parameter, frequency_hz: reader.float()? }))
 }
 
 /// What a walk knows beside its follower; `None` if the bytes do not fit or are too many.

@@ -32,6 +32,9 @@ pub enum OrbitError {
     /// No other branch was found where one should leave.
     #[error("no other branch was found beside the crossing at {frequency_hz} Hz")]
     NoCrossing { frequency_hz: f64 },
+    /// The orbit does not have what a curve is to follow.
+    #[error("the orbit at {frequency_hz} Hz has no such contact or pair of multipliers to follow")]
+    NoEvent { frequency_hz: f64 },
     /// The period asked for is not one that is looked for.
     #[error("the period multiple is {found}, must be from 1 to {most}")]
     PeriodMultiple { found: u32, most: u32 },

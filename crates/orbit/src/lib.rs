@@ -17,6 +17,7 @@
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
+//! | `curve/` | curves of folds, flips, Neimark-Sacker points and grazing in two parameters |
 //! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
 //! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
@@ -56,6 +57,7 @@
 mod catalogue;
 mod checkpoint;
 mod crossings;
+mod curve;
 mod density;
 mod eigenvalues;
 mod error;
@@ -78,6 +80,7 @@ mod survey;
 mod switch;
 mod walk;
 
+pub use curve::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
 pub use find::{FoundOrbits, find_orbits};
@@ -87,6 +90,7 @@ pub use matching::Matcher;
 pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
+pub use shooting::ContinuationParameter;
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 pub use start::{Interruption, find_start, find_start_unless};
 pub use survey::{SurveyEffort, survey};

@@ -85,7 +85,8 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     } else {
         (None, 0.0)
     };
-    let sharp = uncertainty_hz <= SHARP_FREQUENCY * place.point.parameter() && off <= SHARP_MULTIPLIER;
+    let sharp = uncertainty_hz <= SHARP_FREQUENCY * problem.parameter_size(&place.point.point)
+        && off <= SHARP_MULTIPLIER;
     let direction = if events.branch_point {
         crossing_direction(problem, place.point)
     } else {

@@ -37,7 +37,8 @@ impl BranchWalk {
 fn refine(problem: &mut ShootingProblem, at: &ContinuationPoint) -> Result<Node, OrbitError> {
     let (point, tangent) = (&at.point, &at.tangent);
     let (size, old) = (problem.node_size(), problem.segments());
-    let (frequency_hz, frequency_tangent) = (point[old * size], tangent[old * size]);
+    let (frequency_hz, last_tangent) = (problem.frequency(point), tangent[old * size]);
+    problem.move_to(point)?;
     let scales = problem.scale().values().to_vec();
     let unscaled = |values: &[f64]| values.iter().zip(&scales).map(|(x, s)| x * s).collect::<Vec<f64>>();
     let (mut points, mut tangents) = (Vec::new(), Vec::new());
@@ -52,12 +53,13 @@ fn refine(problem: &mut ShootingProblem, at: &ContinuationPoint) -> Result<Node,
             let piece = Stretch { frequency_hz, start: phase(part), end: phase(part + 1) };
             let flow = problem.integrator().flow(&piece, &state)?;
             let carried = |i: usize| (0..size).map(|j| flow.by_state[(i, j)] * slope[j]).sum::<f64>();
-            slope = (0..size).map(|i| carried(i) + flow.by_frequency[i] * frequency_tangent).collect();
+            let by_last = problem.by_last(&flow);
+            slope = (0..size).map(|i| carried(i) + by_last[i] * last_tangent).collect();
             state = flow.state;
         }
     }
-    points.push(frequency_hz);
-    tangents.push(frequency_tangent);
+    points.push(point[old * size]);
+    tangents.push(last_tangent);
     Ok(Node { point: points, tangent: tangents })
 }
 

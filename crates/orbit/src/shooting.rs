@@ -6,6 +6,7 @@
 //!
 //! `R_k = Z_k(z_k, f) - z_{k+1} = 0`, `k = 0..m`, `z_m = z_0`.
 //!
+//! The last unknown `f` is the excitation frequency, or another [`ContinuationParameter`] while the frequency is fixed.
 //! With `G_k = dZ_k/dz_k`, `g_k = dZ_k/df` a bordered system with right-hand sides `b_k`, and `b` for the border row, is condensed to the first node:
 //! `d_{k+1} = A_{k+1} d_0 + a_{k+1} df - s_{k+1}`, where `A_{k+1} = G_k A_k`, `a_{k+1} = G_k a_k + g_k`,
 //! `s_{k+1} = G_k s_k + b_k`. Then `(A_m - I) d_0 + a_m df = s_m` and the border row, summed over the nodes. `A_m` is the monodromy
@@ -23,12 +24,37 @@
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
 use hammerbeam_motion::{
-    Stretch,
+    Flow, Parameter, Stretch,
     exact::{ExactIntegrator, MotionError},
 };
 use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
 
 use crate::{NoEigenvalues, eigenvalues::eigenvalues, stability};
+
+/// What varies along a branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContinuationParameter {
+    /// The excitation frequency [Hz].
+    Frequency,
+    /// A parameter of the system, at a fixed excitation frequency.
+    Other {
+        /// Which one.
+        parameter: Parameter,
+        /// Excitation frequency [Hz].
+        frequency_hz: f64,
+    },
+}
+
+impl ContinuationParameter {
+    /// The parameter of the system, if it is one.
+    #[must_use]
+    pub fn parameter(self) -> Option<Parameter> {
+        match self {
+            Self::Frequency => None,
+            Self::Other { parameter, .. } => Some(parameter),
+        }
+    }
+}
 
 /// Scales of a state: displacements `V/w_i`, velocities `V`.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,8 +112,8 @@ pub(crate) struct ShootingProblem {
     /// `A_k` by rows, `k = 0..=m`; the first is the identity.
     products: Vec<Vec<f64>>,
     /// `g_k` and `a_k`.
-    by_frequency: Vec<Vec<f64>>,
-    frequency_sums: Vec<Vec<f64>>,
+    by_parameter: Vec<Vec<f64>>,
+    parameter_sums: Vec<Vec<f64>>,
     condensed: Vec<f64>,
     border: Vec<f64>,
     lu: DenseLu,
@@ -97,6 +123,7 @@ pub(crate) struct ShootingProblem {
     multipliers: Option<Result<Vec<[f64; 2]>, NoEigenvalues>>,
     /// Whether flips and Neimark-Sacker points are looked for.
     watches_stability: bool,
+    varied: ContinuationParameter,
 }
 
 impl ShootingProblem {
@@ -118,8 +145,8 @@ impl ShootingProblem {
             residual: Vec::new(),
             segment_matrices: Vec::new(),
             products: Vec::new(),
-            by_frequency: Vec::new(),
-            frequency_sums: Vec::new(),
+            by_parameter: Vec::new(),
+            parameter_sums: Vec::new(),
             condensed: Vec::new(),
             border: Vec::new(),
             lu: DenseLu::new(),
@@ -127,9 +154,56 @@ impl ShootingProblem {
             failure: None,
             multipliers: None,
             watches_stability: false,
+            varied: ContinuationParameter::Frequency,
         };
         problem.set_segments(segments);
         problem
+    }
+
+    /// Makes this parameter the last unknown; the problem must be evaluated again.
+    ///
+    /// # Errors
+    /// [`MotionError::Parameter`] if the system does not have it.
+    pub fn vary(&mut self, varied: ContinuationParameter) -> Result<(), MotionError> {
+        self.integrator.differentiate_by(varied.parameter())?;
+        self.varied = varied;
+        Ok(())
+    }
+
+    /// What varies.
+    pub fn varied(&self) -> ContinuationParameter {
+        self.varied
+    }
+
+    /// Excitation frequency of a point [Hz].
+    pub fn frequency(&self, point: &[f64]) -> f64 {
+        match self.varied {
+            ContinuationParameter::Frequency => point[point.len() - 1],
+            ContinuationParameter::Other { frequency_hz, .. } => frequency_hz,
+        }
+    }
+
+    /// Gives the system the parameter of a point.
+    ///
+    /// # Errors
+    /// [`MotionError::Parameter`] if the system cannot have it.
+    pub fn move_to(&mut self, point: &[f64]) -> Result<(), MotionError> {
+        match self.varied.parameter() {
+            Some(parameter) => self.integrator.set_parameter(parameter, point[point.len() - 1]),
+            None => Ok(()),
+        }
+    }
+
+    /// The column of a flow that belongs to the last unknown.
+    pub fn by_last<'a>(&self, flow: &'a Flow) -> &'a [f64] {
+        if self.varied.parameter().is_some() { &flow.by_parameter } else { &flow.by_frequency }
+    }
+
+    /// Size that the last unknown has at a point, for relative accuracies.
+    pub fn parameter_size(&self, point: &[f64]) -> f64 {
+        let value = point[point.len() - 1].abs();
+        // A parameter may pass zero: then its range, of which a hundredth counts like the orbit, tells its size.
+        if self.varied.parameter().is_some() { value.max(100.0 * self.hertz_per_norm) } else { value }
     }
 
     /// Cuts the orbit anew; the problem must be evaluated again.
@@ -144,8 +218,8 @@ impl ShootingProblem {
         self.residual = vec![0.0; segments * size];
         self.segment_matrices = vec![vec![0.0; size * size]; segments];
         self.products = vec![identity; segments + 1];
-        self.by_frequency = vec![vec![0.0; size]; segments];
-        self.frequency_sums = vec![vec![0.0; size]; segments + 1];
+        self.by_parameter = vec![vec![0.0; size]; segments];
+        self.parameter_sums = vec![vec![0.0; size]; segments + 1];
         self.condensed = vec![0.0; (size + 1) * (size + 1)];
     }
 
@@ -238,15 +312,17 @@ impl ShootingProblem {
 
     fn evaluate_segment(&mut self, segment: usize, point: &[f64]) -> Result<(), MotionError> {
         let size = self.node_size();
-        let stretch = self.stretch(segment, point[self.segments * size]);
+        let stretch = self.stretch(segment, self.frequency(point));
         let scales = self.scale.values();
         let node: Vec<f64> =
             point[segment * size..(segment + 1) * size].iter().zip(scales).map(|(x, s)| x * s).collect();
         let flow = self.integrator.flow(&stretch, &node)?;
+        let by_parameter =
+            if self.varied.parameter().is_some() { &flow.by_parameter } else { &flow.by_frequency };
         let next = (segment + 1) % self.segments;
         for i in 0..size {
             self.residual[segment * size + i] = flow.state[i] / scales[i] - point[next * size + i];
-            self.by_frequency[segment][i] = flow.by_frequency[i] / scales[i];
+            self.by_parameter[segment][i] = by_parameter[i] / scales[i];
         }
         let matrix = &mut self.segment_matrices[segment];
         for j in 0..size {
@@ -269,11 +345,11 @@ impl ShootingProblem {
             } else {
                 multiply(size, factor, source, target);
             }
-            let (before, after) = self.frequency_sums.split_at_mut(k + 1);
+            let (before, after) = self.parameter_sums.split_at_mut(k + 1);
             for i in 0..size {
                 let row = &factor[i * size..(i + 1) * size];
                 let carried: f64 = row.iter().zip(&before[k]).map(|(g, a)| g * a).sum();
-                after[0][i] = carried + self.by_frequency[k][i];
+                after[0][i] = carried + self.by_parameter[k][i];
             }
         }
     }
@@ -308,8 +384,12 @@ impl PathProblem for ShootingProblem {
         self.touches.fill(0);
         self.failure = None;
         self.multipliers = None;
-        let frequency = point[self.residual.len()];
+        let frequency = self.frequency(point);
         if frequency.is_nan() || frequency <= 0.0 {
+            return Err(EvaluationError::OutsideDomain);
+        }
+        if let Err(error) = self.move_to(point) {
+            self.failure = Some(error);
             return Err(EvaluationError::OutsideDomain);
         }
         for segment in 0..self.segments {
@@ -337,7 +417,7 @@ impl PathProblem for ShootingProblem {
             let target = &mut self.condensed[i * width..(i + 1) * width];
             target[..size].copy_from_slice(&monodromy[i * size..(i + 1) * size]);
             target[i] -= 1.0;
-            target[size] = self.frequency_sums[self.segments][i];
+            target[size] = self.parameter_sums[self.segments][i];
         }
         let target = &mut self.condensed[size * width..];
         target[size] = row[self.segments * size];
@@ -346,7 +426,7 @@ impl PathProblem for ShootingProblem {
                 let border = row[k * size + i];
                 let product = &self.products[k][i * size..(i + 1) * size];
                 target.iter_mut().zip(product).for_each(|(t, a)| *t += border * a);
-                target[size] += border * self.frequency_sums[k][i];
+                target[size] += border * self.parameter_sums[k][i];
             }
         }
         self.lu.factorise(width, &self.condensed)
@@ -375,7 +455,7 @@ impl PathProblem for ShootingProblem {
                 let row = &self.products[k][i * size..(i + 1) * size];
                 let carried: f64 = row.iter().zip(&condensed).map(|(a, d)| a * d).sum();
                 right_hand_side[k * size + i] =
-                    carried + self.frequency_sums[k][i] * change - right_hand_side[(k - 1) * size + i];
+                    carried + self.parameter_sums[k][i] * change - right_hand_side[(k - 1) * size + i];
             }
         }
         right_hand_side[..size].copy_from_slice(&condensed[..size]);

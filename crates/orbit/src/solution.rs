@@ -98,6 +98,8 @@ impl Events {
 pub struct BranchRow {
     /// The solution.
     pub solution: PeriodicSolution,
+    /// Value of the parameter that varies, in its unit; `None` where it is the frequency.
+    pub parameter: Option<f64>,
     /// Events located at it.
     pub events: Events,
     /// What is known of them; `None` where there are none.
@@ -105,6 +107,8 @@ pub struct BranchRow {
 }
 
 /// Why a walk along a branch ended.
+///
+/// Places are frequencies [Hz], or values of the parameter where another one varies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum StopReason {

@@ -56,7 +56,7 @@ pub(crate) fn correct_in_plane(
     row: &[f64],
     settings: &OrbitSettings,
 ) -> Result<f64, OrbitError> {
-    let frequency_hz = point[point.len() - 1];
+    let frequency_hz = problem.frequency(point);
     let mut correction = f64::INFINITY;
     for iterations in 1..=MAX_ITERATIONS {
         let failed = OrbitError::NotConverged { frequency_hz, correction, iterations };
@@ -82,7 +82,7 @@ pub(crate) fn newton_update(
     row: &[f64],
 ) -> Result<(Vec<f64>, f64), OrbitError> {
     evaluate(problem, point)?;
-    let frequency_hz = point[point.len() - 1];
+    let frequency_hz = problem.frequency(point);
     let failed = OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: 0 };
     problem.factorise(row).map_err(|_| failed)?;
     let mut update: Vec<f64> = problem.residual().iter().map(|r| -r).chain([0.0]).collect();
@@ -97,7 +97,7 @@ pub(crate) fn evaluate(problem: &mut ShootingProblem, point: &[f64]) -> Result<(
     if problem.evaluate(point).is_ok() {
         return Ok(());
     }
-    let frequency_hz = point[point.len() - 1];
+    let frequency_hz = problem.frequency(point);
     let unknown = OrbitError::NotConverged { frequency_hz, correction: f64::INFINITY, iterations: 0 };
     Err(problem.failure().map_or(unknown, |failure| OrbitError::Motion(failure.clone())))
 }
@@ -108,11 +108,13 @@ pub(crate) fn solution(
     point: &[f64],
     error_estimate: f64,
 ) -> Result<PeriodicSolution, OrbitError> {
-    let frequency_hz = point[point.len() - 1];
+    let frequency_hz = problem.frequency(point);
+    problem.move_to(point)?;
     let floquet_multipliers = problem.multipliers()?.to_vec();
     let residual = problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
     let nodes = problem.nodes(point);
-    let maxima = observe(problem, &nodes, frequency_hz)?;
+    let stretches: Vec<Stretch> = (0..nodes.len()).map(|k| problem.stretch(k, frequency_hz)).collect();
+    let maxima = observe(problem.integrator(), &stretches, &nodes)?;
     Ok(PeriodicSolution {
         frequency_hz,
         period_multiple: problem.period_multiple(),
@@ -124,15 +126,15 @@ pub(crate) fn solution(
     })
 }
 
-fn observe(
-    problem: &mut ShootingProblem,
+/// Maxima of an orbit over its segments.
+pub(crate) fn observe(
+    integrator: &mut ExactIntegrator,
+    stretches: &[Stretch],
     nodes: &[Vec<f64>],
-    frequency_hz: f64,
 ) -> Result<OrbitMaxima, OrbitError> {
     let mut joined = None;
-    for (segment, node) in nodes.iter().enumerate() {
-        let stretch = problem.stretch(segment, frequency_hz);
-        let (_, maxima) = problem.integrator().observe(&stretch, node)?;
+    for (stretch, node) in stretches.iter().zip(nodes) {
+        let (_, maxima) = integrator.observe(stretch, node)?;
         joined =
             Some(joined.map_or(maxima, |earlier: hammerbeam_motion::exact::Maxima| earlier.joined(maxima)));
     }

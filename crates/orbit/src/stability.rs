@@ -4,6 +4,7 @@
 //! the path itself tells), at -1 (*flip*), and as a complex pair (*Neimark-Sacker*).
 //!
 //! - Flip: `prod (1 + mu_i)`, which is smooth even where multipliers meet; its sign is that of `(-1)^k`, `k` the number of real `mu_i < -1`.
+//! - Fold: the same with `1 - mu_i`, for curves in two parameters.
 //! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of pairs outside. Where a pair
 //!   outside the circle splits into two real multipliers the sign jumps without a zero, which is no event.
 //!
@@ -18,6 +19,12 @@ pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
     let factor = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im).clamp(0.0, 1e3);
     let count = multipliers.iter().filter(|[re, im]| *im == 0.0 && *re < -1.0).count() as u32;
     signed(multipliers.iter().map(factor).product(), count)
+}
+
+/// Vanishes where a multiplier is +1.
+pub(crate) fn fold(multipliers: &[[f64; 2]]) -> TestValue {
+    let mirrored: Vec<[f64; 2]> = multipliers.iter().map(|[re, im]| [-re, *im]).collect();
+    flip(&mirrored)
 }
 
 /// Vanishes where a complex pair lies on the unit circle.
@@ -40,6 +47,7 @@ mod tests {
         assert_eq!(flip(&[[-1.0, 0.0], [0.5, 0.0]]).value, 0.0);
         let beyond = flip(&[[-3.0, 0.0], [0.5, 0.0]]);
         assert_eq!((beyond.value, beyond.count), (-3.0, 1));
+        assert_eq!(fold(&[[3.0, 0.0], [0.5, 0.0]]), TestValue { value: -1.0, count: 1 });
         // A pair that meets at -1 + 0i touches zero from above on both sides.
         assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue { value: 0.25, count: 2 });
         assert!(flip(&[[-1.5, 0.1], [-1.5, -0.1]]).value > 0.25);

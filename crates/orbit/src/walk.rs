@@ -10,7 +10,7 @@ use crate::{
     StopReason,
     density::{LastRows, Place},
     located,
-    shooting::ShootingProblem,
+    shooting::{ContinuationParameter, ShootingProblem},
     solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
 };
 
@@ -60,6 +60,24 @@ impl BranchWalk {
         range_hz: (f64, f64),
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
+        let varied = ContinuationParameter::Frequency;
+        Self::varying(system, response, start, (varied, side, range_hz), settings)
+    }
+
+    /// Begins at `start`, an orbit of `system` as it is, and walks in another parameter than the frequency within its range.
+    ///
+    /// * `(varied, side, range)`: what varies, whether it increases or decreases at first, and its range, in its own unit. Where settings, stop reasons
+    ///   and events speak of hertz, they mean that unit.
+    ///
+    /// # Errors
+    /// [`OrbitError::Path`] if the start is outside the range or does not converge, [`OrbitError::Motion`] if the system has no such parameter.
+    pub fn varying(
+        system: &System,
+        response: &Response,
+        start: &PeriodicSolution,
+        (varied, side, range_hz): (ContinuationParameter, Side, (f64, f64)),
+        settings: &OrbitSettings,
+    ) -> Result<Self, OrbitError> {
         let mut integrator = integrator(system, response, settings)?;
         let scale = state_scale(system, &start.nodes[0], start.frequency_hz);
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
@@ -70,7 +88,14 @@ impl BranchWalk {
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
-        let point = problem.point(&nodes, frequency);
+        problem.vary(varied)?;
+        let value = match varied.parameter() {
+            None => frequency,
+            Some(parameter) => {
+                system.parameter(parameter).map_err(hammerbeam_motion::exact::MotionError::from)?
+            }
+        };
+        let point = problem.point(&nodes, value);
         let direction = match side {
             Side::Up => Direction::Increasing,
             Side::Down => Direction::Decreasing,
@@ -127,8 +152,11 @@ impl BranchWalk {
             return false;
         }
         let point = &self.follower.current().point;
+        if self.problem.move_to(point).is_err() {
+            return false;
+        }
         let orbit = PeriodicSolution {
-            frequency_hz: self.follower.current().parameter(),
+            frequency_hz: self.problem.frequency(point),
             period_multiple: multiple,
             nodes: self.problem.nodes(point),
             floquet_multipliers: Vec::new(),
@@ -306,7 +334,8 @@ impl BranchWalk {
             neimark_sacker: point.events.zeros & 2 != 0,
             ..Events::default()
         };
-        Ok(BranchRow { solution, events, located: None })
+        let parameter = self.problem.varied().parameter().map(|_| point.parameter());
+        Ok(BranchRow { solution, parameter, events, located: None })
     }
 
     /// Change of the tangent's frequency component per length over the last step.

@@ -8,6 +8,7 @@ use std::{
 
 use hammerbeam_orbit::{EventStatus, Events, LocatedEvent, Side};
 
+use crate::export_varied::export_varied;
 use crate::store::{BranchRecord, Row, Store, StoreError, solution_key};
 
 /// Columns of `branches.csv`; the first twelve are fixed, further ones follow after them.
@@ -66,6 +67,8 @@ pub struct Exported {
     pub rows: u64,
     /// The events.
     pub events_path: PathBuf,
+    /// `parameter_branches.csv` and `curves.csv`, where the study asks for them.
+    pub varied_paths: Vec<PathBuf>,
 }
 
 /// Writes `branches.csv`, one row per solution, end to end along each branch, and `events.csv`, one row per event, into a folder.
@@ -80,12 +83,13 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     let rows = write_whole(&path, |writer| write_csv(store, writer, &path))?;
     let events_path = folder.join("events.csv");
     write_whole(&events_path, |writer| write_events(store, writer, &events_path))?;
+    let varied_paths = export_varied(store, folder)?;
     drop(snapshot);
-    Ok(Exported { path, rows, events_path })
+    Ok(Exported { path, rows, events_path, varied_paths })
 }
 
 /// Writes a file beside its place and moves it there when it is complete.
-fn write_whole<T>(
+pub(crate) fn write_whole<T>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {

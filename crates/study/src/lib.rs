@@ -8,6 +8,7 @@
 //! | `identity` | what makes a study the same study, so that a results folder is continued or refused |
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
+//! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
@@ -34,6 +35,7 @@
 
 mod document;
 pub mod export;
+mod export_varied;
 pub mod file;
 mod identity;
 mod model;
@@ -41,12 +43,13 @@ mod orbit_solver;
 pub mod run;
 pub mod store;
 pub mod summary;
+pub mod varied;
 pub mod verify;
 
 pub use document::{Problem, Report};
 pub use export::export_csv;
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
-pub use model::Model;
+pub use model::{Model, StudyParameter};
 pub use orbit_solver::OrbitSolver;
 pub use store::{Store, StoreError};

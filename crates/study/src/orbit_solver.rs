@@ -64,7 +64,8 @@ impl<'m> OrbitSolver<'m> {
     }
 }
 
-fn settings(continuation: &file::Continuation) -> OrbitSettings {
+/// Settings of the orbit crate from those of a study.
+pub(crate) fn settings(continuation: &file::Continuation) -> OrbitSettings {
     OrbitSettings {
         max_step_hz: continuation.max_step_hz,
         tolerance: continuation.tolerance,

@@ -17,8 +17,13 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
     };
     let path = exported.path.display().to_string();
     let events_path = exported.events_path.display().to_string();
-    output.give(&json!({ "files": [path, events_path], "rows": exported.rows }), || {
-        format!("{path}: {} solutions\n{events_path}: what happens at which of them", exported.rows)
+    let varied: Vec<String> = exported.varied_paths.iter().map(|path| path.display().to_string()).collect();
+    let mut files = vec![path.clone(), events_path.clone()];
+    files.extend(varied.iter().cloned());
+    output.give(&json!({ "files": files, "rows": exported.rows }), || {
+        let first =
+            format!("{path}: {} solutions\n{events_path}: what happens at which of them", exported.rows);
+        std::iter::once(first).chain(varied).collect::<Vec<_>>().join("\n")
     });
     Ok(())
 }

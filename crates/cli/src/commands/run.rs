@@ -5,8 +5,9 @@ use std::time::{Duration, Instant};
 use hammerbeam_study::{
     Model, OrbitSolver, Store, Study, StudyFile,
     run::{Plan, RunOutcome},
-    store::{StoredReason, WalkRecord},
+    store::{PieceRecord, StoredReason, WalkRecord},
     summary::{BranchSummary, Peak, summarise},
+    varied::{self, VariedOutcome},
 };
 use serde_json::{Value, json};
 
@@ -24,10 +25,16 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let threads = threads(options.jobs);
     let plan = Plan::of(&file.study);
     let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
+    let mut outcome = outcome?;
+    if outcome == RunOutcome::Done
+        && varied::run(&mut store, &model, &file.study, &mut terminal)? == VariedOutcome::Interrupted
+    {
+        outcome = RunOutcome::Interrupted;
+    }
     terminal.clear();
-    let outcome = outcome?;
     let branches = summarise(&store)?;
-    let summary = Summary { study: &file.study, folder: options.out.display().to_string(), branches };
+    let pieces = store.pieces()?;
+    let summary = Summary { study: &file.study, folder: options.out.display().to_string(), branches, pieces };
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         _ if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
@@ -51,6 +58,7 @@ struct Summary<'a> {
     study: &'a Study,
     folder: String,
     branches: Vec<BranchSummary>,
+    pieces: Vec<PieceRecord>,
 }
 
 impl Summary<'_> {
@@ -77,6 +85,7 @@ impl Summary<'_> {
             "title": self.study.title,
             "solutions": self.solutions(),
             "branches": self.branches.iter().map(branch_document).collect::<Vec<_>>(),
+            "varied": self.pieces.iter().map(piece_document).collect::<Vec<_>>(),
             "figures": figures,
         })
     }
@@ -90,6 +99,7 @@ impl Summary<'_> {
             elapsed.as_secs_f64()
         )];
         lines.extend(self.branches.iter().map(branch_text));
+        lines.extend(self.pieces.iter().map(piece_text));
         lines.push(format!("figures: {}", figures.join(", ")));
         lines.join("\n")
     }
@@ -151,6 +161,45 @@ fn branch_text(branch: &BranchSummary) -> String {
     }
     for (side, walk) in [("up", &branch.record.up), ("down", &branch.record.down)] {
         lines.push(format!("  {side} side: {}", stop_text(walk.reason.as_ref())));
+    }
+    lines.join("\n")
+}
+
+fn piece_document(piece: &PieceRecord) -> Value {
+    let branches = piece.branches.iter().map(|branch| {
+        json!({
+            "branch": branch.branch,
+            "of": branch.kind,
+            "period_multiple": branch.period_multiple,
+            "solutions": branch.rows,
+            "parameter": branch.range,
+            "up": branch.up,
+            "down": branch.down,
+        })
+    });
+    json!({
+        "piece": piece.id,
+        "kind": if piece.is_curve { "curve" } else { "vary" },
+        "parameter_name": piece.parameter,
+        "message": piece.message,
+        "branches": branches.collect::<Vec<_>>(),
+    })
+}
+
+fn piece_text(piece: &PieceRecord) -> String {
+    let mut lines = Vec::new();
+    for branch in &piece.branches {
+        let what = if piece.is_curve { format!("{} curve", branch.kind) } else { "branch".to_owned() };
+        let [low, high] = branch.range;
+        lines.push(format!(
+            "\n{what} over {} (period {}): {} solutions, {low} to {high}",
+            piece.parameter, branch.period_multiple, branch.rows
+        ));
+        lines.push(format!("  up side: {}\n  down side: {}", branch.up, branch.down));
+    }
+    if let Some(message) = &piece.message {
+        let what = if piece.is_curve { "curve" } else { "branches" };
+        lines.push(format!("\n{what} over {}: {message}", piece.parameter));
     }
     lines.join("\n")
 }

@@ -35,6 +35,8 @@ pub(crate) struct Drive {
     start_angle: f64,
     orders: Vec<Order>,
     secular: Vec<SecularLoad>,
+    /// Scale of all orders above 0.
+    scale: f64,
 }
 
 /// Value of an output and of its first two derivatives by time.
@@ -50,7 +52,8 @@ impl Drive {
     pub fn new(system: &System, blocks: &Blocks, outputs: &[Output], stretch: &Stretch) -> Self {
         let circular_frequency = TAU * stretch.frequency_hz;
         let start_angle = TAU * (stretch.start - stretch.start.floor());
-        let mut drive = Self { circular_frequency, start_angle, orders: Vec::new(), secular: Vec::new() };
+        let (orders, secular, scale) = (Vec::new(), Vec::new(), system.excitation_scale());
+        let mut drive = Self { circular_frequency, start_angle, orders, secular, scale };
         for (index, &order) in system.orders().iter().enumerate() {
             drive.add_order(system, blocks, outputs, index, f64::from(order));
         }
@@ -147,6 +150,31 @@ impl Drive {
             add(load.block, response.by_frequency[0]);
             add(n + load.block, response.by_frequency[1]);
         }
+    }
+
+    /// Adds the derivative of the particular state at `time` by the scale of the excitation, times `factor`, to `state`.
+    pub fn add_state_by_scale(&self, time: f64, factor: f64, state: &mut [f64]) {
+        self.scaled_part().add_state(time, factor / self.scale, state);
+    }
+
+    /// Derivatives of the particular part of output `index` by the scale of the excitation at `start + c_k length`.
+    pub fn values_by_scale(
+        &self,
+        index: usize,
+        output: &Output,
+        span: (f64, f64),
+        c: &[f64; NODES],
+    ) -> [f64; NODES] {
+        let mut values = [0.0; NODES];
+        self.scaled_part().add_values(index, output, span, c, &mut values);
+        values.map(|value| value / self.scale)
+    }
+
+    /// What is proportional to the scale of the excitation.
+    fn scaled_part(&self) -> Self {
+        let orders = self.orders.iter().filter(|order| order.order > 0.0).cloned().collect();
+        let secular = self.secular.iter().filter(|load| !load.is_constant()).cloned().collect();
+        Self { orders, secular, ..*self }
     }
 
     /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to `values`.

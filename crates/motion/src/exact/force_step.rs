@@ -15,6 +15,7 @@ use super::{
     step_error::Tail,
     weights::StepWeights,
 };
+use crate::{Law, Parameter};
 
 /// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom longer.
 const READ_AHEAD: f64 = 1.3;
@@ -39,7 +40,7 @@ pub(crate) struct ForceStep {
     pub(super) correction: Vec<f64>,
     pub(super) lu: SmallLu,
     pub(super) fixed_lu: FixedLu<NODES>,
-    work: Vec<f64>,
+    pub(super) work: Vec<f64>,
 }
 
 fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
@@ -129,12 +130,13 @@ impl ForceStep {
         }
     }
 
-    /// Solves for the sensitivities `dF = f' (I - W f')^-1 (X V + d r_particular)` of the forces.
+    /// Solves for the sensitivities `dF = f' (I - W f')^-1 (X V + d r_particular)` of the forces; by a parameter see `by_parameter.rs`.
     pub fn solve_sensitivity(
         &mut self,
         drive: &Drive,
-        outputs: &[Output],
+        (laws, outputs): (&[Law], &[Output]),
         sensitivity: &Sensitivity,
+        parameter: Option<Parameter>,
     ) -> Result<(), NotSolved> {
         self.factorise()?;
         let columns = sensitivity.columns();
@@ -150,6 +152,10 @@ impl ForceStep {
                 row[sensitivity.frequency_column()] += value;
             }
         }
+        let column = parameter.zip(sensitivity.parameter_column());
+        if let Some((parameter, column)) = column {
+            self.add_parameter(parameter, drive, (laws, outputs), (column, columns));
+        }
         if self.active.len() == 1 {
             self.fixed_lu.solve_rows(&mut self.work, columns);
         } else {
@@ -163,6 +169,9 @@ impl ForceStep {
                 }
             },
         );
+        if let Some((parameter, column)) = column {
+            self.add_direct_part(parameter, laws, (column, columns));
+        }
         Ok(())
     }
 
@@ -196,7 +205,7 @@ impl ForceStep {
             let tail = Tail { highest: pair(0), middle: pair(2) };
             ColumnTail { velocity: velocities[c], largest: largest[c], tail }
         };
-        (0..=sensitivity.frequency_column()).map(of_column).collect()
+        (0..sensitivity.used_columns()).map(of_column).collect()
     }
 
     /// Moves the displacements of the last solution to a step whose length differs by the part `change`.

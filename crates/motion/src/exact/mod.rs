@@ -17,10 +17,12 @@
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
+//! | `by_parameter.rs` | the column of a parameter |
 //! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 
 mod attempt;
 mod block;
+mod by_parameter;
 mod clearance;
 mod collocation;
 mod contact_phase;
@@ -68,7 +70,7 @@ use run::Run;
 use series::Series;
 use weights::StepWeights;
 
-use crate::{Law, Stretch, System};
+use crate::{Law, Parameter, ParameterError, Stretch, System};
 
 /// Why a motion was not computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -78,6 +80,9 @@ pub enum MotionError {
     /// The damping has no block form: motion is left to the general integrator, which orbits are not computed with.
     #[error(transparent)]
     MergedModes(#[from] MergedModes),
+    /// The system has no such parameter, or not with this value.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// No force step, however short, reached the tolerance.
     #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
     StepTooShort { time: f64, step: f64 },
@@ -149,6 +154,9 @@ pub struct ExactIntegrator {
     touches: Vec<u32>,
     observation: Option<maxima::Observation>,
     closed_throughout: u64,
+    response: Option<(Vec<f64>, f64)>,
+    parameter: Option<Parameter>,
+    neighbours: Option<Box<by_parameter::Neighbours>>,
 }
 
 impl ExactIntegrator {
@@ -211,6 +219,9 @@ impl ExactIntegrator {
             propagators: Vec::new(),
             observation: None,
             closed_throughout: 0,
+            response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
+            parameter: None,
+            neighbours: None,
         })
     }
 

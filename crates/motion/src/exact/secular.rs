@@ -70,6 +70,11 @@ impl SecularLoad {
         Self { block, stiffness, damping, frequency, input, system }
     }
 
+    /// Whether the load is of order 0.
+    pub fn is_constant(&self) -> bool {
+        self.frequency == 0.0
+    }
+
     /// The motion at `time` after the start.
     pub fn response(&self, time: f64) -> SecularResponse {
         let free = self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0;

@@ -1,4 +1,4 @@
-//! Sensitivities of the homogeneous block state to the initial state and to the frequency.
+//! Sensitivities of the homogeneous block state to the initial state, to the frequency and to a parameter.
 
 use faer::Mat;
 
@@ -20,7 +20,7 @@ pub(crate) struct ColumnTail {
     pub tail: Tail,
 }
 
-/// The matrix `V` of 2n rows: a column per initial state, one for the frequency, and padding to a multiple of four.
+/// The matrix `V` of 2n rows: a column per initial state, one for the frequency, one for a parameter if wanted, and padding to a multiple of four.
 ///
 /// Rows are contiguous, so every inner loop runs along a row.
 #[derive(Debug, Clone, Default)]
@@ -28,13 +28,16 @@ pub(crate) struct Sensitivity {
     rows: usize,
     columns: usize,
     values: Vec<f64>,
+    has_parameter: bool,
 }
 
 impl Sensitivity {
-    /// Sensitivities at the start of a stretch: `S^-1`, and `frequency` as the last column.
-    pub fn start(&mut self, blocks: &Blocks, frequency: impl Fn(usize) -> f64) {
+    /// Sensitivities at the start of a stretch: `S^-1`, `frequency`, and the column of a parameter, if one is wanted.
+    pub fn start(&mut self, blocks: &Blocks, frequency: &[f64], parameter: Option<&[f64]>) {
         self.rows = 2 * blocks.count();
+        // An even number of rows leaves room for two columns besides.
         self.columns = (self.rows + 4) / 4 * 4;
+        self.has_parameter = parameter.is_some();
         self.values.clear();
         self.values.resize(self.rows * self.columns, 0.0);
         for i in 0..self.rows {
@@ -45,7 +48,10 @@ impl Sensitivity {
                         .for_each(|j| self.values[i * self.columns + j] = transform.to_blocks[(i, j)]);
                 }
             }
-            self.values[i * self.columns + self.rows] = frequency(i);
+            self.values[i * self.columns + self.rows] = frequency[i];
+            if let Some(parameter) = parameter {
+                self.values[i * self.columns + self.rows + 1] = parameter[i];
+            }
         }
     }
 
@@ -55,6 +61,16 @@ impl Sensitivity {
 
     pub fn frequency_column(&self) -> usize {
         self.rows
+    }
+
+    /// Column of the parameter, if there is one.
+    pub fn parameter_column(&self) -> Option<usize> {
+        self.has_parameter.then_some(self.rows + 1)
+    }
+
+    /// Columns that are not padding.
+    pub fn used_columns(&self) -> usize {
+        self.rows + 1 + usize::from(self.has_parameter)
     }
 
     fn row_mut(&mut self, i: usize) -> &mut [f64] {
@@ -110,14 +126,19 @@ impl Sensitivity {
         columns.map(|(j, (p, s))| (stiffness * p * p + s * s).sqrt() / scale(j)).fold(0.0, f64::max)
     }
 
-    /// Adds to the frequency column.
-    pub fn add_frequency(&mut self, i: usize, value: f64) {
-        let column = self.rows;
+    /// Adds to an entry of a column.
+    pub fn add_to(&mut self, column: usize, i: usize, value: f64) {
         self.row_mut(i)[column] += value;
     }
 
-    /// Writes the modal fundamental matrix and frequency column.
-    pub fn write(&self, blocks: &Blocks, by_state: &mut Mat<f64>, by_frequency: &mut [f64]) {
+    /// Writes the modal fundamental matrix, frequency column and parameter column (which may be empty).
+    pub fn write(
+        &self,
+        blocks: &Blocks,
+        by_state: &mut Mat<f64>,
+        by_frequency: &mut [f64],
+        by_parameter: &mut [f64],
+    ) {
         let rows = self.rows;
         let entry = |i: usize, j: usize| self.values[i * self.columns + j];
         let modal = |i: usize, j: usize| match &blocks.transform {
@@ -128,5 +149,6 @@ impl Sensitivity {
             (0..rows).for_each(|i| by_state[(i, j)] = modal(i, j));
         }
         (0..rows).for_each(|i| by_frequency[i] = modal(i, rows));
+        by_parameter.iter_mut().enumerate().for_each(|(i, value)| *value = modal(i, rows + 1));
     }
 }

@@ -187,19 +187,21 @@ impl ExactIntegrator {
         if !self.step.weights.complete {
             self.series.complete(&self.step.active, self.step.grading(), &mut self.step.weights);
         }
-        self.step.solve_sensitivity(&self.drive, &self.outputs, sensitivity).ok()?;
+        let parameter = self.column_parameter();
+        self.step.solve_sensitivity(&self.drive, (&self.laws, &self.outputs), sensitivity, parameter).ok()?;
         let slowest = self.drive.circular_frequency();
         let frequencies = &self.system.model().natural_frequencies;
         let scale = |column: usize| frequencies.get(column).map_or(1.0, |w| w.max(slowest));
-        let (mut errors, mut by_frequency, mut norm) =
-            (Errors::default(), Errors::default(), f64::MIN_POSITIVE);
+        let (mut errors, mut norm) = (Errors::default(), f64::MIN_POSITIVE);
+        // By the frequency and by a parameter.
+        let mut further = [Errors::default(); 2];
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
             let impulse = self.step.weights.length * response.mobility.sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let size = found.velocity + impulse * found.largest;
-                let (scale, into) = if column == sensitivity.frequency_column() {
-                    (size.max(f64::MIN_POSITIVE), &mut by_frequency)
+                let (scale, into) = if column >= sensitivity.frequency_column() {
+                    (size.max(f64::MIN_POSITIVE), &mut further[column - sensitivity.frequency_column()])
                 } else {
                     norm = norm.max(size / scale(column));
                     (scale(column), &mut errors)
@@ -212,7 +214,8 @@ impl ExactIntegrator {
         }
         errors.tail /= norm;
         errors.slow /= norm;
-        let error = self.relative_to_bound(errors).max(self.relative_to_bound(by_frequency));
+        let error = further.map(|errors| self.relative_to_bound(errors));
+        let error = self.relative_to_bound(errors).max(error[0]).max(error[1]);
         let mut amplitudes = std::mem::take(&mut self.step.unresolved);
         for &element in &self.step.active {
             let stiffest = largest_magnitude(&self.step.slope) * self.response(element).mobility.sqrt();

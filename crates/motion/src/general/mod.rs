@@ -135,7 +135,11 @@ pub fn advance(
     let mut field = SystemField::new(system, stretch.frequency_hz);
     let FieldFlow { state, by_state, by_parameter, counts, next_step } =
         integrate(&mut field, stretch.start, stretch.end, state, settings)?;
-    Ok(GeneralFlow { flow: Flow { state, by_state, by_frequency: by_parameter }, counts, next_step })
+    Ok(GeneralFlow {
+        flow: Flow { state, by_state, by_frequency: by_parameter, by_parameter: Vec::new() },
+        counts,
+        next_step,
+    })
 }
 
 /// States of a system at given phases of a stretch; sensitivities are not computed.

@@ -65,7 +65,12 @@ pub fn observe(
     let Observer { maxima, closed, extrema, contacts, .. } = observer;
     let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed);
     Ok(Observed {
-        flow: Flow { state: flow.state, by_state: flow.by_state, by_frequency: flow.by_parameter },
+        flow: Flow {
+            state: flow.state,
+            by_state: flow.by_state,
+            by_frequency: flow.by_parameter,
+            by_parameter: Vec::new(),
+        },
         counts: flow.counts,
         next_step: flow.next_step,
         displacement: maxima.displacement,

@@ -20,6 +20,10 @@ impl CubicSpring {
         Ok(Self { stiffness })
     }
 
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
     pub(super) fn force(&self, displacement: f64) -> Force {
         let square = displacement * displacement;
         Force { value: -self.stiffness * square * displacement, slope: -3.0 * self.stiffness * square }

@@ -52,6 +52,15 @@ impl HertzStop {
         4.0 / 3.0 / compliance / curvature.sqrt()
     }
 
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    pub(super) fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
+        super::positive_stiffness(stiffness)?;
+        Ok(Self { stiffness, ..*self })
+    }
+
     pub(super) fn force(&self, displacement: f64) -> Force {
         let penetration = displacement - self.contact[0].level;
         if penetration <= 0.0 {

@@ -34,6 +34,15 @@ impl LinearStop {
         Ok(Self { stiffness, contact: [Contact { level, sign: 1.0, onset_exponent: 1.0 }] })
     }
 
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    pub(super) fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
+        super::positive_stiffness(stiffness)?;
+        Ok(Self { stiffness, ..*self })
+    }
+
     pub(super) fn force(&self, displacement: f64) -> Force {
         let penetration = displacement - self.contact[0].level;
         if penetration <= 0.0 {

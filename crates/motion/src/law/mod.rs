@@ -91,6 +91,57 @@ impl Law {
             Self::Cubic(_) => &[],
         }
     }
+
+    /// The constant of the law, in its unit.
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            Self::Hertz(law) => law.stiffness(),
+            Self::Linear(law) => law.stiffness(),
+            Self::TwoSided(law) => law.stiffness(),
+            Self::Cubic(law) => law.stiffness(),
+        }
+    }
+
+    /// The gap [m]; `None` for a spring, a preloaded stop and a stop with two different gaps.
+    #[must_use]
+    pub fn gap(&self) -> Option<f64> {
+        let contacts = self.contacts();
+        let gap = contacts.first()?.sign * contacts[0].level;
+        (gap >= 0.0 && contacts.iter().all(|contact| contact.sign * contact.level == gap)).then_some(gap)
+    }
+
+    /// The law with another constant and the same levels.
+    ///
+    /// # Errors
+    /// [`LawError::Stiffness`].
+    pub fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
+        Ok(match self {
+            Self::Hertz(law) => Self::Hertz(law.with_stiffness(stiffness)?),
+            Self::Linear(law) => Self::Linear(law.with_stiffness(stiffness)?),
+            Self::TwoSided(law) => Self::TwoSided(law.with_stiffness(stiffness)?),
+            Self::Cubic(_) => Self::Cubic(CubicSpring::new(stiffness)?),
+        })
+    }
+
+    /// The law with another gap, on both sides of a two-sided stop; a spring stays as it is.
+    ///
+    /// # Errors
+    /// [`LawError::Gap`].
+    pub fn with_gap(&self, gap: f64) -> Result<Self, LawError> {
+        Ok(match self {
+            Self::Hertz(law) => Self::Hertz(HertzStop::with_gap(law.stiffness(), gap)?),
+            Self::Linear(law) => Self::Linear(LinearStop::with_gap(law.stiffness(), gap)?),
+            Self::TwoSided(law) => Self::TwoSided(TwoSidedStop::new(law.stiffness(), gap, gap)?),
+            Self::Cubic(law) => Self::Cubic(*law),
+        })
+    }
+
+    /// Derivative of the level by the gap, of the contact that acts at a displacement.
+    pub(crate) fn level_by_gap(&self, displacement: f64) -> f64 {
+        let acts = |contact: &&Contact| contact.sign * (displacement - contact.level) > 0.0;
+        self.contacts().iter().find(acts).map_or(0.0, |contact| contact.sign)
+    }
 }
 
 fn positive_stiffness(found: f64) -> Result<(), LawError> {

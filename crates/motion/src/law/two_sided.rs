@@ -23,6 +23,15 @@ impl TwoSidedStop {
         Ok(Self { stiffness, contacts: [above, below] })
     }
 
+    pub(super) fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+
+    pub(super) fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
+        super::positive_stiffness(stiffness)?;
+        Ok(Self { stiffness, ..*self })
+    }
+
     pub(super) fn force(&self, displacement: f64) -> Force {
         for contact in &self.contacts {
             let beyond = displacement - contact.level;

@@ -11,6 +11,7 @@ mod excitation;
 mod load;
 mod lumped;
 mod names;
+mod parameter;
 mod reduction;
 mod response;
 mod search;
@@ -18,6 +19,7 @@ mod stop;
 mod stop_law;
 mod structure;
 mod study;
+mod vary;
 
 pub use beam::{Beam, BeamPoint, End, Section};
 pub use continuation::{Continuation, Segments};
@@ -25,6 +27,7 @@ pub use damping::{Damping, ModalRatio};
 pub use excitation::{Excitation, ExcitationKind};
 pub use load::Load;
 pub use lumped::{Damper, Lumped, Mass, Spring};
+pub use parameter::{ParameterKind, VariedParameter};
 pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;
 pub use search::Search;
@@ -32,6 +35,7 @@ pub use stop::{FixedTo, Place, Stop};
 pub use stop_law::{Approach, GapMeasured, HertzStiffness, Side, StopLaw};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
+pub use vary::{Curve, CurveOf, Vary};
 
 #[cfg(test)]
 mod documentation;

@@ -100,6 +100,19 @@ pub enum Side {
 }
 
 impl StopLaw {
+    /// Its gap [m], if it has a single one.
+    #[must_use]
+    pub fn gap_m(&self) -> Option<f64> {
+        match self {
+            Self::Hertz { approach: Approach::Gap { gap_m, .. }, .. }
+            | Self::Linear { approach: Approach::Gap { gap_m, .. }, .. } => Some(*gap_m),
+            Self::TwoSided { gap_above_m, gap_below_m, .. } if gap_above_m == gap_below_m => {
+                Some(*gap_above_m)
+            }
+            _ => None,
+        }
+    }
+
     /// From where its gap counts, if it has one.
     #[must_use]
     pub fn gap_measured(&self) -> GapMeasured {

@@ -13,8 +13,9 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Search, Stop, Structure,
-    continuation, damping, excitation, load, names::Names, reduction, response, search, stop, structure,
+    Continuation, Curve, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Search, Stop,
+    Structure, Vary, continuation, damping, excitation, load, names::Names, parameter::Variable, reduction,
+    response, search, stop, structure, vary,
 };
 
 /// Everything a study says.
@@ -41,6 +42,12 @@ pub struct Study {
     pub search: Search,
     /// How branches are followed.
     pub continuation: Continuation,
+    /// Branches in other parameters; no part of the identity, since they stand beside the branches.
+    #[serde(skip)]
+    pub varies: Vec<Vary>,
+    /// Curves of bifurcations; no part of the identity.
+    #[serde(skip)]
+    pub curves: Vec<Curve>,
 }
 
 impl Study {
@@ -141,6 +148,12 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
     let response = response::read(root, &names, stops.as_deref());
     let search = search::read(root);
     let continuation = continuation::read(root, excitation.as_ref());
+    let variable = (|| {
+        let (excitation, damping) = (excitation.as_ref()?, damping.as_ref()?);
+        Some(Variable { excitation, damping, loads: loads.as_deref()?, stops: stops.as_deref()? })
+    })();
+    let varied = vary::read(root, reading, variable);
+    let varied = varied?;
     Some(Study {
         title: title?.to_owned(),
         structure: structure?,
@@ -152,5 +165,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         response: response?,
         search: search?,
         continuation: continuation?,
+        varies: varied.0,
+        curves: varied.1,
     })
 }

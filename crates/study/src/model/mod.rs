@@ -2,11 +2,14 @@
 
 mod element;
 mod load;
+mod parameter;
 mod structure;
 
 use hammerbeam_motion::{System, SystemError};
 use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, ReducedModel, StructureError};
+
+pub use parameter::StudyParameter;
 
 use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
 
@@ -37,7 +40,40 @@ impl Model {
         let response = response_point(study, &reduced.model);
         let system =
             System::new(reduced.model, &load, elements).map_err(|error| system_fault(file, &error))?;
-        Ok(Self { system, response, tables: reduced.tables })
+        let model = Self { system, response, tables: reduced.tables };
+        model.check_varied(file)?;
+        Ok(model)
+    }
+
+    /// Refuses parameters that the system does not have, and ranges that leave out the value from which they are followed.
+    fn check_varied(&self, file: &StudyFile) -> Result<(), StudyError> {
+        let study = &file.study;
+        let varies = study.varies.iter().enumerate().map(|(k, vary)| (format!("vary[{k}]"), &vary.parameter));
+        let curves =
+            study.curves.iter().enumerate().map(|(k, curve)| (format!("curve[{k}]"), &curve.parameter));
+        for (key, varied) in varies.chain(curves) {
+            let fault = |part: &str, message: String, help: &str| {
+                file.fault(&format!("{key}.{part}"), message, vec![help.to_owned()])
+            };
+            let parameter = self
+                .parameter(study, varied)
+                .map_err(|message| fault("parameter", message, "allowed: another parameter"))?;
+            let value = self.system.parameter(parameter.parameter);
+            let value = value.map_err(|error| fault("parameter", error.to_string(), "allowed: another"))?;
+            let (value, [low, high]) = (parameter.in_study(value), varied.range);
+            if !(low..=high).contains(&value) {
+                let message =
+                    format!("`range` is [{low}, {high}], but the study has {} = {value}", varied.name);
+                return Err(fault("range", message, "allowed: a range that holds the value of the study"));
+            }
+            for end in varied.range {
+                let system = self.system.clone();
+                system
+                    .with_parameter(parameter.parameter, parameter.in_system(end))
+                    .map_err(|error| fault("range", error.to_string(), "allowed: a range without it"))?;
+            }
+        }
+        Ok(())
     }
 }
 

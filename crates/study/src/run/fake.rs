@@ -118,7 +118,12 @@ impl Walk for FakeWalk<'_> {
         let solution = self.solver.solution(self.multiple, self.steps as f64 * self.solver.step);
         let frequency_hz = solution.frequency_hz;
         let fold = self.multiple == 1 && self.steps % 209 == 0;
-        rows.push(BranchRow { solution, events: Events { fold, ..Events::default() }, located: None });
+        rows.push(BranchRow {
+            solution,
+            parameter: None,
+            events: Events { fold, ..Events::default() },
+            located: None,
+        });
         let [low, high] = self.solver.range_hz;
         Ok((frequency_hz <= low || frequency_hz >= high).then_some(StopReason::RangeEnd { frequency_hz }))
     }

@@ -13,6 +13,7 @@ mod jobs;
 mod lock;
 mod read;
 mod schema;
+mod varied;
 mod write;
 
 use std::{
@@ -27,6 +28,7 @@ pub use error::StoreError;
 pub use jobs::{JobKind, JobRecord, StartRecord};
 pub use read::{BranchRecord, Row, StoredMemory, WalkRecord};
 pub use schema::SCHEMA_VERSION;
+pub use varied::{Piece, PieceBranchRecord, PieceRecord, StoredVariedRow, VariedBranch, VariedRow};
 pub(crate) use write::{Continuation, Memory};
 
 use crate::file::StudyFile;

@@ -49,7 +49,7 @@ fn a_solution_comes_back_with_every_bit() {
     let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
     let branch = begin(&mut store);
     let events = Events { fold: true, grazing: true, ..Events::default() };
-    let row = BranchRow { solution: solution(0.3), events, located: None };
+    let row = BranchRow { solution: solution(0.3), parameter: None, events, located: None };
     let memory = |checkpoint, journal| Continuation::GoesOn(Memory { checkpoint, journal });
     store.append(branch, Side::Up, &[row], memory(b"there", b"fi")).unwrap();
     store.append(branch, Side::Up, &[], memory(b"here", b"rst")).unwrap();

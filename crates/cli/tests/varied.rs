@@ -1,0 +1,140 @@
+//! Branches in other parameters and curves of bifurcations, with the real command.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use std::{collections::BTreeMap, fs};
+
+use common::{Workshop, assert_bad_input, assert_success, stdout};
+
+const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
+const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// Rows of an exported file by the names of its columns.
+fn table(workshop: &Workshop, name: &str) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap();
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let row = |line: &str| {
+        let values: Vec<&str> = line.split(',').collect();
+        assert_eq!(values.len(), header.len(), "{line}");
+        header.iter().zip(values).map(|(key, value)| ((*key).to_owned(), value.to_owned())).collect()
+    };
+    lines.map(row).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, key: &str) -> f64 {
+    row[key].parse().unwrap()
+}
+
+/// Places of the folds of a table in two columns, where a word stands in a third.
+fn places(
+    rows: &[BTreeMap<String, String>],
+    key: &str,
+    filter: impl Fn(&BTreeMap<String, String>) -> bool,
+) -> Vec<f64> {
+    rows.iter().filter(|row| filter(row)).map(|row| number(row, key)).collect()
+}
+
+/// The folds of the branch over the force at 0.25 Hz lie on the curve of folds, found another way; the curve passes both folds of the response and has one cusp.
+#[test]
+fn branches_and_curves_of_the_example_meet() {
+    let workshop = Workshop::with(STUDY);
+    let run = workshop.hammerbeam(&RUN);
+    assert_success(&run);
+    assert!(stdout(&run).contains("fold curve over excitation.amplitude_n"), "{}", stdout(&run));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let (branches, curves) = (table(&workshop, "parameter_branches.csv"), table(&workshop, "curves.csv"));
+    let force = |row: &BTreeMap<String, String>| row["parameter_name"] == "excitation.amplitude_n";
+    let folds = places(&branches, "parameter", |row| force(row) && row["event"].contains("fold"));
+    assert_eq!(folds.len(), 2, "{folds:?}");
+    assert!(branches.iter().all(|row| number(row, "frequency_hz") == 0.25));
+    assert_eq!(curves.iter().filter(|row| row["event"].contains("cusp")).count(), 1);
+    // Where the curve passes 0.25 Hz, by the parabola through three of its rows.
+    for fold in folds {
+        let off = curves.windows(3).filter_map(|rows| {
+            let at: Vec<(f64, f64)> =
+                rows.iter().map(|row| (number(row, "frequency_hz"), number(row, "parameter"))).collect();
+            let within = (at[0].0 - 0.25) * (at[2].0 - 0.25) <= 0.0;
+            within.then(|| {
+                let part = |i: usize, j: usize, k: usize| {
+                    at[i].1 * (0.25 - at[j].0) * (0.25 - at[k].0)
+                        / ((at[i].0 - at[j].0) * (at[i].0 - at[k].0))
+                };
+                (part(0, 1, 2) + part(1, 0, 2) + part(2, 0, 1) - fold).abs()
+            })
+        });
+        let off = off.fold(f64::INFINITY, f64::min);
+        assert!(off < 1e-5, "the fold at {fold} N is {off:e} N off the curve");
+    }
+}
+
+/// A linear oscillator beside a stop: the curve of grazing orbits is that of the linear amplitude.
+#[test]
+fn a_grazing_curve_is_that_of_the_linear_amplitude() {
+    let stop =
+        "[[stop]]\nname = \"spring\"\nat = \"mass\"\nlaw = \"linear\"\nstiffness_n_m = 3.0\ngap_m = 1.0\n";
+    let curve =
+        "[[curve]]\nof = \"grazing\"\nnear_hz = 0.13\nparameter = \"stop.1.gap_m\"\nrange = [0.4, 2.0]\n";
+    let (structure, _) = STUDY.split_once("[[stop]]").unwrap();
+    let workshop = Workshop::with(&format!("{structure}{stop}{curve}"));
+    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let rows = table(&workshop, "curves.csv");
+    assert!(rows.len() > 50, "{}", rows.len());
+    for row in &rows {
+        let w = std::f64::consts::TAU * number(row, "frequency_hz");
+        let amplitude = 0.3 / (1.0 - w * w).hypot(0.1 * w);
+        let gap = number(row, "parameter");
+        assert!((amplitude / gap - 1.0).abs() < 1e-8, "{gap} m at {w} rad/s: {amplitude}");
+    }
+    assert!(!workshop.path("results/export/parameter_branches.csv").exists());
+}
+
+/// What is stored is not computed again; a piece more goes into the same folder, and the branches stay as they are.
+#[test]
+fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
+    let (without, pieces) = STUDY.split_once("[[vary]]").unwrap();
+    let workshop = Workshop::with(without);
+    assert_success(&workshop.hammerbeam(&RUN));
+    let branches = workshop.csv("results");
+    let (first, _) = pieces.split_once("[[curve]]").unwrap();
+    let pieces_of = |study: String| {
+        fs::write(workshop.path("study.toml"), study).unwrap();
+        let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+        assert_success(&run);
+        let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
+        let pieces = document["varied"].as_array().unwrap();
+        pieces.iter().map(|piece| piece["piece"].as_u64().unwrap()).collect::<Vec<_>>()
+    };
+    assert_eq!(pieces_of(format!("{without}[[vary]]{first}")), [1, 2]);
+    assert_eq!(pieces_of(STUDY.to_owned()), [1, 2, 3]);
+    assert_eq!(workshop.csv("results"), branches);
+    assert_eq!(pieces_of(without.to_owned()), [0; 0]);
+}
+
+#[test]
+fn wrong_parameters_and_ranges_are_refused_with_what_is_allowed() {
+    let refused = |old: &str, new: &str, parts: &[&str]| {
+        let workshop = Workshop::changed(STUDY, old, new);
+        assert_bad_input(&workshop.hammerbeam(&["check", "study.toml"]), parts);
+    };
+    let amplitude = "parameter = \"excitation.amplitude_n\"";
+    refused(
+        amplitude,
+        "parameter = \"excitation.amplitude_m\"",
+        &[
+            "not a parameter of this study",
+            "did you mean \"excitation.amplitude_n\"?",
+            "stop.1.stiffness_n_m3",
+        ],
+    );
+    refused("stop.spring.stiffness_n_m3", "stop.spring.gap_m", &["not a parameter of this study"]);
+    refused("range = [0.02, 0.8]", "range = [0.8, 0.02]", &["reversed", "low < high"]);
+    refused("range = [0.02, 0.8]", "range = [0.3, 0.3]", &["empty"]);
+    refused("range = [0.02, 0.8]", "range = [0.4, 0.8]", &["`range` is [0.4, 0.8]", "0.3"]);
+    refused("range = [0.02, 0.8]", "range = [0.0, 0.8]", &["allowed"]);
+    refused("range = [0.1, 2.0]", "range = [-0.1, 2.0]", &["holds zero"]);
+    refused("of = \"fold\"", "of = \"folds\"", &["did you mean \"fold\"?"]);
+    refused("near_hz = 0.25", "near = 0.25", &["unknown key `near`", "`near_hz` is missing"]);
+}

@@ -1,0 +1,80 @@
+//! A system at one instant: the rate of its state, and the relative motion of an element.
+//!
+//! At the phase `x` (in cycles), with `u = Re sum_m U_m exp(i 2 pi m x)` and the circular frequency `W`:
+//! `r = phi . q + s u`, `r' = phi . q' + s u'`, `r'' = phi . q'' + s u''`, where `q''` is that of the equations of motion.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+
+use crate::System;
+
+impl System {
+    /// Support displacement and its first two derivatives by time at a phase.
+    ///
+    /// * `phase`: [cycles].
+    ///
+    /// # Returns
+    /// `[u, u', u'']` [m, m/s, m/s^2].
+    #[must_use]
+    pub fn support_motion(&self, frequency_hz: f64, phase: f64) -> [f64; 3] {
+        let mut motion = [0.0; 3];
+        for (amplitude, &order) in self.support_amplitudes().iter().zip(self.orders()) {
+            let value = *amplitude * rotation(order, phase);
+            let rate = TAU * f64::from(order) * frequency_hz;
+            motion[0] += value.re;
+            motion[1] -= rate * value.im;
+            motion[2] -= rate * rate * value.re;
+        }
+        motion
+    }
+
+    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion.
+    ///
+    /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    #[must_use]
+    pub fn rate(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> Vec<f64> {
+        let (n, model) = (self.dof(), self.model());
+        let (q, v) = state.split_at(n);
+        let mut rate = v.to_vec();
+        for i in 0..n {
+            let damping: f64 = (0..n).map(|j| model.damping[(i, j)] * v[j]).sum();
+            rate.push(-model.natural_frequencies[i].powi(2) * q[i] - damping);
+        }
+        for (index, &order) in self.orders().iter().enumerate() {
+            let (load, turned) = (self.modal_load(index, TAU * frequency_hz), rotation(order, phase));
+            (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * turned).re);
+        }
+        let u = self.support_motion(frequency_hz, phase)[0];
+        for element in self.elements() {
+            let r = dot(&element.shape, q) + element.support_ratio * u;
+            let force = element.law.force(r).value;
+            (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
+        }
+        rate
+    }
+
+    /// Relative displacement of an element and its first two derivatives by time at a phase.
+    ///
+    /// * `element`: its number; `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    ///
+    /// # Returns
+    /// `[r, r', r'']` [m, m/s, m/s^2].
+    #[must_use]
+    pub fn relative_motion(&self, element: usize, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
+        let n = self.dof();
+        let (u, rate) = (self.support_motion(frequency_hz, phase), self.rate(frequency_hz, phase, state));
+        let element = &self.elements()[element];
+        let parts = [&state[..n], &state[n..], &rate[n..]];
+        std::array::from_fn(|k| dot(&element.shape, parts[k]) + element.support_ratio * u[k])
+    }
+}
+
+fn rotation(order: u32, phase: f64) -> c64 {
+    let (sin, cos) = (TAU * f64::from(order) * (phase - phase.floor())).sin_cos();
+    c64::new(cos, sin)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,192 @@
+//! Derivatives of flows by parameters of the system, against differences of both integrators and a closed form.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{element, hertz, modal_damping, model, paper_beam, settled};
+use faer::Mat;
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, Parameter, ParameterError, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    general::{GeneralSettings, advance},
+    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+};
+use hammerbeam_structure::{ReducedModel, SupportInput};
+
+const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
+const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
+
+/// Three modes on a shaken support under gravity, with a constant and a further harmonic force; a damper may couple them.
+fn three_modes(laws: &[Law], coupled: bool) -> System {
+    let damper = [0.5, -0.7, 0.9];
+    let damping = Mat::from_fn(3, 3, |i, j| {
+        let modal = if i == j { [0.4, 2.0, 9.0][i] } else { 0.0 };
+        modal + if coupled { 3.0 * damper[i] * damper[j] } else { 0.0 }
+    });
+    let support = SupportInput { inertia: vec![0.8, -0.3, 0.1], damping: vec![0.4, 0.1, -0.2] };
+    let model =
+        ReducedModel { support: Some(support), ..model(&[TAU * 3.5, TAU * 23.0, TAU * 111.0], damping) };
+    let force = |shape: &[f64], order, amplitude, phase| HarmonicForce {
+        shape: shape.to_vec(),
+        harmonic: Harmonic { order, amplitude, phase },
+    };
+    let load = Load {
+        support: vec![Harmonic { order: 1, amplitude: 1.5e-3, phase: 0.4 }],
+        forces: vec![force(&[0.6, 0.2, 0.1], 0, -1.0, 0.0), force(&[0.3, -0.5, 0.4], 3, 0.5, 2.0)],
+    };
+    let elements = laws.iter().map(|law| element(&[-1.4, 1.1, -0.9], 0.3, *law)).collect();
+    System::new(model, &load, elements).unwrap()
+}
+
+fn laws() -> Vec<Law> {
+    vec![
+        hertz(5e5, 2e-4),
+        Law::Linear(LinearStop::with_gap(3e4, 2.5e-4).unwrap()),
+        Law::TwoSided(TwoSidedStop::new(8e3, 3e-4, 3e-4).unwrap()),
+        Law::Cubic(CubicSpring::new(1e8).unwrap()),
+    ]
+}
+
+fn exact(system: &System, tolerance: f64) -> ExactIntegrator {
+    ExactIntegrator::new(system.clone(), ExactSettings { tolerance }).unwrap()
+}
+
+/// Largest error of the column by a parameter against differences of fourth order, relative to the largest entry of each half.
+fn error_by_differences(
+    (system, stretch, state): (&System, &Stretch, &[f64]),
+    parameter: Parameter,
+    step: f64,
+    motion: impl Fn(&System) -> Vec<f64>,
+) -> f64 {
+    let mut integrator = exact(system, 1e-13);
+    integrator.differentiate_by(Some(parameter)).unwrap();
+    let column = integrator.flow(stretch, state).unwrap().by_parameter;
+    let value = system.parameter(parameter).unwrap();
+    let at = |k: f64| motion(&system.clone().with_parameter(parameter, value + k * step).unwrap());
+    let [far_below, below, above, far_above] = [-2.0, -1.0, 1.0, 2.0].map(at);
+    let difference = |i: usize| (8.0 * (above[i] - below[i]) - (far_above[i] - far_below[i])) / (12.0 * step);
+    let n = column.len() / 2;
+    let of_part = |part: std::ops::Range<usize>| {
+        let largest = part.clone().map(|i| difference(i).abs()).fold(0.0, f64::max);
+        part.map(|i| (column[i] - difference(i)).abs()).fold(0.0, f64::max) / largest
+    };
+    of_part(0..n).max(of_part(n..2 * n))
+}
+
+/// A parameter and the step of its differences, for the elements of [`laws`].
+fn parameters() -> Vec<(Parameter, f64)> {
+    let mut all = vec![(Parameter::ExcitationScale, 3e-4), (Parameter::AddedDampingRatio, 1e-5)];
+    all.extend((0..3).map(|element| (Parameter::Gap { element }, 2e-7)));
+    let stiffnesses = [5e5, 3e4, 8e3, 1e8].into_iter().enumerate();
+    all.extend(stiffnesses.map(|(element, k)| (Parameter::Stiffness { element }, 1e-4 * k)));
+    all
+}
+
+#[test]
+fn derivatives_agree_with_differences_of_both_integrators() {
+    for coupled in [false, true] {
+        let system = three_modes(&laws(), coupled);
+        for (parameter, step) in parameters() {
+            let case = (&system, &STRETCH, &STATE[..]);
+            let of_exact = |system: &System| exact(system, 1e-14).advance(&STRETCH, &STATE).unwrap();
+            let of_general = |system: &System| {
+                advance(system, &STRETCH, &STATE, &GeneralSettings::with_tolerance(1e-13)).unwrap().flow.state
+            };
+            let errors = (
+                error_by_differences(case, parameter, step, of_exact),
+                error_by_differences(case, parameter, step, of_general),
+            );
+            println!("{parameter:?} coupled {coupled}: {errors:?}");
+            assert!(errors.0 < 1e-7 && errors.1 < 1e-7, "{parameter:?} coupled {coupled}: {errors:?}");
+        }
+    }
+}
+
+/// The paper's beam over three periods, with several contacts.
+#[test]
+fn derivatives_of_the_beam_agree_over_several_contacts() {
+    let system = paper_beam();
+    for frequency_hz in [22.0, 41.0] {
+        let state = settled(&system, frequency_hz, 50, 0.0);
+        let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+        let parameters = [
+            (Parameter::ExcitationScale, 3e-5),
+            (Parameter::Stiffness { element: 0 }, 1e-4 * 4.5e9),
+            (Parameter::AddedDampingRatio, 1e-6),
+        ];
+        for (parameter, step) in parameters {
+            let of_general = |system: &System| {
+                advance(system, &stretch, &state, &GeneralSettings::with_tolerance(1e-13)).unwrap().flow.state
+            };
+            let error = error_by_differences((&system, &stretch, &state), parameter, step, of_general);
+            println!("{parameter:?} at {frequency_hz} Hz: {error:e}");
+            assert!(error < 1e-6, "{parameter:?} at {frequency_hz} Hz: {error:e}");
+        }
+    }
+}
+
+/// `q'' + w^2 q = a cos(W t)` from rest: the motion is proportional to `a`, also on the eigenfrequency.
+#[test]
+fn a_linear_motion_from_rest_is_proportional_to_the_excitation() {
+    for frequency_hz in [1.0, 1.3] {
+        let harmonic = Harmonic { order: 1, amplitude: 2.0, phase: 0.3 };
+        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+        let system = System::new(model(&[TAU], modal_damping(&[TAU], 0.0)), &load, vec![])
+            .unwrap()
+            .with_parameter(Parameter::ExcitationScale, 0.7)
+            .unwrap();
+        let mut integrator = exact(&system, 1e-11);
+        integrator.differentiate_by(Some(Parameter::ExcitationScale)).unwrap();
+        let flow = integrator.flow(&Stretch { frequency_hz, start: 0.2, end: 1.7 }, &[0.0, 0.0]).unwrap();
+        for i in 0..2 {
+            assert!(
+                (0.7 * flow.by_parameter[i] - flow.state[i]).abs() < 1e-13 * flow.state[i].abs().max(0.1)
+            );
+        }
+    }
+}
+
+/// What is set in place moves like a system that was built so.
+#[test]
+fn an_integrator_takes_new_values_in_place() {
+    let system = three_modes(&laws(), true);
+    let mut integrator = exact(&system, 1e-11);
+    for (parameter, step) in parameters() {
+        let value = system.parameter(parameter).unwrap();
+        integrator.set_parameter(parameter, value + 100.0 * step).unwrap();
+        let built = system.clone().with_parameter(parameter, value + 100.0 * step).unwrap();
+        let expected = exact(&built, 1e-11).advance(&STRETCH, &STATE).unwrap();
+        assert_eq!(integrator.advance(&STRETCH, &STATE).unwrap(), expected, "{parameter:?}");
+        integrator.set_parameter(parameter, value).unwrap();
+    }
+}
+
+/// A chosen parameter changes the steps only as far as its own error asks for.
+#[test]
+fn without_a_parameter_there_is_no_column() {
+    let mut integrator = exact(&three_modes(&laws(), false), 1e-11);
+    assert!(integrator.flow(&STRETCH, &STATE).unwrap().by_parameter.is_empty());
+}
+
+#[test]
+fn parameters_that_are_not_there_are_refused() {
+    let preloaded = Law::Hertz(HertzStop::with_preload(5e6, 3.0).unwrap());
+    let uneven = Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap());
+    let system = three_modes(&[preloaded, uneven, Law::Cubic(CubicSpring::new(1e8).unwrap())], false);
+    for element in 0..3 {
+        let error = system.parameter(Parameter::Gap { element }).unwrap_err();
+        assert!(matches!(error, ParameterError::NoGap { .. }), "{error}");
+    }
+    let missing = system.parameter(Parameter::Stiffness { element: 3 }).unwrap_err();
+    assert_eq!(missing, ParameterError::NoElement { element: 3, count: 3 });
+    for (parameter, value) in [
+        (Parameter::ExcitationScale, 0.0),
+        (Parameter::ExcitationScale, f64::NAN),
+        (Parameter::AddedDampingRatio, -1.0),
+        (Parameter::Stiffness { element: 0 }, -1.0),
+    ] {
+        assert!(system.clone().with_parameter(parameter, value).is_err(), "{parameter:?} {value}");
+    }
+}

@@ -1,0 +1,51 @@
+//! The condition that makes a curve of the solutions over two parameters.
+
+use hammerbeam_motion::exact::MotionError;
+
+use super::{
+    bordered::Bordered,
+    grazing::Touch,
+    pair::Pair,
+    shooting::{Place, Shooting},
+};
+
+/// Values of a condition, their gradients by `[nodes; f; p]` (at grazing `[nodes; f; p; x]`), and what its test functions are made of.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Linear {
+    pub values: Vec<f64>,
+    pub rows: Vec<Vec<f64>>,
+    pub tests: Vec<f64>,
+}
+
+/// A condition.
+#[derive(Debug, Clone)]
+pub(super) enum Condition {
+    Multiplier(Bordered),
+    Pair(Pair),
+    Touch(Touch),
+}
+
+impl Condition {
+    /// The condition at the place where the shooting equations were evaluated last; `None` where it is not defined.
+    pub fn evaluate(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<Linear>, MotionError> {
+        match self {
+            Self::Multiplier(bordered) => bordered.evaluate(shooting, place),
+            Self::Pair(pair) => pair.evaluate(shooting, place),
+            Self::Touch(touch) => Ok(Some(touch.evaluate(shooting, place))),
+        }
+    }
+
+    /// Adapts the condition to an accepted point, at which the equations were evaluated last.
+    pub fn renew(&mut self, shooting: &Shooting) {
+        match self {
+            Self::Multiplier(bordered) => bordered.renew(shooting),
+            Self::Pair(pair) => pair.renew(shooting),
+            Self::Touch(_) => {}
+        }
+    }
+
+    /// Whether the phase at which the orbit is cut is unknown.
+    pub fn has_phase(&self) -> bool {
+        matches!(self, Self::Touch(_))
+    }
+}

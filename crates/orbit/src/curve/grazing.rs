@@ -1,0 +1,115 @@
+//! A contact that is touched with zero velocity: conditions at the node where the orbit is cut.
+//!
+//! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit. Their derivatives: by the state `phi`; by the phase `r'/f` and
+//! `r''/f` as far as `u` has them; by the frequency `s u'/f` in `r'`; by the excitation scale `a` those of `u` over `a`; by the gap `-1` in the first.
+
+use hammerbeam_motion::{Parameter, Stretch};
+
+use super::{
+    condition::Linear,
+    shooting::{Place, Shooting},
+};
+use crate::OrbitError;
+
+/// Looks for the touch per excitation period.
+const LOOKS: usize = 2000;
+
+/// The contact that is touched.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touch {
+    pub element: usize,
+    pub contact: usize,
+}
+
+impl Touch {
+    /// The contact of that number, in the order of the elements and their contacts.
+    pub fn of_contact(shooting: &Shooting, number: usize) -> Option<Self> {
+        let elements = shooting.integrator.system().elements().iter().enumerate();
+        elements
+            .flat_map(|(e, element)| (0..element.law.contacts().len()).map(move |contact| (e, contact)))
+            .nth(number)
+            .map(|(element, contact)| Self { element, contact })
+    }
+
+    /// Its number in the order of the elements and their contacts.
+    pub fn number(self, shooting: &Shooting) -> usize {
+        let before = &shooting.integrator.system().elements()[..self.element];
+        before.iter().map(|element| element.law.contacts().len()).sum::<usize>() + self.contact
+    }
+
+    /// Values, gradients by `[nodes; f; p; x]`, and the test `r''`.
+    pub fn evaluate(self, shooting: &Shooting, place: &Place) -> Linear {
+        let scales = shooting.scale.values();
+        let n = scales.len() / 2;
+        let system = shooting.integrator.system();
+        let element = &system.elements()[self.element];
+        let contact = element.law.contacts()[self.contact];
+        let state: Vec<f64> = place.nodes.iter().zip(scales).map(|(x, s)| x * s).collect();
+        let [r, speed, acceleration] =
+            system.relative_motion(self.element, place.frequency_hz, place.phase, &state);
+        let u = system.support_motion(place.frequency_hz, place.phase);
+        let unit = scales[2 * n - 1];
+        // The slowest mode has the largest displacement.
+        let length = scales[..n].iter().copied().fold(0.0, f64::max);
+        let (f, ratio, sign) = (place.frequency_hz, element.support_ratio, contact.sign);
+        let nodes = place.nodes.len();
+        let mut rows = vec![vec![0.0; nodes + 3]; 2];
+        for i in 0..n {
+            rows[0][i] = sign * element.shape[i] * scales[i] / length;
+            rows[1][n + i] = sign * element.shape[i] * scales[n + i] / unit;
+        }
+        rows[1][nodes] = sign * ratio * u[1] / f / unit;
+        rows[0][nodes + 2] = sign * ratio * u[1] / f / length;
+        rows[1][nodes + 2] = sign * ratio * u[2] / f / unit;
+        match shooting.parameter {
+            Parameter::ExcitationScale => {
+                rows[0][nodes + 1] = sign * ratio * u[0] / place.value / length;
+                rows[1][nodes + 1] = sign * ratio * u[1] / place.value / unit;
+            }
+            Parameter::Gap { element } if element == self.element => rows[0][nodes + 1] = -1.0 / length,
+            _ => {}
+        }
+        let values = vec![sign * (r - contact.level) / length, sign * speed / unit];
+        Linear { values, rows, tests: vec![sign * acceleration / (unit * std::f64::consts::TAU * f)] }
+    }
+
+    /// Phase and state of the orbit from `state` at phase 0 where the contact is reached with the least clearance and turns.
+    pub fn find(
+        self,
+        shooting: &mut Shooting,
+        state: &[f64],
+        frequency_hz: f64,
+    ) -> Result<Option<(f64, Vec<f64>)>, OrbitError> {
+        let periods = f64::from(shooting.period_multiple);
+        let looks = LOOKS * shooting.period_multiple as usize;
+        let phase = |k: usize| periods * k as f64 / looks as f64;
+        let (mut state, mut best) = (state.to_vec(), None::<(f64, f64, Vec<f64>)>);
+        let mut before = self.clearance(shooting, frequency_hz, 0.0, &state);
+        for k in 1..=looks {
+            let stretch = Stretch { frequency_hz, start: phase(k - 1), end: phase(k) };
+            let next = shooting.integrator.advance(&stretch, &state)?;
+            let after = self.clearance(shooting, frequency_hz, phase(k), &next);
+            if before[1] <= 0.0 && after[1] > 0.0 {
+                // Clearance turns: a step of the secant method on its rate.
+                let share = before[1] / (before[1] - after[1]);
+                let turn = phase(k - 1) + share * (phase(k) - phase(k - 1));
+                let at = Stretch { frequency_hz, start: phase(k - 1), end: turn };
+                let place = shooting.integrator.advance(&at, &state)?;
+                let distance = self.clearance(shooting, frequency_hz, turn, &place)[0].abs();
+                if best.as_ref().is_none_or(|(nearest, ..)| distance < *nearest) {
+                    best = Some((distance, turn, place));
+                }
+            }
+            (state, before) = (next, after);
+        }
+        Ok(best.map(|(_, turn, place)| (turn, place)))
+    }
+
+    /// Clearance and its rate.
+    fn clearance(self, shooting: &Shooting, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 2] {
+        let system = shooting.integrator.system();
+        let contact = system.elements()[self.element].law.contacts()[self.contact];
+        let [r, speed, _] = system.relative_motion(self.element, frequency_hz, phase, state);
+        [contact.sign * (contact.level - r), -contact.sign * speed]
+    }
+}

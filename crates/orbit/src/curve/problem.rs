@@ -1,0 +1,218 @@
+//! Shooting equations and a condition, as a problem for the path crate: unknowns `[nodes; f]` or, at grazing, `[nodes; f; x]`, and the parameter `p`.
+
+use hammerbeam_motion::exact::MotionError;
+use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+
+use super::{
+    condition::{Condition, Linear},
+    shooting::{Place, Shooting, times},
+};
+use crate::{eigenvalues::eigenvalues, stability};
+
+/// The extended equations.
+#[derive(Debug)]
+pub(super) struct CurveProblem {
+    pub shooting: Shooting,
+    pub condition: Condition,
+    weights: Vec<f64>,
+    residual: Vec<f64>,
+    /// `[R_x R_p]` by rows.
+    jacobian: Vec<f64>,
+    tests: Vec<f64>,
+    lu: DenseLu,
+    failure: Option<MotionError>,
+}
+
+impl CurveProblem {
+    /// * `units`: what counts like a change of the orbit by its own size, of frequency and parameter.
+    pub fn new(shooting: Shooting, condition: Condition, units: [f64; 2]) -> Self {
+        let nodes = shooting.size() * shooting.count;
+        let mut weights = vec![1.0 / shooting.count as f64; nodes];
+        weights.push(units[0].powi(-2));
+        if condition.has_phase() {
+            weights.push(1.0);
+        }
+        weights.push(units[1].powi(-2));
+        let unknowns = weights.len() - 1;
+        Self {
+            shooting,
+            condition,
+            residual: vec![0.0; unknowns],
+            jacobian: vec![0.0; unknowns * (unknowns + 1)],
+            weights,
+            tests: Vec::new(),
+            lu: DenseLu::new(),
+            failure: None,
+        }
+    }
+
+    pub fn failure(&self) -> Option<&MotionError> {
+        self.failure.as_ref()
+    }
+
+    /// Place of a point.
+    pub fn place(&self, point: &[f64]) -> Place {
+        let nodes = self.shooting.size() * self.shooting.count;
+        let phase = if self.condition.has_phase() { point[nodes + 1] } else { 0.0 };
+        Place {
+            nodes: point[..nodes].to_vec(),
+            frequency_hz: point[nodes],
+            phase,
+            value: point[point.len() - 1],
+        }
+    }
+
+    /// Point of a place.
+    pub fn point(&self, place: &Place) -> Vec<f64> {
+        let mut point = place.nodes.clone();
+        point.push(place.frequency_hz);
+        if self.condition.has_phase() {
+            point.push(place.phase);
+        }
+        point.push(place.value);
+        point
+    }
+
+    fn fill_shooting(&mut self, place: &Place) {
+        let (size, count) = (self.shooting.size(), self.shooting.count);
+        let nodes = size * count;
+        let width = self.weights.len();
+        self.jacobian.fill(0.0);
+        for (k, segment) in self.shooting.segments.iter().enumerate() {
+            let next = (k + 1) % count * size;
+            let by_phase = self.condition.has_phase().then(|| self.by_phase(place, k));
+            for i in 0..size {
+                let row = &mut self.jacobian[(k * size + i) * width..(k * size + i + 1) * width];
+                row[k * size..(k + 1) * size].copy_from_slice(&segment.matrix[i * size..(i + 1) * size]);
+                row[next + i] -= 1.0;
+                row[nodes] = segment.by_frequency[i];
+                row[width - 1] = segment.by_parameter[i];
+                if let Some(by_phase) = &by_phase {
+                    row[nodes + 1] = by_phase[i];
+                }
+                self.residual[k * size + i] = segment.end[i] - place.nodes[next + i];
+            }
+        }
+    }
+
+    /// Derivative of a segment by the phase at which it begins.
+    fn by_phase(&self, place: &Place, k: usize) -> Vec<f64> {
+        let size = self.shooting.size();
+        let stretch = self.shooting.stretch(k, place.frequency_hz, place.phase);
+        let segment = &self.shooting.segments[k];
+        let at_start = self.shooting.rate(place, stretch.start, &place.nodes[k * size..(k + 1) * size]);
+        let at_end = self.shooting.rate(place, stretch.end, &segment.end);
+        let carried = times(&segment.matrix, &at_start);
+        at_end.iter().zip(carried).map(|(end, start)| (end - start) / place.frequency_hz).collect()
+    }
+
+    fn fill_condition(&mut self, linear: Linear) {
+        let width = self.weights.len();
+        let nodes = self.shooting.size() * self.shooting.count;
+        for (index, (value, gradient)) in linear.values.iter().zip(&linear.rows).enumerate() {
+            let row = &mut self.jacobian[(nodes + index) * width..(nodes + index + 1) * width];
+            row[..=nodes].copy_from_slice(&gradient[..=nodes]);
+            row[width - 1] = gradient[nodes + 1];
+            if let Some(by_phase) = gradient.get(nodes + 2) {
+                row[nodes + 1] = *by_phase;
+            }
+            self.residual[nodes + index] = *value;
+        }
+        self.tests = linear.tests;
+    }
+
+    fn evaluate_at(&mut self, place: &Place) -> Result<bool, MotionError> {
+        self.shooting.evaluate(place)?;
+        self.fill_shooting(place);
+        let Some(linear) = self.condition.evaluate(&mut self.shooting, place)? else { return Ok(false) };
+        self.fill_condition(linear);
+        Ok(true)
+    }
+
+    /// `[R_x R_p]` by rows.
+    #[cfg(test)]
+    pub fn jacobian(&self) -> &[f64] {
+        &self.jacobian
+    }
+}
+
+impl PathProblem for CurveProblem {
+    fn unknowns(&self) -> usize {
+        self.residual.len()
+    }
+
+    fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.failure = None;
+        let place = self.place(point);
+        if place.frequency_hz.is_nan() || place.frequency_hz <= 0.0 {
+            return Err(EvaluationError::OutsideDomain);
+        }
+        match self.evaluate_at(&place) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(EvaluationError::NotFinite),
+            Err(error) => {
+                let outside = matches!(error, MotionError::Parameter(_));
+                self.failure = Some(error);
+                Err(if outside { EvaluationError::OutsideDomain } else { EvaluationError::NotFinite })
+            }
+        }
+    }
+
+    fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
+        self.lu.factorise_bordered(&self.jacobian, row)
+    }
+
+    fn solve(&self, right_hand_side: &mut [f64]) {
+        self.lu.solve(right_hand_side);
+    }
+
+    /// In the order of `walk.rs`.
+    fn tests(&mut self, values: &mut Vec<TestValue>) {
+        values.clear();
+        let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };
+        let multipliers = || {
+            let size = self.shooting.size();
+            eigenvalues(size, self.shooting.monodromy()).unwrap_or_else(|_| vec![[0.0, 0.0]; size])
+        };
+        match &self.condition {
+            Condition::Multiplier(bordered) if bordered.multiplier > 0.0 => {
+                values.extend([
+                    signed(self.tests[1]),
+                    signed(self.tests[0]),
+                    stability::flip(&multipliers()),
+                ]);
+            }
+            Condition::Multiplier(_) => {
+                values.extend([signed(self.tests[0]), stability::fold(&multipliers())]);
+            }
+            Condition::Pair(_) => {
+                let k = self.tests[0];
+                values.extend([1.0 - k, k + 1.0, k + 0.5, k].map(signed));
+            }
+            Condition::Touch(_) => {
+                let multipliers = multipliers();
+                let (fold, flip) = (stability::fold(&multipliers), stability::flip(&multipliers));
+                values.extend([fold, flip, signed(self.tests[0])]);
+            }
+        }
+    }
+
+    /// Without the contact that is touched at the ends of a grazing orbit: whether it is counted there is rounding.
+    fn signature(&self) -> u64 {
+        let except = match &self.condition {
+            Condition::Touch(touch) => Some(touch.number(&self.shooting)),
+            _ => None,
+        };
+        let touches = self.shooting.touches.iter().enumerate();
+        let words = touches.map(|(k, &t)| if except == Some(k) { 0 } else { u64::from(t) });
+        words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
+    }
+}

@@ -1,0 +1,191 @@
+//! The shooting equations with two parameters and a phase, and differences of their fundamental matrices.
+//!
+//! `R_k = Z_k(z_k, f, x, p) - z_{k+1}`, where segment k runs from the phase `x + k N/m` to `x + (k + 1) N/m`. By the phase at which it is cut a
+//! segment has the derivative `(F(end) - G_k F(start))/f`, with the rate `F` of the state.
+
+use hammerbeam_motion::{
+    Parameter, Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
+
+use crate::shooting::StateScale;
+
+/// Step of central differences along a vector, relative to the orbit.
+const DIFFERENCE: f64 = 1e-4;
+
+/// Where the equations are evaluated; nodes are scaled, one after the other.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    pub nodes: Vec<f64>,
+    pub frequency_hz: f64,
+    pub phase: f64,
+    pub value: f64,
+}
+
+/// Flow of one segment in scaled states, matrices by rows.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Segment {
+    pub end: Vec<f64>,
+    pub matrix: Vec<f64>,
+    pub by_frequency: Vec<f64>,
+    pub by_parameter: Vec<f64>,
+}
+
+/// The shooting equations.
+#[derive(Debug)]
+pub(super) struct Shooting {
+    pub integrator: ExactIntegrator,
+    pub parameter: Parameter,
+    pub period_multiple: u32,
+    pub scale: StateScale,
+    pub count: usize,
+    /// The segments at the last evaluated place.
+    pub segments: Vec<Segment>,
+    /// `A_k`, the products of the first k matrices, `k = 0..=m`.
+    pub products: Vec<Vec<f64>>,
+    pub touches: Vec<u32>,
+}
+
+impl Shooting {
+    /// Entries of a node, 2n.
+    pub fn size(&self) -> usize {
+        self.scale.values().len()
+    }
+
+    /// Monodromy matrix at the last evaluated place, by rows.
+    pub fn monodromy(&self) -> &[f64] {
+        &self.products[self.count]
+    }
+
+    pub fn stretch(&self, segment: usize, frequency_hz: f64, phase: f64) -> Stretch {
+        let cycle = |k: usize| phase + f64::from(self.period_multiple) * k as f64 / self.count as f64;
+        Stretch { frequency_hz, start: cycle(segment), end: cycle(segment + 1) }
+    }
+
+    fn flow(&mut self, segment: usize, place: &Place, node: &[f64]) -> Result<Segment, MotionError> {
+        let stretch = self.stretch(segment, place.frequency_hz, place.phase);
+        let scales = self.scale.values();
+        let size = scales.len();
+        let state: Vec<f64> = node.iter().zip(scales).map(|(x, s)| x * s).collect();
+        let flow = self.integrator.flow(&stretch, &state)?;
+        let scaled = |values: &[f64]| values.iter().zip(scales).map(|(z, s)| z / s).collect::<Vec<f64>>();
+        let matrix = (0..size * size).map(|k| (k / size, k % size));
+        let matrix = matrix.map(|(i, j)| flow.by_state[(i, j)] / scales[i] * scales[j]).collect();
+        Ok(Segment {
+            end: scaled(&flow.state),
+            matrix,
+            by_frequency: scaled(&flow.by_frequency),
+            by_parameter: scaled(&flow.by_parameter),
+        })
+    }
+
+    /// Evaluates all segments at a place.
+    pub fn evaluate(&mut self, place: &Place) -> Result<(), MotionError> {
+        self.integrator.set_parameter(self.parameter, place.value)?;
+        let size = self.size();
+        self.touches.fill(0);
+        self.segments.clear();
+        let mut identity = vec![0.0; size * size];
+        (0..size).for_each(|i| identity[i * size + i] = 1.0);
+        self.products = vec![identity];
+        for k in 0..self.count {
+            let segment = self.flow(k, place, &place.nodes[k * size..(k + 1) * size])?;
+            let touches = self.touches.iter_mut().zip(self.integrator.touches());
+            touches.for_each(|(sum, touches)| *sum += touches);
+            let product = multiply(size, &segment.matrix, &self.products[k]);
+            self.products.push(product);
+            self.segments.push(segment);
+        }
+        Ok(())
+    }
+
+    /// Derivative along the direction `v_k` at the node of each segment: of `G_k`, `dZ_k/df` and `dZ_k/dp`, by central differences.
+    pub fn differences(
+        &mut self,
+        place: &Place,
+        directions: &[Vec<f64>],
+    ) -> Result<Vec<Segment>, MotionError> {
+        let size = self.size();
+        let mut found = Vec::new();
+        for (k, direction) in directions.iter().enumerate() {
+            let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+            let step = DIFFERENCE / length;
+            let node = &place.nodes[k * size..(k + 1) * size];
+            let moved = |sign: f64| -> Vec<f64> {
+                node.iter().zip(direction).map(|(z, d)| z + sign * step * d).collect()
+            };
+            let (above, below) = (self.flow(k, place, &moved(1.0))?, self.flow(k, place, &moved(-1.0))?);
+            let quotient = |a: &[f64], b: &[f64]| -> Vec<f64> {
+                a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+            };
+            found.push(Segment {
+                end: Vec::new(),
+                matrix: quotient(&above.matrix, &below.matrix),
+                by_frequency: quotient(&above.by_frequency, &below.by_frequency),
+                by_parameter: quotient(&above.by_parameter, &below.by_parameter),
+            });
+        }
+        Ok(found)
+    }
+
+    /// `v_k = A_k v`, the vector carried to the node of each segment.
+    pub fn carried(&self, vector: &[f64]) -> Vec<Vec<f64>> {
+        self.products[..self.count].iter().map(|product| times(product, vector)).collect()
+    }
+
+    /// `w_k^T = w^T G_{m-1} ... G_{k+1}`, the left vector carried back to the end of each segment.
+    pub fn carried_back(&self, vector: &[f64]) -> Vec<Vec<f64>> {
+        let mut rows = vec![vector.to_vec()];
+        for segment in self.segments[1..].iter().rev() {
+            rows.push(left_times(&segment.matrix, &rows[rows.len() - 1]));
+        }
+        rows.reverse();
+        rows
+    }
+
+    /// Derivative of `w^T A v` by all nodes, the frequency and the parameter, with vectors fixed.
+    pub fn gradient(&mut self, place: &Place, left: &[f64], right: &[f64]) -> Result<Vec<f64>, MotionError> {
+        let directions = self.carried(right);
+        let lefts = self.carried_back(left);
+        let differences = self.differences(place, &directions)?;
+        let (mut gradient, mut by) = (Vec::new(), [0.0; 2]);
+        for (left, difference) in lefts.iter().zip(&differences) {
+            gradient.extend(left_times(&difference.matrix, left));
+            by[0] += dot(left, &difference.by_frequency);
+            by[1] += dot(left, &difference.by_parameter);
+        }
+        gradient.extend(by);
+        Ok(gradient)
+    }
+
+    /// Rate of a scaled state at a phase.
+    pub fn rate(&self, place: &Place, phase: f64, node: &[f64]) -> Vec<f64> {
+        let scales = self.scale.values();
+        let state: Vec<f64> = node.iter().zip(scales).map(|(x, s)| x * s).collect();
+        let rate = self.integrator.system().rate(place.frequency_hz, phase, &state);
+        rate.iter().zip(scales).map(|(r, s)| r / s).collect()
+    }
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// `M v`, the matrix by rows.
+pub(super) fn times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+    matrix.chunks_exact(vector.len()).map(|row| dot(row, vector)).collect()
+}
+
+/// `w^T M`, the matrix by rows.
+pub(super) fn left_times(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
+    let size = matrix.len() / vector.len();
+    let mut sum = vec![0.0; size];
+    for (row, w) in matrix.chunks_exact(size).zip(vector) {
+        sum.iter_mut().zip(row).for_each(|(s, entry)| *s += w * entry);
+    }
+    sum
+}
+
+fn multiply(size: usize, factor: &[f64], source: &[f64]) -> Vec<f64> {
+    factor.chunks_exact(size).flat_map(|row| left_times(source, row)).collect()
+}

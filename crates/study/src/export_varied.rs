@@ -1,0 +1,95 @@
+//! Branches in parameters and curves of bifurcations as CSV.
+
+use std::{
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+use super::export::{ExportError, write_whole};
+use crate::store::{PieceBranchRecord, PieceRecord, Store};
+
+/// Columns of `parameter_branches.csv`.
+pub const PARAMETER_COLUMNS: [&str; 18] = [
+    "piece",
+    "branch",
+    "period_multiple",
+    "parameter_name",
+    "parameter",
+    "frequency_hz",
+    "max_abs_displacement_m",
+    "max_abs_acceleration_m_s2",
+    "max_contact_force_n",
+    "max_impact_velocity_m_s",
+    "impulse_n_s",
+    "leading_multiplier_re",
+    "leading_multiplier_im",
+    "residual",
+    "error_estimate",
+    "contacts",
+    "stable",
+    "event",
+];
+
+/// Writes `parameter_branches.csv` and `curves.csv` into a folder, each only if there is something in it.
+///
+/// `curves.csv` has a further column `of` in front, which says what the curve is of.
+pub(crate) fn export_varied(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
+    let pieces = store.pieces()?;
+    let mut files = Vec::new();
+    for (name, curves) in [("parameter_branches.csv", false), ("curves.csv", true)] {
+        let of_kind: Vec<&PieceRecord> =
+            pieces.iter().filter(|piece| piece.is_curve == curves && !piece.branches.is_empty()).collect();
+        let path = folder.join(name);
+        if of_kind.is_empty() {
+            // A table of an earlier export would be taken for this one's.
+            let _ = std::fs::remove_file(&path);
+            continue;
+        }
+        write_whole(&path, |writer| write(store, &of_kind, curves, writer, &path))?;
+        files.push(path);
+    }
+    Ok(files)
+}
+
+fn write(
+    store: &Store,
+    pieces: &[&PieceRecord],
+    curves: bool,
+    writer: &mut impl Write,
+    path: &Path,
+) -> Result<(), ExportError> {
+    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let front = if curves { "of," } else { "" };
+    writeln!(writer, "{front}{}", PARAMETER_COLUMNS.join(",")).map_err(failed)?;
+    for piece in pieces {
+        for branch in &piece.branches {
+            let start = start_of_row(piece, branch);
+            store.each_varied_row::<ExportError>((piece.id, branch.branch), |row| {
+                let numbers: Vec<String> = row.numbers.iter().map(|number| format!("{number:?}")).collect();
+                writeln!(
+                    writer,
+                    "{start},{:?},{:?},{},{},{},{}",
+                    row.parameter,
+                    row.frequency_hz,
+                    numbers.join(","),
+                    row.contacts,
+                    row.stable,
+                    row.event
+                )
+                .map_err(failed)
+            })?;
+        }
+    }
+    Ok(())
+}
+
+fn start_of_row(piece: &PieceRecord, branch: &PieceBranchRecord) -> String {
+    let front = if piece.is_curve { format!("{},", branch.kind) } else { String::new() };
+    // A name with a comma or a quotation mark would change the columns.
+    let name = if piece.parameter.contains([',', '"']) {
+        format!("\"{}\"", piece.parameter.replace('"', "\"\""))
+    } else {
+        piece.parameter.clone()
+    };
+    format!("{front}{},{},{},{name}", piece.id, branch.branch, branch.period_multiple)
+}

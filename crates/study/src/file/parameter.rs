@@ -1,0 +1,135 @@
+//! The name of a parameter of the study, and its range: `parameter` and `range` of `[[vary]]` and `[[curve]]`.
+
+use serde::Serialize;
+
+use crate::document::{Quantity, Table, Value, quantity};
+
+use super::{Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopLaw};
+
+/// A parameter of the study and the range in which it varies.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VariedParameter {
+    /// Its name, as the study writes it.
+    pub name: String,
+    /// What it is.
+    pub kind: ParameterKind,
+    /// Its range, in the unit of the name.
+    pub range: [f64; 2],
+}
+
+/// What a parameter is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ParameterKind {
+    /// Amplitude of the excitation [m or N].
+    Amplitude,
+    /// Gap of a stop [m].
+    Gap {
+        /// Number of the stop, from 0.
+        stop: usize,
+    },
+    /// Constant of the law of a stop.
+    Stiffness {
+        /// Number of the stop, from 0.
+        stop: usize,
+    },
+    /// Ratio to critical damping of every mode.
+    ModalRatio,
+}
+
+/// What of a study can vary.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Variable<'a> {
+    pub excitation: &'a Excitation,
+    pub damping: &'a Damping,
+    pub loads: &'a [Load],
+    pub stops: &'a [Stop],
+}
+
+/// A name with what it means and which values it can have.
+type Known = (String, ParameterKind, Quantity);
+
+impl Variable<'_> {
+    /// Every parameter by its name; stops also by their number, from 1.
+    fn known(self) -> Vec<Known> {
+        let amplitude = match self.excitation.kind {
+            ExcitationKind::SupportMotion { .. } => ("excitation.amplitude_m", quantity::AMPLITUDE),
+            ExcitationKind::Force { .. } => ("excitation.amplitude_n", quantity::FORCE),
+        };
+        let mut known = vec![(amplitude.0.to_owned(), ParameterKind::Amplitude, amplitude.1)];
+        if matches!(self.damping, Damping::Modal(ModalRatio::Every(_))) {
+            let name = "damping.modal_ratio".to_owned();
+            known.push((name, ParameterKind::ModalRatio, quantity::DAMPING_RATIO));
+        }
+        for (number, stop) in self.stops.iter().enumerate() {
+            let names = [stop.name.clone(), format!("{}", number + 1)];
+            for (key, kind, quantity) in of_stop(number, &stop.law) {
+                known.extend(names.iter().map(|name| (format!("stop.{name}.{key}"), kind, quantity)));
+            }
+        }
+        known
+    }
+
+    fn has_further_harmonics(self) -> bool {
+        self.loads.iter().any(|load| match load {
+            Load::Gravity { .. } => false,
+            Load::Force { order, .. } | Load::SupportMotion { order, .. } => *order > 0,
+        })
+    }
+}
+
+fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quantity)> {
+    let (gap, stiffness) = (ParameterKind::Gap { stop }, ParameterKind::Stiffness { stop });
+    let gap_of = |approach: &Approach| matches!(approach, Approach::Gap { .. });
+    let (key, quantity, has_gap) = match law {
+        StopLaw::Hertz { approach, .. } => ("stiffness_n_m15", quantity::HERTZ_STIFFNESS, gap_of(approach)),
+        StopLaw::Linear { approach, .. } => ("stiffness_n_m", quantity::STIFFNESS, gap_of(approach)),
+        StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
+            ("stiffness_n_m", quantity::STIFFNESS, gap_above_m == gap_below_m)
+        }
+        StopLaw::Cubic { .. } => ("stiffness_n_m3", quantity::CUBIC_STIFFNESS, false),
+    };
+    let mut known = vec![(key, stiffness, quantity)];
+    if has_gap {
+        known.push(("gap_m", gap, quantity::GAP));
+    }
+    known
+}
+
+/// Reads `parameter` and `range`; without the rest of the study names are not judged.
+pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<VariedParameter> {
+    let name = table.required("parameter");
+    let range = table.required("range");
+    let (name, range) = (name?, range?);
+    let text = name.text()?;
+    let study = study?;
+    let known = study.known();
+    let Some((_, kind, quantity)) = known.iter().find(|(known, ..)| known == text) else {
+        let names: Vec<&str> = known.iter().map(|(name, ..)| name.as_str()).collect();
+        name.unknown_word(text, "a parameter of this study", &names);
+        return None;
+    };
+    if *kind == ParameterKind::Amplitude && study.has_further_harmonics() {
+        let help = vec!["allowed: only where the excitation is the only harmonic load".into()];
+        name.problem(format!("`parameter` is \"{text}\", but further loads are harmonic"), help);
+        return None;
+    }
+    let range = read_range(&range, quantity)?;
+    Some(VariedParameter { name: text.to_owned(), kind: *kind, range })
+}
+
+fn read_range(value: &Value<'_>, quantity: &Quantity) -> Option<[f64; 2]> {
+    let range = value.numbers::<2>(quantity)?;
+    if range[0] >= range[1] {
+        let what = if range[0] == range[1] { "empty" } else { "reversed" };
+        let help = vec!["allowed: [low, high] with low < high".into()];
+        value.problem(format!("`range` is [{}, {}], which is {what}", range[0], range[1]), help);
+        return None;
+    }
+    if range[0] < 0.0 && range[1] > 0.0 {
+        let help = vec!["allowed: a range on one side of zero".into()];
+        value.problem(format!("`range` is [{}, {}], which holds zero", range[0], range[1]), help);
+        return None;
+    }
+    Some(range)
+}

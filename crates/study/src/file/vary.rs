@@ -1,0 +1,95 @@
+//! `[[vary]]` and `[[curve]]`: branches in another parameter than the frequency, and curves of bifurcations in two.
+
+use serde::Serialize;
+
+use crate::document::{Reading, Table, quantity};
+
+use super::{
+    VariedParameter,
+    parameter::{self, Variable},
+};
+
+/// Branches in a parameter at a fixed frequency.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Vary {
+    /// What varies.
+    pub parameter: VariedParameter,
+    /// Excitation frequency [Hz].
+    pub frequency_hz: f64,
+    /// Orbit period over excitation period.
+    pub period_multiple: u32,
+}
+
+/// A curve of bifurcations in the frequency and a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Curve {
+    /// What is followed.
+    pub of: CurveOf,
+    /// The curve begins at the event of a branch that is nearest to this frequency [Hz].
+    pub near_hz: f64,
+    /// The second parameter.
+    pub parameter: VariedParameter,
+    /// Orbit period over excitation period.
+    pub period_multiple: u32,
+}
+
+/// What a curve is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CurveOf {
+    /// Folds.
+    Fold,
+    /// Flips.
+    Flip,
+    /// Neimark-Sacker points.
+    NeimarkSacker,
+    /// Grazing orbits.
+    Grazing,
+}
+
+impl CurveOf {
+    /// The word for it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        KINDS.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
+    }
+}
+
+const KINDS: [(&str, CurveOf); 4] = [
+    ("fold", CurveOf::Fold),
+    ("flip", CurveOf::Flip),
+    ("neimark-sacker", CurveOf::NeimarkSacker),
+    ("grazing", CurveOf::Grazing),
+];
+
+pub(super) fn read(
+    root: &Table<'_>,
+    reading: &Reading,
+    study: Option<Variable<'_>>,
+) -> Option<(Vec<Vary>, Vec<Curve>)> {
+    let before = reading.count();
+    let varies = root.tables("vary").into_iter().filter_map(|table| read_vary(table, study)).collect();
+    let curves = root.tables("curve").into_iter().filter_map(|table| read_curve(table, study)).collect();
+    (reading.count() == before).then_some((varies, curves))
+}
+
+fn read_vary(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Vary> {
+    let parameter = parameter::read(&table, study);
+    let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));
+    let multiple = read_multiple(&table);
+    table.finish();
+    Some(Vary { parameter: parameter?, frequency_hz: frequency?, period_multiple: multiple? })
+}
+
+fn read_curve(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Curve> {
+    let of = table.required("of").and_then(|value| value.choice(&KINDS));
+    let near = table.required("near_hz").and_then(|value| value.number(&quantity::FREQUENCY));
+    let parameter = parameter::read(&table, study);
+    let multiple = read_multiple(&table);
+    table.finish();
+    Some(Curve { of: of?, near_hz: near?, parameter: parameter?, period_multiple: multiple? })
+}
+
+fn read_multiple(table: &Table<'_>) -> Option<u32> {
+    table.optional("period_multiple").map_or(Some(1), |value| value.whole(1, 64))
+}

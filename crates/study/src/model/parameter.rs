@@ -1,0 +1,72 @@
+//! Parameters of the study as parameters of the equations of motion.
+
+use hammerbeam_motion::Parameter;
+
+use super::Model;
+use crate::file::{Damping, ExcitationKind, ModalRatio, ParameterKind, Study, VariedParameter};
+
+/// A parameter of the system whose value in the study is `factor value + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StudyParameter {
+    /// The parameter of the system.
+    pub parameter: Parameter,
+    factor: f64,
+    offset: f64,
+}
+
+impl StudyParameter {
+    /// Value in the study of a value of the system.
+    #[must_use]
+    pub fn in_study(&self, value: f64) -> f64 {
+        self.factor * value + self.offset
+    }
+
+    /// Value of the system of a value in the study.
+    #[must_use]
+    pub fn in_system(&self, value: f64) -> f64 {
+        (value - self.offset) / self.factor
+    }
+}
+
+impl Model {
+    /// The parameter of the system that a study's parameter is.
+    ///
+    /// # Errors
+    /// Why the system does not have it, in words.
+    pub fn parameter(&self, study: &Study, varied: &VariedParameter) -> Result<StudyParameter, String> {
+        let plain = |parameter| StudyParameter { parameter, factor: 1.0, offset: 0.0 };
+        match varied.kind {
+            ParameterKind::Amplitude => {
+                let factor = match study.excitation.kind {
+                    ExcitationKind::SupportMotion { amplitude_m, .. } => amplitude_m,
+                    ExcitationKind::Force { amplitude_n, .. } => amplitude_n,
+                };
+                Ok(StudyParameter { factor, ..plain(Parameter::ExcitationScale) })
+            }
+            ParameterKind::ModalRatio => {
+                let Damping::Modal(ModalRatio::Every(offset)) = study.damping else {
+                    return Err(format!("{} is not the same for every mode", varied.name));
+                };
+                Ok(StudyParameter { offset, ..plain(Parameter::AddedDampingRatio) })
+            }
+            ParameterKind::Stiffness { stop } => {
+                Ok(plain(Parameter::Stiffness { element: self.element_of(study, stop)? }))
+            }
+            ParameterKind::Gap { stop } => {
+                let parameter = Parameter::Gap { element: self.element_of(study, stop)? };
+                // A gap that is measured from the rest position differs from the level of the element by the sag.
+                let level = self.system.parameter(parameter).map_err(|error| error.to_string())?;
+                let gap = study.stops[stop].law.gap_m().unwrap_or(level);
+                Ok(StudyParameter { offset: gap - level, ..plain(parameter) })
+            }
+        }
+    }
+
+    fn element_of(&self, study: &Study, stop: usize) -> Result<usize, String> {
+        let name = &study.stops[stop].name;
+        let place = self.system.elements().iter().position(|element| element.name == *name);
+        place.ok_or_else(|| {
+            format!("{name} is pressed past one of its sides at rest, so it has no single law")
+        })
+    }
+}

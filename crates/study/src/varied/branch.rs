@@ -1,0 +1,143 @@
+//! Branches in a parameter at a fixed frequency.
+
+use hammerbeam_orbit::{
+    BranchRow, BranchWalk, ContinuationParameter, Matcher, OrbitSettings, PeriodicSolution, Side, StopReason,
+    find_orbits,
+};
+
+use super::{Failed, Found};
+use crate::{
+    Model, Study,
+    file::Vary,
+    model::StudyParameter,
+    orbit_solver::settings,
+    run::Observer,
+    store::{VariedBranch, VariedRow},
+};
+
+/// Steps over the range of a parameter.
+const STEPS: f64 = 1000.0;
+
+/// All branches of the orbits at the frequency.
+pub(super) fn follow(
+    model: &Model,
+    study: &Study,
+    vary: &Vary,
+    observer: &mut dyn Observer,
+) -> Result<Found, Failed> {
+    let parameter = model.parameter(study, &vary.parameter).map_err(Failed::Message)?;
+    let value = model.system.parameter(parameter.parameter).map_err(|e| Failed::Message(e.to_string()))?;
+    let [low, high] = study.excitation.frequency_hz;
+    let searching =
+        OrbitSettings { max_solutions: study.continuation.budget_solutions, ..settings(&study.continuation) };
+    let orbit = (vary.frequency_hz, vary.period_multiple);
+    let found = find_orbits(&model.system, &model.response, orbit, (low, high), &searching, &mut || {
+        observer.interrupted()
+    })?;
+    let mut branches = Vec::new();
+    let mut known: Vec<Vec<f64>> = Vec::new();
+    for start in &found.orbits {
+        let matcher = Matcher::new(&model.system, &model.response, start, &searching)?;
+        if known.iter().any(|guess| matcher.is_near(guess)) {
+            continue;
+        }
+        let branch = both_sides(model, study, (vary, &parameter), start, observer)?;
+        known.extend(crossings(&branch.rows, &parameter, value));
+        branches.push(branch);
+    }
+    let message = match found.incomplete {
+        Some(error) => Some(error.to_string()),
+        None if branches.is_empty() => Some(format!("no periodic solution was found at {} Hz", orbit.0)),
+        None => None,
+    };
+    Ok(Found { branches, message })
+}
+
+fn both_sides(
+    model: &Model,
+    study: &Study,
+    (vary, parameter): (&Vary, &StudyParameter),
+    start: &PeriodicSolution,
+    observer: &mut dyn Observer,
+) -> Result<VariedBranch, Failed> {
+    let range = (parameter.in_system(vary.parameter.range[0]), parameter.in_system(vary.parameter.range[1]));
+    let settings = OrbitSettings {
+        max_step_hz: (range.1 - range.0) / STEPS,
+        max_solutions: study.continuation.budget_solutions,
+        ..settings(&study.continuation)
+    };
+    let other =
+        ContinuationParameter::Other { parameter: parameter.parameter, frequency_hz: vary.frequency_hz };
+    let mut rows = Vec::new();
+    let mut ends = Vec::new();
+    for side in [Side::Down, Side::Up] {
+        let of_side = (other, side, range);
+        let mut walk = BranchWalk::varying(&model.system, &model.response, start, of_side, &settings)?;
+        let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
+        let end = loop {
+            if observer.interrupted() {
+                return Err(Failed::Interrupted);
+            }
+            match walk.step(&mut walked)? {
+                None => {}
+                Some(reason) => break reason,
+            }
+        };
+        if side == Side::Down {
+            walked.reverse();
+        }
+        rows.extend(walked.into_iter().map(|row| varied(row, parameter)));
+        let closed = end == StopReason::Closed;
+        ends.push(in_words(&end, &vary.parameter.name, parameter));
+        if closed {
+            // One walk is all of it.
+            ends.push(ends[0].clone());
+            break;
+        }
+    }
+    let [down, up] = [ends.swap_remove(0), ends.pop().unwrap_or_default()];
+    Ok(VariedBranch { period_multiple: start.period_multiple, kind: "branch".to_owned(), up, down, rows })
+}
+
+fn varied(row: BranchRow, parameter: &StudyParameter) -> VariedRow {
+    let value = row.parameter.map_or(f64::NAN, |value| parameter.in_study(value));
+    VariedRow { parameter: value, event: row.events.label(), solution: row.solution }
+}
+
+/// States near the orbits in which a branch passes the value of the study.
+fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<Vec<f64>> {
+    let value = parameter.in_study(value);
+    let mut found = Vec::new();
+    for pair in rows.windows(2) {
+        let (a, b) = (pair[0].parameter - value, pair[1].parameter - value);
+        if a * b > 0.0 {
+            continue;
+        }
+        let share = if a == b { 0.0 } else { a / (a - b) };
+        let (from, to) = (&pair[0].solution.nodes[0], &pair[1].solution.nodes[0]);
+        found.push(from.iter().zip(to).map(|(x, y)| x + share * (y - x)).collect());
+    }
+    found
+}
+
+fn in_words(reason: &StopReason, name: &str, parameter: &StudyParameter) -> String {
+    let at = |value: f64| format!("{name} = {}", parameter.in_study(value));
+    match reason {
+        StopReason::RangeEnd { frequency_hz } => format!("end of the range at {}", at(*frequency_hz)),
+        StopReason::Closed => "the branch came back to its start".to_owned(),
+        StopReason::ShorterPeriod { frequency_hz } => {
+            format!("flip of a branch of shorter period at {}", at(*frequency_hz))
+        }
+        StopReason::Budget { solutions } => format!("the budget of {solutions} solutions is used up"),
+        StopReason::StepTooShort { frequency_hz, doubt, .. } => {
+            format!("no acceptable solution beyond {}: {doubt}", at(*frequency_hz))
+        }
+        StopReason::RunsBack { frequency_hz, .. } => {
+            format!("at {} every step led back to a stretch already walked", at(*frequency_hz))
+        }
+        StopReason::Motion { frequency_hz, message } | StopReason::Other { frequency_hz, message } => {
+            format!("at {}: {message}", at(*frequency_hz))
+        }
+        other => format!("{other:?}"),
+    }
+}

@@ -1,0 +1,126 @@
+//! Curves of bifurcations, from the events of stored branches.
+
+use hammerbeam_orbit::{
+    CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, Events, LocatedEvent, PeriodicSolution, Side,
+};
+
+use super::{Failed, Found};
+use crate::{
+    Model, Study,
+    file::{Curve, CurveOf},
+    model::StudyParameter,
+    orbit_solver::settings,
+    run::Observer,
+    store::{Store, VariedBranch, VariedRow, solution_key},
+};
+
+/// Longest step of a curve, in hundredths of the ranges.
+const MAX_STEP: f64 = 0.5;
+
+/// The curve through the event that is nearest to its frequency.
+pub(super) fn follow(
+    store: &Store,
+    model: &Model,
+    study: &Study,
+    curve: &Curve,
+    observer: &mut dyn Observer,
+) -> Result<Found, Failed> {
+    let parameter = model.parameter(study, &curve.parameter).map_err(Failed::Message)?;
+    let Some((start, event)) = nearest_event(store, curve)? else {
+        let message = format!(
+            "no branch of period multiple {} has an event \"{}\" to begin at",
+            curve.period_multiple,
+            curve.of.name()
+        );
+        return Err(Failed::Message(message));
+    };
+    let kind = match (curve.of, event.contact) {
+        (CurveOf::Fold, _) => CurveKind::Fold,
+        (CurveOf::Flip, _) => CurveKind::Flip,
+        (CurveOf::NeimarkSacker, _) => CurveKind::NeimarkSacker,
+        (CurveOf::Grazing, Some(change)) => CurveKind::Grazing { contact: change.contact },
+        (CurveOf::Grazing, None) => {
+            let message = format!("the contact that grazes at {} Hz is not known", start.frequency_hz);
+            return Err(Failed::Message(message));
+        }
+    };
+    let [low, high] = study.excitation.frequency_hz;
+    let [from, to] = curve.parameter.range;
+    let curve_settings = CurveSettings {
+        parameter: parameter.parameter,
+        range: (parameter.in_system(from), parameter.in_system(to)),
+        range_hz: (low, high),
+        max_step: MAX_STEP,
+        max_rows: study.continuation.budget_solutions,
+    };
+    let orbits = settings(&study.continuation);
+    let (mut rows, mut ends) = (Vec::new(), Vec::new());
+    for side in [Side::Down, Side::Up] {
+        let of_side = (kind, side);
+        let mut walk =
+            CurveWalk::new(&model.system, &model.response, &start, of_side, &curve_settings, &orbits)?;
+        let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
+        let end = loop {
+            if observer.interrupted() {
+                return Err(Failed::Interrupted);
+            }
+            match walk.step()? {
+                Ok(row) => walked.push(row),
+                Err(end) => break end,
+            }
+        };
+        if side == Side::Down {
+            walked.reverse();
+        }
+        rows.extend(walked.into_iter().map(|row| varied(row, &parameter)));
+        ends.push(in_words(&end));
+        if end == CurveEnd::Closed {
+            ends.push(ends[0].clone());
+            break;
+        }
+    }
+    let [down, up] = [ends.swap_remove(0), ends.pop().unwrap_or_default()];
+    let kind = curve.of.name().to_owned();
+    let branch = VariedBranch { period_multiple: curve.period_multiple, kind, up, down, rows };
+    Ok(Found { branches: vec![branch], message: None })
+}
+
+fn varied(row: CurveRow, parameter: &StudyParameter) -> VariedRow {
+    let event = row.events.label();
+    VariedRow { parameter: parameter.in_study(row.parameter), solution: row.solution, event }
+}
+
+/// The solution at the event of that kind nearest to the frequency, over all branches of that period.
+fn nearest_event(store: &Store, curve: &Curve) -> Result<Option<(PeriodicSolution, LocatedEvent)>, Failed> {
+    let wanted = |events: Events| match curve.of {
+        CurveOf::Fold => events.fold,
+        CurveOf::Flip => events.flip,
+        CurveOf::NeimarkSacker => events.neimark_sacker,
+        CurveOf::Grazing => events.grazing,
+    };
+    let mut nearest: Option<(f64, i64)> = None;
+    for branch in store.branches()?.iter().filter(|branch| branch.period_multiple == curve.period_multiple) {
+        for side in [Side::Up, Side::Down] {
+            for (number, row) in store.walked(branch.start, side)?.iter().enumerate() {
+                let distance = (row.frequency_hz - curve.near_hz).abs();
+                if wanted(row.events) && nearest.is_none_or(|(least, _)| distance < least) {
+                    nearest = Some((distance, solution_key(branch.start, side, number as u32)));
+                }
+            }
+        }
+    }
+    let Some((_, key)) = nearest else { return Ok(None) };
+    Ok(store.event(key)?.map(|event| Ok::<_, Failed>((store.solution_of_key(key)?, event))).transpose()?)
+}
+
+fn in_words(end: &CurveEnd) -> String {
+    match end {
+        CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
+        CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
+        CurveEnd::Closed => "the curve came back to its start".to_owned(),
+        CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
+        CurveEnd::Budget => "the budget of solutions is used up".to_owned(),
+        CurveEnd::Stopped { message } => message.clone(),
+        other => format!("{other:?}"),
+    }
+}
