@@ -116,20 +116,6 @@ fn three_threads_killed_at_ten_instants_and_resumed_end_with_the_same_bytes() {
 }
 
 #[test]
-fn a_depth_raised_later_gives_what_it_gives_at_once() {
-    let (expected, _) = undisturbed();
-    let shallow = with_continuation("").replace("period_doubling_depth = 1", "period_doubling_depth = 0");
-    let workshop = Workshop::with(&shallow);
-    run(&workshop, "2");
-    let before = solutions(&exported(&workshop).0).len();
-    fs::write(workshop.path("study.toml"), with_continuation("")).unwrap();
-    run(&workshop, "2");
-    let after = solutions(&exported(&workshop).0);
-    assert!(after.len() > before, "{before} solutions at depth 0, {} at depth 1", after.len());
-    assert!(after == solutions(&expected.0), "{} rows, {}", after.len(), solutions(&expected.0).len());
-}
-
-#[test]
 fn a_budget_of_solutions_that_is_raised_gives_the_same_solutions() {
     let (expected, _) = undisturbed();
     let workshop = Workshop::with(&with_continuation("budget_solutions = 150"));
