@@ -136,3 +136,18 @@ fn a_budget_of_time_ends_a_run_and_running_again_goes_on_to_the_same_bytes() {
     run(&workshop, "2");
     assert!(exported(&workshop) == *expected);
 }
+
+#[test]
+fn a_depth_that_is_raised_later_gives_what_it_gives_at_once() {
+    let deeper = STUDY.replace("period_doubling_depth = 1", "period_doubling_depth = 2");
+    let at_once = Workshop::with(&deeper);
+    run(&at_once, "2");
+    let raised = Workshop::with(STUDY);
+    run(&raised, "2");
+    let before = raised.csv("results").lines().count();
+    fs::write(raised.path("study.toml"), &deeper).unwrap();
+    run(&raised, "2");
+    let (branches, events) = exported(&raised);
+    assert!(branches.lines().count() > before, "there are doublings of doublings");
+    assert!((branches, events) == exported(&at_once));
+}

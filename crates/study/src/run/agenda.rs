@@ -7,7 +7,7 @@ use std::sync::{
 
 use hammerbeam_orbit::{BranchRow, Side};
 
-use super::Plan;
+use super::{Plan, follow_ups};
 use crate::store::{JobRecord, Row, Store, StoreError, StoredReason};
 
 /// What is kept of a row in memory.
@@ -154,6 +154,7 @@ impl Agenda {
             agenda.jobs[record.job as usize].starts.push(start);
         }
         agenda.reopen(store, plan)?;
+        agenda.add_what_is_wanted_now(store, plan)?;
         Ok(agenda)
     }
 
@@ -167,6 +168,17 @@ impl Agenda {
             }
         }
         Ok(())
+    }
+
+    /// Adds the jobs of finished branches that a greater depth asks for; those that are there already are left out.
+    fn add_what_is_wanted_now(&mut self, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
+        let finished = self.jobs.iter().filter(|job| job.record.outcome.is_some());
+        let jobs: Vec<_> = finished
+            .flat_map(|job| job.starts.iter().map(|start| (start, job.record.depth)))
+            .flat_map(|(start, depth)| follow_ups::of_branch(start, depth, plan))
+            .collect();
+        store.add_jobs(&jobs)?;
+        self.add_new_jobs(store)
     }
 
     /// Adds what the store has more of.
