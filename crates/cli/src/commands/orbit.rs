@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::{args::OrbitOptions, failure::Failure, interrupt::Interrupt, output::Output};
 
 /// Time after which a search ends with what it has found.
-const LONGEST: Duration = Duration::from_secs(15);
+const LONGEST: Duration = Duration::from_secs(20);
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
