@@ -19,7 +19,7 @@ use crate::{
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0003;
+const MAGIC: u64 = 0x4842_5741_4c4b_0004;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -49,6 +49,7 @@ impl BranchWalk {
             out.float(test.value);
             out.word(u64::from(test.count));
         }
+        out.word(u64::from(state.zeros_near));
         let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
         [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
         out.word(self.evaluations_between);
@@ -173,6 +174,7 @@ fn read(
         unit: reader.float()?,
         change_ahead: reader.float()?,
         tests: (0..reader.word()?).map(|_| reader.test()).collect::<Option<_>>()?,
+        zeros_near: u32::try_from(reader.word()?).ok()?,
         counters: Counters {
             evaluations: reader.word()?,
             factorisations: reader.word()?,

@@ -27,6 +27,8 @@ pub struct Checkpoint {
     pub parameter_sign: f64,
     /// The test functions as they are after `current`; it settles the doubt at a zero, where the sign is rounding.
     pub tests: Vec<TestValue>,
+    /// Bit `k` is set while test function `k` has not left the zero behind which the path goes on.
+    pub zeros_near: u32,
     /// Units of the unknowns now, in those of the start.
     pub unit: f64,
     /// A change of signature is known to lie within this distance ahead; zero if none is known.

@@ -76,6 +76,8 @@ struct Arrival {
     anchors_anew: bool,
     /// Arc length within which an event was located.
     uncertainty: f64,
+    /// Test functions that have not left their last zero yet.
+    zeros_near: u32,
 }
 
 /// What happened to the attempts at one step.
@@ -258,6 +260,7 @@ impl Follower {
         state.history.push(&self.trial.node);
         state.stop = arrival.end;
         state.counters.accepted += 1;
+        state.zeros_near = arrival.zeros_near | arrival.events.zeros;
         state.tests.clone_from(&self.trial.tests);
         // Where something else was located, the change of signature lies anywhere in the step.
         let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };

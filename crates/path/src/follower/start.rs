@@ -139,6 +139,7 @@ fn first_state(trial: &Candidate, sign: f64, settings: &Settings, counters: Coun
         orientation: current.orientation,
         parameter_sign: if current.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
         tests: trial.tests.clone(),
+        zeros_near: 0,
         unit: 1.0,
         change_ahead: 0.0,
         counters,

@@ -13,6 +13,8 @@ const SHARP: f64 = 1e-10;
 /// If the value did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it jumps.
 const JUMP_WIDTH: f64 = 1e-3;
 const JUMP_SIZE: f64 = 0.05;
+/// Value relative to that behind a zero at which the zero is left.
+const LEFT: f64 = 1e-3;
 /// Share of `signature_step` within which a change of signature is located.
 const CHANGE_WIDTH: f64 = 1e-3;
 
@@ -29,16 +31,32 @@ impl Follower {
             return Ok(arrival);
         }
         let mut arrival = arrival;
+        arrival.zeros_near = self.stay_behind_zeros();
         for index in 0..self.trial.tests.len() {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
             if apart >= 2 && step > self.settings.signature_step {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
+                let near = arrival.zeros_near;
                 arrival = self.arrive_at_zero(problem, step, index)?.unwrap_or(arrival);
+                arrival.zeros_near |= near;
             }
         }
         Ok(arrival)
+    }
+
+    /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was found to be behind the zero.
+    fn stay_behind_zeros(&mut self) -> u32 {
+        let mut near = 0;
+        for (index, (behind, trial)) in self.state.tests.iter().zip(&mut self.trial.tests).enumerate() {
+            let is_near = self.state.zeros_near >> index & 1 == 1;
+            if is_near && trial.value.abs() < LEFT * behind.value.abs() {
+                *trial = *behind;
+                near |= 1 << index;
+            }
+        }
+        near
     }
 
     /// The zeros that belong to a point that was reached without a look at what lies between.

@@ -89,7 +89,7 @@ pub(super) fn compare(
     list.push(contacts(row, found, grazing));
     list.extend(multipliers(solution, found, sensitivity));
     list.extend(leading(row, solution));
-    list.extend(events(row, found, &measures));
+    list.extend(events(row, found, &measures, tolerance * (1.0 + norm(&found.monodromy) + sensitivity)));
     list
 }
 
@@ -159,10 +159,15 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
     (!same).then(|| plain(Quantity::Multipliers, row_re.hypot(row_im), re.hypot(im), f64::INFINITY))
 }
 
-/// Where each event puts a multiplier; a grazing has an extremum of a penetration at zero.
-fn events(row: &Row, found: &Recomputed, measures: &Measures) -> Vec<Comparison> {
+/// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a penetration at zero.
+///
+/// * `unknown`: how well multipliers are known, for one of condition one.
+fn events(row: &Row, found: &Recomputed, measures: &Measures, unknown: f64) -> Vec<Comparison> {
     let nearest = |distance: &dyn Fn(faer::c64) -> f64| {
-        let distances = found.multipliers.iter().map(|multiplier| distance(multiplier.value));
+        let distances = found
+            .multipliers
+            .iter()
+            .map(|multiplier| (distance(multiplier.value) - unknown * multiplier.condition).max(0.0));
         distances.fold(f64::INFINITY, f64::min)
     };
     let mut list = Vec::new();
