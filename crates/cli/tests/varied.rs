@@ -28,7 +28,11 @@ fn number(row: &BTreeMap<String, String>, key: &str) -> f64 {
 }
 
 /// Places of the folds of a table in two columns, where a word stands in a third.
-fn places(rows: &[BTreeMap<String, String>], key: &str, filter: impl Fn(&BTreeMap<String, String>) -> bool) -> Vec<f64> {
+fn places(
+    rows: &[BTreeMap<String, String>],
+    key: &str,
+    filter: impl Fn(&BTreeMap<String, String>) -> bool,
+) -> Vec<f64> {
     rows.iter().filter(|row| filter(row)).map(|row| number(row, key)).collect()
 }
 
@@ -68,8 +72,10 @@ fn branches_and_curves_of_the_example_meet() {
 /// A linear oscillator beside a stop: the curve of grazing orbits is that of the linear amplitude.
 #[test]
 fn a_grazing_curve_is_that_of_the_linear_amplitude() {
-    let stop = "[[stop]]\nname = \"spring\"\nat = \"mass\"\nlaw = \"linear\"\nstiffness_n_m = 3.0\ngap_m = 1.0\n";
-    let curve = "[[curve]]\nof = \"grazing\"\nnear_hz = 0.13\nparameter = \"stop.1.gap_m\"\nrange = [0.4, 2.0]\n";
+    let stop =
+        "[[stop]]\nname = \"spring\"\nat = \"mass\"\nlaw = \"linear\"\nstiffness_n_m = 3.0\ngap_m = 1.0\nside = \"above\"\n";
+    let curve =
+        "[[curve]]\nof = \"grazing\"\nnear_hz = 0.13\nparameter = \"stop.1.gap_m\"\nrange = [0.4, 2.0]\n";
     let (structure, _) = STUDY.split_once("[[stop]]").unwrap();
     let workshop = Workshop::with(&format!("{structure}{stop}{curve}"));
     assert_success(&workshop.hammerbeam(&RUN));
@@ -114,11 +120,15 @@ fn wrong_parameters_and_ranges_are_refused_with_what_is_allowed() {
         assert_bad_input(&workshop.hammerbeam(&["check", "study.toml"]), parts);
     };
     let amplitude = "parameter = \"excitation.amplitude_n\"";
-    refused(amplitude, "parameter = \"excitation.amplitude_m\"", &[
-        "not a parameter of this study",
-        "did you mean \"excitation.amplitude_n\"?",
-        "stop.1.stiffness_n_m3",
-    ]);
+    refused(
+        amplitude,
+        "parameter = \"excitation.amplitude_m\"",
+        &[
+            "not a parameter of this study",
+            "did you mean \"excitation.amplitude_n\"?",
+            "stop.1.stiffness_n_m3",
+        ],
+    );
     refused("stop.spring.stiffness_n_m3", "stop.spring.gap_m", &["not a parameter of this study"]);
     refused("range = [0.02, 0.8]", "range = [0.8, 0.02]", &["reversed", "low < high"]);
     refused("range = [0.02, 0.8]", "range = [0.3, 0.3]", &["empty"]);
