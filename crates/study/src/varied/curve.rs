@@ -124,7 +124,7 @@ fn nearest_event(store: &Store, curve: &Curve) -> Result<Option<(PeriodicSolutio
         }
     }
     let Some((_, key)) = nearest else { return Ok(None) };
-    Ok(store.event(key)?.map(|event| Ok::<_, Failed>((store.solution_of_key(key)?, event))).transpose()?)
+    store.event(key)?.map(|event| Ok((store.solution_of_key(key)?, event))).transpose()
 }
 
 fn in_words(end: &CurveEnd) -> String {
