@@ -74,15 +74,13 @@ fn assert_meets_branch(
     parameter: Parameter,
     (start_hz, range_hz): (f64, (f64, f64)),
     wanted: fn(&Events) -> bool,
-) -> f64 {
+) {
     let system = case.0.clone().with_parameter(parameter, row.parameter).unwrap();
     let found = events(&(system, case.1.clone()), start_hz, range_hz, wanted);
     let hz = row.solution.frequency_hz;
     let errors = found.iter().map(|other| (other.solution.frequency_hz / hz - 1.0).abs());
     let error = errors.fold(f64::INFINITY, f64::min);
-    println!("at {}: {hz} Hz, off by {error:e} of {} events", row.parameter, found.len());
     assert!(error < 1e-8, "at {}: {hz} Hz, off by {error:e}", row.parameter);
-    error
 }
 
 const DUFFING_HZ: (f64, f64) = (0.1, 0.6);
@@ -129,9 +127,7 @@ fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
             let cusps: Vec<&CurveRow> = rows.iter().filter(|row| row.events.cusp).collect();
             assert_eq!(cusps.len(), 1);
             let hz = w / std::f64::consts::TAU;
-            let found = [cusps[0].parameter / 0.5 - 1.0, cusps[0].solution.frequency_hz / hz - 1.0];
-            println!("damping {damping}: cusp off by {found:?}");
-            found
+            [cusps[0].parameter / 0.5 - 1.0, cusps[0].solution.frequency_hz / hz - 1.0]
         })
         .collect();
     for k in 0..2 {
@@ -176,7 +172,6 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
         for side in [Side::Up, Side::Down] {
             let settings = settings(parameter, range, range_hz);
             let (rows, end) = curve(&case, first, (CurveKind::Grazing { contact: 0 }, side), &settings);
-            println!("{parameter:?} {side:?}: {} rows, {end:?}", rows.len());
             assert!(rows.len() > 20 && end != CurveEnd::Budget);
             for row in &rows {
                 let linear = amplitude(row.solution.frequency_hz);
@@ -264,7 +259,6 @@ fn neimark_sacker_curves_pass_resonances() {
         [((0.14912, Side::Up), (0.15394, Side::Down)), ((0.14912, Side::Down), (0.15394, Side::Up))]
     {
         let (there, back) = (resonances(there.0, there.1), resonances(back.0, back.1));
-        println!("{there:?} {back:?}");
         assert_eq!(there.len(), 2);
         for ((order, parameter, hz), other) in there.iter().zip(&back) {
             assert_eq!(*order, other.0);

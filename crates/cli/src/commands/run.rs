@@ -25,13 +25,13 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let threads = threads(options.jobs);
     let plan = Plan::of(&file.study);
     let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
+    terminal.clear();
     let mut outcome = outcome?;
     if outcome == RunOutcome::Done
         && varied::run(&mut store, &model, &file.study, &mut terminal)? == VariedOutcome::Interrupted
     {
         outcome = RunOutcome::Interrupted;
     }
-    terminal.clear();
     let branches = summarise(&store)?;
     let pieces = store.pieces()?;
     let summary = Summary { study: &file.study, folder: options.out.display().to_string(), branches, pieces };

@@ -254,7 +254,7 @@ impl CurveWalk {
             (0..shooting.count).map(|k| shooting.stretch(k, place.frequency_hz, place.phase)).collect();
         let maxima = observe(&mut shooting.integrator, &stretches, &nodes)?;
         let has_phase = self.problem.condition.has_phase();
-        let nodes = if has_phase { self.from_phase_zero(&place, &nodes[0])? } else { nodes };
+        let nodes = if has_phase { self.nodes_at_phase_zero(&place, &nodes[0])? } else { nodes };
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
             period_multiple: self.problem.shooting.period_multiple,
@@ -264,7 +264,7 @@ impl CurveWalk {
             error_estimate: current.correction_norm,
             maxima,
         };
-        let phase = has_phase.then(|| place.phase);
+        let phase = has_phase.then_some(place.phase);
         Ok(CurveRow { parameter: place.value, solution, phase, events })
     }
 
@@ -290,7 +290,7 @@ impl CurveWalk {
     }
 
     /// Nodes at equal phases from phase 0 of the orbit that is cut elsewhere.
-    fn from_phase_zero(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
+    fn nodes_at_phase_zero(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
         let shooting = &mut self.problem.shooting;
         let (f, multiple, count) = (place.frequency_hz, shooting.period_multiple, shooting.count);
         let periods = f64::from(multiple);

@@ -41,6 +41,9 @@ fn every_key_is_documented() {
     for table in ["continuation", "search"] {
         keys.extend(known_keys(&format!("{BEAM}\n[{table}]\nwrong_key = 1\n")));
     }
+    for table in ["vary", "curve"] {
+        keys.extend(known_keys(&format!("{BEAM}\n[[{table}]]\nwrong_key = 1\n")));
+    }
     keys.extend(known_keys(&BEAM.replace("height_m = 0.003 }", "height_m = 0.003, wrong_key = 1 }")));
     assert!(keys.len() > 80, "{}", keys.len());
     for key in keys {

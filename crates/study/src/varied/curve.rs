@@ -34,16 +34,7 @@ pub(super) fn follow(
         );
         return Err(Failed::Message(message));
     };
-    let kind = match (curve.of, event.contact) {
-        (CurveOf::Fold, _) => CurveKind::Fold,
-        (CurveOf::Flip, _) => CurveKind::Flip,
-        (CurveOf::NeimarkSacker, _) => CurveKind::NeimarkSacker,
-        (CurveOf::Grazing, Some(change)) => CurveKind::Grazing { contact: change.contact },
-        (CurveOf::Grazing, None) => {
-            let message = format!("the contact that grazes at {} Hz is not known", start.frequency_hz);
-            return Err(Failed::Message(message));
-        }
-    };
+    let kind = kind_of(curve.of, &start, &event)?;
     let [low, high] = study.excitation.frequency_hz;
     let [from, to] = curve.parameter.range;
     let curve_settings = CurveSettings {
@@ -53,12 +44,36 @@ pub(super) fn follow(
         max_step: MAX_STEP,
         max_rows: study.continuation.budget_solutions,
     };
+    let branch = both_sides(model, study, (&start, kind), (curve, &curve_settings, &parameter), observer)?;
+    Ok(Found { branches: vec![branch], message: None })
+}
+
+fn kind_of(of: CurveOf, start: &PeriodicSolution, event: &LocatedEvent) -> Result<CurveKind, Failed> {
+    match (of, event.contact) {
+        (CurveOf::Fold, _) => Ok(CurveKind::Fold),
+        (CurveOf::Flip, _) => Ok(CurveKind::Flip),
+        (CurveOf::NeimarkSacker, _) => Ok(CurveKind::NeimarkSacker),
+        (CurveOf::Grazing, Some(change)) => Ok(CurveKind::Grazing { contact: change.contact }),
+        (CurveOf::Grazing, None) => {
+            let message = format!("the contact that grazes at {} Hz is not known", start.frequency_hz);
+            Err(Failed::Message(message))
+        }
+    }
+}
+
+fn both_sides(
+    model: &Model,
+    study: &Study,
+    (start, kind): (&PeriodicSolution, CurveKind),
+    (curve, curve_settings, parameter): (&Curve, &CurveSettings, &StudyParameter),
+    observer: &mut dyn Observer,
+) -> Result<VariedBranch, Failed> {
     let orbits = settings(&study.continuation);
     let (mut rows, mut ends) = (Vec::new(), Vec::new());
     for side in [Side::Down, Side::Up] {
         let of_side = (kind, side);
         let mut walk =
-            CurveWalk::new(&model.system, &model.response, &start, of_side, &curve_settings, &orbits)?;
+            CurveWalk::new(&model.system, &model.response, start, of_side, curve_settings, &orbits)?;
         let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
         let end = loop {
             if observer.interrupted() {
@@ -72,7 +87,7 @@ pub(super) fn follow(
         if side == Side::Down {
             walked.reverse();
         }
-        rows.extend(walked.into_iter().map(|row| varied(row, &parameter)));
+        rows.extend(walked.into_iter().map(|row| varied(row, parameter)));
         ends.push(in_words(&end));
         if end == CurveEnd::Closed {
             ends.push(ends[0].clone());
@@ -81,8 +96,7 @@ pub(super) fn follow(
     }
     let [down, up] = [ends.swap_remove(0), ends.pop().unwrap_or_default()];
     let kind = curve.of.name().to_owned();
-    let branch = VariedBranch { period_multiple: curve.period_multiple, kind, up, down, rows };
-    Ok(Found { branches: vec![branch], message: None })
+    Ok(VariedBranch { period_multiple: curve.period_multiple, kind, up, down, rows })
 }
 
 fn varied(row: CurveRow, parameter: &StudyParameter) -> VariedRow {
@@ -110,7 +124,7 @@ fn nearest_event(store: &Store, curve: &Curve) -> Result<Option<(PeriodicSolutio
         }
     }
     let Some((_, key)) = nearest else { return Ok(None) };
-    Ok(store.event(key)?.map(|event| Ok::<_, Failed>((store.solution_of_key(key)?, event))).transpose()?)
+    store.event(key)?.map(|event| Ok((store.solution_of_key(key)?, event))).transpose()
 }
 
 fn in_words(end: &CurveEnd) -> String {
