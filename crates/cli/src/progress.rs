@@ -51,13 +51,12 @@ impl Terminal {
             "? left".to_owned()
         };
         format!(
-            "{left}  {} solutions, {}/s  branches: {} done, {} walks open  {:.3} Hz, period {}",
+            "{left}  {:.2} Hz  {} solutions, {}/s  {} branches done, {} walks open",
+            progress.frequency_hz,
             HumanCount(progress.solutions),
             HumanCount(rate as u64),
             progress.branches_done,
             progress.walks_open,
-            progress.frequency_hz,
-            progress.period_multiple,
         )
     }
 }

@@ -7,7 +7,7 @@ use std::{
     fs,
     process::{Command, Stdio},
     thread::sleep,
-    time::{Duration, Instant, SystemTime, UNIX_EPOCH},
+    time::{Duration, Instant},
 };
 
 use common::{TWO_MASSES, Workshop, assert_success, stderr, stdout};
@@ -31,9 +31,9 @@ fn undisturbed(study: &str) -> (String, Duration) {
     (workshop.csv("results"), begun.elapsed())
 }
 
-/// Ten numbers from 0 to 1 that differ from run to run of the test.
+/// Ten numbers from 0 to 1, always the same ones.
 fn random_parts() -> Vec<f64> {
-    let mut seed = SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as u64;
+    let mut seed = 20_u64;
     let mut next = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / (1u64 << 53) as f64
@@ -41,13 +41,15 @@ fn random_parts() -> Vec<f64> {
     (0..10).map(|_| next()).collect()
 }
 
+/// Each of the ten runs is killed somewhere from its beginning to its very end and taken up again once.
 #[test]
 fn killed_at_ten_random_instants_and_resumed_it_ends_with_the_same_bytes() {
-    let (expected, duration) = undisturbed(&long_study());
-    let workshop = Workshop::with(&long_study());
+    let study = format!("{TWO_MASSES}\n[continuation]\nmax_step_hz = 0.002\n");
+    let (expected, duration) = undisturbed(&study);
     let parts = random_parts();
     let mut killed = 0;
     for part in &parts {
+        let workshop = Workshop::with(&study);
         let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
             .args(RUN)
             .current_dir(workshop.path(""))
@@ -55,14 +57,14 @@ fn killed_at_ten_random_instants_and_resumed_it_ends_with_the_same_bytes() {
             .stderr(Stdio::null())
             .spawn()
             .unwrap();
-        sleep(duration.mul_f64(0.25 * part));
+        sleep(duration.mul_f64(0.98 * part));
         killed += usize::from(child.try_wait().unwrap().is_none());
         child.kill().unwrap();
         child.wait().unwrap();
+        assert_success(&workshop.hammerbeam(&RUN));
+        assert!(workshop.csv("results") == expected, "the rows differ after a kill at {part}");
     }
-    assert_success(&workshop.hammerbeam(&RUN));
-    assert!(killed >= 3, "only {killed} of the runs were still at work when they were killed: {parts:?}");
-    assert!(workshop.csv("results") == expected, "the rows differ after kills at {parts:?}");
+    assert!(killed >= 7, "only {killed} of the runs were still at work when they were killed: {parts:?}");
 }
 
 #[cfg(unix)]

@@ -35,15 +35,17 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
             format!("no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz");
         return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
     };
+    let complete = incomplete.is_none();
     if let Some(why) = incomplete {
         anstream::eprintln!("{why}");
     }
-    output.give(&document(first, others), || text(first, others, &file.study.response.point));
+    output.give(&document(first, others, complete), || text(first, others, &file.study.response.point));
     Ok(())
 }
 
-fn document(first: &PeriodicSolution, others: &[PeriodicSolution]) -> Value {
+fn document(first: &PeriodicSolution, others: &[PeriodicSolution], complete: bool) -> Value {
     let mut document = quantities(first);
+    document["search_complete"] = complete.into();
     document["others"] = others.iter().map(quantities).collect();
     document
 }

@@ -1,7 +1,8 @@
 //! What an idle thread does next: what the next decision waits for, then later jobs, then walks from starts that are likely to be new.
 //!
 //! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was walked so far, and first for period multiples
-//! that nobody is walking.
+//! that nobody is walking, then far from the starts of the walks under way: the other end of a branch is often near. The second side of a branch waits for the first one,
+//! which may close the branch, as long as there is anything else to do.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -29,10 +30,11 @@ pub(super) fn next_task(
     if let Some(job) = job_to_evaluate(agenda, first) {
         return Ok(Some(begin_evaluation(agenda, store, plan, job)?));
     }
-    match walk_ahead(agenda, store, solver, plan)? {
-        Some(walk) => Ok(Some(begin_walk(agenda, store, plan, walk)?)),
-        None => Ok(None),
-    }
+    let ahead = match walk_ahead(agenda, store, solver, plan)? {
+        Some(walk) => Some(walk),
+        None => second_side(agenda, plan),
+    };
+    ahead.map(|walk| begin_walk(agenda, store, plan, walk)).transpose()
 }
 
 fn is_open(job: &Job) -> bool {
@@ -44,14 +46,26 @@ fn awaited_walk(job: &Job, plan: &Plan) -> Option<(u32, Side)> {
     job.starts.iter().filter(|start| start.branch.is_some()).find_map(|start| open_side(start, plan))
 }
 
-/// A side of a start that nobody walks.
+/// A side of a start that nobody walks and that need not wait for the other one.
 fn open_side(start: &Start, plan: &Plan) -> Option<(u32, Side)> {
     let open = |side: Side| {
         let walk = start.walk(side);
         !walk.is_finished(plan) && walk.running.is_none()
     };
-    let side = [Side::Up, Side::Down].into_iter().find(|side| open(*side))?;
-    (side == Side::Up || !start.up.is_closed()).then_some((start.key, side))
+    if open(Side::Up) {
+        return Some((start.key, Side::Up));
+    }
+    let up_is_done = start.up.running.is_none() && !start.up.is_closed();
+    (up_is_done && open(Side::Down)).then_some((start.key, Side::Down))
+}
+
+/// The second side of a start whose first one is under way.
+fn second_side(agenda: &Agenda, plan: &Plan) -> Option<(u32, Side)> {
+    let waits = |start: &&Start| {
+        start.up.running.is_some() && start.down.running.is_none() && !start.down.is_finished(plan)
+    };
+    let open = agenda.jobs.iter().filter(|job| is_open(job)).flat_map(|job| &job.starts);
+    open.filter(|start| !start.doubtful).find(waits).map(|start| (start.key, Side::Down))
 }
 
 /// The first open job that is not evaluated. Whether a harmonic start is needed at all is known only when its turn comes.
@@ -71,18 +85,22 @@ fn walk_ahead(
     plan: &Plan,
 ) -> Result<Option<(u32, Side)>, StoreError> {
     loop {
-        let walked: Vec<u32> = agenda
+        let walked: Vec<(u32, f64)> = agenda
             .starts()
             .filter(|start| start.up.running.is_some() || start.down.running.is_some())
-            .map(|start| start.period_multiple)
+            .map(|start| (start.period_multiple, begins_at(start)))
             .collect();
         let candidates = || {
             let open = agenda.jobs.iter().filter(|job| is_open(job)).flat_map(|job| &job.starts);
             open.filter(|start| start.branch.is_none() && !start.doubtful)
                 .filter_map(|start| Some((start, open_side(start, plan)?)))
         };
-        let fresh = candidates().find(|(start, _)| !walked.contains(&start.period_multiple));
-        let Some((start, walk)) = fresh.or_else(|| candidates().next()) else { return Ok(None) };
+        let fresh = candidates().find(|(start, _)| walked.iter().all(|(n, _)| *n != start.period_multiple));
+        let apart = |start: &Start| {
+            walked.iter().map(|(_, at)| (at - begins_at(start)).abs()).fold(f64::INFINITY, f64::min)
+        };
+        let farthest = || candidates().max_by(|a, b| apart(a.0).total_cmp(&apart(b.0)));
+        let Some((start, walk)) = fresh.or_else(farthest) else { return Ok(None) };
         let begun = start.up.rows.len() + start.down.rows.len() > 1;
         if begun || !seems_known(agenda, store, solver, start)? {
             return Ok(Some(walk));
@@ -92,6 +110,11 @@ fn walk_ahead(
             start.doubtful = true;
         }
     }
+}
+
+/// Frequency of a start [Hz].
+fn begins_at(start: &Start) -> f64 {
+    start.up.rows.first().map_or(0.0, |row| row.frequency_hz)
 }
 
 /// Whether a start lies on anything that was walked so far.

@@ -64,6 +64,7 @@ impl Store {
     /// Nothing is written then.
     pub fn open_for_run(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
         let database = folder.join(DATABASE);
+        roll_back(&database)?;
         if database.exists() {
             schema::check_study(&open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?, folder, file)?;
         }
@@ -87,6 +88,7 @@ impl Store {
         if !database.is_file() {
             return Err(StoreError::NoResults { folder: folder.to_owned() });
         }
+        roll_back(&database)?;
         let connection = open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
         schema::check_version(&connection, folder)?;
         Ok(Self { connection, folder: folder.to_owned(), lock: None })
@@ -206,6 +208,16 @@ fn walk_id(start: u32, side: Side) -> i64 {
 /// Key of the first solution a walk can have; the walk has the 2^32 keys from there.
 fn first_key(walk: i64) -> i64 {
     walk << 32
+}
+
+/// Undoes what was half written when a run was killed while it left one plain file behind; only a connection that may write can do so.
+fn roll_back(database: &Path) -> Result<(), StoreError> {
+    let journal = database.with_file_name(format!("{DATABASE}-journal"));
+    if database.is_file() && journal.is_file() {
+        let connection = open(database, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
+        connection.query_row("SELECT count(*) FROM sqlite_master", [], |_| Ok(()))?;
+    }
+    Ok(())
 }
 
 fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {

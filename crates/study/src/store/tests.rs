@@ -152,3 +152,35 @@ fn reading_where_nothing_is_writes_nothing() {
     assert!(matches!(Store::open(folder.path()), Err(StoreError::NoResults { .. })));
     assert_eq!(listing(folder.path()), []);
 }
+
+/// A kill while a transaction is being written leaves its journal behind: the copy of both files is what the next run finds.
+#[test]
+fn a_journal_left_by_a_kill_is_rolled_back_by_whoever_comes_next() {
+    for reads in [true, false] {
+        let (folder, killed) = (tempdir().unwrap(), tempdir().unwrap());
+        let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+        begin(&mut store);
+        store.finish().unwrap();
+        let database = folder.path().join(DATABASE);
+        let writing = Connection::open(&database).unwrap();
+        writing.execute_batch("PRAGMA cache_size = 1; BEGIN; UPDATE about SET value = 'half';").unwrap();
+        let long = "x".repeat(100_000);
+        for number in 0..20 {
+            let insert = "INSERT INTO about (key, value) VALUES (?1, ?2)";
+            writing.execute(insert, rusqlite::params![format!("key {number}"), long]).unwrap();
+        }
+        for name in [DATABASE.to_owned(), format!("{DATABASE}-journal")] {
+            fs::copy(folder.path().join(&name), killed.path().join(&name)).unwrap();
+        }
+        assert!(
+            fs::metadata(killed.path().join(DATABASE)).unwrap().len() > 500_000,
+            "the transaction has spilled"
+        );
+        let store = match reads {
+            true => Store::open(killed.path()).unwrap(),
+            false => Store::open_for_run(killed.path(), &study(STUDY)).unwrap(),
+        };
+        assert_eq!(store.branches().unwrap().len(), 1);
+        assert_ne!(store.about("title").unwrap(), "half");
+    }
+}
