@@ -102,7 +102,7 @@ fn maxima_of_the_beam_are_those_of_the_exact_integrator() {
         let state = settled(&system, frequency_hz, 150, 0.0);
         let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
         let found = watch(&system, &stretch, &state, (shape, 1.0));
-        let (_, expected) = exact.observe(&stretch, &state).unwrap();
+        let expected = exact.observe(&[(stretch, &state)]).unwrap();
         let near = |found: f64, expected: f64, bound: f64, what: &str| {
             assert_near(found / expected, 1.0, bound, &format!("{what} at {frequency_hz} Hz"));
         };
@@ -135,7 +135,8 @@ fn maxima_of_both_integrators_agree_to_1e_9_with_few_and_many_contacts() {
             let (state, response) = ([0.003, -0.001, 0.1, 0.02], ([1.0, -0.5].as_slice(), 0.0));
             let settings = ExactSettings { tolerance: 1e-12 };
             let mut exact = ExactIntegrator::watching(system.clone(), settings, Some(response)).unwrap();
-            let (end, found) = exact.observe(&stretch, &state).unwrap();
+            let found = exact.observe(&[(stretch, &state)]).unwrap();
+            let end = exact.advance(&stretch, &state).unwrap();
             let general = watch(&system, &stretch, &state, response);
             assert_eq!(found.touches, general.touches);
             touches.push(found.touches);

@@ -17,6 +17,7 @@
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
+//! | `trials.rs` | harmonic orbits at a frequency, quickly |
 //! | `curve/` | curves of folds, flips, Neimark-Sacker points and grazing in two parameters |
 //! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
@@ -78,6 +79,7 @@ mod stability;
 mod start;
 mod survey;
 mod switch;
+mod trials;
 mod walk;
 
 pub use curve::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
@@ -95,4 +97,5 @@ pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopR
 pub use start::{Interruption, find_start, find_start_unless};
 pub use survey::{SurveyEffort, survey};
 pub use switch::Crossing;
+pub use trials::harmonic_trials;
 pub use walk::BranchWalk;

@@ -392,11 +392,13 @@ impl PathProblem for ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::OutsideDomain);
         }
-        for segment in 0..self.segments {
-            if let Err(error) = self.evaluate_segment(segment, point) {
-                self.failure = Some(error);
-                return Err(EvaluationError::NotFinite);
-            }
+        // What is evaluated last is often observed next.
+        self.integrator.begin_trace();
+        let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
+        self.integrator.end_trace();
+        if let Err(error) = evaluated {
+            self.failure = Some(error);
+            return Err(EvaluationError::NotFinite);
         }
         self.accumulate();
         Ok(())

@@ -132,13 +132,9 @@ pub(crate) fn observe(
     stretches: &[Stretch],
     nodes: &[Vec<f64>],
 ) -> Result<OrbitMaxima, OrbitError> {
-    let mut joined = None;
-    for (stretch, node) in stretches.iter().zip(nodes) {
-        let (_, maxima) = integrator.observe(stretch, node)?;
-        joined =
-            Some(joined.map_or(maxima, |earlier: hammerbeam_motion::exact::Maxima| earlier.joined(maxima)));
-    }
-    let maxima = joined.unwrap_or_default();
+    let motion: Vec<(Stretch, &[f64])> =
+        stretches.iter().copied().zip(nodes.iter().map(Vec::as_slice)).collect();
+    let maxima = integrator.observe(&motion)?;
     Ok(OrbitMaxima {
         displacement: maxima.displacement,
         acceleration: maxima.acceleration,

@@ -95,7 +95,7 @@ fn print_costs(model: &Model, orbits: &[PeriodicSolution]) {
         black_box(integrator.flow(&stretch(orbit), &orbit.nodes[0]).unwrap());
     });
     let maxima = time(&mut |integrator, orbit| {
-        black_box(integrator.observe(&stretch(orbit), &orbit.nodes[0]).unwrap());
+        black_box(integrator.observe(&[(stretch(orbit), &orbit.nodes[0])]).unwrap());
     });
     let contacts: u32 = orbits.iter().map(|orbit| orbit.maxima.contacts).sum();
     println!(

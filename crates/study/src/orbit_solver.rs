@@ -3,7 +3,7 @@
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings,
     PeriodicSolution, Response, Segments, Side, StopReason, SurveyEffort, find_orbits, find_start_unless,
-    reach_orbit, survey,
+    harmonic_trials, reach_orbit, survey,
 };
 
 use crate::{
@@ -11,6 +11,11 @@ use crate::{
     file::{self, Study},
     run::{Match, Origin, Solver, Walk},
 };
+
+/// Frequencies in the part of the range of a survey at which harmonic solutions are tried,
+const TRIED_IN_A_PART: u32 = 8;
+/// and trials without a new one at each of them.
+const TRIALS: usize = 12;
 
 /// Periodic solutions of one model and their branches.
 #[derive(Debug)]
@@ -27,6 +32,7 @@ impl<'m> OrbitSolver<'m> {
     #[must_use]
     pub fn new(model: &'m Model, study: &Study) -> Self {
         let [low, high] = study.excitation.frequency_hz;
+        let usual = SurveyEffort::default();
         Self {
             model,
             range_hz: (low, high),
@@ -35,7 +41,8 @@ impl<'m> OrbitSolver<'m> {
             effort: SurveyEffort {
                 starts: study.search.starts as usize,
                 settling: study.search.settling_periods as usize,
-                ..SurveyEffort::default()
+                near_returns: if study.search.unstable_starts { usual.near_returns } else { 0 },
+                ..usual
             },
         }
     }
@@ -98,10 +105,25 @@ impl Solver for OrbitSolver<'_> {
         found.map_err(|error| error.to_string())
     }
 
-    fn survey(&self, frequency_hz: f64, multiples: &[u32]) -> Result<Vec<PeriodicSolution>, String> {
-        let system = &self.model.system;
-        survey(system, self.response(), frequency_hz, multiples, &self.effort, &self.settings)
-            .map_err(|error| error.to_string())
+    fn survey(
+        &self,
+        frequency_hz: f64,
+        width_hz: f64,
+        multiples: &[u32],
+        interrupted: Interruption<'_>,
+    ) -> Result<Vec<PeriodicSolution>, String> {
+        let (system, response, settings) = (&self.model.system, self.response(), &self.settings);
+        let mut found = survey(system, response, frequency_hz, multiples, &self.effort, settings)
+            .map_err(|error| error.to_string())?;
+        if self.effort.near_returns > 0 && multiples.contains(&1) {
+            for part in 0..TRIED_IN_A_PART {
+                let place = (f64::from(part) + 0.5) / f64::from(TRIED_IN_A_PART) - 0.5;
+                let at_hz = frequency_hz + place * width_hz;
+                let tried = harmonic_trials(system, response, at_hz, TRIALS, settings, &mut *interrupted);
+                found.extend(tried.map_err(|error| error.to_string())?);
+            }
+        }
+        Ok(found)
     }
 
     fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {

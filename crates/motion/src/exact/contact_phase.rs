@@ -228,9 +228,8 @@ impl ExactIntegrator {
             self.step.advance_sensitivity(sensitivity);
         }
         self.counts.steps += 1;
-        if let Some(mut observation) = self.observation.take() {
-            self.observe_step(run, &mut observation);
-            self.observation = Some(observation);
+        if self.traces {
+            self.trace.step(run, &self.step);
         }
         self.step.advance_state(&self.series, &mut run.state);
         run.time += length;

@@ -51,8 +51,8 @@ impl ExactIntegrator {
         if !placed {
             self.place(run, time);
         }
-        if let Some(observation) = &mut self.observation {
-            observation.flight(run.time, time, &self.flight_start);
+        if self.traces {
+            self.trace.flight(run.time, time, &self.flight_start);
         }
         run.time = if touch.is_none() { end } else { run.time + time };
         if let Some(sensitivity) = &mut run.sensitivity {

@@ -13,6 +13,8 @@ const ACCURACY: f64 = 1e-12;
 /// A flight that was flown.
 #[derive(Debug, Clone)]
 pub(super) struct Flown {
+    /// The stretch it is in.
+    pub piece: usize,
     pub start: f64,
     pub duration: f64,
     pub state: Vec<f64>,
@@ -208,7 +210,7 @@ mod tests {
             let phase = std::f64::consts::PI * f64::from(k % 199) / 199.0;
             let duration = 0.01 + 4.0 * f64::from(k % 251) / 251.0;
             let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: duration };
-            let (_, maxima) = integrator.observe(&stretch, &[phase.cos(), -phase.sin()]).unwrap();
+            let maxima = integrator.observe(&[(stretch, &[phase.cos(), -phase.sin()])]).unwrap();
             let passes = phase + duration >= std::f64::consts::PI || phase == 0.0;
             let exact = if passes { 1.0 } else { phase.cos().abs().max((phase + duration).cos().abs()) };
             assert!(

@@ -83,6 +83,9 @@ impl ExactIntegrator {
             let closed = self.contact_at_start(&run, element, stretch.duration());
             run.closed.push(closed);
         }
+        if self.traces {
+            self.trace.begin(stretch, state, &run);
+        }
         self.touches.fill(0);
         self.counts.stretches += 1;
         run
@@ -127,9 +130,8 @@ impl ExactIntegrator {
 
     /// Notes that a contact closes.
     pub(super) fn close(&mut self, run: &mut Run, touch: Touch) {
-        if let Some(mut observation) = self.observation.take() {
-            observation.touch(self.output_jet(&run.state, touch.element, run.time).slope);
-            self.observation = Some(observation);
+        if self.traces {
+            self.trace.touch(self.output_jet(&run.state, touch.element, run.time).slope);
         }
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);

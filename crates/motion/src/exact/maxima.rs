@@ -1,6 +1,6 @@
 //! Maxima of an orbit on the continuous motion.
 //!
-//! Flights are searched once the motion is complete (`flight_maximum.rs`). In a force step the displacement of the response and the force of each
+//! They are taken from the trace of the motion (`trace.rs`). Flights are searched last (`flight_maximum.rs`). In a force step the displacement of the response and the force of each
 //! element are taken as polynomials in the variable of the step, which tell where the largest value `r` is. They are not accurate enough for the
 //! value itself: that is computed once more from the convolution `r(t) = C exp(A t) x + int C exp(A (t - s)) B F(s) ds + r_particular(t)`, at the time
 //! where Newton's method finds `r'(t) = 0` for it, or at an end of the step. The force follows from it by its law, and so does the acceleration, at the
@@ -9,8 +9,10 @@
 use super::{
     ExactIntegrator, MotionError,
     collocation::{FINE, Grading, NODES},
+    drive::Drive,
     flight_maximum::Flown,
     run::Run,
+    trace::{Passage, Trace, TracedStep},
 };
 use crate::Stretch;
 
@@ -34,20 +36,6 @@ pub struct Maxima {
 }
 
 impl Maxima {
-    /// Maxima of two motions that follow one another.
-    #[must_use]
-    pub fn joined(self, later: Self) -> Self {
-        Self {
-            displacement: self.displacement.max(later.displacement),
-            acceleration: self.acceleration.max(later.acceleration),
-            contact_force: self.contact_force.max(later.contact_force),
-            impact_velocity: self.impact_velocity.max(later.impact_velocity),
-            impulse: self.impulse + later.impulse,
-            touches: self.touches + later.touches,
-            closed_throughout: self.closed_throughout & later.closed_throughout,
-        }
-    }
-
     /// Number of contacts: those that closed, and those that were closed throughout.
     #[must_use]
     pub fn contacts(&self) -> u32 {
@@ -55,9 +43,9 @@ impl Maxima {
     }
 }
 
-/// What is noted while a motion is observed.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Observation {
+/// What a trace holds that can be among the maxima.
+#[derive(Debug, Default)]
+struct Observation {
     maxima: Maxima,
     flights: Vec<Flown>,
     /// Of the acceleration of the response,
@@ -97,6 +85,8 @@ impl Peaks {
 /// A force step with a large value of an output, as far as its polynomial tells.
 #[derive(Debug, Clone)]
 struct Peak {
+    /// The stretch it is in.
+    piece: usize,
     output: usize,
     /// The largest value, by the polynomial.
     value: f64,
@@ -115,69 +105,118 @@ struct Peak {
 const PARABOLAS: usize = 6;
 /// Steps of Newton's method to the place of a largest displacement.
 const POLISHES: usize = 6;
+/// So near to it, in parts of the step, a parabola gives the value: what is left is of third order, 1e-12 of the variation in the step.
+const NEAR: f64 = 1e-4;
 /// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as smooth as steps are.
 const BETWEEN_NODES: f64 = 1.5;
 
-impl Observation {
-    pub fn flight(&mut self, start: f64, duration: f64, state: &[f64]) {
-        self.maxima.closed_throughout = 0;
-        self.flights.push(Flown { start, duration, state: state.to_vec() });
-    }
-
-    pub fn touch(&mut self, speed: f64) {
-        self.maxima.touches += 1;
-        self.maxima.impact_velocity = self.maxima.impact_velocity.max(speed.abs());
-    }
-}
-
 impl ExactIntegrator {
-    /// State at the end of a stretch and the maxima on the way, of the response point given at construction.
+    /// Maxima of a motion over stretches that follow one another, each from its own state, of the response point given at construction.
     ///
     /// # Errors
     /// See [`MotionError`].
-    pub fn observe(&mut self, stretch: &Stretch, state: &[f64]) -> Result<(Vec<f64>, Maxima), MotionError> {
+    pub fn observe(&mut self, motion: &[(Stretch, &[f64])]) -> Result<Maxima, MotionError> {
+        let mut trace = self.take_trace(motion)?;
         let mut observation = Observation::default();
-        let mut run = self.begin(stretch, state, false);
-        observation.maxima.closed_throughout = closed_bits(&run);
-        self.observation = Some(observation);
-        let result = self.complete(&mut run, stretch);
-        let end = self.modal_state(&run, stretch.duration());
-        let mut observation = self.observation.take().unwrap_or_default();
-        self.run = run;
-        result?;
-        let Observation { maxima, fastest, farthest, hardest, .. } = &mut observation;
-        for peak in std::mem::take(&mut hardest.peaks) {
+        observation.maxima.closed_throughout = if motion.is_empty() { 0 } else { u64::MAX };
+        for piece in 0..trace.stretches.len() {
+            self.look_through(&trace, piece, &mut observation);
+        }
+        std::mem::swap(&mut self.trace, &mut trace);
+        Ok(self.exact_maxima(observation, motion))
+    }
+
+    /// From now on what happens is noted, so that [`ExactIntegrator::observe`] need not go through the same motion again.
+    pub fn begin_trace(&mut self) {
+        self.trace.clear();
+        self.traces = true;
+    }
+
+    /// From now on nothing is noted; what was stays until the next trace begins.
+    pub fn end_trace(&mut self) {
+        self.traces = false;
+    }
+
+    /// The trace of a motion, which is gone through where it was not gone through last.
+    fn take_trace(&mut self, motion: &[(Stretch, &[f64])]) -> Result<Trace, MotionError> {
+        if !self.trace.is_of(motion) {
+            self.begin_trace();
+            let advanced =
+                motion.iter().try_for_each(|(stretch, state)| self.advance(stretch, state).map(|_| ()));
+            self.end_trace();
+            advanced?;
+        }
+        Ok(std::mem::take(&mut self.trace))
+    }
+
+    /// Notes what happened in one stretch of a trace.
+    fn look_through(&mut self, trace: &Trace, piece: usize, observation: &mut Observation) {
+        let traced = &trace.stretches[piece];
+        let end = trace.stretches.get(piece + 1).map_or(trace.passages.len(), |next| next.first_passage);
+        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, &traced.stretch);
+        observation.maxima.closed_throughout &= traced.closed;
+        for passage in &trace.passages[traced.first_passage..end] {
+            match *passage {
+                Passage::Flight { start, duration, state } => {
+                    observation.maxima.closed_throughout = 0;
+                    let state = trace.numbers(state).to_vec();
+                    observation.flights.push(Flown { piece, start, duration, state });
+                }
+                Passage::Touch { speed } => {
+                    let maxima = &mut observation.maxima;
+                    maxima.touches += 1;
+                    maxima.impact_velocity = maxima.impact_velocity.max(speed.abs());
+                }
+                Passage::Step(step) => {
+                    self.recall(&step, trace.elements(step.active), trace.numbers(step.force));
+                    self.observe_step(piece, trace.numbers(step.state), observation);
+                    observation.maxima.closed_throughout &= step.closed;
+                }
+            }
+        }
+    }
+
+    /// The maxima once more at the places that the polynomials tell, and in the flights that can hold larger ones.
+    fn exact_maxima(&mut self, observation: Observation, motion: &[(Stretch, &[f64])]) -> Maxima {
+        let mut driven = Some(motion.len().saturating_sub(1));
+        let mut drive_of = |integrator: &mut Self, piece: usize| {
+            if driven.replace(piece) != Some(piece) {
+                integrator.drive =
+                    Drive::new(&integrator.system, &integrator.blocks, &integrator.outputs, &motion[piece].0);
+            }
+        };
+        let Observation { mut maxima, fastest, farthest, hardest, flights, .. } = observation;
+        for peak in hardest.peaks {
+            drive_of(self, peak.piece);
             let law = self.laws[peak.output];
             let force = self.exact_extremum(peak, |displacement| law.force(displacement).value.abs());
             maxima.contact_force = maxima.contact_force.max(force);
         }
-        for peak in std::mem::take(&mut farthest.peaks) {
+        for peak in farthest.peaks {
+            drive_of(self, peak.piece);
             maxima.displacement = maxima.displacement.max(self.exact_extremum(peak, f64::abs));
         }
-        for peak in std::mem::take(&mut fastest.peaks) {
+        for peak in fastest.peaks {
+            drive_of(self, peak.piece);
             maxima.acceleration = maxima.acceleration.max(self.exact_peak(peak));
         }
-        if self.watches() {
-            let flights = std::mem::take(&mut observation.flights);
-            for flown in &flights {
-                let best = observation.maxima.displacement;
-                observation.maxima.displacement = self.flight_maximum(flown, 0, best);
-                let best = observation.maxima.acceleration;
-                observation.maxima.acceleration = self.flight_maximum(flown, 2, best);
-            }
+        let flights = if self.watches() { flights } else { Vec::new() };
+        for flown in &flights {
+            drive_of(self, flown.piece);
+            maxima.displacement = self.flight_maximum(flown, 0, maxima.displacement);
+            maxima.acceleration = self.flight_maximum(flown, 2, maxima.acceleration);
         }
-        Ok((end, observation.maxima))
+        maxima
     }
 
     fn watches(&self) -> bool {
         self.outputs.len() > self.laws.len()
     }
 
-    /// Notes the solved step that is being accepted; `run` stands at its start.
-    pub(super) fn observe_step(&self, run: &Run, observation: &mut Observation) {
+    /// Notes the present step, which started from `state`.
+    fn observe_step(&self, piece: usize, state: &[f64], observation: &mut Observation) {
         let step = &self.step;
         let rule = step.grading().rule();
-        observation.maxima.closed_throughout &= closed_bits(run);
         for (a, &element) in step.active.iter().enumerate() {
             if self.laws[element].contacts().is_empty() {
                 continue;
@@ -186,64 +225,79 @@ impl ExactIntegrator {
             let impulse: f64 = (0..NODES).map(|j| rule.at_end[0][j] * force[j]).sum();
             observation.maxima.impulse += (impulse * step.weights.length).abs();
             if let Some(largest) = self.largest(force, observation.hardest.bar()) {
-                observation.hardest.note(self.peak(run, element, largest));
+                observation.hardest.note(self.peak(state, (piece, element), largest));
             }
         }
         if self.watches() {
-            self.observe_response(run, observation);
+            self.observe_response(piece, state, observation);
         }
     }
 
-    fn observe_response(&self, run: &Run, observation: &mut Observation) {
+    fn observe_response(&self, piece: usize, state: &[f64], observation: &mut Observation) {
         let response = self.laws.len();
-        if let Some(largest) = self.largest(&self.response_nodes(run, 0), observation.farthest.bar()) {
-            observation.farthest.note(self.peak(run, response, largest));
+        if let Some(largest) = self.largest(&self.response_nodes(state, 0), observation.farthest.bar()) {
+            observation.farthest.note(self.peak(state, (piece, response), largest));
         }
-        if let Some(largest) = self.largest(&self.response_nodes(run, 2), observation.fastest.bar()) {
-            observation.fastest.note(self.peak(run, response, largest));
+        if let Some(largest) = self.largest(&self.response_nodes(state, 2), observation.fastest.bar()) {
+            observation.fastest.note(self.peak(state, (piece, response), largest));
         }
     }
 
     /// The solved step, whose polynomial has this largest value at this place.
-    fn peak(&self, run: &Run, output: usize, (value, place): (f64, f64)) -> Peak {
+    fn peak(&self, state: &[f64], (piece, output): (usize, usize), (value, place): (f64, f64)) -> Peak {
         Peak {
+            piece,
             output,
             value,
             place,
             grading: self.step.grading(),
             start: self.step.start,
             length: self.step.weights.length,
-            state: run.state.clone(),
+            state: state.to_vec(),
             active: self.step.active.clone(),
             force: self.step.force.clone(),
         }
     }
 
-    /// Makes the step of a peak the present one; the state at its start, and the time of the peak in it.
-    fn recall(&mut self, peak: Peak) -> (Vec<f64>, f64) {
+    /// Makes a step that was solved earlier the present one.
+    fn recall(&mut self, step: &TracedStep, active: &[usize], force: &[f64]) {
+        self.step.grading = Some(step.grading);
+        self.step.start = step.start;
+        self.step.weights.length = step.length;
+        self.step.active.clear();
+        self.step.active.extend_from_slice(active);
+        self.step.force.clear();
+        self.step.force.extend_from_slice(force);
+    }
+
+    /// Makes the step of a peak the present one; the time of the peak in it.
+    fn recall_peak(&mut self, peak: &Peak) -> f64 {
         self.step.grading = Some(peak.grading);
         self.step.start = peak.start;
         self.step.weights.length = peak.length;
-        self.step.active = peak.active;
-        self.step.force = peak.force;
-        (peak.state, peak.grading.map(peak.place).0 * peak.length)
+        self.step.active.clone_from(&peak.active);
+        self.step.force.clone_from(&peak.force);
+        peak.grading.map(peak.place).0 * peak.length
     }
 
     /// Largest value that a function of the displacement has in the step of a peak, near its place: at the extremum of the displacement or at an
     /// end of the step.
     fn exact_extremum(&mut self, peak: Peak, magnitude: impl Fn(f64) -> f64) -> f64 {
         let (length, output) = (peak.length, peak.output);
-        let (state, mut time) = self.recall(peak);
-        let mut jet = self.jet_in_step(&state, output, time);
-        let mut largest = magnitude(jet.value);
+        let mut time = self.recall_peak(&peak);
+        let mut largest = 0.0_f64;
         for _ in 0..POLISHES {
-            let next = (time - jet.slope / jet.curvature).clamp(0.0, length);
-            if next.is_nan() || (next - time).abs() <= 1e-9 * length {
+            let jet = self.jet_in_step(&peak.state, output, time);
+            largest = largest.max(magnitude(jet.value));
+            let away = -jet.slope / jet.curvature;
+            let next = (time + away).clamp(0.0, length);
+            if next.is_nan() || next == time {
                 break;
             }
+            if next == time + away && away.abs() <= NEAR * length {
+                return largest.max(magnitude(jet.value + 0.5 * jet.slope * away));
+            }
             time = next;
-            jet = self.jet_in_step(&state, output, time);
-            largest = largest.max(magnitude(jet.value));
         }
         largest
     }
@@ -252,11 +306,11 @@ impl ExactIntegrator {
     /// displacements, which are much more accurate.
     fn exact_peak(&mut self, peak: Peak) -> f64 {
         let (response, place) = (self.laws.len(), peak.place);
-        let (state, time) = self.recall(peak);
-        let mut exact = self.jet_in_step(&state, response, time).curvature;
+        let time = self.recall_peak(&peak);
+        let mut exact = self.jet_in_step(&peak.state, response, time).curvature;
         for (a, &element) in self.step.active.iter().enumerate() {
             let polynomial = self.step.interpolate(&self.step.force, a, place);
-            let displacement = self.jet_in_step(&state, element, time).value;
+            let displacement = self.jet_in_step(&peak.state, element, time).value;
             exact += self.mobility[response][element]
                 * (self.laws[element].force(displacement).value - polynomial);
         }
@@ -264,16 +318,16 @@ impl ExactIntegrator {
     }
 
     /// Displacement (`derivative` 0) or acceleration (2) of the response point at the nodes of the solved step.
-    fn response_nodes(&self, run: &Run, derivative: usize) -> [f64; NODES] {
+    fn response_nodes(&self, state: &[f64], derivative: usize) -> [f64; NODES] {
         let (step, response) = (&self.step, self.laws.len());
         let length = step.weights.length;
         let pick = |jet: super::drive::Jet| if derivative == 0 { jet.value } else { jet.curvature };
         if length > self.series.reach() {
-            return std::array::from_fn(|k| pick(self.jet_in_step(&run.state, response, step.node_time(k))));
+            return std::array::from_fn(|k| pick(self.jet_in_step(state, response, step.node_time(k))));
         }
         let loads = (step.active.as_slice(), step.force.as_slice());
         let mut values =
-            self.series.node_values((response, derivative), (step.grading(), length), &run.state, loads);
+            self.series.node_values((response, derivative), (step.grading(), length), state, loads);
         for (k, value) in values.iter_mut().enumerate() {
             *value += pick(self.drive.jet(response, &self.outputs[response], step.start + step.node_time(k)));
             if derivative == 2 {

@@ -18,7 +18,8 @@
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs` | the column of a parameter |
-//! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `trace.rs` | what a motion went through |
+//! | `maxima.rs`, `flight_maximum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 
 mod attempt;
 mod block;
@@ -51,6 +52,7 @@ mod sensitivity;
 mod series;
 mod step_error;
 mod touching;
+mod trace;
 mod weights;
 
 #[cfg(test)]
@@ -68,6 +70,7 @@ use force_step::ForceStep;
 use output::Output;
 use run::Run;
 use series::Series;
+use trace::Trace;
 use weights::StepWeights;
 
 use crate::{Law, Parameter, ParameterError, Stretch, System};
@@ -152,7 +155,9 @@ pub struct ExactIntegrator {
     flight_start: Vec<f64>,
     propagators: Vec<Propagator>,
     touches: Vec<u32>,
-    observation: Option<maxima::Observation>,
+    /// Whether what happens is noted in the trace.
+    traces: bool,
+    trace: Trace,
     closed_throughout: u64,
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
@@ -217,7 +222,8 @@ impl ExactIntegrator {
             cache: HashMap::new(),
             flight_start: Vec::new(),
             propagators: Vec::new(),
-            observation: None,
+            traces: false,
+            trace: Trace::default(),
             closed_throughout: 0,
             response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
             parameter: None,

@@ -81,6 +81,14 @@ impl<'a> Value<'a> {
         }
     }
 
+    /// True or false.
+    pub(crate) fn boolean(&self) -> Option<bool> {
+        match self.value {
+            DeValue::Boolean(value) => Some(*value),
+            _ => self.wrong_type("true or false"),
+        }
+    }
+
     /// A string.
     pub(crate) fn text(&self) -> Option<&'a str> {
         match self.value {

@@ -10,6 +10,9 @@ use hammerbeam_orbit::{BranchRow, Side};
 use super::{Plan, follow_ups};
 use crate::store::{JobRecord, Row, Store, StoreError, StoredReason};
 
+/// Distance from the unit circle up to which a multiplier is on it, at a located event.
+const ON_CIRCLE: f64 = 1e-3;
+
 /// What is kept of a row in memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sketch {
@@ -17,6 +20,8 @@ pub(super) struct Sketch {
     pub displacement: f64,
     pub acceleration: f64,
     pub flip: bool,
+    /// No other multiplier lies outside the unit circle.
+    pub else_stable: bool,
     pub branch_point: bool,
 }
 
@@ -27,6 +32,7 @@ impl Sketch {
             displacement: row.maxima.displacement,
             acceleration: row.maxima.acceleration,
             flip: row.events.flip,
+            else_stable: is_on_circle(row.leading_multiplier),
             branch_point: row.events.branch_point,
         }
     }
@@ -37,9 +43,19 @@ impl Sketch {
             displacement: row.solution.maxima.displacement,
             acceleration: row.solution.maxima.acceleration,
             flip: row.events.flip,
+            else_stable: row
+                .solution
+                .floquet_multipliers
+                .first()
+                .is_some_and(|leading| is_on_circle(*leading)),
             branch_point: row.events.branch_point,
         }
     }
+}
+
+/// Whether a solution at a bifurcation is as stable as that allows: its leading multiplier is the one on the unit circle.
+fn is_on_circle([re, im]: [f64; 2]) -> bool {
+    re.hypot(im) < 1.0 + ON_CIRCLE
 }
 
 /// One side of a branch.

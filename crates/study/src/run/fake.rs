@@ -51,7 +51,13 @@ impl Solver for FakeSolver {
     }
 
     /// One solution of two periods at every frequency, none of three.
-    fn survey(&self, frequency_hz: f64, multiples: &[u32]) -> Result<Vec<PeriodicSolution>, String> {
+    fn survey(
+        &self,
+        frequency_hz: f64,
+        _width_hz: f64,
+        multiples: &[u32],
+        _interrupted: hammerbeam_orbit::Interruption<'_>,
+    ) -> Result<Vec<PeriodicSolution>, String> {
         match multiples.contains(&2) {
             true => Ok(vec![self.solution(2, frequency_hz - 15.0)]),
             false => Err("no solution".to_owned()),

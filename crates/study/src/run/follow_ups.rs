@@ -21,7 +21,8 @@ fn at_row(
     let walk = start.walk(side);
     let row = walk.rows.get(number)?;
     let key = solution_key(start.key, side, number as u32);
-    if row.flip && plan.wants_doubling(start.period_multiple, depth) {
+    let at_flip = row.flip && (plan.unstable || row.else_stable);
+    if at_flip && plan.wants_doubling(start.period_multiple, depth) {
         return Some((JobKind::Doubling, row.frequency_hz, Some(key), depth + 1));
     }
     // The first row of a branch that leaves another one is where it does so; the last one where it comes to one of shorter period is there, too.
@@ -30,4 +31,41 @@ fn at_row(
         && walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");
     let crosses = row.branch_point && !is_root && !meets_shorter;
     crosses.then_some((JobKind::Crossing, row.frequency_hz, Some(key), depth))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::agenda::{Sketch, WalkState};
+
+    fn jobs(unstable: bool) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+        let text = include_str!("../../../../studies/duffing.toml");
+        let study = crate::StudyFile::parse("study.toml", text.to_owned()).expect("a study").study;
+        let plan = Plan { unstable, multiples: vec![1, 2], ..Plan::of(&study) };
+        let row = |frequency_hz, flip, else_stable| Sketch {
+            frequency_hz,
+            displacement: 1.0,
+            acceleration: 1.0,
+            flip,
+            else_stable,
+            branch_point: false,
+        };
+        let rows = vec![row(1.0, false, true), row(2.0, true, true), row(3.0, true, false)];
+        let start = Start {
+            key: 0,
+            period_multiple: 1,
+            branch: Some(1),
+            doubtful: false,
+            up: WalkState { rows, ..WalkState::default() },
+            down: WalkState::default(),
+        };
+        of_branch(&start, 0, &plan)
+    }
+
+    #[test]
+    fn without_unstable_starts_only_flips_of_stable_solutions_are_left() {
+        let places = |unstable| jobs(unstable).iter().map(|job| job.1).collect::<Vec<_>>();
+        assert_eq!(places(true), [2.0, 3.0]);
+        assert_eq!(places(false), [2.0]);
+    }
 }

@@ -20,6 +20,8 @@ pub struct Plan {
     pub multiples: Vec<u32>,
     /// Period doublings that are followed from branches that were found by a search.
     pub depth: u32,
+    /// Whether branches begin at unstable solutions and leave at their flips.
+    pub unstable: bool,
     /// Largest number of solutions of a walk.
     pub budget: u64,
     /// Time after which no new piece of work is begun.
@@ -45,9 +47,15 @@ impl Plan {
             range_hz: [low, high],
             multiples: study.response.period_multiples.clone(),
             depth: study.response.period_doubling_depth,
+            unstable: study.search.unstable_starts,
             budget: study.continuation.budget_solutions as u64,
             time: study.continuation.budget_time_s.map(Duration::from_secs_f64),
         }
+    }
+
+    /// Width of the part of the range that a survey looks at [Hz].
+    pub(super) fn survey_width_hz(&self) -> f64 {
+        (self.range_hz[1] - self.range_hz[0]) / self.survey_hz.len().max(1) as f64
     }
 
     /// The first jobs, in their order.

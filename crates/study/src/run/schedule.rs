@@ -150,7 +150,11 @@ fn begin_evaluation(
     let record = &job.record;
     let what = match record.kind {
         JobKind::Harmonic => Question::Harmonic(record.frequency_hz),
-        JobKind::Survey => Question::Survey(record.frequency_hz, plan.multiples.clone()),
+        JobKind::Survey => Question::Survey {
+            frequency_hz: record.frequency_hz,
+            width_hz: plan.survey_width_hz(),
+            multiples: plan.multiples.clone(),
+        },
         JobKind::Doubling | JobKind::Crossing => Question::Leave(crossing(store, record)?),
     };
     Ok(Task::Evaluate(Evaluation { job: record.id, what }))

@@ -16,11 +16,21 @@ pub trait Solver: Sync {
         interrupted: Interruption<'_>,
     ) -> Result<PeriodicSolution, String>;
 
-    /// All periodic solutions of these minimal periods that simulation leads to.
+    /// All periodic solutions of these minimal periods that simulation leads to at a frequency, and harmonic ones that few trials find elsewhere in its
+    /// part of the range.
+    ///
+    /// * `width_hz`: of the part, of which the frequency is the middle.
+    /// * `interrupted`: asked now and then; the search ends with an error when it says true.
     ///
     /// # Errors
     /// Why nothing could be simulated, in words.
-    fn survey(&self, frequency_hz: f64, multiples: &[u32]) -> Result<Vec<PeriodicSolution>, String>;
+    fn survey(
+        &self,
+        frequency_hz: f64,
+        width_hz: f64,
+        multiples: &[u32],
+        interrupted: Interruption<'_>,
+    ) -> Result<Vec<PeriodicSolution>, String>;
 
     /// The solution at a crossing, as one of the branch that leaves there, if one does.
     ///

@@ -36,7 +36,7 @@ pub(super) struct Evaluation {
 #[derive(Debug)]
 pub(super) enum Question {
     Harmonic(f64),
-    Survey(f64, Vec<u32>),
+    Survey { frequency_hz: f64, width_hz: f64, multiples: Vec<u32> },
     Leave(Crossing),
 }
 
@@ -127,7 +127,9 @@ fn evaluate(
             let mut stopped = || stop.load(Ordering::Relaxed);
             Ok(vec![solver.find_harmonic(*frequency_hz, &mut stopped)?])
         }
-        Question::Survey(frequency_hz, multiples) => solver.survey(*frequency_hz, multiples),
+        Question::Survey { frequency_hz, width_hz, multiples } => {
+            solver.survey(*frequency_hz, *width_hz, multiples, &mut || stop.load(Ordering::Relaxed))
+        }
         Question::Leave(crossing) => {
             // Only a branch that can be begun is one.
             solver.begin(&Origin::Crossing(crossing.clone()), Side::Up)?;
