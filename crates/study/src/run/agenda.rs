@@ -74,10 +74,6 @@ impl WalkState {
         self.reason.as_ref().is_some_and(enough)
     }
 
-    pub fn is_paused(&self) -> bool {
-        self.reason.as_ref().is_some_and(StoredReason::is_budget)
-    }
-
     pub fn is_closed(&self) -> bool {
         self.reason.as_ref().is_some_and(StoredReason::is_closed)
     }
@@ -122,10 +118,6 @@ impl Start {
     pub fn is_finished(&self, plan: &Plan) -> bool {
         self.up.is_finished(plan) && self.down.is_finished(plan)
     }
-
-    pub fn is_paused(&self) -> bool {
-        self.up.is_paused() || self.down.is_paused()
-    }
 }
 
 /// A job with its starts.
@@ -135,8 +127,6 @@ pub(super) struct Job {
     pub starts: Vec<Start>,
     /// A thread is evaluating it.
     pub running: bool,
-    /// It waits for the budget of another branch.
-    pub postponed: bool,
 }
 
 /// All jobs in their order.
@@ -147,10 +137,25 @@ pub(super) struct Agenda {
 
 impl Agenda {
     /// What the store holds; the plan's first jobs are added to a store that has none.
+    ///
+    /// A branch that has more budget now goes on, and what was decided after it is decided again with all of it.
     pub fn load(store: &mut Store, plan: &Plan) -> Result<Self, StoreError> {
         if store.jobs()?.is_empty() {
             store.add_jobs(&plan.first_jobs())?;
         }
+        let mut agenda = Self::read(store)?;
+        let finished = agenda.jobs.iter().filter(|job| job.record.outcome.is_some());
+        let mut branches = finished.flat_map(|job| &job.starts).filter(|start| start.branch.is_some());
+        if let Some(goes_on) = branches.find(|start| !start.is_finished(plan)) {
+            store.take_back_to(goes_on.key)?;
+            agenda = Self::read(store)?;
+        }
+        agenda.add_what_is_wanted_now(store, plan)?;
+        Ok(agenda)
+    }
+
+    /// What the store holds.
+    fn read(store: &Store) -> Result<Self, StoreError> {
         let mut agenda = Self { jobs: Vec::new() };
         agenda.add_new_jobs(store)?;
         for record in store.starts()? {
@@ -169,21 +174,7 @@ impl Agenda {
             };
             agenda.jobs[record.job as usize].starts.push(start);
         }
-        agenda.reopen(store, plan)?;
-        agenda.add_what_is_wanted_now(store, plan)?;
         Ok(agenda)
-    }
-
-    /// Takes up finished jobs with a walk that has more budget now.
-    fn reopen(&mut self, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
-        for job in &mut self.jobs {
-            let waits = job.starts.iter().any(|start| start.branch.is_some() && !start.is_finished(plan));
-            if job.record.outcome.is_some() && waits {
-                store.reopen_job(job.record.id)?;
-                job.record.outcome = None;
-            }
-        }
-        Ok(())
     }
 
     /// Adds the jobs of finished branches that a greater depth asks for; those that are there already are left out.
@@ -201,12 +192,7 @@ impl Agenda {
     pub fn add_new_jobs(&mut self, store: &Store) -> Result<(), StoreError> {
         let known = self.jobs.len();
         let new = store.jobs()?.into_iter().skip(known);
-        self.jobs.extend(new.map(|record| Job {
-            record,
-            starts: Vec::new(),
-            running: false,
-            postponed: false,
-        }));
+        self.jobs.extend(new.map(|record| Job { record, starts: Vec::new(), running: false }));
         Ok(())
     }
 
@@ -252,11 +238,6 @@ impl Agenda {
                 walk.running = None;
             }
         }
-    }
-
-    /// Whether a branch of this multiple waits for more budget.
-    pub fn is_paused(&self, period_multiple: u32) -> bool {
-        self.accepted().any(|start| start.period_multiple == period_multiple && start.is_paused())
     }
 
     /// Whether a harmonic branch passes a frequency.

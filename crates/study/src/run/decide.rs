@@ -19,8 +19,6 @@ enum Verdict {
     Finished,
     /// Work is missing.
     Waits,
-    /// A branch has to go on first, for which the budget is used up.
-    Postponed,
 }
 
 /// What is known of a start.
@@ -35,13 +33,12 @@ impl Decisions<'_> {
         let mut index = 0;
         while index < agenda.jobs.len() {
             let job = &agenda.jobs[index];
-            if job.record.outcome.is_some() || job.postponed {
+            if job.record.outcome.is_some() {
                 index += 1;
                 continue;
             }
             match self.job(agenda, index)? {
                 Verdict::Finished => index += 1,
-                Verdict::Postponed => agenda.jobs[index].postponed = true,
                 Verdict::Waits => return Ok(()),
             }
         }
@@ -64,9 +61,6 @@ impl Decisions<'_> {
         let mut place = 0;
         while let Some(start) = agenda.jobs[index].starts.get(place) {
             if start.branch.is_none() {
-                if agenda.is_paused(start.period_multiple) {
-                    return Ok(Verdict::Postponed);
-                }
                 let key = start.key;
                 match self.find(agenda, key)? {
                     Finding::New => self.accept(agenda, key)?,

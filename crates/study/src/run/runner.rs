@@ -120,9 +120,8 @@ impl Run<'_> {
         let mut interrupted = false;
         loop {
             self.decide()?;
-            let left = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_none());
-            let (left, postponed) = (left.clone().count(), left.filter(|job| job.postponed).count());
-            if left == postponed {
+            let left = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_none()).count();
+            if left == 0 {
                 return Ok(RunOutcome::Done);
             }
             if !interrupted && self.observer.interrupted() {

@@ -38,7 +38,7 @@ pub(super) fn next_task(
 }
 
 fn is_open(job: &Job) -> bool {
-    job.record.outcome.is_none() && !job.postponed
+    job.record.outcome.is_none()
 }
 
 /// A walk of a new branch for which the next decision waits.

@@ -130,14 +130,13 @@ fn a_larger_budget_lets_a_paused_walk_go_on_to_the_same_bytes() {
         let mut store = Store::open_for_run(folder.path(), &study).unwrap();
         let plan = Plan { budget, ..Plan::of(&study.study) };
         run(&mut store, &FakeSolver::default(), &plan, 2, &mut Quiet).unwrap();
-        let branch = store.branches().unwrap().remove(0);
-        assert_eq!(branch.up.reason.unwrap().is_budget(), budget <= 350);
+        let branches = store.branches().unwrap();
+        assert_eq!(branches[0].up.reason.as_ref().unwrap().is_budget(), budget <= 350);
+        // What is left at its budget holds nothing up.
+        assert!(branches.iter().any(|branch| branch.period_multiple == 2));
         store.finish().unwrap();
     }
-    let rows = |text: &str| {
-        text.lines().filter(|line| line.starts_with("1,")).map(str::to_owned).collect::<Vec<_>>()
-    };
-    assert_eq!(rows(&csv(folder.path())), rows(&expected));
+    assert_eq!(csv(folder.path()), expected);
 }
 
 #[test]

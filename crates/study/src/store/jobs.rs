@@ -227,12 +227,28 @@ impl Store {
         Ok(())
     }
 
-    /// Takes a finished job up again, since one of its walks has more budget.
+    /// Takes everything back that was decided after a start: the agenda is as it was then, but for the walks from the starts of its job.
     ///
     /// # Errors
     /// The database refuses.
-    pub fn reopen_job(&mut self, job: u32) -> Result<(), StoreError> {
-        self.connection.execute("UPDATE job SET outcome = NULL WHERE id = ?1", [job])?;
+    pub fn take_back_to(&mut self, start: u32) -> Result<(), StoreError> {
+        let transaction = self.connection.transaction()?;
+        let job = start / MOST_STARTS;
+        let first_start = (job + 1) * MOST_STARTS;
+        let first = first_key(walk_id(first_start, Side::Up));
+        transaction.execute("DELETE FROM event WHERE solution >= ?1", [first])?;
+        transaction.execute("DELETE FROM solution WHERE id >= ?1", [first])?;
+        transaction.execute("DELETE FROM journal WHERE walk >= ?1", [walk_id(first_start, Side::Up)])?;
+        transaction.execute("DELETE FROM walk WHERE start >= ?1", [first_start])?;
+        transaction.execute("DELETE FROM start WHERE id >= ?1", [first_start])?;
+        transaction.execute("UPDATE start SET branch = NULL WHERE id > ?1", [start])?;
+        // Jobs that its own branches and later ones gave.
+        let own = first_key(walk_id(job * MOST_STARTS, Side::Up));
+        transaction.execute("DELETE FROM job WHERE source >= ?1", [own])?;
+        let update = "UPDATE job SET evaluated = 0, message = NULL, outcome = NULL WHERE id > ?1";
+        transaction.execute(update, [job])?;
+        transaction.execute("UPDATE job SET outcome = NULL WHERE id = ?1", [job])?;
+        transaction.commit()?;
         Ok(())
     }
 }
