@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use hammerbeam_study::{
-    run::{Observer, Progress},
+    run::{Observer, Progress, VariedProgress},
     store::{JobKind, JobRecord},
 };
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
@@ -22,6 +22,8 @@ pub struct Terminal {
     interrupt: Interrupt,
     changed: Instant,
     first: Option<(Instant, f64)>,
+    /// Whether the diagram is done and what comes after it is computed, which has a bar of its own.
+    after_diagram: bool,
 }
 
 impl Terminal {
@@ -30,7 +32,7 @@ impl Terminal {
         let bar = ProgressBar::new(LENGTH);
         let style = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {wide_msg}");
         bar.set_style(style.expect("the template is constant").progress_chars("=> "));
-        Self { bar, interrupt, changed: Instant::now(), first: None }
+        Self { bar, interrupt, changed: Instant::now(), first: None, after_diagram: false }
     }
 
     /// Takes the bar away.
@@ -38,18 +40,22 @@ impl Terminal {
         self.bar.finish_and_clear();
     }
 
+    /// How long it still takes, and new solutions per second.
+    fn pace(&mut self, fraction: f64, new_solutions: u64) -> (String, f64) {
+        let (begun, first) = *self.first.get_or_insert((Instant::now(), fraction));
+        let elapsed = begun.elapsed();
+        let rate = new_solutions as f64 / elapsed.as_secs_f64().max(0.1);
+        let gained = fraction - first;
+        if gained <= 1e-3 {
+            return ("? left".to_owned(), rate);
+        }
+        let left = elapsed.mul_f64(((1.0 - fraction) / gained).min(1e6));
+        (format!("{} left", HumanDuration(left)), rate)
+    }
+
     /// Solutions so far, their rate, where, and how long it still takes.
     fn message(&mut self, progress: &Progress) -> String {
-        let (begun, first) = *self.first.get_or_insert((Instant::now(), progress.fraction));
-        let elapsed = begun.elapsed();
-        let rate = progress.new_solutions as f64 / elapsed.as_secs_f64().max(0.1);
-        let gained = progress.fraction - first;
-        let left = if gained > 1e-3 {
-            let left = elapsed.mul_f64(((1.0 - progress.fraction) / gained).min(1e6));
-            format!("{} left", HumanDuration(left))
-        } else {
-            "? left".to_owned()
-        };
+        let (left, rate) = self.pace(progress.fraction, progress.new_solutions);
         format!(
             "{left}  {:.2} Hz  {} solutions, {}/s  {} branches done, {} walks open",
             progress.frequency_hz,
@@ -58,6 +64,35 @@ impl Terminal {
             progress.branches_done,
             progress.walks_open,
         )
+    }
+
+    /// The same of varied branches and curves.
+    fn varied_message(&mut self, progress: &VariedProgress<'_>) -> String {
+        let (left, rate) = self.pace(progress.fraction, progress.new_solutions);
+        format!(
+            "{left}  {} = {:.5e}, {:.2} Hz  {} solutions, {}/s  {} of {} varied branches and curves done",
+            progress.parameter,
+            progress.value,
+            progress.frequency_hz,
+            HumanCount(progress.new_solutions),
+            HumanCount(rate as u64),
+            progress.pieces_done,
+            progress.pieces,
+        )
+    }
+
+    /// Whether it is time to change what is shown.
+    fn is_due(&mut self) -> bool {
+        let due = !self.bar.is_hidden() && self.changed.elapsed() >= CHANGE;
+        if due {
+            self.changed = Instant::now();
+        }
+        due
+    }
+
+    fn show(&self, fraction: f64, message: String) {
+        self.bar.set_position((fraction * LENGTH as f64) as u64);
+        self.bar.set_message(message);
     }
 }
 
@@ -74,13 +109,20 @@ impl Observer for Terminal {
     }
 
     fn progress(&mut self, progress: &Progress) {
-        if self.bar.is_hidden() || self.changed.elapsed() < CHANGE {
-            return;
+        if self.is_due() {
+            let message = self.message(progress);
+            self.show(progress.fraction, message);
         }
-        self.changed = Instant::now();
-        let message = self.message(progress);
-        self.bar.set_position((progress.fraction * LENGTH as f64) as u64);
-        self.bar.set_message(message);
+    }
+
+    fn varied(&mut self, progress: &VariedProgress<'_>) {
+        if !self.after_diagram {
+            (self.after_diagram, self.first) = (true, None);
+        }
+        if self.is_due() {
+            let message = self.varied_message(progress);
+            self.show(progress.fraction, message);
+        }
     }
 
     fn interrupted(&mut self) -> bool {

@@ -112,6 +112,21 @@ fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
     assert_eq!(pieces_of(without.to_owned()), [0; 0]);
 }
 
+/// The pieces of the example are computed by as many threads, and stored as if by one.
+#[test]
+fn pieces_are_the_same_for_any_number_of_threads() {
+    let exported = |jobs: &str| {
+        let workshop = Workshop::with(STUDY);
+        assert_success(&workshop.hammerbeam(&[&RUN[..], &["--jobs", jobs]].concat()));
+        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+        ["parameter_branches.csv", "curves.csv"]
+            .map(|name| fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap())
+    };
+    let one = exported("1");
+    assert!(one.iter().all(|text| text.lines().count() > 50));
+    assert!(one == exported("3"), "three threads give other rows");
+}
+
 #[test]
 fn wrong_parameters_and_ranges_are_refused_with_what_is_allowed() {
     let refused = |old: &str, new: &str, parts: &[&str]| {

@@ -5,8 +5,8 @@ use crate::{
     line::draw_stretches,
     marks::Mark,
     plot::lettering,
-    style::Style,
-    svg::{Anchor, Point, Stroke, SvgWriter},
+    style::{Pattern, Style},
+    svg::{Anchor, Dashes, Point, Stroke, SvgWriter},
     text::Text,
 };
 
@@ -17,6 +17,8 @@ pub(crate) enum Sample {
     Line { colour: &'static str, stable: bool },
     /// A colour, as a broad line.
     Colour(&'static str),
+    /// The line of a kind of curves.
+    Pattern(Pattern),
     /// An event.
     Mark(Mark),
 }
@@ -38,7 +40,7 @@ const GAP_BETWEEN_ENTRIES: f64 = 11.0;
 impl Entry {
     fn sample_width(&self) -> f64 {
         match self.sample {
-            Sample::Line { .. } => LINE_LENGTH,
+            Sample::Line { .. } | Sample::Pattern(_) => LINE_LENGTH,
             Sample::Colour(_) => COLOUR_LENGTH,
             Sample::Mark(_) => MARK_WIDTH,
         }
@@ -53,6 +55,11 @@ impl Entry {
         let ends = [Point { x: at.x, y }, Point { x: at.x + self.sample_width(), y }];
         match self.sample {
             Sample::Line { colour, stable } => draw_stretches(svg, &[ends.to_vec()], stable, colour, style),
+            Sample::Pattern(Pattern { colour, dashes }) => {
+                let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
+                let stroke = Stroke { colour, width: style.stable_width };
+                svg.polylines(std::iter::once((ends.as_slice(), dashes)), stroke);
+            }
             Sample::Colour(colour) => svg.polyline(&ends, Stroke { colour, width: COLOUR_WIDTH }),
             Sample::Mark(mark) => {
                 mark.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }], style.mark_radius);

@@ -23,8 +23,8 @@
 //! ```
 //!
 //! # The rooms
-//! Data run from the diagram to the page. [`ResponseDiagram`] is the one kind of figure so far; a further
-//! kind is one more file beside it, made of the same parts:
+//! Data run from the diagram to the page. [`ResponseDiagram`] and [`CurveDiagram`] are the kinds of figures so far; a further
+//! kind is one more file beside them, made of the same parts:
 //!
 //! | room | what it knows |
 //! |---|---|
@@ -49,6 +49,7 @@
 //!   to every figure.
 
 mod axis;
+mod curve_diagram;
 mod decimate;
 mod error;
 mod figure;
@@ -66,6 +67,7 @@ mod svg;
 mod text;
 mod ticks;
 
+pub use curve_diagram::{Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint};
 pub use error::FigureError;
 pub use figure::Figure;
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};

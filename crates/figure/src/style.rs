@@ -3,6 +3,8 @@
 //! Colours are told apart by eyes of every kind and in grey print: those of neighbouring periods differ in
 //! lightness as well as in hue. Nothing is said by colour alone where a line style or a mark can say it.
 
+use crate::Bifurcation;
+
 /// Colour of text, frames and marks.
 pub(crate) const INK: &str = "#222222";
 /// Colour of marks behind the data.
@@ -18,6 +20,23 @@ const PERIOD_COLOURS: [&str; 6] = ["#14356b", "#d1571b", "#3fb89b", "#7d2a8c", "
 /// Colour of the solutions that repeat after so many excitation periods.
 pub(crate) fn period_colour(period_multiple: u32) -> &'static str {
     PERIOD_COLOURS[(period_multiple.max(1) as usize - 1) % PERIOD_COLOURS.len()]
+}
+
+/// Colour and dashes of a line; `None` for a solid one, else the lengths of a dash and of the gap behind it (pt).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pattern {
+    pub(crate) colour: &'static str,
+    pub(crate) dashes: Option<(f64, f64)>,
+}
+
+/// The line of a curve of bifurcations.
+pub(crate) fn bifurcation_pattern(bifurcation: Bifurcation) -> Pattern {
+    match bifurcation {
+        Bifurcation::Fold => Pattern { colour: PERIOD_COLOURS[0], dashes: None },
+        Bifurcation::Flip => Pattern { colour: PERIOD_COLOURS[1], dashes: Some((5.0, 1.6)) },
+        Bifurcation::NeimarkSacker => Pattern { colour: PERIOD_COLOURS[3], dashes: Some((1.2, 1.2)) },
+        Bifurcation::Grazing => Pattern { colour: PERIOD_COLOURS[2], dashes: Some((2.6, 1.4)) },
+    }
 }
 
 /// The size of a figure and of everything in it. Lengths on paper; all but width and height in points of 1/72

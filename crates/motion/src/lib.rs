@@ -27,8 +27,10 @@
 //! **Sensitivities** `V` go through the same equations differentiated: `dr = (1 - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. The laws are
 //! continuous, so nothing jumps where a contact opens or closes. One further column can be the derivative by a [`Parameter`] `p` of the system. The
 //! particular solution is linear in the scale of the excitation; a gap shifts the argument of its law, `dr -> dr - 1`; a stiffness has the direct part
-//! `F/k` in `dF = f' (1 - W f')^-1 (X V + d r_particular + W F/k) + F/k`. By the damping, which is in every matrix, it is a difference of
-//! fourth order of four motions.
+//! `F/k` in `dF = f' (1 - W f')^-1 (X V + d r_particular + W F/k) + F/k`. The damping
+//! changes the system matrix by `dA` and so acts on the whole motion: `ds/dt = A s + dA x + ...`. Each part of x, the particular, the free and the
+//! forced one, drives its part of s in closed form, with `dE`, `dX`, `dW` and `dP`, the changes of the matrices of a step, for coupled modes too
+//! ([`exact`], `by_damping.rs`).
 //!
 //! **The check.** [`general`] integrates any vector field with its variational equations, by a Runge-Kutta method of order eight. It
 //! shares no code with [`exact`] beyond the laws and is what that is tested against, and measured against.

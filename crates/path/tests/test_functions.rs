@@ -91,3 +91,25 @@ fn two_zeros_of_one_function_within_a_step_are_both_found() {
         assert!((place - expected).abs() < 1e-8, "{place}");
     }
 }
+
+/// Where a pair of multipliers beyond the unit circle becomes real, one test function jumps; where one of both then passes -1, another vanishes. In one step the jump must not
+/// undo what is known behind the zero, where the sign of the function is rounding.
+#[test]
+fn a_zero_is_found_once_though_another_function_jumps_within_the_same_step() {
+    let jump: fn(&[f64]) -> TestValue = |z| signed(if z[0] > 0.4 { 1.0 } else { -2.0 });
+    // Beside its zero the function has one sign: that of before it on one way, that of behind it on the other.
+    let above: fn(&[f64]) -> TestValue =
+        |z| signed(if (z[0] - 0.3).abs() < 1e-9 { 1e-15 } else { z[0] - 0.3 });
+    let below: fn(&[f64]) -> TestValue =
+        |z| signed(if (z[0] - 0.3).abs() < 1e-9 { -1e-15 } else { z[0] - 0.3 });
+    for step in [0.3, 0.2, 0.1, 0.01] {
+        for zero in [above, below] {
+            for (tests, index) in [(vec![zero, jump], 0), (vec![jump, zero], 1)] {
+                let branch = round(tests, step);
+                let found = zeros(&branch, index);
+                assert_eq!(found.len(), 2, "step {step}, function {index}: {found:?}");
+                assert_eq!(zeros(&branch, 1 - index), [], "step {step}");
+            }
+        }
+    }
+}

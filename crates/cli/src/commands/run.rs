@@ -25,11 +25,13 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let threads = threads(options.jobs);
     let plan = Plan::of(&file.study);
     let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
+    let varied = match outcome {
+        Ok(RunOutcome::Done) => varied::run(&mut store, &model, &file.study, threads, &mut terminal),
+        _ => Ok(VariedOutcome::Done),
+    };
     terminal.clear();
     let mut outcome = outcome?;
-    if outcome == RunOutcome::Done
-        && varied::run(&mut store, &model, &file.study, &mut terminal)? == VariedOutcome::Interrupted
-    {
+    if varied? == VariedOutcome::Interrupted {
         outcome = RunOutcome::Interrupted;
     }
     let branches = summarise(&store)?;

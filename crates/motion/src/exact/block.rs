@@ -32,11 +32,68 @@ impl Propagator {
         Self { a: cosine + half * sine, b: sine, c: -stiffness * sine, d: cosine - half * sine }
     }
 
+    /// The propagator and its derivatives by the damping c and by the stiffness k.
+    ///
+    /// With `D' = -h`, `h' = 1/2` by c and `D' = 1`, `h' = 0` by k, from `C' = -t S D'/2` and `S' = (t C - S)/(2 D) D'`, which is
+    /// `t^3 (-1/6 + D t^2/60 - ...) D'`; for `D << 0` from the exponentials of the two roots.
+    pub fn with_derivatives(stiffness: f64, damping: f64, time: f64) -> (Self, Self, Self) {
+        let (k, half, t) = (stiffness, 0.5 * damping, time);
+        let discriminant = k - half * half;
+        let (cosine, sine) = decayed_cosine_and_sine(discriminant, half, t);
+        let square = discriminant * t * t;
+        let cosine_k = -0.5 * t * sine;
+        let (sine_k, cosine_c, sine_c);
+        if square < -SERIES {
+            let rate = (-discriminant).sqrt();
+            let slow = (-k / (half + rate) * t).exp();
+            let fast = (-(half + rate) * t).exp();
+            // `d/dc` of the exponents; `1 - h/rate = -k/(rate (h + rate))`.
+            let slow_c = 0.5 * t * k / (rate * (half + rate)) * slow;
+            let fast_c = -0.5 * t * (1.0 + half / rate) * fast;
+            sine_k = -(t * cosine - sine) / (2.0 * rate * rate);
+            cosine_c = 0.5 * (slow_c + fast_c);
+            sine_c = 0.5 * (slow_c - fast_c) / rate - 0.5 * sine * half / (rate * rate);
+        } else {
+            sine_k = if square > SERIES {
+                0.5 * (t * cosine - sine) / discriminant
+            } else {
+                (-half * t).exp() * t.powi(3) * sine_series_slope(square)
+            };
+            cosine_c = -0.5 * t * cosine - half * cosine_k;
+            sine_c = -0.5 * t * sine - half * sine_k;
+        }
+        let itself = Self { a: cosine + half * sine, b: sine, c: -k * sine, d: cosine - half * sine };
+        let turn = 0.5 * sine + half * sine_c;
+        let by_damping = Self { a: cosine_c + turn, b: sine_c, c: -k * sine_c, d: cosine_c - turn };
+        let by_stiffness = Self {
+            a: cosine_k + half * sine_k,
+            b: sine_k,
+            c: -sine - k * sine_k,
+            d: cosine_k - half * sine_k,
+        };
+        (itself, by_damping, by_stiffness)
+    }
+
     /// Applies the propagator to `(p, s)`.
     #[inline]
     pub fn apply(&self, p: f64, s: f64) -> (f64, f64) {
         (self.a * p + self.b * s, self.c * p + self.d * s)
     }
+}
+
+/// Magnitude of `D t^2` up to which the derivative of S comes from its series.
+const SERIES: f64 = 0.5;
+
+/// `d/dx` of `sin(sqrt(x))/sqrt(x)`: `sum_m (-1)^m m x^(m-1)/(2 m + 1)!`.
+fn sine_series_slope(x: f64) -> f64 {
+    let mut sum = 0.0;
+    let mut term = -1.0 / 6.0;
+    for m in 1..10 {
+        let m = f64::from(m);
+        sum += m * term;
+        term *= -x / ((2.0 * m + 2.0) * (2.0 * m + 3.0));
+    }
+    sum
 }
 
 /// `exp(-h t) C(t)` and `exp(-h t) S(t)` of [`Propagator::new`].
@@ -198,6 +255,44 @@ mod tests {
                     [(exact.a, series.a), (exact.b, series.b), (exact.c, series.c), (exact.d, series.d)]
                 {
                     assert!((x - y).abs() < 1e-12, "{damping} {stiffness}: {x} {y}");
+                }
+            }
+        }
+    }
+
+    /// Against differences of fourth order of the propagator itself, for every kind of damping and on both sides of the series.
+    #[test]
+    fn derivatives_of_the_propagator_are_those_of_differences() {
+        let entries = |x: Propagator| [x.a, x.b, x.c, x.d];
+        for (stiffness, damping, time) in [
+            (1.0, 0.0, 1.7),
+            (1.0, 0.3, 0.2),
+            (1.0, 0.3, 30.0),
+            (1.0, 1.9999, 1.7),
+            (1.0, 2.0, 1.7),
+            (1.0, 2.3, 1.7),
+            (1.0, 2.6, 1.7),
+            (0.3, 40.0, 20.0),
+            (0.0, 2.0, 1.7),
+            (0.0, 0.0, 1.7),
+        ] {
+            let (itself, by_damping, by_stiffness) = Propagator::with_derivatives(stiffness, damping, time);
+            assert_eq!(itself.b, Propagator::new(stiffness, damping, time).b);
+            let difference = |at: &dyn Fn(f64) -> Propagator| {
+                let h = 1e-3 / time.max(1.0);
+                let [x, y, z, w] = [-2.0, -1.0, 1.0, 2.0].map(|k: f64| entries(at(k * h)));
+                std::array::from_fn::<f64, 4, _>(|i| (8.0 * (z[i] - y[i]) - (w[i] - x[i])) / (12.0 * h))
+            };
+            let by_c = difference(&|step| Propagator::new(stiffness, damping + step, time));
+            let by_k = difference(&|step| Propagator::new(stiffness + step, damping, time));
+            for (found, expected) in [(by_damping, by_c), (by_stiffness, by_k)] {
+                for (found, expected) in entries(found).iter().zip(expected) {
+                    // The rounding of the differences is 1e-16 over a step of 1e-3/t.
+                    let error = (found - expected).abs() / (1.0 + expected.abs());
+                    assert!(
+                        error < 1e-11 * time.max(1.0),
+                        "{stiffness} {damping} {time}: {found} {expected}"
+                    );
                 }
             }
         }

@@ -5,29 +5,19 @@
 //! - Excitation scale `a`: `f_p = 0`, and the particular solution of all orders above 0 is proportional to `a`.
 //! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V - level_g`.
 //! - Stiffness: `f_p = F/k`.
-//! - Added damping ratio: it changes every propagator, weight and particular solution, so its derivative is a difference of fourth order of motions beside,
-//!   `(8 (z_1 - z_-1) - (z_2 - z_-2))/(12 h)`, run at a fine tolerance. With `h` of [`DAMPING_STEP`] of the mean ratio its relative error is about 1e-8.
+//! - Added damping ratio: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
 
 use super::{
-    ExactIntegrator, ExactSettings, MotionError, collocation::NODES, drive::Drive, force_step::ForceStep,
+    ExactIntegrator, MotionError,
+    by_damping::{ByDamping, SolvedStep},
+    collocation::NODES,
+    drive::Drive,
+    force_step::ForceStep,
     output::Output,
+    run::Run,
+    sensitivity::Sensitivity,
 };
-use crate::{Law, Parameter, Stretch, System};
-
-/// Step of the difference by the damping ratio, relative to the mean ratio of the modes.
-const DAMPING_STEP: f64 = 2e-3;
-/// Least step of it.
-const LEAST_DAMPING_STEP: f64 = 1e-6;
-/// Tolerance of the motions of the difference.
-const FINE: f64 = 1e-13;
-
-/// Integrators of systems with a little more and a little less damping.
-#[derive(Debug)]
-pub(crate) struct Neighbours {
-    step: f64,
-    /// At -2, -1, 1 and 2 steps.
-    integrators: Vec<ExactIntegrator>,
-}
+use crate::{Law, Parameter, System};
 
 impl ForceStep {
     /// Adds what the parameter has in the equations for the displacements.
@@ -52,7 +42,8 @@ impl ForceStep {
                     let stiffness = laws[element].stiffness();
                     std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * force[j] / stiffness).sum())
                 }
-                Parameter::Gap { .. } | Parameter::AddedDampingRatio => continue,
+                Parameter::AddedDampingRatio => std::array::from_fn(|k| self.damped.0[a * NODES + k]),
+                Parameter::Gap { .. } => continue,
             };
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
             rows.zip(values).for_each(|(row, value)| row[column] += value);
@@ -85,7 +76,8 @@ impl ExactIntegrator {
             self.system.parameter(parameter)?;
         }
         self.parameter = parameter;
-        self.make_neighbours()
+        self.prepare_damping();
+        Ok(())
     }
 
     /// Gives a parameter of the system another value.
@@ -102,15 +94,7 @@ impl ExactIntegrator {
         self.system.set_parameter(parameter, value)?;
         self.laws.clear();
         self.laws.extend(self.system.elements().iter().map(|element| element.law));
-        for neighbour in self.neighbours.iter_mut().flat_map(|n| &mut n.integrators) {
-            neighbour.set_parameter(parameter, value)?;
-        }
         Ok(())
-    }
-
-    /// The parameter whose derivative goes with the sensitivities.
-    pub(super) fn column_parameter(&self) -> Option<Parameter> {
-        self.parameter.filter(|parameter| *parameter != Parameter::AddedDampingRatio)
     }
 
     /// Starts anew with a system whose structure has changed.
@@ -120,41 +104,58 @@ impl ExactIntegrator {
         let before = std::mem::replace(self, rebuilt);
         self.counts = before.counts;
         self.parameter = before.parameter;
-        self.make_neighbours()
-    }
-
-    fn make_neighbours(&mut self) -> Result<(), MotionError> {
-        self.neighbours = None;
-        if self.parameter != Some(Parameter::AddedDampingRatio) {
-            return Ok(());
-        }
-        let model = self.system.model();
-        let elastic = (0..model.dof()).filter(|&i| model.natural_frequencies[i] > 0.0);
-        let ratios: Vec<f64> =
-            elastic.map(|i| 0.5 * model.damping[(i, i)] / model.natural_frequencies[i]).collect();
-        let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
-        let step = (DAMPING_STEP * mean).max(LEAST_DAMPING_STEP);
-        let now = self.system.added_damping_ratio();
-        let settings = ExactSettings { tolerance: self.settings.tolerance.min(FINE) };
-        let mut integrators = Vec::new();
-        for k in [-2.0, -1.0, 1.0, 2.0] {
-            let system = self.system.clone().with_parameter(Parameter::AddedDampingRatio, now + k * step)?;
-            integrators.push(Self::new(system, settings)?);
-        }
-        self.neighbours = Some(Box::new(Neighbours { step, integrators }));
+        self.prepare_damping();
         Ok(())
     }
 
-    /// Derivative of the final state by the added damping ratio.
-    pub(super) fn by_damping(&mut self, stretch: &Stretch, state: &[f64]) -> Result<Vec<f64>, MotionError> {
-        let Some(neighbours) = &mut self.neighbours else { return Ok(Vec::new()) };
-        let mut column = vec![0.0; state.len()];
-        let weights = [1.0, -8.0, 8.0, -1.0];
-        for (integrator, weight) in neighbours.integrators.iter_mut().zip(weights) {
-            let end = integrator.advance(stretch, state)?;
-            let factor = weight / (12.0 * neighbours.step);
-            column.iter_mut().zip(&end).for_each(|(sum, value)| *sum += factor * value);
+    fn prepare_damping(&mut self) {
+        let wanted = self.parameter == Some(Parameter::AddedDampingRatio);
+        let make = || Box::new(ByDamping::new(&self.system, &self.blocks, &self.series, &self.drive));
+        self.by_damping = wanted.then(make);
+    }
+
+    /// Column of the parameter at the start of a stretch: without the particular solution, which does not start from the given state.
+    pub(super) fn parameter_column_at_start(&mut self) -> Option<Vec<f64>> {
+        let parameter = self.parameter?;
+        if let Some(by_damping) = &mut self.by_damping {
+            by_damping.start(&self.drive, &self.blocks, &self.outputs);
         }
-        Ok(column)
+        let mut column = vec![0.0; 2 * self.blocks.count()];
+        self.add_particular(parameter, 0.0, -1.0, &mut column);
+        Some(column)
+    }
+
+    /// Adds the derivative of the particular state by the parameter, times `factor`.
+    pub(super) fn add_particular(&self, parameter: Parameter, time: f64, factor: f64, column: &mut [f64]) {
+        match (parameter, &self.by_damping) {
+            (Parameter::ExcitationScale, _) => self.drive.add_state_by_scale(time, factor, column),
+            (Parameter::AddedDampingRatio, Some(by_damping)) => {
+                by_damping.drive.add_state(time, factor, column);
+            }
+            _ => {}
+        }
+    }
+
+    /// Readies what the damping has in the solved step that starts from the state of `run`.
+    pub(super) fn prepare_damped_step(&mut self, run: &Run) {
+        let Some(by_damping) = &self.by_damping else { return };
+        let (mut nodes, mut end) = std::mem::take(&mut self.step.damped);
+        let (grading, step) = (self.step.grading(), &self.step);
+        let (length, active) = (step.weights.length, step.active.as_slice());
+        let solved = SolvedStep { grading, length, active, force: &step.force, state: &run.state };
+        by_damping.over_step(&solved, (&self.outputs, &self.inputs), (&mut nodes, &mut end));
+        let (span, c) = ((step.start, length), &grading.rule().c);
+        for (values, &e) in nodes.as_chunks_mut::<NODES>().0.iter_mut().zip(active) {
+            by_damping.drive.add_values(e, &self.outputs[e], span, c, values);
+        }
+        self.step.damped = (nodes, end);
+    }
+
+    /// Adds what the damping does over a flight, from the state at its start, to its column.
+    pub(super) fn add_damped_flight(&self, time: f64, state: &[f64], sensitivity: &mut Sensitivity) {
+        if let (Some(by_damping), Some(column)) = (&self.by_damping, sensitivity.parameter_column()) {
+            let change = by_damping.over_flight(time, state);
+            change.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
+        }
     }
 }

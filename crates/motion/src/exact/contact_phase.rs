@@ -225,7 +225,7 @@ impl ExactIntegrator {
         let length = self.step.weights.length;
         self.step.weights.set_propagators(&self.blocks, length);
         if let Some(sensitivity) = &mut run.sensitivity {
-            self.step.advance_sensitivity(sensitivity);
+            self.step.advance_sensitivity(sensitivity, self.parameter);
         }
         self.counts.steps += 1;
         if self.traces {

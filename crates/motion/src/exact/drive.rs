@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{block::Blocks, collocation::NODES, output::Output, secular::SecularLoad};
+use super::{block::Blocks, change::Change, collocation::NODES, output::Output, secular::SecularLoad};
 use crate::{Stretch, System};
 
 /// Relative distance from resonance below which the steady solution would cost more than four digits.
@@ -130,9 +130,9 @@ impl Drive {
         }
         let n = state.len() / 2;
         for load in &self.secular {
-            let response = load.response(time);
-            state[load.block] += factor * response.state[0];
-            state[n + load.block] += factor * response.state[1];
+            let [p, s] = load.state(time);
+            state[load.block] += factor * p;
+            state[n + load.block] += factor * s;
         }
     }
 
@@ -170,6 +170,41 @@ impl Drive {
         values.map(|value| value / self.scale)
     }
 
+    /// The part of the change `s' = A s + dA x` of the motion that the particular solution drives, for a change `dA` of the blocks: the steady
+    /// solution where there is one, from rest elsewhere. Of it only states and values are told.
+    pub fn change(&self, blocks: &Blocks, outputs: &[Output], change: &Change) -> Self {
+        let n = blocks.count();
+        let mut changed = Self { orders: Vec::new(), secular: Vec::new(), ..*self };
+        for order in &self.orders {
+            let w = order.order * self.circular_frequency;
+            let input = change.times(&order.state);
+            let mut state = vec![c64::new(0.0, 0.0); 2 * n];
+            for i in (0..n).filter(|&i| input[i].norm() + input[n + i].norm() > 0.0) {
+                let (k, c, beta, phi) = (blocks.stiffness[i], blocks.damping[i], input[i], input[n + i]);
+                let denominator = c64::new(k - w * w, w * c);
+                if denominator.norm() <= RESONANT * (k + w * w) {
+                    let (zero, angle) = (c64::new(0.0, 0.0), order.order * self.start_angle);
+                    let rate = TAU * order.order;
+                    let load = SecularLoad::new(i, (k, c), [beta, phi], [zero; 2], (w, rate), angle);
+                    changed.secular.push(load);
+                    continue;
+                }
+                state[i] = (phi + (c64::new(0.0, w) + c) * beta) / denominator;
+                state[n + i] = c64::new(0.0, w) * state[i] - beta;
+            }
+            let read = |o: &Output| o.row.iter().zip(&state).map(|(r, v)| *v * *r).sum::<c64>();
+            let outputs = outputs.iter().map(|o| (read(o), c64::new(0.0, 0.0))).collect();
+            changed.orders.push(Order { order: order.order, state_by_frequency: Vec::new(), state, outputs });
+        }
+        for load in &self.secular {
+            for pair in change.pairs().iter().filter(|pair| pair.from == load.block) {
+                let block = (blocks.stiffness[pair.to], blocks.damping[pair.to]);
+                changed.secular.push(load.change(pair.to, block, &pair.coupling));
+            }
+        }
+        changed
+    }
+
     /// What is proportional to the scale of the excitation.
     fn scaled_part(&self) -> Self {
         let orders = self.orders.iter().filter(|order| order.order > 0.0).cloned().collect();
@@ -197,7 +232,7 @@ impl Drive {
         let n = output.row.len() / 2;
         for load in &self.secular {
             for (value, c) in values.iter_mut().zip(c) {
-                let state = load.response(start + c * length).state;
+                let state = load.state(start + c * length);
                 *value += output.row[load.block] * state[0] + output.row[n + load.block] * state[1];
             }
         }

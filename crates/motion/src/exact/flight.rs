@@ -60,6 +60,7 @@ impl ExactIntegrator {
             let pairs = self.blocks.stiffness.iter().zip(&self.blocks.damping);
             self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, time)));
             sensitivity.propagate(&self.propagators);
+            self.add_damped_flight(time, &self.flight_start, sensitivity);
         }
         Ok(touch)
     }

@@ -9,7 +9,7 @@ use super::{
     maxima::closed_bits,
     run::Run,
 };
-use crate::{Flow, Parameter, Stretch};
+use crate::{Flow, Stretch};
 
 impl ExactIntegrator {
     /// State at the end of a stretch, from `state` (`[q; q']`, length 2n) at its start.
@@ -44,11 +44,7 @@ impl ExactIntegrator {
         let result = self.complete(&mut run, stretch);
         let flow = result.map(|()| self.flow_of(&mut run, stretch));
         self.run = run;
-        let mut flow = flow?;
-        if self.parameter == Some(Parameter::AddedDampingRatio) {
-            flow.by_parameter = self.by_damping(stretch, state)?;
-        }
-        Ok(flow)
+        flow
     }
 
     pub(super) fn begin(&mut self, stretch: &Stretch, state: &[f64], sensitivities: bool) -> Run {
@@ -67,13 +63,7 @@ impl ExactIntegrator {
         run.sensitivity = sensitivities.then(|| {
             let mut by_frequency = vec![0.0; 2 * n];
             self.drive.for_state_by_frequency(0.0, n, |i, value| by_frequency[i] -= value);
-            let by_parameter = self.column_parameter().map(|parameter| {
-                let mut column = vec![0.0; 2 * n];
-                if parameter == Parameter::ExcitationScale {
-                    self.drive.add_state_by_scale(0.0, -1.0, &mut column);
-                }
-                column
-            });
+            let by_parameter = self.parameter_column_at_start();
             let mut sensitivity = reused.unwrap_or_default();
             sensitivity.start(&self.blocks, &by_frequency, by_parameter.as_deref());
             sensitivity
@@ -168,20 +158,19 @@ impl ExactIntegrator {
         let state = self.modal_state(run, time);
         let mut by_state = Mat::zeros(2 * n, 2 * n);
         let mut by_frequency = vec![0.0; 2 * n];
-        let parameter = self.column_parameter();
-        let mut by_parameter = vec![0.0; if parameter.is_some() { 2 * n } else { 0 }];
+        let mut particular = vec![0.0; 2 * n];
+        let mut by_parameter = vec![0.0; if self.parameter.is_some() { 2 * n } else { 0 }];
+        if let Some(parameter) = self.parameter {
+            self.add_particular(parameter, time, 1.0, &mut particular);
+        }
         let duration_by_frequency = -time / stretch.frequency_hz;
         let rate = self.modal_rate(run, &state, stretch);
         if let Some(sensitivity) = &mut run.sensitivity {
             let column = sensitivity.frequency_column();
             self.drive.for_state_by_frequency(time, n, |i, value| sensitivity.add_to(column, i, value));
-            if parameter == Some(Parameter::ExcitationScale) {
-                let mut particular = vec![0.0; 2 * n];
-                self.drive.add_state_by_scale(time, 1.0, &mut particular);
-                particular
-                    .iter()
-                    .enumerate()
-                    .for_each(|(i, &value)| sensitivity.add_to(column + 1, i, value));
+            if let Some(column) = sensitivity.parameter_column() {
+                let entries = particular.iter().enumerate();
+                entries.for_each(|(i, &value)| sensitivity.add_to(column, i, value));
             }
             sensitivity.write(&self.blocks, &mut by_state, &mut by_frequency, &mut by_parameter);
         }

@@ -41,6 +41,8 @@ pub(crate) struct ForceStep {
     pub(super) lu: SmallLu,
     pub(super) fixed_lu: FixedLu<NODES>,
     pub(super) work: Vec<f64>,
+    /// What the damping as parameter adds at the nodes and at the end of the solved step; see `by_damping.rs`.
+    pub(super) damped: (Vec<f64>, Vec<f64>),
 }
 
 fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
@@ -176,9 +178,14 @@ impl ForceStep {
     }
 
     /// Takes the sensitivities over the step, once those of its forces are solved for.
-    pub fn advance_sensitivity(&self, sensitivity: &mut Sensitivity) {
+    pub fn advance_sensitivity(&self, sensitivity: &mut Sensitivity, parameter: Option<Parameter>) {
         let columns = sensitivity.columns();
         sensitivity.propagate(&self.weights.propagators);
+        if let (Some(Parameter::AddedDampingRatio), Some(column)) =
+            (parameter, sensitivity.parameter_column())
+        {
+            self.damped.1.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
+        }
         for (a, to_state) in self.weights.to_state.iter().enumerate().take(self.active.len()) {
             sensitivity.add(to_state, &self.work[a * NODES * columns..(a + 1) * NODES * columns]);
         }

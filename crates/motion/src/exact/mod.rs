@@ -17,13 +17,15 @@
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
-//! | `by_parameter.rs` | the column of a parameter |
+//! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
 //! | `trace.rs` | what a motion went through |
 //! | `maxima.rs`, `flight_maximum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 
 mod attempt;
 mod block;
+mod by_damping;
 mod by_parameter;
+mod change;
 mod clearance;
 mod collocation;
 mod contact_phase;
@@ -161,7 +163,7 @@ pub struct ExactIntegrator {
     closed_throughout: u64,
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
-    neighbours: Option<Box<by_parameter::Neighbours>>,
+    by_damping: Option<Box<by_damping::ByDamping>>,
 }
 
 impl ExactIntegrator {
@@ -227,7 +229,7 @@ impl ExactIntegrator {
             closed_throughout: 0,
             response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
             parameter: None,
-            neighbours: None,
+            by_damping: None,
         })
     }
 

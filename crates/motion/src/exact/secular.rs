@@ -10,7 +10,7 @@ use faer::c64;
 use super::output::Output;
 
 const SIZE: usize = 8;
-type Matrix = [[f64; SIZE]; SIZE];
+type Matrix<const N: usize> = [[f64; N]; N];
 
 /// A resonant load on one block.
 #[derive(Debug, Clone)]
@@ -20,7 +20,8 @@ pub(crate) struct SecularLoad {
     damping: f64,
     frequency: f64,
     input: [c64; 2],
-    system: Matrix,
+    is_change: bool,
+    system: Matrix<SIZE>,
 }
 
 /// Motion of the block, from rest at the start of the stretch.
@@ -67,7 +68,27 @@ impl SecularLoad {
         system[7][6] = frequency;
         system[6][4] = 1.0;
         system[7][5] = 1.0;
-        Self { block, stiffness, damping, frequency, input, system }
+        Self { block, stiffness, damping, frequency, input, is_change: false, system }
+    }
+
+    /// The change of another block (or of the same) by what this load does, `s' = A s + K x` from rest; of it only [`SecularLoad::state`]
+    /// is told.
+    ///
+    /// * `block`, `(k, c)`: the block that changes; `coupling`: `K`.
+    pub fn change(&self, block: usize, (stiffness, damping): (f64, f64), coupling: &[[f64; 2]; 2]) -> Self {
+        let mut system = [[0.0; SIZE]; SIZE];
+        for (offset, k, c) in [(0, stiffness, damping), (2, self.stiffness, self.damping)] {
+            system[offset][offset + 1] = 1.0;
+            system[offset + 1][offset] = -k;
+            system[offset + 1][offset + 1] = -c;
+        }
+        for row in 0..2 {
+            system[row][2..4].copy_from_slice(&coupling[row]);
+            system[2 + row][4..6].copy_from_slice(&self.system[row][4..6]);
+        }
+        system[4][5] = -self.frequency;
+        system[5][4] = self.frequency;
+        Self { block, stiffness, damping, system, is_change: true, ..*self }
     }
 
     /// Whether the load is of order 0.
@@ -77,8 +98,7 @@ impl SecularLoad {
 
     /// The motion at `time` after the start.
     pub fn response(&self, time: f64) -> SecularResponse {
-        let free = self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0;
-        let (state, by_frequency) = if free { self.parabola(time) } else { self.exponential(time) };
+        let (state, by_frequency) = self.motion(time);
         let (sin, cos) = (self.frequency * time).sin_cos();
         let rotation = c64::new(cos, sin);
         let load = self.input.map(|value| (value * rotation).re);
@@ -87,6 +107,16 @@ impl SecularLoad {
         let curvature =
             [rate[1] + load_rate[0], -self.stiffness * rate[0] - self.damping * rate[1] + load_rate[1]];
         SecularResponse { state, rate, curvature, by_frequency }
+    }
+
+    /// `[p, s]` at `time` after the start.
+    pub fn state(&self, time: f64) -> [f64; 2] {
+        self.motion(time).0
+    }
+
+    fn motion(&self, time: f64) -> ([f64; 2], [f64; 2]) {
+        let free = self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0 && !self.is_change;
+        if free { self.parabola(time) } else { self.exponential(time) }
     }
 
     fn parabola(&self, time: f64) -> ([f64; 2], [f64; 2]) {
@@ -145,11 +175,11 @@ impl SecularLoad {
     }
 }
 
-fn multiply(x: &Matrix, y: &Matrix) -> Matrix {
-    let mut product = [[0.0; SIZE]; SIZE];
-    for i in 0..SIZE {
-        for k in 0..SIZE {
-            for j in 0..SIZE {
+fn multiply<const N: usize>(x: &Matrix<N>, y: &Matrix<N>) -> Matrix<N> {
+    let mut product = [[0.0; N]; N];
+    for i in 0..N {
+        for k in 0..N {
+            for j in 0..N {
                 product[i][j] += x[i][k] * y[k][j];
             }
         }
@@ -158,17 +188,17 @@ fn multiply(x: &Matrix, y: &Matrix) -> Matrix {
 }
 
 /// `exp(A t)` by Taylor's series of `A t / 2^j` and j squarings.
-fn exponential(system: &Matrix, time: f64) -> Matrix {
+pub(super) fn exponential<const N: usize>(system: &Matrix<N>, time: f64) -> Matrix<N> {
     let norm =
         system.iter().map(|row| row.iter().map(|v| v.abs()).sum::<f64>()).fold(0.0, f64::max) * time.abs();
     let squarings = if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 };
     let scaled = system.map(|row| row.map(|value| value * time / 2f64.powi(squarings)));
-    let mut sum = [[0.0; SIZE]; SIZE];
-    (0..SIZE).for_each(|i| sum[i][i] = 1.0);
+    let mut sum = [[0.0; N]; N];
+    (0..N).for_each(|i| sum[i][i] = 1.0);
     let mut term = sum;
     for m in 1..=18 {
         term = multiply(&term, &scaled).map(|row| row.map(|value| value / f64::from(m)));
-        (0..SIZE).for_each(|i| (0..SIZE).for_each(|j| sum[i][j] += term[i][j]));
+        (0..N).for_each(|i| (0..N).for_each(|j| sum[i][j] += term[i][j]));
     }
     for _ in 0..squarings {
         sum = multiply(&sum, &sum);

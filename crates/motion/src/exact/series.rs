@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use super::{
     block::Blocks,
+    change::Change,
     collocation::{Grading, NODES, REACH, TERMS},
     drive::Jet,
     lanes::{add_multiple, add_products, dot, vectorised},
@@ -58,6 +59,33 @@ impl Series {
             .collect();
         let entries = rows.iter().zip(&columns).map(|(r, c)| (by_entry(r), by_entry(c))).collect();
         Self { rate, rates: blocks.rates(), entries, rows, columns, markov }
+    }
+
+    /// The change of the series with the blocks: what they give is then the change of node values and states,
+    /// `d(C A^m) = d(C A^(m-1)) A + C A^(m-1) dA`.
+    pub fn change(&self, blocks: &Blocks, change: &Change) -> Self {
+        let chain = |powers: &Vec<Vec<f64>>,
+                     next: &dyn Fn(&[f64]) -> Vec<f64>,
+                     own: &dyn Fn(&[f64]) -> Vec<f64>| {
+            let mut list = vec![vec![0.0; powers[0].len()]];
+            for m in 1..powers.len() {
+                let (carried, new) = (next(&list[m - 1]), own(&powers[m - 1]));
+                list.push(carried.iter().zip(&new).map(|(x, y)| (x + y) / self.rate).collect::<Vec<f64>>());
+            }
+            list
+        };
+        let of_rows =
+            |powers| chain(powers, &|row| blocks.row_times_system(row), &|row| change.row_times(row));
+        let of_columns = |powers| {
+            chain(powers, &|column| blocks.system_times_column(column), &|column| change.times_real(column))
+        };
+        let rows: Vec<_> = self.rows.iter().map(of_rows).collect();
+        let columns: Vec<_> = self.columns.iter().map(of_columns).collect();
+        let markov = self.rows.iter().flat_map(|row| {
+            columns.iter().map(|powers| powers.iter().map(|column| dot(&row[0], column)).collect())
+        });
+        let markov = markov.collect();
+        Self { rate: self.rate, rates: self.rates.clone(), rows, columns, entries: Vec::new(), markov }
     }
 
     /// Longest step that the series serve [s].

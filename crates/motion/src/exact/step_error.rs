@@ -187,7 +187,8 @@ impl ExactIntegrator {
         if !self.step.weights.complete {
             self.series.complete(&self.step.active, self.step.grading(), &mut self.step.weights);
         }
-        let parameter = self.column_parameter();
+        self.prepare_damped_step(run);
+        let parameter = self.parameter;
         self.step.solve_sensitivity(&self.drive, (&self.laws, &self.outputs), sensitivity, parameter).ok()?;
         let slowest = self.drive.circular_frequency();
         let frequencies = &self.system.model().natural_frequencies;

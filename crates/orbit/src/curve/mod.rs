@@ -27,8 +27,8 @@
 //! chapter 10.
 //!
 //! # Limits
-//! All matrices are dense and the orbit keeps its segments and its units. In the damping, each point builds integrators anew and differentiates by differences, so it is many times
-//! as slow as in the other parameters. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply.
+//! All matrices are dense and the orbit keeps its segments and its units. In the damping, each point builds its integrator
+//! anew. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply.
 
 mod bordered;
 mod condition;

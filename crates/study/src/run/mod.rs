@@ -38,7 +38,7 @@ mod solver;
 mod worker;
 
 pub use plan::Plan;
-pub use progress::{Observer, Progress, Quiet};
+pub use progress::{Observer, Progress, Quiet, VariedProgress};
 pub use runner::{RunError, RunOutcome, run};
 pub use solver::{Match, Origin, Solver, Walk};
 

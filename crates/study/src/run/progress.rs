@@ -23,6 +23,25 @@ pub struct Progress {
     pub fraction: f64,
 }
 
+/// Where the computing of varied branches and curves is, which comes after the diagram.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VariedProgress<'a> {
+    /// Name of the parameter of the newest solution.
+    pub parameter: &'a str,
+    /// Its value, in the unit of its name.
+    pub value: f64,
+    /// Frequency of the newest solution [Hz].
+    pub frequency_hz: f64,
+    /// Pieces (`[[vary]]`, `[[curve]]`) that are computed.
+    pub pieces_done: usize,
+    /// Pieces that this run has to compute.
+    pub pieces: usize,
+    /// Solutions of them computed by this run.
+    pub new_solutions: u64,
+    /// Estimated part of this work that is done, 0 to 1; it never decreases.
+    pub fraction: f64,
+}
+
 /// Watches a run, from the thread that began it.
 pub trait Observer {
     /// A job is being worked at.
@@ -33,6 +52,8 @@ pub trait Observer {
     fn branch_begun(&mut self, _branch: u32, _period_multiple: u32) {}
     /// There are new solutions.
     fn progress(&mut self, _progress: &Progress) {}
+    /// There is a new solution of a varied branch or a curve.
+    fn varied(&mut self, _progress: &VariedProgress<'_>) {}
     /// One side of a branch ended.
     fn walk_ended(&mut self, _branch: u32, _side: Side, _reason: &StoredReason) {}
     /// Whether to stop; asked several times a second.

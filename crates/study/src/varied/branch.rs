@@ -5,13 +5,15 @@ use hammerbeam_orbit::{
     find_orbits,
 };
 
-use super::{Failed, Found};
+use super::{
+    Failed, Found,
+    watch::{Watch, Way},
+};
 use crate::{
     Model, Study,
     file::Vary,
     model::StudyParameter,
     orbit_solver::settings,
-    run::Observer,
     store::{VariedBranch, VariedRow},
 };
 
@@ -19,12 +21,7 @@ use crate::{
 const STEPS: f64 = 1000.0;
 
 /// All branches of the orbits at the frequency.
-pub(super) fn follow(
-    model: &Model,
-    study: &Study,
-    vary: &Vary,
-    observer: &mut dyn Observer,
-) -> Result<Found, Failed> {
+pub(super) fn follow(model: &Model, study: &Study, vary: &Vary, watch: &Watch<'_>) -> Result<Found, Failed> {
     let parameter = model.parameter(study, &vary.parameter).map_err(Failed::Message)?;
     let value = model.system.parameter(parameter.parameter).map_err(|e| Failed::Message(e.to_string()))?;
     let [low, high] = study.excitation.frequency_hz;
@@ -32,16 +29,20 @@ pub(super) fn follow(
         OrbitSettings { max_solutions: study.continuation.budget_solutions, ..settings(&study.continuation) };
     let orbit = (vary.frequency_hz, vary.period_multiple);
     let found = find_orbits(&model.system, &model.response, orbit, (low, high), &searching, &mut || {
-        observer.interrupted()
+        watch.interrupted()
     })?;
     let mut branches = Vec::new();
     let mut known: Vec<Vec<f64>> = Vec::new();
-    for start in &found.orbits {
+    let orbits = found.orbits.len() as f64;
+    for (number, start) in found.orbits.iter().enumerate() {
         let matcher = Matcher::new(&model.system, &model.response, start, &searching)?;
         if known.iter().any(|guess| matcher.is_near(guess)) {
             continue;
         }
-        let branch = both_sides(model, study, (vary, &parameter), start, observer)?;
+        let tell = |value: f64, frequency_hz: f64, part: f64| {
+            watch.row(value, frequency_hz, (number as f64 + part) / orbits);
+        };
+        let branch = both_sides(model, study, (vary, &parameter), start, (watch, &tell))?;
         known.extend(crossings(&branch.rows, &parameter, value));
         branches.push(branch);
     }
@@ -58,7 +59,7 @@ fn both_sides(
     study: &Study,
     (vary, parameter): (&Vary, &StudyParameter),
     start: &PeriodicSolution,
-    observer: &mut dyn Observer,
+    (watch, tell): (&Watch<'_>, &dyn Fn(f64, f64, f64)),
 ) -> Result<VariedBranch, Failed> {
     let range = (parameter.in_system(vary.parameter.range[0]), parameter.in_system(vary.parameter.range[1]));
     let settings = OrbitSettings {
@@ -68,6 +69,8 @@ fn both_sides(
     };
     let other =
         ContinuationParameter::Other { parameter: parameter.parameter, frequency_hz: vary.frequency_hz };
+    let value = model.system.parameter(parameter.parameter).map_err(|e| Failed::Message(e.to_string()))?;
+    let mut way = Way::new(vary.parameter.range, parameter.in_study(value));
     let mut rows = Vec::new();
     let mut ends = Vec::new();
     for side in [Side::Down, Side::Up] {
@@ -75,12 +78,17 @@ fn both_sides(
         let mut walk = BranchWalk::varying(&model.system, &model.response, start, of_side, &settings)?;
         let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
         let end = loop {
-            if observer.interrupted() {
+            if watch.interrupted() {
                 return Err(Failed::Interrupted);
             }
-            match walk.step(&mut walked)? {
-                None => {}
-                Some(reason) => break reason,
+            let before = walked.len();
+            let reason = walk.step(&mut walked)?;
+            for row in &walked[before..] {
+                let value = row.parameter.map_or(f64::NAN, |value| parameter.in_study(value));
+                tell(value, row.solution.frequency_hz, way.at(value, side == Side::Up));
+            }
+            if let Some(reason) = reason {
+                break reason;
             }
         };
         if side == Side::Down {

@@ -4,37 +4,42 @@ use hammerbeam_orbit::{
     CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, Events, LocatedEvent, PeriodicSolution, Side,
 };
 
-use super::{Failed, Found};
+use super::{
+    Failed, Found,
+    watch::{Watch, Way},
+};
 use crate::{
     Model, Study,
     file::{Curve, CurveOf},
     model::StudyParameter,
     orbit_solver::settings,
-    run::Observer,
-    store::{Store, VariedBranch, VariedRow, solution_key},
+    store::{Store, StoreError, VariedBranch, VariedRow, solution_key},
 };
 
 /// Longest step of a curve, in hundredths of the ranges.
 const MAX_STEP: f64 = 0.5;
 
-/// The curve through the event that is nearest to its frequency.
-pub(super) fn follow(
+/// The orbit at the event nearest to the frequency of the curve, or why there is none.
+pub(super) fn start(
     store: &Store,
+    curve: &Curve,
+) -> Result<Result<(PeriodicSolution, LocatedEvent), String>, StoreError> {
+    let none = || {
+        let (multiple, of) = (curve.period_multiple, curve.of.name());
+        format!("no branch of period multiple {multiple} has an event \"{of}\" to begin at")
+    };
+    Ok(nearest_event(store, curve)?.ok_or_else(none))
+}
+
+/// The curve through that event.
+pub(super) fn follow(
     model: &Model,
     study: &Study,
-    curve: &Curve,
-    observer: &mut dyn Observer,
+    (curve, (start, event)): (&Curve, &(PeriodicSolution, LocatedEvent)),
+    watch: &Watch<'_>,
 ) -> Result<Found, Failed> {
     let parameter = model.parameter(study, &curve.parameter).map_err(Failed::Message)?;
-    let Some((start, event)) = nearest_event(store, curve)? else {
-        let message = format!(
-            "no branch of period multiple {} has an event \"{}\" to begin at",
-            curve.period_multiple,
-            curve.of.name()
-        );
-        return Err(Failed::Message(message));
-    };
-    let kind = kind_of(curve.of, &start, &event)?;
+    let kind = kind_of(curve.of, start, event)?;
     let [low, high] = study.excitation.frequency_hz;
     let [from, to] = curve.parameter.range;
     let curve_settings = CurveSettings {
@@ -44,7 +49,7 @@ pub(super) fn follow(
         max_step: MAX_STEP,
         max_rows: study.continuation.budget_solutions,
     };
-    let branch = both_sides(model, study, (&start, kind), (curve, &curve_settings, &parameter), observer)?;
+    let branch = both_sides(model, study, (start, kind), (curve, &curve_settings, &parameter), watch)?;
     Ok(Found { branches: vec![branch], message: None })
 }
 
@@ -66,9 +71,11 @@ fn both_sides(
     study: &Study,
     (start, kind): (&PeriodicSolution, CurveKind),
     (curve, curve_settings, parameter): (&Curve, &CurveSettings, &StudyParameter),
-    observer: &mut dyn Observer,
+    watch: &Watch<'_>,
 ) -> Result<VariedBranch, Failed> {
     let orbits = settings(&study.continuation);
+    let value = model.system.parameter(parameter.parameter).map_err(|e| Failed::Message(e.to_string()))?;
+    let mut way = Way::new(curve.parameter.range, parameter.in_study(value));
     let (mut rows, mut ends) = (Vec::new(), Vec::new());
     for side in [Side::Down, Side::Up] {
         let of_side = (kind, side);
@@ -76,11 +83,15 @@ fn both_sides(
             CurveWalk::new(&model.system, &model.response, start, of_side, curve_settings, &orbits)?;
         let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
         let end = loop {
-            if observer.interrupted() {
+            if watch.interrupted() {
                 return Err(Failed::Interrupted);
             }
             match walk.step()? {
-                Ok(row) => walked.push(row),
+                Ok(row) => {
+                    let value = parameter.in_study(row.parameter);
+                    watch.row(value, row.solution.frequency_hz, way.at(value, side == Side::Up));
+                    walked.push(row);
+                }
                 Err(end) => break end,
             }
         };
@@ -105,7 +116,10 @@ fn varied(row: CurveRow, parameter: &StudyParameter) -> VariedRow {
 }
 
 /// The solution at the event of that kind nearest to the frequency, over all branches of that period.
-fn nearest_event(store: &Store, curve: &Curve) -> Result<Option<(PeriodicSolution, LocatedEvent)>, Failed> {
+fn nearest_event(
+    store: &Store,
+    curve: &Curve,
+) -> Result<Option<(PeriodicSolution, LocatedEvent)>, StoreError> {
     let wanted = |events: Events| match curve.of {
         CurveOf::Fold => events.fold,
         CurveOf::Flip => events.flip,

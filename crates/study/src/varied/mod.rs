@@ -1,17 +1,21 @@
 //! What a study asks for beside its branches in the frequency: branches in other parameters (`[[vary]]`) and curves of bifurcations (`[[curve]]`).
 //!
 //! A *vary* finds all orbits of the study as it is at its frequency, and follows each that does not lie on a branch already followed to both ends of the
-//! range. A *curve* begins at the event of a stored branch that is nearest to its frequency, and is followed to both sides. Pieces are done one
-//! after the other and stored whole; what is stored is not done again.
+//! range. A *curve* begins at the event of a stored branch that is nearest to its frequency, and is followed to both sides. Pieces do not depend
+//! on each other: each is computed by one thread and stored whole, in the order of the study, so results are the same for any number of threads.
+//! What is stored is not done again; of an interrupted run the pieces are kept up to the first that was not finished.
 
 mod branch;
 mod curve;
+mod pool;
+mod watch;
 
-use hammerbeam_orbit::OrbitError;
+use hammerbeam_orbit::{LocatedEvent, OrbitError, PeriodicSolution};
 
 use crate::{
     Model, Study,
-    run::Observer,
+    file::{Curve, Vary},
+    run::{Observer, VariedProgress},
     store::{Piece, Store, StoreError, VariedBranch},
 };
 
@@ -33,7 +37,6 @@ struct Found {
 /// Why a piece has no result.
 enum Failed {
     Interrupted,
-    Store(StoreError),
     /// In words; it is stored as what came of the piece.
     Message(String),
 }
@@ -47,13 +50,14 @@ impl From<OrbitError> for Failed {
     }
 }
 
-impl From<StoreError> for Failed {
-    fn from(error: StoreError) -> Self {
-        Self::Store(error)
-    }
+/// What a piece is computed from.
+enum Work<'a> {
+    Vary(&'a Vary),
+    /// With the event at which it begins, or why there is none.
+    Curve(&'a Curve, Result<Box<(PeriodicSolution, LocatedEvent)>, String>),
 }
 
-/// Computes what is left of the varied branches and curves of a study, after its diagram.
+/// Computes what is left of the varied branches and curves of a study, after its diagram, on so many threads.
 ///
 /// # Errors
 /// The store refuses.
@@ -61,32 +65,40 @@ pub fn run(
     store: &mut Store,
     model: &Model,
     study: &Study,
+    threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<VariedOutcome, StoreError> {
     let varies =
         study.varies.iter().map(|vary| (piece("vary", vary, &vary.parameter.name), None, Some(vary)));
     let curves =
         study.curves.iter().map(|curve| (piece("curve", curve, &curve.parameter.name), Some(curve), None));
-    let pieces: Vec<_> = varies.chain(curves).collect();
-    let wanted: Vec<Piece> = pieces.iter().map(|(piece, ..)| piece.clone()).collect();
+    let asked: Vec<_> = varies.chain(curves).collect();
+    let wanted: Vec<Piece> = asked.iter().map(|(piece, ..)| piece.clone()).collect();
     store.keep_pieces(&wanted)?;
-    for (piece, curve, vary) in pieces {
+    let (mut pieces, mut works) = (Vec::new(), Vec::new());
+    for (piece, curve, vary) in asked {
         if store.has_piece(&piece)? {
             continue;
         }
-        let found = match (curve, vary) {
-            (Some(curve), _) => curve::follow(store, model, study, curve, observer),
-            (None, Some(vary)) => branch::follow(model, study, vary, observer),
-            (None, None) => continue,
-        };
-        match found {
-            Ok(found) => store.store_piece(&piece, &found.branches, found.message.as_deref())?,
-            Err(Failed::Message(message)) => store.store_piece(&piece, &[], Some(&message))?,
-            Err(Failed::Interrupted) => return Ok(VariedOutcome::Interrupted),
-            Err(Failed::Store(error)) => return Err(error),
+        works.extend(vary.map(Work::Vary));
+        if let Some(curve) = curve {
+            works.push(Work::Curve(curve, curve::start(store, curve)?.map(Box::new)));
         }
+        pieces.push(piece);
     }
-    Ok(VariedOutcome::Done)
+    let names: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
+    let compute = |number: usize, watch: &watch::Watch<'_>| match &works[number] {
+        Work::Vary(vary) => branch::follow(model, study, vary, watch),
+        Work::Curve(curve, Ok(start)) => curve::follow(model, study, (curve, start), watch),
+        Work::Curve(_, Err(message)) => Err(Failed::Message(message.clone())),
+    };
+    let keep = |number: usize, found: Result<Found, Failed>| match found {
+        Ok(found) => store.store_piece(&pieces[number], &found.branches, found.message.as_deref()),
+        Err(Failed::Message(message)) => store.store_piece(&pieces[number], &[], Some(&message)),
+        Err(Failed::Interrupted) => Ok(()),
+    };
+    let all = pool::compute_in_order(&names, threads, observer, compute, keep)?;
+    Ok(if all { VariedOutcome::Done } else { VariedOutcome::Interrupted })
 }
 
 fn piece(kind: &str, definition: &impl serde::Serialize, parameter: &str) -> Piece {

@@ -1,0 +1,235 @@
+//! Curves of bifurcations: the excitation frequency over a second parameter, with the points of codimension two.
+//!
+//! Colour and dashes tell what a curve is of; a point of codimension two has a dot with its name beside it, where that covers neither the frame nor another
+//! name.
+
+use crate::{
+    Figure, FigureError, Style,
+    axis::Axis,
+    decimate::decimate,
+    font::CAPITAL_HEIGHT,
+    legend::{Entry, Legend, Sample},
+    marks::Mark,
+    plot::{Area, Plot, lettering, room_below, room_left},
+    scale::{Scale, ScaleChoice, ScaleKind, extent},
+    style::{Pattern, bifurcation_pattern},
+    svg::{Anchor, Dashes, Point, Stroke, SvgWriter, points},
+    text::{Text, wrap},
+};
+
+/// Space around everything, and between head and plot (pt).
+const MARGIN: f64 = 2.0;
+const GAP: f64 = 5.0;
+/// Distance of tick labels on the horizontal and vertical axis (pt).
+const TICK_SPACING: (f64, f64) = (42.0, 27.0);
+/// Distance of a name from its dot (pt).
+const NAME_GAP: f64 = 4.0;
+
+/// Curves of bifurcations over one parameter.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurveDiagram {
+    /// Title above the figure; empty for none.
+    pub title: String,
+    /// What the horizontal axis shows, with its unit in brackets.
+    pub parameter: String,
+    /// The curves, in the order in which they are drawn.
+    pub curves: Vec<BifurcationCurve>,
+}
+
+/// What a curve is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Bifurcation {
+    /// A multiplier of +1.
+    #[default]
+    Fold,
+    /// A multiplier of −1.
+    Flip,
+    /// A complex pair on the unit circle.
+    NeimarkSacker,
+    /// A contact that is touched with zero velocity.
+    Grazing,
+}
+
+/// A curve of bifurcations.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BifurcationCurve {
+    /// What it is of.
+    pub bifurcation: Bifurcation,
+    /// Period of the solutions over the period of the excitation, from 1.
+    pub period_multiple: u32,
+    /// Its points in order.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A point of a curve.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct CurvePoint {
+    /// Value of the parameter, in the unit of its axis.
+    pub parameter: f64,
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Name of the point of codimension two; empty where there is none.
+    pub name: String,
+}
+
+impl CurveDiagram {
+    /// The figure, of that style.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where no curve has a finite point.
+    pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
+        let finite = || {
+            self.curves.iter().flat_map(|curve| &curve.points).filter(|point| {
+                ScaleKind::Linear.shows(point.parameter) && ScaleKind::Linear.shows(point.frequency_hz)
+            })
+        };
+        let empty = || FigureError::Empty { quantity: "frequency", curves: self.curves.len(), points: 0 };
+        let kind = ScaleChoice::Automatic.decide(finite().map(|point| point.parameter));
+        let across = extent(finite().map(|point| point.parameter)).ok_or_else(empty)?;
+        let up = extent(finite().map(|point| point.frequency_hz)).ok_or_else(empty)?;
+        let scales = (Scale::around(kind, across), Scale::around(ScaleKind::Linear, up));
+        let (plot, legend, title) = self.laid_out(scales, style);
+        let height_mm = (plot.area.bottom + room_below(style)) * 25.4 / 72.0;
+        let description = self.description();
+        let mut svg = SvgWriter::new(style.width_mm, height_mm, &self.title, &description);
+        for (i, line) in title.iter().enumerate() {
+            let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
+            svg.text(Point { x: plot.area.left, y }, line, lettering(style.label_size, Anchor::Start));
+        }
+        let below_title = MARGIN + 1.5 * title.len() as f64 * style.label_size;
+        legend.draw(&mut svg, Point { x: plot.area.left, y: below_title }, style);
+        plot.draw_grid(&mut svg, style);
+        plot.draw_axes(&mut svg, style);
+        for curve in &self.curves {
+            draw_curve(&mut svg, &plot, curve, style);
+        }
+        self.draw_names(&mut svg, &plot, style);
+        Ok(Figure::new(svg.finish(), description, style.width_mm, height_mm))
+    }
+
+    fn laid_out(&self, (across, up): (Scale, Scale), style: &Style) -> (Plot, Legend, Vec<Text>) {
+        let plot_height = points(style.height_mm) - room_below(style);
+        let y = Axis::new(up, Text::upright("Excitation frequency (Hz)"), 0.85 * plot_height, TICK_SPACING.1);
+        let left = room_left(style, y.label_width(style.tick_size));
+        let right = points(style.width_mm) - MARGIN - style.tick_size;
+        let x = Axis::new(across, Text::upright(&self.parameter), right - left, TICK_SPACING.0);
+        let title = wrap(&self.title, style.label_size, right - left);
+        let legend = Legend::new(vec![self.entries()], style, right - left);
+        let top = MARGIN + 1.5 * title.len() as f64 * style.label_size + legend.height(style) + GAP;
+        let area = Area { left, right, top, bottom: plot_height.max(top + 50.0) };
+        (Plot { area, x, y, labelled_below: true }, legend, title)
+    }
+
+    /// Each kind of curve once.
+    fn entries(&self) -> Vec<Entry> {
+        let mut entries: Vec<Entry> = Vec::new();
+        for curve in self.curves.iter().filter(|curve| !curve.points.is_empty()) {
+            let kind = curve.bifurcation.name();
+            let name = match curve.period_multiple {
+                0 | 1 => kind.to_owned(),
+                multiple => format!("{kind} of the 1/{multiple} subharmonic"),
+            };
+            let entry = Entry { sample: Sample::Pattern(bifurcation_pattern(curve.bifurcation)), name };
+            if !entries.contains(&entry) {
+                entries.push(entry);
+            }
+        }
+        entries
+    }
+
+    fn description(&self) -> String {
+        let names: Vec<&str> = self.named().map(|point| point.name.as_str()).collect();
+        let curves = self.curves.len();
+        let what = if curves == 1 { "curve" } else { "curves" };
+        let marked = if names.is_empty() { String::new() } else { format!("; marked: {}", names.join(", ")) };
+        format!("excitation frequency over {}, {curves} {what} of bifurcations{marked}", self.parameter)
+    }
+
+    fn named(&self) -> impl Iterator<Item = &CurvePoint> {
+        self.curves.iter().flat_map(|curve| &curve.points).filter(|point| !point.name.is_empty())
+    }
+
+    /// Dots and names of the points of codimension two; one that lies on another with the same name is that one.
+    fn draw_names(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
+        let mut taken: Vec<Area> = Vec::new();
+        let mut done: Vec<(Point, &str)> = Vec::new();
+        for point in self.named() {
+            let at = plot.place(point.parameter, point.frequency_hz);
+            let is_same = |(other, name): &(Point, &str)| {
+                *name == point.name && (other.x - at.x).hypot(other.y - at.y) < style.mark_distance
+            };
+            if done.iter().any(is_same) {
+                continue;
+            }
+            done.push((at, &point.name));
+            Mark::Fold.draw(svg, &[at], 1.3 * style.mark_radius);
+            let text = Text::upright(&point.name);
+            let size = (text.width(style.tick_size), CAPITAL_HEIGHT * style.tick_size);
+            let boxes = places(at, size);
+            let is_free = |place: &&Area| {
+                is_inside(place, &plot.area) && !taken.iter().any(|other| overlap(place, other))
+            };
+            let place = boxes.iter().find(is_free).unwrap_or(&boxes[0]);
+            svg.text(
+                Point { x: place.left, y: place.bottom },
+                &text,
+                lettering(style.tick_size, Anchor::Start),
+            );
+            taken.push(*place);
+        }
+    }
+}
+
+impl Bifurcation {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::Flip => "flip",
+            Self::NeimarkSacker => "Neimark–Sacker",
+            Self::Grazing => "grazing",
+        }
+    }
+}
+
+fn draw_curve(svg: &mut SvgWriter, plot: &Plot, curve: &BifurcationCurve, style: &Style) {
+    let Pattern { colour, dashes } = bifurcation_pattern(curve.bifurcation);
+    let shown = |point: &&CurvePoint| {
+        plot.x.scale.kind.shows(point.parameter) && plot.y.scale.kind.shows(point.frequency_hz)
+    };
+    let visible: Vec<&CurvePoint> = curve.points.iter().filter(shown).collect();
+    let line: Vec<Point> =
+        visible.iter().map(|point| plot.place(point.parameter, point.frequency_hz)).collect();
+    let keep: Vec<bool> = visible.iter().map(|point| !point.name.is_empty()).collect();
+    let line: Vec<Point> =
+        decimate(&line, &keep, style.line_tolerance).into_iter().map(|k| line[k]).collect();
+    let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
+    let stroke = Stroke { colour, width: style.stable_width };
+    svg.polylines(std::iter::once((line.as_slice(), dashes)), stroke);
+}
+
+/// Where a name may stand beside its dot, the best first.
+fn places(at: Point, (width, height): (f64, f64)) -> [Area; 6] {
+    let box_at = |left: f64, bottom: f64| Area { left, right: left + width, top: bottom - height, bottom };
+    let (right, left) = (at.x + NAME_GAP, at.x - NAME_GAP - width);
+    let (above, below) = (at.y - NAME_GAP, at.y + NAME_GAP + height);
+    let middle = at.x - 0.5 * width;
+    [
+        box_at(right, above),
+        box_at(left, above),
+        box_at(right, below),
+        box_at(left, below),
+        box_at(middle, above - NAME_GAP),
+        box_at(middle, below + NAME_GAP),
+    ]
+}
+
+fn is_inside(place: &Area, area: &Area) -> bool {
+    place.left > area.left + 1.0
+        && place.right < area.right - 1.0
+        && place.top > area.top + 1.0
+        && place.bottom < area.bottom - 1.0
+}
+
+fn overlap(a: &Area, b: &Area) -> bool {
+    a.left < b.right + 1.0 && b.left < a.right + 1.0 && a.top < b.bottom + 1.0 && b.top < a.bottom + 1.0
+}

@@ -1,0 +1,152 @@
+//! The column of the sensitivities that belongs to the added damping ratio: the damping acts on the whole motion.
+//!
+//! With `C = C(0) + diag(2 z w_i)` the sensitivity `s = dx/dz` in the fixed coordinates of the blocks obeys
+//!
+//! `s' = A s + dA x + B f' C s`, `dA` by the change of the damping matrix, diag(2 w_i) (`change.rs`).
+//!
+//! The motion x has three parts, and `dA x` drives one part of s with each:
+//!
+//! - the particular solution of the load drives another particular solution, steady or from rest ([`Drive::change`]);
+//! - the free motion adds `dE x` over a flight or a step, and `dX x` to the displacements at the nodes of a step;
+//! - the forces of a step add `dP F` to the state at its end and `dW F` to the displacements at its nodes.
+//!
+//! So a step solves `(I - W f') dr = X s + dX x + d r_particular + dW F` and ends with `s+ = E s + dE x + dP F + P f' dr`. For short steps `dX`, `dW` and `dP`
+//! come from the power series with the changed Markov parameters `d(C A^m B)`; for long ones x and s go through the step together, from node to
+//! node, the force by quadrature fine enough for every block.
+
+use super::{
+    block::Blocks,
+    change::Change,
+    collocation::{Grading, NODES},
+    drive::Drive,
+    output::Output,
+    recurrence::gauss_sixteen,
+    series::Series,
+};
+use crate::System;
+
+/// Radians of the fastest block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding.
+const RADIANS: f64 = 4.0;
+
+/// What the column by the damping ratio is made of.
+#[derive(Debug)]
+pub(crate) struct ByDamping {
+    change: Change,
+    series: Series,
+    /// Part of the sensitivity that the particular solution drives.
+    pub drive: Drive,
+    fastest: f64,
+}
+
+/// A solved step, for its part in the sensitivity.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SolvedStep<'a> {
+    pub grading: Grading,
+    pub length: f64,
+    /// Active elements.
+    pub active: &'a [usize],
+    /// Forces at the nodes, `[a * NODES + k]`.
+    pub force: &'a [f64],
+    /// Homogeneous block state at the start of the step.
+    pub state: &'a [f64],
+}
+
+impl ByDamping {
+    pub fn new(system: &System, blocks: &Blocks, series: &Series, drive: &Drive) -> Self {
+        let damping: Vec<f64> = system.model().natural_frequencies.iter().map(|w| 2.0 * w).collect();
+        let change = Change::of_damping(blocks, &damping);
+        let fastest = blocks.rates().into_iter().fold(0.0, f64::max);
+        Self { series: series.change(blocks, &change), change, drive: drive.clone(), fastest }
+    }
+
+    /// Prepares for a stretch with that particular solution.
+    pub fn start(&mut self, drive: &Drive, blocks: &Blocks, outputs: &[Output]) {
+        self.drive = drive.change(blocks, outputs, &self.change);
+    }
+
+    /// `dE x`.
+    pub fn over_flight(&self, time: f64, state: &[f64]) -> Vec<f64> {
+        let (mut state, mut change) = (state.to_vec(), vec![0.0; state.len()]);
+        self.change.propagate(time, &mut state, &mut change);
+        change
+    }
+
+    /// Over a step: `dX x + dW F` at the nodes, `[a * NODES + k]`, into `nodes`, and `dE x + dP F` into `end`.
+    pub fn over_step(
+        &self,
+        step: &SolvedStep,
+        (outputs, inputs): (&[Output], &[Vec<f64>]),
+        (nodes, end): (&mut Vec<f64>, &mut Vec<f64>),
+    ) {
+        nodes.clear();
+        end.clear();
+        if step.length > self.series.reach() {
+            nodes.resize(step.active.len() * NODES, 0.0);
+            return self.by_quadrature(step, (outputs, inputs), (nodes, end));
+        }
+        let (shape, loads) = ((step.grading, step.length), (step.active, step.force));
+        for &element in step.active {
+            nodes.extend(self.series.node_values((element, 0), shape, step.state, loads));
+        }
+        end.extend(self.over_flight(step.length, step.state));
+        for (&element, force) in step.active.iter().zip(step.force.chunks_exact(NODES)) {
+            self.series.add_force(element, shape, force, end);
+        }
+    }
+
+    fn by_quadrature(
+        &self,
+        step: &SolvedStep,
+        (outputs, inputs): (&[Output], &[Vec<f64>]),
+        (nodes, end): (&mut [f64], &mut Vec<f64>),
+    ) {
+        let (grading, length) = (step.grading, step.length);
+        let rule = grading.rule();
+        let mut state = step.state.to_vec();
+        end.resize(state.len(), 0.0);
+        let mut from = 0.0;
+        for node in 0..=NODES {
+            let to = rule.s.get(node).copied().unwrap_or(1.0);
+            let radians = self.fastest * length * (grading.map(to).0 - grading.map(from).0);
+            let panels = (radians / RADIANS).ceil().max(1.0) as usize;
+            let at = |panel: usize| from + (to - from) * panel as f64 / panels as f64;
+            for panel in 0..panels {
+                self.over_panel(step, inputs, (at(panel), at(panel + 1)), (&mut state, end));
+            }
+            if node < NODES {
+                for (a, &element) in step.active.iter().enumerate() {
+                    nodes[a * NODES + node] =
+                        outputs[element].row.iter().zip(&*end).map(|(r, s)| r * s).sum();
+                }
+            }
+            from = to;
+        }
+    }
+
+    /// Takes the motion and its change from one place of the variable of the step to another.
+    fn over_panel(
+        &self,
+        step: &SolvedStep,
+        inputs: &[Vec<f64>],
+        (from, to): (f64, f64),
+        (state, change): (&mut [f64], &mut [f64]),
+    ) {
+        let (grading, length) = (step.grading, step.length);
+        let end = grading.map(to).0;
+        self.change.propagate(length * (end - grading.map(from).0), state, change);
+        for &(x, weight) in gauss_sixteen() {
+            let s = from + (to - from) * x;
+            let (position, slope) = grading.map(s);
+            let lagrange = grading.rule().lagrange(s);
+            let measure = weight * (to - from) * slope * length;
+            let (mut impulse, mut changed) = (vec![0.0; state.len()], vec![0.0; state.len()]);
+            for (&element, force) in step.active.iter().zip(step.force.chunks_exact(NODES)) {
+                let value: f64 = lagrange.iter().zip(force).map(|(l, f)| l * f).sum();
+                impulse.iter_mut().zip(&inputs[element]).for_each(|(x, b)| *x += measure * value * b);
+            }
+            self.change.propagate(length * (end - position), &mut impulse, &mut changed);
+            state.iter_mut().zip(&impulse).for_each(|(x, part)| *x += part);
+            change.iter_mut().zip(&changed).for_each(|(s, part)| *s += part);
+        }
+    }
+}
