@@ -3,8 +3,14 @@
 use std::{fs, path::Path};
 
 use anyhow::Context;
-use hammerbeam_figure::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint};
-use hammerbeam_study::{Store, StoreError, store::Row};
+use hammerbeam_figure::{
+    Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Figure, Quantity, ResponseCurve,
+    ResponseDiagram, ResponsePoint, Style,
+};
+use hammerbeam_study::{
+    Store, StoreError,
+    store::{PieceRecord, Row},
+};
 
 /// Resolution of the PNG files, in pixels per inch.
 const RESOLUTION: f64 = 300.0;
@@ -12,7 +18,7 @@ const RESOLUTION: f64 = 300.0;
 const FIGURES: [(&str, Quantity); 2] =
     [("response_displacement", Quantity::Displacement), ("response_acceleration", Quantity::Acceleration)];
 
-/// Draws the response diagrams into the results folder, each as SVG and PNG.
+/// Draws the response diagrams and the curves of bifurcations into the results folder, each as SVG and PNG.
 ///
 /// # Returns
 /// Names of the files.
@@ -21,13 +27,93 @@ pub fn draw(store: &Store, range_hz: [f64; 2]) -> anyhow::Result<Vec<String>> {
     let mut names = Vec::new();
     for (name, quantity) in FIGURES {
         let figure = diagram.draw(quantity).context("cannot draw the response")?;
-        for (suffix, bytes) in [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(RESOLUTION)?)] {
-            let file = format!("{name}.{suffix}");
-            replace(&store.folder().join(&file), &bytes)?;
-            names.push(file);
-        }
+        names.extend(write(store, name, &figure)?);
+    }
+    names.extend(draw_curves(store)?);
+    Ok(names)
+}
+
+/// Writes a figure as SVG and PNG.
+fn write(store: &Store, name: &str, figure: &Figure) -> anyhow::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for (suffix, bytes) in [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(RESOLUTION)?)] {
+        let file = format!("{name}.{suffix}");
+        replace(&store.folder().join(&file), &bytes)?;
+        names.push(file);
     }
     Ok(names)
+}
+
+/// Draws the curves of bifurcations, one figure for each parameter that they are over.
+fn draw_curves(store: &Store) -> anyhow::Result<Vec<String>> {
+    let pieces: Vec<PieceRecord> = store.pieces()?.into_iter().filter(|piece| piece.is_curve).collect();
+    let mut parameters: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
+    parameters.sort_unstable();
+    parameters.dedup();
+    let mut names = Vec::new();
+    for parameter in parameters {
+        let mut curves = Vec::new();
+        for piece in pieces.iter().filter(|piece| piece.parameter == parameter) {
+            curves.extend(curves_of(store, piece)?);
+        }
+        if curves.iter().all(|curve| curve.points.is_empty()) {
+            continue;
+        }
+        let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
+        let figure = diagram.draw(&Style::default()).context("cannot draw the curves")?;
+        let name = parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+        names.extend(write(store, &format!("curves_{name}"), &figure)?);
+    }
+    Ok(names)
+}
+
+fn curves_of(store: &Store, piece: &PieceRecord) -> anyhow::Result<Vec<BifurcationCurve>> {
+    let mut curves = Vec::new();
+    for branch in &piece.branches {
+        let bifurcation = match branch.kind.as_str() {
+            "flip" => Bifurcation::Flip,
+            "neimark-sacker" => Bifurcation::NeimarkSacker,
+            "grazing" => Bifurcation::Grazing,
+            _ => Bifurcation::Fold,
+        };
+        let mut points = Vec::new();
+        store.each_varied_row::<StoreError>((piece.id, branch.branch), |row| {
+            let name = codimension_two(&row.event);
+            points.push(CurvePoint { parameter: row.parameter, frequency_hz: row.frequency_hz, name });
+            Ok(())
+        })?;
+        curves.push(BifurcationCurve { bifurcation, period_multiple: branch.period_multiple, points });
+    }
+    Ok(curves)
+}
+
+/// Names of the points of codimension two among the events of a row.
+fn codimension_two(events: &str) -> String {
+    let name = |event: &str| match event {
+        "cusp" => Some("cusp".to_owned()),
+        "fold-flip" => Some("fold–flip".to_owned()),
+        "grazing-fold" => Some("grazing–fold".to_owned()),
+        "grazing-flip" => Some("grazing–flip".to_owned()),
+        "degenerate-grazing" => Some("degenerate grazing".to_owned()),
+        event => event.strip_prefix("resonance-").map(str::to_owned),
+    };
+    events.split('+').filter_map(name).collect::<Vec<String>>().join(", ")
+}
+
+/// A parameter in words, with its unit.
+fn axis_label(parameter: &str) -> String {
+    let (owner, key) = parameter.rsplit_once('.').unwrap_or(("", parameter));
+    let stop = owner.strip_prefix("stop.").map_or(String::new(), |stop| format!(" of stop {stop}"));
+    match key {
+        "amplitude_m" => "Excitation amplitude (m)".to_owned(),
+        "amplitude_n" => "Excitation amplitude (N)".to_owned(),
+        "gap_m" => format!("Gap{stop} (m)"),
+        "stiffness_n_m" => format!("Stiffness{stop} (N/m)"),
+        "stiffness_n_m15" => format!("Stiffness{stop} (N/m^1.5)"),
+        "stiffness_n_m3" => format!("Stiffness{stop} (N/m³)"),
+        "modal_ratio" => "Modal damping ratio (–)".to_owned(),
+        _ => parameter.to_owned(),
+    }
 }
 
 fn diagram(store: &Store, [low, high]: [f64; 2]) -> anyhow::Result<ResponseDiagram> {

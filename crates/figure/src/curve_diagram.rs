@@ -1,7 +1,7 @@
 //! Curves of bifurcations: the excitation frequency over a second parameter, with the points of codimension two.
 //!
-//! Colour and dashes tell what a curve is of; a point of codimension two has a dot with its name beside it, where that covers neither the frame nor another
-//! name.
+//! Colour and dashes tell what a curve is of; a point of codimension two has a dot with its name beside it, where that covers neither the frame nor a curve nor another
+//! name, if there is such a place.
 
 use crate::{
     Figure, FigureError, Style,
@@ -87,7 +87,7 @@ impl CurveDiagram {
         let kind = ScaleChoice::Automatic.decide(finite().map(|point| point.parameter));
         let across = extent(finite().map(|point| point.parameter)).ok_or_else(empty)?;
         let up = extent(finite().map(|point| point.frequency_hz)).ok_or_else(empty)?;
-        let scales = (Scale::around(kind, across), Scale::around(ScaleKind::Linear, up));
+        let scales = (close_around(kind, across), close_around(ScaleKind::Linear, up));
         let (plot, legend, title) = self.laid_out(scales, style);
         let height_mm = (plot.area.bottom + room_below(style)) * 25.4 / 72.0;
         let description = self.description();
@@ -151,6 +151,7 @@ impl CurveDiagram {
 
     /// Dots and names of the points of codimension two; one that lies on another with the same name is that one.
     fn draw_names(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
+        let lines: Vec<Vec<Point>> = self.curves.iter().map(|curve| line(plot, curve, style)).collect();
         let mut taken: Vec<Area> = Vec::new();
         let mut done: Vec<(Point, &str)> = Vec::new();
         for point in self.named() {
@@ -167,7 +168,9 @@ impl CurveDiagram {
             let size = (text.width(style.tick_size), CAPITAL_HEIGHT * style.tick_size);
             let boxes = places(at, size);
             let is_free = |place: &&Area| {
-                is_inside(place, &plot.area) && !taken.iter().any(|other| overlap(place, other))
+                is_inside(place, &plot.area)
+                    && !taken.iter().any(|other| overlap(place, other))
+                    && !lines.iter().any(|line| crosses(line, place))
             };
             let place = boxes.iter().find(is_free).unwrap_or(&boxes[0]);
             svg.text(
@@ -191,8 +194,25 @@ impl Bifurcation {
     }
 }
 
+/// A scale about as long as the data: what lies between a curve and zero says nothing here.
+fn close_around(kind: ScaleKind, (least, greatest): (f64, f64)) -> Scale {
+    if kind == ScaleKind::Linear && greatest > least {
+        let margin = 0.05 * (greatest - least);
+        return Scale::exact(kind, (least - margin, greatest + margin));
+    }
+    Scale::around(kind, (least, greatest))
+}
+
 fn draw_curve(svg: &mut SvgWriter, plot: &Plot, curve: &BifurcationCurve, style: &Style) {
     let Pattern { colour, dashes } = bifurcation_pattern(curve.bifurcation);
+    let line = line(plot, curve, style);
+    let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
+    let stroke = Stroke { colour, width: style.stable_width };
+    svg.polylines(std::iter::once((line.as_slice(), dashes)), stroke);
+}
+
+/// A curve on the page, in as few points as give the same line.
+fn line(plot: &Plot, curve: &BifurcationCurve, style: &Style) -> Vec<Point> {
     let shown = |point: &&CurvePoint| {
         plot.x.scale.kind.shows(point.parameter) && plot.y.scale.kind.shows(point.frequency_hz)
     };
@@ -200,11 +220,20 @@ fn draw_curve(svg: &mut SvgWriter, plot: &Plot, curve: &BifurcationCurve, style:
     let line: Vec<Point> =
         visible.iter().map(|point| plot.place(point.parameter, point.frequency_hz)).collect();
     let keep: Vec<bool> = visible.iter().map(|point| !point.name.is_empty()).collect();
-    let line: Vec<Point> =
-        decimate(&line, &keep, style.line_tolerance).into_iter().map(|k| line[k]).collect();
-    let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
-    let stroke = Stroke { colour, width: style.stable_width };
-    svg.polylines(std::iter::once((line.as_slice(), dashes)), stroke);
+    decimate(&line, &keep, style.line_tolerance).into_iter().map(|k| line[k]).collect()
+}
+
+/// Whether a line passes a box, looked at in steps of half a point.
+fn crosses(line: &[Point], place: &Area) -> bool {
+    line.windows(2).any(|pair| {
+        let (dx, dy) = (pair[1].x - pair[0].x, pair[1].y - pair[0].y);
+        let steps = (2.0 * dx.hypot(dy)).ceil().max(1.0) as u32;
+        (0..=steps).any(|k| {
+            let part = f64::from(k) / f64::from(steps);
+            let (x, y) = (pair[0].x + part * dx, pair[0].y + part * dy);
+            (place.left..=place.right).contains(&x) && (place.top..=place.bottom).contains(&y)
+        })
+    })
 }
 
 /// Where a name may stand beside its dot, the best first.
