@@ -232,6 +232,7 @@ impl ExactIntegrator {
             self.observe_step(run, &mut observation);
             self.observation = Some(observation);
         }
+        self.trace_step(run);
         self.step.advance_state(&self.series, &mut run.state);
         run.time += length;
         if end - run.time <= 4.0 * f64::EPSILON * end {

@@ -54,6 +54,7 @@ impl ExactIntegrator {
         if let Some(observation) = &mut self.observation {
             observation.flight(run.time, time, &self.flight_start);
         }
+        self.trace_flight(run, time);
         run.time = if touch.is_none() { end } else { run.time + time };
         if let Some(sensitivity) = &mut run.sensitivity {
             self.propagators.clear();

@@ -131,6 +131,7 @@ impl ExactIntegrator {
             observation.touch(self.output_jet(&run.state, touch.element, run.time).slope);
             self.observation = Some(observation);
         }
+        self.trace_touch(run, touch);
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
         run.proposal = 0.0;

@@ -295,7 +295,7 @@ impl ExactIntegrator {
         (value > best).then_some((value, place))
     }
 
-    fn largest_of_polynomial(&self, values: &[f64]) -> (f64, f64) {
+    pub(super) fn largest_of_polynomial(&self, values: &[f64]) -> (f64, f64) {
         let rule = self.step.grading().rule();
         let mut table = [0.0; FINE + 1];
         for (entry, row) in table.iter_mut().zip(&rule.fine) {

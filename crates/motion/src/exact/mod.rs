@@ -19,6 +19,7 @@
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs` | the column of a parameter |
 //! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 
 mod attempt;
 mod block;
@@ -51,6 +52,7 @@ mod sensitivity;
 mod series;
 mod step_error;
 mod touching;
+mod trace;
 mod weights;
 
 #[cfg(test)]
@@ -60,6 +62,7 @@ use std::collections::HashMap;
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
+pub use trace::{ContactPiece, Touchdown, Trace};
 
 use block::{Blocks, Propagator};
 use collocation::Grading;
@@ -153,6 +156,7 @@ pub struct ExactIntegrator {
     propagators: Vec<Propagator>,
     touches: Vec<u32>,
     observation: Option<maxima::Observation>,
+    tracing: Option<trace::Tracing>,
     closed_throughout: u64,
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
@@ -218,6 +222,7 @@ impl ExactIntegrator {
             flight_start: Vec::new(),
             propagators: Vec::new(),
             observation: None,
+            tracing: None,
             closed_throughout: 0,
             response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
             parameter: None,

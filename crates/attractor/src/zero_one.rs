@@ -1,0 +1,114 @@
+//! The 0-1 test for chaos: a second opinion beside the exponents, from one observable alone.
+//!
+//! A series `x_1 .. x_N` drives a point in the plane, `p(n) = sum_(j<=n) x_j cos(j c)`, `q(n) = sum_(j<=n) x_j sin(j c)`. Regular motion leaves the point bounded
+//! for almost every `c`, chaotic motion lets it diffuse. With the mean square displacement
+//!
+//! `M(n) = 1/(N - n_cut) sum_j (p(j + n) - p(j))^2 + (q(j + n) - q(j))^2`, `n = 1 .. n_cut = N/10`,
+//!
+//! less its oscillation `E^2 (1 - cos n c)/(1 - cos c)`, E the mean of the series, `K_c` is the correlation of `M(n)` with `n`. The median K over [`ANGLES`] values of `c` is near 0 for
+//! regular and near 1 for chaotic motion. The series has to be sampled about as often as the motion changes: once in an excitation period.
+//!
+//! # Source
+//! Gottwald and Melbourne, Proc. R. Soc. A 460 (2004), 603-611; SIAM J. Appl. Dyn. Syst. 8 (2009), 129-145, which is what is done here.
+
+use std::f64::consts::PI;
+
+/// Number of values of `c`.
+const ANGLES: usize = 100;
+/// Least length of a series; a thousand is usual.
+pub const SHORTEST: usize = 100;
+
+/// K of a series: near 0 for regular motion, near 1 for chaotic motion.
+///
+/// # Returns
+/// `None` for fewer than [`SHORTEST`] values; 0 for a constant series.
+#[must_use]
+pub fn zero_one(series: &[f64]) -> Option<f64> {
+    if series.len() < SHORTEST {
+        return None;
+    }
+    let mean = series.iter().sum::<f64>() / series.len() as f64;
+    let spread = series.iter().map(|x| (x - mean).abs()).fold(0.0, f64::max);
+    if spread <= 1e-12 * mean.abs() {
+        return Some(0.0);
+    }
+    // The mean carries no information; without it the oscillation to be subtracted is small.
+    let centred: Vec<f64> = series.iter().map(|x| (x - mean) / spread).collect();
+    let mut correlations: Vec<f64> = (0..ANGLES).map(|k| correlation(&centred, angle(k))).collect();
+    correlations.sort_by(f64::total_cmp);
+    Some(0.5 * (correlations[ANGLES / 2 - 1] + correlations[ANGLES / 2]))
+}
+
+/// Angles spread over the middle of (0, pi) by the golden section, away from the resonances at its ends.
+fn angle(k: usize) -> f64 {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    PI * (0.2 + 0.6 * (golden * (k as f64 + 0.5)).fract())
+}
+
+fn correlation(series: &[f64], c: f64) -> f64 {
+    let (mut p, mut q) = (0.0, 0.0);
+    let mut walk = Vec::with_capacity(series.len());
+    for (j, x) in series.iter().enumerate() {
+        let (sin, cos) = (c * (j + 1) as f64).sin_cos();
+        p += x * cos;
+        q += x * sin;
+        walk.push((p, q));
+    }
+    let cut = series.len() / 10;
+    let counted = series.len() - cut;
+    let mean = series.iter().sum::<f64>() / series.len() as f64;
+    let displacement = |n: usize| {
+        let pairs = walk[..counted].iter().zip(&walk[n..]);
+        let sum: f64 = pairs.map(|(a, b)| (b.0 - a.0).powi(2) + (b.1 - a.1).powi(2)).sum();
+        sum / counted as f64 - mean * mean * (1.0 - (n as f64 * c).cos()) / (1.0 - c.cos())
+    };
+    let displacements: Vec<f64> = (1..=cut).map(displacement).collect();
+    let count = cut as f64;
+    let (middle, average) = (0.5 * (count + 1.0), displacements.iter().sum::<f64>() / count);
+    let (mut covariance, mut of_n, mut of_m) = (0.0, 0.0, 0.0);
+    for (k, m) in displacements.iter().enumerate() {
+        let (a, b) = ((k + 1) as f64 - middle, m - average);
+        covariance += a * b;
+        of_n += a * a;
+        of_m += b * b;
+    }
+    if of_m > 0.0 { covariance / (of_n * of_m).sqrt() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn logistic(parameter: f64) -> Vec<f64> {
+        let mut x = 0.3;
+        let mut step = || {
+            x = parameter * x * (1.0 - x);
+            x
+        };
+        (0..1000).for_each(|_| _ = step());
+        (0..2000).map(|_| step()).collect()
+    }
+
+    /// The logistic map in its chaotic range and with its period of eight, as Gottwald and Melbourne (2009) show them.
+    #[test]
+    fn logistic_map_is_chaotic_at_3_97_and_regular_at_3_55() {
+        let chaotic = zero_one(&logistic(3.97)).unwrap();
+        assert!(chaotic > 0.98, "{chaotic}");
+        let regular = zero_one(&logistic(3.55)).unwrap();
+        assert!(regular.abs() < 0.05, "{regular}");
+    }
+
+    #[test]
+    fn two_incommensurate_frequencies_are_regular() {
+        let series: Vec<f64> =
+            (0..2000).map(|k| f64::from(k).sin() + 0.4 * (2f64.sqrt() * f64::from(k)).cos()).collect();
+        let k = zero_one(&series).unwrap();
+        assert!(k.abs() < 0.1, "{k}");
+    }
+
+    #[test]
+    fn short_series_have_no_answer_and_constant_ones_are_regular() {
+        assert_eq!(zero_one(&[1.0; 99]), None);
+        assert_eq!(zero_one(&[1.0; 200]), Some(0.0));
+    }
+}

@@ -1,0 +1,198 @@
+//! A motion written down: its states at given phases, and each of its contacts.
+//!
+//! In flight a state is that of the closed form; inside a step with forces it is carried there from the start of the step, forces included
+//! (`sampling.rs`). Of a contact force `F(t)` that acts along the relative displacement `r` are noted
+//!
+//! `impulse = int F dt`, `energy lost = - int F r' dt = - int F (dr/ds) ds`
+//!
+//! with the variable `s` of the step, in which both are polynomials: by Gauss' rule with sixteen nodes. The energy lost by a law that depends on
+//! the displacement alone is zero over a whole contact; what comes out is the error of the two polynomials, about 1e-9 of the energy that was stored.
+//! The largest force is that of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
+
+use super::{
+    ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch, lanes::dot,
+    recurrence::gauss_sixteen, run::Run,
+};
+use crate::Stretch;
+
+/// Begin of a contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Touchdown {
+    /// Time since the start of the stretch [s].
+    pub time: f64,
+    /// `r'` of the element as the contact closes [m/s].
+    pub velocity: f64,
+    /// Modal state `[q; q']` then, length 2n.
+    pub state: Vec<f64>,
+}
+
+/// A contact, or the part of it that lies within a stretch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactPiece {
+    /// Number of the local element.
+    pub element: usize,
+    /// Number of the contact of its law.
+    pub contact: usize,
+    /// Where it closed; `None` if it was closed at the start of the stretch.
+    pub begin: Option<Touchdown>,
+    /// When it opened, since the start of the stretch [s]; `None` if it is closed at the end of the stretch.
+    pub end: Option<f64>,
+    /// Integral of the magnitude of the force [N s].
+    pub impulse: f64,
+    /// Largest magnitude of the force [N].
+    pub peak_force: f64,
+    /// Energy that the structure gave to the contact and did not get back [J].
+    pub energy_lost: f64,
+}
+
+/// What was written down of a motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trace {
+    /// State at the end of the stretch, bit by bit that of [`ExactIntegrator::advance`].
+    pub state: Vec<f64>,
+    /// Modal states at the phases asked for.
+    pub samples: Vec<Vec<f64>>,
+    /// Contacts in the order in which they closed.
+    pub contacts: Vec<ContactPiece>,
+}
+
+/// What is being written down.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Tracing {
+    /// Times since the start of the stretch at which the state is wanted, ascending [s].
+    times: Vec<f64>,
+    trace: Trace,
+    /// Index of the open piece of each element.
+    open: Vec<Option<usize>>,
+}
+
+impl Tracing {
+    fn due(&self, before: f64) -> Option<f64> {
+        self.times.get(self.trace.samples.len()).copied().filter(|time| *time < before)
+    }
+
+    /// Ends the pieces of elements that are no longer closed.
+    fn end_open(&mut self, closed: &[Option<usize>], time: f64) {
+        for (open, closed) in self.open.iter_mut().zip(closed) {
+            if closed.is_none()
+                && let Some(piece) = open.take()
+            {
+                self.trace.contacts[piece].end = Some(time);
+            }
+        }
+    }
+
+    fn begin(&mut self, touch: Touch, begin: Option<Touchdown>) {
+        self.open[touch.element] = Some(self.trace.contacts.len());
+        self.trace.contacts.push(ContactPiece {
+            element: touch.element,
+            contact: touch.contact,
+            begin,
+            end: None,
+            impulse: 0.0,
+            peak_force: 0.0,
+            energy_lost: 0.0,
+        });
+    }
+}
+
+impl ExactIntegrator {
+    /// A motion over a stretch from `state`, with its states at `phases` [cycles, ascending, within the stretch] and its contacts.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn trace(&mut self, stretch: &Stretch, state: &[f64], phases: &[f64]) -> Result<Trace, MotionError> {
+        let times = phases.iter().map(|phase| (phase - stretch.start) / stretch.frequency_hz).collect();
+        let mut tracing = Tracing { times, trace: Trace::default(), open: vec![None; self.laws.len()] };
+        let mut run = self.begin(stretch, state, false);
+        for element in 0..self.laws.len() {
+            if let Some(contact) = run.closed[element] {
+                tracing.begin(Touch { element, contact }, None);
+            }
+        }
+        self.tracing = Some(tracing);
+        let result = self.complete(&mut run, stretch);
+        let mut tracing = self.tracing.take().unwrap_or_default();
+        tracing.end_open(&run.closed, run.time);
+        let end = self.modal_state(&run, stretch.duration());
+        self.run = run;
+        result?;
+        // Samples at the very end, or within rounding of it.
+        while tracing.trace.samples.len() < tracing.times.len() {
+            tracing.trace.samples.push(end.clone());
+        }
+        Ok(Trace { state: end, ..tracing.trace })
+    }
+
+    /// Writes down a flight of that duration from the state at its start.
+    pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
+        let Some(mut tracing) = self.tracing.take() else { return };
+        tracing.end_open(&run.closed, run.time);
+        let n = self.blocks.count();
+        while let Some(time) = tracing.due(run.time + duration) {
+            let mut state = self.flight_start.clone();
+            for i in 0..n {
+                let after = (time - run.time).max(0.0);
+                let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], after);
+                (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
+            }
+            tracing.trace.samples.push(self.modal_of(state, time));
+        }
+        self.tracing = Some(tracing);
+    }
+
+    /// Writes down a contact that closes now.
+    pub(super) fn trace_touch(&mut self, run: &Run, touch: Touch) {
+        let Some(mut tracing) = self.tracing.take() else { return };
+        tracing.end_open(&run.closed, run.time);
+        let velocity = self.output_jet(&run.state, touch.element, run.time).slope;
+        let state = self.modal_state(run, run.time);
+        tracing.begin(touch, Some(Touchdown { time: run.time, velocity, state }));
+        self.tracing = Some(tracing);
+    }
+
+    /// Writes down the solved step that is being accepted; `run` stands at its start.
+    pub(super) fn trace_step(&mut self, run: &Run) {
+        let Some(mut tracing) = self.tracing.take() else { return };
+        tracing.end_open(&run.closed, run.time);
+        while let Some(time) = tracing.due(run.time + self.step.weights.length) {
+            let mut state = run.state.clone();
+            self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
+            tracing.trace.samples.push(self.modal_of(state, time));
+        }
+        for (a, &element) in self.step.active.iter().enumerate() {
+            let Some(piece) = tracing.open[element] else { continue };
+            let piece = &mut tracing.trace.contacts[piece];
+            let (impulse, energy_lost) = self.work_of(a);
+            piece.impulse += impulse.abs();
+            piece.energy_lost += energy_lost;
+            let force = &self.step.force[a * NODES..(a + 1) * NODES];
+            piece.peak_force = piece.peak_force.max(self.largest_of_polynomial(force).0);
+        }
+        self.tracing = Some(tracing);
+    }
+
+    /// Impulse of the force of the a-th active element in the solved step, and the energy that it took.
+    fn work_of(&self, a: usize) -> (f64, f64) {
+        let (step, rule) = (&self.step, self.step.grading().rule());
+        let nodes = a * NODES..(a + 1) * NODES;
+        let displacement: [f64; NODES] = std::array::from_fn(|k| step.displacement[a * NODES + k]);
+        let slope = rule.derivative(&displacement);
+        let (mut impulse, mut energy_lost) = (0.0, 0.0);
+        for &(s, weight) in gauss_sixteen() {
+            let lagrange = rule.lagrange(s);
+            let force = dot(&lagrange, &step.force[nodes.clone()]);
+            impulse += weight * force * step.grading().map(s).1;
+            energy_lost -= weight * force * dot(&lagrange, &slope);
+        }
+        (impulse * step.weights.length, energy_lost)
+    }
+
+    /// Modal state of a homogeneous block state at a time.
+    fn modal_of(&self, mut block: Vec<f64>, time: f64) -> Vec<f64> {
+        self.drive.add_state(time, 1.0, &mut block);
+        let mut modal = vec![0.0; block.len()];
+        self.blocks.to_modal(&block, &mut modal);
+        modal
+    }
+}
