@@ -5,10 +5,10 @@
 //!
 //! | indicator | regular | chaotic | else |
 //! |---|---|---|---|
-//! | exponent | `abs(L) <= 10/N` | `L - half width > 10/N` | undecided, or below zero: still settling |
+//! | exponent | `-2/N <= L <= 10/N` | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
-//! (the exponent of a regular motion falls like `ln N/N`, so it is never exactly zero). Where both agree the motion is quasi-periodic or
+//! (the tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink). Where both agree the motion is quasi-periodic or
 //! chaotic; where they do not it is doubtful, with the reason. A motion whose largest exponent is below zero is on its way to a periodic one: it is given
 //! time once more, and then called doubtful.
 
@@ -23,6 +23,8 @@ const REGULAR_BELOW: f64 = 0.2;
 const CHAOTIC_ABOVE: f64 = 0.8;
 /// What the exponent per period of a regular motion may be, times the number of periods.
 const ZERO: f64 = 10.0;
+/// The same below zero.
+const SHRINKING: f64 = 2.0;
 
 /// How much is spent on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -184,10 +186,10 @@ fn liveliest(states: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {
 fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) -> Class {
     let zero = ZERO / periods as f64;
     let (value, low) = (largest.value * period, largest.low() * period);
-    if value < -zero {
+    if value < -SHRINKING / periods as f64 {
         return Class::Doubtful(Doubt::NotSettled);
     }
-    let exponent = if value.abs() <= zero { Some(false) } else { Some(true).filter(|_| low > zero) };
+    let exponent = if value <= zero { Some(false) } else { Some(true).filter(|_| low > zero) };
     let test = match zero_one {
         Some(k) if k < REGULAR_BELOW => Some(false),
         Some(k) if k > CHAOTIC_ABOVE => Some(true),

@@ -90,13 +90,13 @@ fn beam_is_periodic_at_36_and_chaotic_at_53_hz() {
     }
 }
 
-/// With no time to settle a periodic motion is not called anything else.
+/// With no time to settle a periodic motion is not called anything else: here it shrinks by 0.7 per cent in a period.
 #[test]
 fn motion_that_still_settles_is_doubtful() {
     let mut map =
-        SystemMap::new(oscillator(1.0, 1e-3, 0.5, vec![]), 0.3, 1, ExactSettings::default()).unwrap();
+        SystemMap::new(oscillator(1.0, 4e-3, 0.5, vec![]), 0.3, 1, ExactSettings::default()).unwrap();
     let impatient =
-        Effort { patience: Patience { skipped: 1, periods: 5, longest: 4 }, aligning: 1, averaged: 5000 };
+        Effort { patience: Patience { skipped: 1, periods: 5, longest: 4 }, aligning: 1, averaged: 1000 };
     let found = classify(&mut map, 1, &[3.0, 0.0], &impatient).unwrap();
     assert_eq!(found.class, Class::Doubtful(Doubt::NotSettled), "{:?}", found.largest_exponent);
 }

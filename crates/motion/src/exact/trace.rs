@@ -3,16 +3,13 @@
 //! In flight a state is that of the closed form; inside a step with forces it is carried there from the start of the step, forces included
 //! (`sampling.rs`). Of a contact force `F(t)` that acts along the relative displacement `r` are noted
 //!
-//! `impulse = int F dt`, `energy lost = - int F r' dt = - int F (dr/ds) ds`
+//! `impulse = int F dt`, `energy lost = - int F r' dt`
 //!
-//! with the variable `s` of the step, in which both are polynomials: by Gauss' rule with sixteen nodes. The energy lost by a law that depends on
-//! the displacement alone is zero over a whole contact; what comes out is the error of the two polynomials, about 1e-9 of the energy that was stored.
-//! The largest force is that of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
+//! by Gauss' rule on the nodes of the steps, where `F` and `r` obey the law and `r'` follows from the convolution with the modes. The energy lost by a
+//! law that depends on the displacement alone is zero over a whole contact; what comes out is the error of the steps. The largest force is that
+//! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
-use super::{
-    ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch, lanes::dot,
-    recurrence::gauss_sixteen, run::Run,
-};
+use super::{ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch, run::Run};
 use crate::Stretch;
 
 /// Begin of a contact.
@@ -163,7 +160,7 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let Some(piece) = tracing.open[element] else { continue };
             let piece = &mut tracing.trace.contacts[piece];
-            let (impulse, energy_lost) = self.work_of(a);
+            let (impulse, energy_lost) = self.work_of(run, a);
             piece.impulse += impulse.abs();
             piece.energy_lost += energy_lost;
             let force = &self.step.force[a * NODES..(a + 1) * NODES];
@@ -173,19 +170,32 @@ impl ExactIntegrator {
     }
 
     /// Impulse of the force of the a-th active element in the solved step, and the energy that it took.
-    fn work_of(&self, a: usize) -> (f64, f64) {
+    fn work_of(&self, run: &Run, a: usize) -> (f64, f64) {
         let (step, rule) = (&self.step, self.step.grading().rule());
-        let nodes = a * NODES..(a + 1) * NODES;
-        let displacement: [f64; NODES] = std::array::from_fn(|k| step.displacement[a * NODES + k]);
-        let slope = rule.derivative(&displacement);
-        let (mut impulse, mut energy_lost) = (0.0, 0.0);
-        for &(s, weight) in gauss_sixteen() {
-            let lagrange = rule.lagrange(s);
-            let force = dot(&lagrange, &step.force[nodes.clone()]);
-            impulse += weight * force * step.grading().map(s).1;
-            energy_lost -= weight * force * dot(&lagrange, &slope);
+        let force = &step.force[a * NODES..(a + 1) * NODES];
+        let velocity = self.velocity_nodes(run, step.active[a]);
+        let (mut impulse, mut work) = (0.0, 0.0);
+        for k in 0..NODES {
+            let part = rule.at_end[0][k] * step.weights.length * force[k];
+            impulse += part;
+            work += part * velocity[k];
         }
-        (impulse * step.weights.length, energy_lost)
+        (impulse, -work)
+    }
+
+    /// Velocity of an output at the nodes of the solved step.
+    fn velocity_nodes(&self, run: &Run, output: usize) -> [f64; NODES] {
+        let step = &self.step;
+        let length = step.weights.length;
+        if length > self.series.reach() {
+            return std::array::from_fn(|k| self.jet_in_step(&run.state, output, step.node_time(k)).slope);
+        }
+        let loads = (step.active.as_slice(), step.force.as_slice());
+        let mut values = self.series.node_values((output, 1), (step.grading(), length), &run.state, loads);
+        for (k, value) in values.iter_mut().enumerate() {
+            *value += self.drive.jet(output, &self.outputs[output], step.start + step.node_time(k)).slope;
+        }
+        values
     }
 
     /// Modal state of a homogeneous block state at a time.
