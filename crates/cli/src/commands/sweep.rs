@@ -113,7 +113,15 @@ impl Work<'_> {
                 if self.interrupt.raised() {
                     return Ok(());
                 }
-                let point = sweeper.at(frequency_hz, &state)?;
+                // A sweep that cannot go on is told, and what it has found is kept.
+                let point = match sweeper.at(frequency_hz, &state) {
+                    Ok(point) => point,
+                    Err(error @ AttractorError::Input { .. }) => return Err(error),
+                    Err(error) => {
+                        anstream::eprintln!("the sweep {direction} ends at {frequency_hz} Hz: {error}");
+                        return Ok(());
+                    }
+                };
                 state.clone_from(&point.state);
                 self.found.push(Found { from: (*direction).to_owned(), point, branch: None });
                 ticker.at(self.found.len() as u64, || format!("{direction} {frequency_hz:.4} Hz"));

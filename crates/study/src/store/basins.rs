@@ -53,27 +53,21 @@ impl BasinStore {
     pub fn open(folder: &Path, file: &StudyFile, request: &str) -> Result<Self, StoreError> {
         let database = folder.join(BASINS);
         let wanted = format!("{}\n{request}\ndata_version = {DATA_VERSION}", file.study.canonical());
+        let writing = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+        if database.exists() {
+            check(&Connection::open_with_flags(&database, writing)?, folder, &wanted)?;
+        }
         fs::create_dir_all(folder).map_err(|source| StoreError::folder(folder, source))?;
         let lock = Lock::take(folder)?;
-        let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE;
-        let mut connection = Connection::open_with_flags(&database, flags | OpenFlags::SQLITE_OPEN_NO_MUTEX)?;
-        let is_new = is_new(&connection, folder)?;
+        let mut connection = Connection::open_with_flags(&database, writing | OpenFlags::SQLITE_OPEN_CREATE)?;
+        let is_new = check(&connection, folder, &wanted)?;
+        connection.pragma_update(None, "journal_mode", "WAL")?;
         if is_new {
-            connection.pragma_update(None, "journal_mode", "WAL")?;
             let transaction = connection.transaction()?;
             transaction.pragma_update(None, "application_id", APPLICATION_ID)?;
             transaction.execute_batch(TABLES)?;
             transaction.execute("INSERT INTO about (key, value) VALUES ('canonical', ?1)", [&wanted])?;
             transaction.commit()?;
-        } else {
-            let there: String =
-                connection
-                    .query_row("SELECT value FROM about WHERE key = 'canonical'", [], |row| row.get(0))?;
-            if there != wanted {
-                let differences = differences(&there, &wanted, 12);
-                return Err(StoreError::OtherBasins { folder: folder.to_owned(), differences });
-            }
-            connection.pragma_update(None, "journal_mode", "WAL")?;
         }
         connection.pragma_update(None, "synchronous", "NORMAL")?;
         Ok(Self { connection, _lock: lock })
@@ -147,19 +141,26 @@ impl BasinStore {
     }
 }
 
-/// Whether nobody has written the database yet; one that is not ours is refused.
-fn is_new(connection: &Connection, folder: &Path) -> Result<bool, StoreError> {
+/// Refuses the database of something else; true if nobody has written it yet.
+fn check(connection: &Connection, folder: &Path, wanted: &str) -> Result<bool, StoreError> {
     let refused = |error: rusqlite::Error| match error.sqlite_error_code() {
         Some(rusqlite::ErrorCode::NotADatabase) => StoreError::NotBasins { folder: folder.to_owned() },
         _ => error.into(),
     };
-    let tables: i64 =
-        connection.query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get(0)).map_err(refused)?;
-    let id: i64 = connection.query_row("PRAGMA application_id", [], |row| row.get(0)).map_err(refused)?;
-    if tables > 0 && id != APPLICATION_ID {
+    let number = |query: &str| connection.query_row(query, [], |row| row.get::<_, i64>(0)).map_err(refused);
+    if number("SELECT count(*) FROM sqlite_master")? == 0 {
+        return Ok(true);
+    }
+    if number("PRAGMA application_id")? != APPLICATION_ID {
         return Err(StoreError::NotBasins { folder: folder.to_owned() });
     }
-    Ok(tables == 0)
+    let select = "SELECT value FROM about WHERE key = 'canonical'";
+    let there: String = connection.query_row(select, [], |row| row.get(0))?;
+    if there == wanted {
+        return Ok(false);
+    }
+    let differences = differences(&there, wanted, 12);
+    Err(StoreError::OtherBasins { folder: folder.to_owned(), differences })
 }
 
 fn attractor(row: &SqlRow<'_>) -> Result<Attractor, StoreError> {
