@@ -1,8 +1,8 @@
 //! Whether a motion repeats: it is advanced period by period until it does, or until patience ends.
 //!
 //! A motion repeats after n periods if its state comes back to within [`REPEATED`] of its size, both in the scales of the map. A motion that
-//! creeps alternately towards an orbit of period m comes back after 2m first; where the state after m periods is close too, it is given
-//! time for as long as it still comes closer.
+//! creeps towards an orbit of period m, changing sides or turning about it, comes back after a multiple of m first: twice where a multiplier is
+//! negative, thrice where a pair turns by a third. Where the state is close after a divisor of n, too, it is given time for as long as it still comes closer.
 
 use std::collections::VecDeque;
 
@@ -10,7 +10,7 @@ use crate::{AttractorError, SectionMap};
 
 /// Distance, relative to the motion, at which it counts as having repeated.
 const REPEATED: f64 = 1e-8;
-/// Distance after half the period below which the motion may be creeping to half the period.
+/// Distance after a part of the period below which the motion may be creeping to an orbit of that period.
 const CREEPING: f64 = 1e-2;
 /// Periods after which a creeping motion is looked at again.
 const LOOK_AGAIN: u64 = 64;
@@ -111,9 +111,9 @@ pub fn settle_unless(
         let last = states.len() - 1;
         let back = |n: usize| distance(&scales, &states[last], &states[last - n]);
         let Some(n) = (1..=last).find(|&n| back(n) < REPEATED) else { continue };
-        let half = if n.is_multiple_of(2) { back(n / 2) } else { f64::INFINITY };
-        if half < CREEPING && creeping.is_none_or(|(_, before)| half < 0.99 * before) {
-            creeping = Some((period, half));
+        let shorter = (1..n).filter(|m| n.is_multiple_of(*m)).map(back).fold(f64::INFINITY, f64::min);
+        if shorter < CREEPING && creeping.is_none_or(|(_, before)| shorter < 0.99 * before) {
+            creeping = Some((period, shorter));
             continue;
         }
         states.drain(..states.len() - n);
@@ -133,4 +133,28 @@ pub fn settle(
     patience: Patience,
 ) -> Result<Settled, AttractorError> {
     settle_unless(map, parts, state, patience, |_| false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::StepMap;
+
+    /// Turning by `turn` of a circle and shrinking in every step, towards the fixed point 0 of a map about (1, 1).
+    fn spiral(turn: f64, shrink: f64) -> StepMap<impl FnMut(&[f64]) -> (Vec<f64>, faer::Mat<f64>)> {
+        StepMap::new(2, move |z: &[f64]| {
+            let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
+            let (x, y) = (shrink * (z[0] - 1.0), shrink * (z[1] - 1.0));
+            (vec![1.0 + cos * x - sin * y, 1.0 + sin * x + cos * y], faer::Mat::zeros(2, 2))
+        })
+    }
+
+    #[test]
+    fn motion_that_turns_about_an_orbit_has_the_period_of_the_orbit() {
+        for turn in [0.5, 1.0 / 3.0, 0.25, 0.2, 0.5 + 1e-7] {
+            let settled = settle(&mut spiral(turn, 0.97), 1, &[1.5, 0.7], Patience::default()).unwrap();
+            let Settled::Repeats(states) = settled else { panic!("turn {turn}: it settles") };
+            assert_eq!(states.len(), 1, "turn {turn}");
+        }
+    }
 }

@@ -22,6 +22,8 @@ use std::f64::consts::PI;
 const ANGLES: usize = 100;
 /// Period whose divisors are taken out of the series.
 const CLASSES: usize = 24;
+/// What is left of a series without its bands, relative to its spread, that is rounding and not motion.
+const NOTHING_LEFT: f64 = 1e-8;
 /// Least length of a series, ten values for each remainder; a thousand is usual.
 pub const SHORTEST: usize = 10 * CLASSES;
 
@@ -40,6 +42,9 @@ pub fn zero_one(series: &[f64]) -> Option<f64> {
         return Some(0.0);
     }
     let centred = without_bands(series, spread);
+    if centred.iter().all(|x| x.abs() <= NOTHING_LEFT) {
+        return Some(0.0);
+    }
     let mut correlations: Vec<f64> = (0..ANGLES).map(|k| correlation(&centred, angle(k))).collect();
     correlations.sort_by(f64::total_cmp);
     Some(0.5 * (correlations[ANGLES / 2 - 1] + correlations[ANGLES / 2]))
@@ -129,6 +134,14 @@ mod tests {
             logistic(3.97).iter().enumerate().map(|(k, x)| 0.01 * x + (k % 2) as f64).collect();
         let k = zero_one(&series).unwrap();
         assert!(k > 0.98, "{k}");
+    }
+
+    /// Rounding, which is as irregular as can be, on top of a period of two.
+    #[test]
+    fn rounding_of_a_periodic_motion_is_not_chaos() {
+        let series: Vec<f64> =
+            logistic(3.97).iter().enumerate().map(|(k, x)| 1e-12 * x + (k % 2) as f64).collect();
+        assert_eq!(zero_one(&series), Some(0.0));
     }
 
     #[test]
