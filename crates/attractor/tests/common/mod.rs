@@ -5,6 +5,7 @@
 #[path = "../../../motion/tests/common/mod.rs"]
 mod motion;
 
+#[allow(unused_imports, reason = "each test file uses some of them")]
 pub use motion::{beam_with, element, hertz, model, paper_beam};
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Load, LocalElement, System};
