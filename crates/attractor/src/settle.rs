@@ -12,6 +12,8 @@ use crate::{AttractorError, SectionMap};
 const REPEATED: f64 = 1e-8;
 /// Distance after a part of the period below which the motion may be creeping to an orbit of that period.
 const CREEPING: f64 = 1e-2;
+/// Part of that distance to which it has to fall until the next look for the motion to be creeping still.
+const CLOSER: f64 = 0.9999;
 /// Periods after which a creeping motion is looked at again.
 const LOOK_AGAIN: u64 = 64;
 
@@ -112,7 +114,7 @@ pub fn settle_unless(
         let back = |n: usize| distance(&scales, &states[last], &states[last - n]);
         let Some(n) = (1..=last).find(|&n| back(n) < REPEATED) else { continue };
         let shorter = (1..n).filter(|m| n.is_multiple_of(*m)).map(back).fold(f64::INFINITY, f64::min);
-        if shorter < CREEPING && creeping.is_none_or(|(_, before)| shorter < 0.99 * before) {
+        if shorter < CREEPING && creeping.is_none_or(|(_, before)| shorter < CLOSER * before) {
             creeping = Some((period, shorter));
             continue;
         }

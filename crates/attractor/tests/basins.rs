@@ -26,8 +26,12 @@ fn duffing() -> System {
 }
 
 fn grid(count: usize) -> Grid {
-    let axis =
-        |direction: [f64; 2], reach: f64| Axis { direction: direction.into(), low: -reach, high: reach, count };
+    let axis = |direction: [f64; 2], reach: f64| Axis {
+        direction: direction.into(),
+        low: -reach,
+        high: reach,
+        count,
+    };
     Grid { base: vec![0.0; 2], x: axis([1.0, 0.0], 2.0), y: axis([0.0, 1.0], 3.0) }
 }
 
