@@ -236,6 +236,41 @@ fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
     assert!(stderr(&output).contains("cells are kept in out"), "{}", stderr(&output));
 }
 
+/// A long motion of any kind ends with what is finished, too.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_every_command_with_130() {
+    for (arguments, table) in [
+        (
+            &["simulate", "study.toml", "--frequency", "0.2", "--periods", "100000000"][..],
+            Some("samples.csv"),
+        ),
+        (&["lyapunov", "study.toml", "--frequency", "0.2", "--periods", "10000000"], None),
+        (&["sweep", "study.toml", "--step", "0.00001"], Some("sweep.csv")),
+        (&["sweep", "study.toml", "--step", "0.0001", "--starts", "50"], Some("sweep.csv")),
+    ] {
+        let workshop = Workshop::with(DUFFING);
+        let child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+            .args(arguments)
+            .args(["--out", "out"])
+            .current_dir(workshop.path(""))
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        // Long enough for the command to listen; the work takes hours.
+        sleep(Duration::from_millis(1500));
+        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130), "{arguments:?} {}", stderr(&output));
+        assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
+        if let Some(name) = table {
+            let rows = fs::read_to_string(workshop.path("out").join(name)).unwrap();
+            assert!(rows.lines().count() > 1, "{arguments:?}");
+        }
+    }
+}
+
 #[test]
 fn basins_of_another_grid_or_study_are_refused() {
     let workshop = Workshop::with(DUFFING);
