@@ -83,6 +83,34 @@ impl Class {
             Self::Doubtful(_) => "doubtful",
         }
     }
+
+    /// Period of a periodic motion, in excitation periods.
+    #[must_use]
+    pub fn period(self) -> Option<usize> {
+        match self {
+            Self::Periodic { period } => Some(period),
+            _ => None,
+        }
+    }
+
+    /// Why a doubtful motion is called so, in words.
+    #[must_use]
+    pub fn doubt(self) -> Option<&'static str> {
+        match self {
+            Self::Doubtful(doubt) => Some(doubt.reason()),
+            _ => None,
+        }
+    }
+}
+
+/// `period 3`, or the name.
+impl std::fmt::Display for Class {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Periodic { period } => formatter.pad(&format!("period {period}")),
+            other => formatter.pad(other.name()),
+        }
+    }
 }
 
 impl Doubt {

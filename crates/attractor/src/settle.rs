@@ -143,7 +143,7 @@ mod tests {
     use crate::StepMap;
 
     /// Turning by `turn` of a circle and shrinking in every step, towards the fixed point 0 of a map about (1, 1).
-    fn spiral(turn: f64, shrink: f64) -> StepMap<impl FnMut(&[f64]) -> (Vec<f64>, faer::Mat<f64>)> {
+    fn spiral(turn: f64, shrink: f64) -> impl SectionMap {
         StepMap::new(2, move |z: &[f64]| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
             let (x, y) = (shrink * (z[0] - 1.0), shrink * (z[1] - 1.0));

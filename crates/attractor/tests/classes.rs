@@ -20,7 +20,7 @@ fn kind(map: &mut impl SectionMap, state: &[f64]) -> Classified {
 }
 
 /// Henon's map with the area ratio 0.3.
-fn henon(a: f64) -> StepMap<impl FnMut(&[f64]) -> (Vec<f64>, faer::Mat<f64>)> {
+fn henon(a: f64) -> impl SectionMap {
     StepMap::new(2, move |z: &[f64]| {
         (vec![1.0 - a * z[0] * z[0] + z[1], 0.3 * z[0]], faer::mat![[-2.0 * a * z[0], 1.0], [0.3, 0.0]])
     })
@@ -37,7 +37,7 @@ fn henon_map_is_periodic_or_chaotic_as_is_known() {
 }
 
 /// A map of the plane with an attracting circle, turned by `2 pi rotation` at each step: quasi-periodic if the rotation is irrational.
-fn circle(rotation: f64) -> StepMap<impl FnMut(&[f64]) -> (Vec<f64>, faer::Mat<f64>)> {
+fn circle(rotation: f64) -> impl SectionMap {
     StepMap::new(2, move |z: &[f64]| {
         let (sin, cos) = (TAU * rotation).sin_cos();
         let square = z[0] * z[0] + z[1] * z[1];

@@ -247,7 +247,7 @@ fn ctrl_c_ends_every_command_with_130() {
         ),
         (&["lyapunov", "study.toml", "--frequency", "0.2", "--periods", "10000000"], None),
         (&["sweep", "study.toml", "--step", "0.00001"], Some("sweep.csv")),
-        (&["sweep", "study.toml", "--step", "0.0001", "--starts", "50"], Some("sweep.csv")),
+        (&["sweep", "study.toml", "--step", "0.0001", "--starts", "5"], Some("sweep.csv")),
     ] {
         let workshop = Workshop::with(DUFFING);
         let child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))

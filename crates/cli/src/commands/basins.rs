@@ -124,24 +124,26 @@ fn direction(name: &str, flag: &str, model: &Model) -> Result<Vec<f64>, Failure>
     let n = model.system.dof();
     let mut direction = vec![0.0; 2 * n];
     let first = model.response.shape[0];
-    match name {
-        "displacement" | "velocity" if first == 0.0 => {
-            let point = "the first mode does not move the response point";
-            return Err(Failure::BadInput(format!("{flag}: {point}; allowed: q1 to q{n}, v1 to v{n}")));
-        }
-        "displacement" => direction[0] = 1.0 / first,
-        "velocity" => direction[n] = 1.0 / first,
-        _ => {
-            direction[mode(name, n).ok_or_else(|| {
-                let allowed = format!("q1 to q{n}, v1 to v{n}, displacement, velocity");
-                Failure::BadInput(format!("{flag}: found the coordinate {name:?}; allowed: {allowed}"))
-            })?] = 1.0
-        }
+    let of_point = matches!(name, "displacement" | "velocity");
+    if of_point && first == 0.0 {
+        let point = "the first mode does not move the response point";
+        return Err(Failure::BadInput(format!("{flag}: {point}; allowed: q1 to q{n}, v1 to v{n}")));
     }
+    let Some(index) = place(name, n) else {
+        let allowed = format!("q1 to q{n}, v1 to v{n}, displacement, velocity");
+        return Err(Failure::BadInput(format!("{flag}: found the coordinate {name:?}; allowed: {allowed}")));
+    };
+    direction[index] = if of_point { 1.0 / first } else { 1.0 };
     Ok(direction)
 }
 
-fn mode(name: &str, n: usize) -> Option<usize> {
+/// Place of a coordinate in the modal state.
+fn place(name: &str, n: usize) -> Option<usize> {
+    match name {
+        "displacement" => return Some(0),
+        "velocity" => return Some(n),
+        _ => {}
+    }
     let (offset, number) = match name.split_at_checked(1)? {
         ("q", number) => (0, number),
         ("v", number) => (n, number),
@@ -203,7 +205,7 @@ impl Outcome<'_> {
         ];
         let mut table = Table::begin(folder, "attractors.csv", &header(&columns))?;
         for (index, attractor, fraction, branch) in self.attractors() {
-            let period = period(attractor.class).map(|period| period.to_string());
+            let period = attractor.class.period().map(|period| period.to_string());
             table.row(&[
                 index.to_string(),
                 attractor.class.name().to_owned(),
@@ -224,7 +226,7 @@ impl Outcome<'_> {
             json!({
                 "attractor": index,
                 "class": attractor.class.name(),
-                "period": period(attractor.class),
+                "period": attractor.class.period(),
                 "fraction": fraction.value,
                 "standard_error": fraction.half_width,
                 "largest_exponent_per_s": attractor.largest_exponent.map(|exponent| exponent.value),
@@ -249,10 +251,7 @@ impl Outcome<'_> {
     fn text(&self) -> String {
         let mut lines = vec![format!("{} cells at {} Hz", self.cells.len(), self.options.frequency)];
         for (index, attractor, fraction, branch) in self.attractors() {
-            let class = match attractor.class {
-                Class::Periodic { period } => format!("period {period}"),
-                other => other.name().to_owned(),
-            };
+            let class = attractor.class;
             let branch = branch.map_or_else(String::new, |branch| format!(", branch {branch}"));
             lines.push(format!(
                 "  attractor {index}: {class}{branch}, fraction {:.4} +- {:.4}",
@@ -266,12 +265,5 @@ impl Outcome<'_> {
             lines.push(format!("basins.csv and attractors.csv are in {}", folder.display()));
         }
         lines.join("\n")
-    }
-}
-
-fn period(class: Class) -> Option<usize> {
-    match class {
-        Class::Periodic { period } => Some(period),
-        _ => None,
     }
 }

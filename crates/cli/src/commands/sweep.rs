@@ -152,7 +152,7 @@ impl Work<'_> {
             for (start, point) in points.into_iter().enumerate() {
                 match point {
                     Ok(point) => {
-                        self.found.push(Found { from: (start + 1).to_string(), point, branch: None })
+                        self.found.push(Found { from: (start + 1).to_string(), point, branch: None });
                     }
                     Err(error) => anstream::eprintln!("{frequency_hz} Hz, start {}: {error}", start + 1),
                 }
@@ -173,20 +173,6 @@ fn branch(branches: &StoredBranches<'_>, model: &Model, point: &SweepPoint) -> R
         states.push(hammerbeam_attractor::SectionMap::advance(&mut map, 0, &states[k - 1])?);
     }
     Ok(branches.branch_of(point.frequency_hz, &states)?)
-}
-
-fn period(class: Class) -> Option<usize> {
-    match class {
-        Class::Periodic { period } => Some(period),
-        _ => None,
-    }
-}
-
-fn doubt(class: Class) -> Option<&'static str> {
-    match class {
-        Class::Doubtful(doubt) => Some(doubt.reason()),
-        _ => None,
-    }
 }
 
 fn write(options: &SweepOptions, found: &[Found]) -> Result<(), Failure> {
@@ -216,7 +202,7 @@ fn write(options: &SweepOptions, found: &[Found]) -> Result<(), Failure> {
             from.clone(),
             number(point.frequency_hz),
             class.clone(),
-            optional(period(point.class).map(|period| period.to_string())),
+            optional(point.class.period().map(|period| period.to_string())),
             number(point.max_abs_displacement),
             number(point.contacts_per_period),
             number(point.largest_exponent.map(|exponent| exponent.value)),
@@ -240,8 +226,8 @@ fn document(options: &SweepOptions, found: &[Found]) -> Value {
             "from": found.from,
             "frequency_hz": point.frequency_hz,
             "class": point.class.name(),
-            "period": period(point.class),
-            "doubt": doubt(point.class),
+            "period": point.class.period(),
+            "doubt": point.class.doubt(),
             "max_abs_displacement_m": point.max_abs_displacement,
             "contacts_per_period": point.contacts_per_period,
             "largest_exponent_per_s": point.largest_exponent.map(|exponent| exponent.value),
@@ -264,10 +250,7 @@ fn text(options: &SweepOptions, found: &[Found], model: &Model) -> String {
         "from", "Hz", "class", "max. displ. m", "contacts", "largest exponent 1/s", "K"
     )];
     for Found { from, point, branch } in found {
-        let class = match point.class {
-            Class::Periodic { period } => format!("period {period}"),
-            other => other.name().to_owned(),
-        };
+        let class = point.class;
         let exponent = point.largest_exponent.map_or_else(String::new, |exponent| {
             format!("{:.3} +- {:.3}", exponent.value, exponent.half_width)
         });
@@ -278,7 +261,7 @@ fn text(options: &SweepOptions, found: &[Found], model: &Model) -> String {
             point.frequency_hz, point.max_abs_displacement, point.contacts_per_period
         ));
     }
-    let doubtful = found.iter().filter(|motion| doubt(motion.point.class).is_some()).count();
+    let doubtful = found.iter().filter(|motion| motion.point.class.doubt().is_some()).count();
     if doubtful > 0 {
         lines.push(format!(
             "{doubtful} motion(s) of {} modes are doubtful; --json has the reasons",

@@ -104,11 +104,6 @@ impl BasinStore {
             transaction.execute("INSERT INTO cell (id, attractor) VALUES (?1, ?2)", values)?;
         }
         for (index, found) in round.found.iter().enumerate() {
-            let (period, doubt) = match found.class {
-                Class::Periodic { period } => (Some(period as i64), None),
-                Class::Doubtful(doubt) => (None, Some(doubt.reason())),
-                _ => (None, None),
-            };
             let length = found.states.first().map_or(0, Vec::len) as i64;
             let insert =
                 "INSERT INTO attractor (id, class, period, doubt, exponent_per_s, exponent_half_width_per_s,
@@ -116,8 +111,8 @@ impl BasinStore {
             let values = params![
                 (known + index + 1) as i64,
                 found.class.name(),
-                period,
-                doubt,
+                found.class.period().map(|period| period as i64),
+                found.class.doubt(),
                 found.largest_exponent.map(|estimate| estimate.value),
                 found.largest_exponent.map(|estimate| estimate.half_width),
                 found.zero_one,
@@ -189,4 +184,66 @@ fn attractor(row: &SqlRow<'_>) -> Result<Attractor, StoreError> {
             .map(|(value, half_width)| Estimate { value, half_width }),
         zero_one: row.get(5)?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn study() -> StudyFile {
+        let text = include_str!("../../../../studies/duffing.toml");
+        StudyFile::parse("study.toml", text.to_owned()).unwrap()
+    }
+
+    /// One of every class, with numbers that are not whole.
+    fn attractors() -> Vec<Attractor> {
+        let estimate = Estimate { value: 1.0 / 3.0, half_width: 1e-300 };
+        let classes = [
+            (Class::Periodic { period: 2 }, None, None),
+            (Class::QuasiPeriodic, Some(estimate), Some(-0.01)),
+            (Class::Chaotic, Some(estimate), Some(0.99)),
+            (Class::Doubtful(Doubt::IndicatorsDisagree), Some(estimate), Some(0.1)),
+            (Class::Doubtful(Doubt::ExponentUndecided), Some(estimate), Some(0.9)),
+            (Class::Doubtful(Doubt::ZeroOneUndecided), Some(estimate), Some(0.5)),
+            (Class::Doubtful(Doubt::NotSettled), Some(estimate), None),
+        ];
+        let of = |(class, largest_exponent, zero_one)| Attractor {
+            class,
+            states: vec![vec![0.1, -0.0], vec![f64::MIN_POSITIVE, 1.0 / 7.0]],
+            largest_exponent,
+            zero_one,
+        };
+        classes.into_iter().map(of).collect()
+    }
+
+    #[test]
+    fn rounds_come_back_bit_by_bit() {
+        let folder = tempfile::tempdir().unwrap();
+        let all = attractors();
+        let mut store = BasinStore::open(folder.path(), &study(), "grid = 3").unwrap();
+        store.append(&Round { first: 0, cells: vec![1], found: all[..1].to_vec() }, 0).unwrap();
+        store.append(&Round { first: 1, cells: vec![0, 7, 2], found: all[1..].to_vec() }, 1).unwrap();
+        store.finish().unwrap();
+        let store = BasinStore::open(folder.path(), &study(), "grid = 3").unwrap();
+        assert_eq!(store.read().unwrap(), (vec![1, 0, 7, 2], all));
+    }
+
+    #[test]
+    fn a_round_that_does_not_fit_leaves_nothing_of_itself() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut store = BasinStore::open(folder.path(), &study(), "grid = 3").unwrap();
+        store.append(&Round { first: 0, cells: vec![1, 1], found: attractors()[..1].to_vec() }, 0).unwrap();
+        // Its second cell is there already.
+        assert!(store.append(&Round { first: 1, cells: vec![2], found: vec![] }, 1).is_err());
+        assert_eq!(store.read().unwrap().0, [1, 1]);
+    }
+
+    #[test]
+    fn basins_of_another_request_are_refused_with_the_difference() {
+        let folder = tempfile::tempdir().unwrap();
+        BasinStore::open(folder.path(), &study(), "grid = 3").unwrap().finish().unwrap();
+        let error = BasinStore::open(folder.path(), &study(), "grid = 4").unwrap_err();
+        assert!(error.is_bad_input());
+        assert!(error.to_string().contains("grid: 3 there, 4 here"), "{error}");
+    }
 }
