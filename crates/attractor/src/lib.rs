@@ -17,7 +17,7 @@
 //! | `section.rs` | motions, advanced section by section |
 //! | `simulate.rs`, `poincare.rs` | motion in time with every contact; sections at a phase and at touches |
 //! | `sweep.rs` | stepped sweeps with the state carried over, diagrams from many states |
-//! | `basins.rs` | where the motions from a grid of states lead |
+//! | `grid.rs`, `basins.rs` | where the motions from a grid of states lead |
 //! | `parallel.rs`, `random.rs` | work on many threads with the same results; numbers from a seed |
 //!
 //! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of cells does so step by step, and can show
@@ -43,6 +43,7 @@
 mod basins;
 mod classify;
 mod error;
+mod grid;
 mod lyapunov;
 mod parallel;
 mod poincare;
@@ -54,9 +55,10 @@ mod sweep;
 mod tangents;
 mod zero_one;
 
-pub use basins::{Attractor, Axis, Basins, Grid, Round, fractions};
+pub use basins::{Attractor, Basins, Round, fractions};
 pub use classify::{Class, Classified, Doubt, Effort, classify, examine};
 pub use error::AttractorError;
+pub use grid::{Axis, Grid};
 pub use lyapunov::{
     BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov, sections_needed,
 };
