@@ -124,7 +124,9 @@ pub fn settle_unless(
     Ok(Settled::Restless(states.pop_back().unwrap_or_default()))
 }
 
-/// [`settle_unless`], without anything known.
+/// Advances a motion until it repeats, or until patience ends.
+///
+/// * `parts`: sections in a period of the map.
 ///
 /// # Errors
 /// The motion cannot be computed.

@@ -30,7 +30,7 @@ pub const SHORTEST: usize = 10 * CLASSES;
 /// K of a series: near 0 for regular motion, near 1 for chaotic motion.
 ///
 /// # Returns
-/// `None` for fewer than [`SHORTEST`] values; 0 for a constant series and for one of a period that divides 24.
+/// `None` for fewer than 240 values; 0 for a constant series and for one of a period that divides 24.
 #[must_use]
 pub fn zero_one(series: &[f64]) -> Option<f64> {
     if series.len() < SHORTEST {
