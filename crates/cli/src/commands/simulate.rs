@@ -38,17 +38,17 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         ticker.at(period, String::new);
     }
     let mut record = Record::begin(options, &model)?;
-    let phases = phases(options);
+    let phases = Phases::of(options);
     for period in 0..options.periods {
         if interrupt.raised() {
             break;
         }
-        let (samples, contacts) = simulation.period_at(&phases)?;
-        record.take(&model, options, &samples, &contacts)?;
+        let (samples, contacts) = simulation.period_at(&phases.all)?;
+        record.take(&model, (options, &phases), &samples, &contacts)?;
         ticker.at(options.transient_periods + period, String::new);
     }
     ticker.clear();
-    record.take(&model, options, &[], &simulation.unfinished())?;
+    record.take(&model, (options, &phases), &[], &simulation.unfinished())?;
     let periods = record.periods;
     let summary = record.finish(&simulation)?;
     if interrupt.raised() {
@@ -60,14 +60,25 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// Phases of a period at which the state is wanted: equal steps, and that of the section.
-fn phases(options: &SimulateOptions) -> Vec<f64> {
-    let samples = f64::from(options.samples_per_period);
-    let mut phases: Vec<f64> = (0..options.samples_per_period).map(|k| f64::from(k) / samples).collect();
-    if !phases.contains(&options.section_phase) {
-        let place = phases.partition_point(|phase| *phase < options.section_phase);
-        phases.insert(place, options.section_phase);
+struct Phases {
+    all: Vec<f64>,
+    /// Index of that of the section,
+    section: usize,
+    /// and whether it is one of the equal steps.
+    shared: bool,
+}
+
+impl Phases {
+    fn of(options: &SimulateOptions) -> Self {
+        let samples = f64::from(options.samples_per_period);
+        let mut all: Vec<f64> = (0..options.samples_per_period).map(|k| f64::from(k) / samples).collect();
+        let section = all.partition_point(|phase| *phase < options.section_phase);
+        let shared = all.get(section) == Some(&options.section_phase);
+        if !shared {
+            all.insert(section, options.section_phase);
+        }
+        Self { all, section, shared }
     }
-    phases
 }
 
 /// What is written down.
@@ -112,16 +123,15 @@ impl Record {
     fn take(
         &mut self,
         model: &Model,
-        options: &SimulateOptions,
+        (options, phases): (&SimulateOptions, &Phases),
         samples: &[Sample],
         contacts: &[ContactRecord],
     ) -> Result<(), Failure> {
-        let samples_per_period = f64::from(options.samples_per_period);
-        for sample in samples {
-            if (sample.phase * samples_per_period).fract() == 0.0 && sample.phase < 1.0 {
+        for (index, sample) in samples.iter().enumerate() {
+            if index != phases.section || phases.shared {
                 self.sample(model, options.frequency, sample)?;
             }
-            if sample.phase == options.section_phase
+            if index == phases.section
                 && let Some(table) = &mut self.section
             {
                 table.row(&section_row(model, options.frequency, sample))?;
