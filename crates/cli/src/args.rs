@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hammerbeam_study::verify::TOLERANCE;
 
+use crate::motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions};
+
 const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify found disagreements, 130 interrupted (what is finished is kept).";
 
 /// Steady states of structures that hit things.
@@ -34,6 +36,14 @@ pub enum Command {
     Run(RunOptions),
     /// Compute the periodic solutions at one frequency
     Orbit(OrbitOptions),
+    /// Follow a motion in time, with every contact
+    Simulate(SimulateOptions),
+    /// Settled motions over the frequency: stepped sweeps, or from many initial states
+    Sweep(SweepOptions),
+    /// Compute the Lyapunov exponents of a motion
+    Lyapunov(LyapunovOptions),
+    /// Compute which attractor each of a grid of initial states leads to; started again, it goes on where it was
+    Basins(BasinsOptions),
     /// Write stored results for other programs
     Export(ExportOptions),
     /// Compute stored solutions again with the independent integrator, and report every disagreement
@@ -126,7 +136,7 @@ pub enum Format {
     Csv,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("must be a finite number of hertz, more than 0".to_owned()),

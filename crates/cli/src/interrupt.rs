@@ -29,4 +29,9 @@ impl Interrupt {
     pub fn raised(&self) -> bool {
         self.0.load(Ordering::SeqCst)
     }
+
+    /// The flag that Ctrl-C raises, for threads that look at it themselves.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.0
+    }
 }

@@ -4,9 +4,13 @@ mod args;
 mod commands;
 mod failure;
 mod figures;
+mod initial;
 mod interrupt;
+mod motion_args;
 mod output;
 mod progress;
+mod table;
+mod ticker;
 
 use std::process::ExitCode;
 
@@ -24,6 +28,10 @@ fn main() -> ExitCode {
         Command::Modes(options) => commands::modes::run(options, output),
         Command::Run(options) => commands::run::run(options, output),
         Command::Orbit(options) => commands::orbit::run(options, output),
+        Command::Simulate(options) => commands::simulate::run(options, output),
+        Command::Sweep(options) => commands::sweep::run(options, output),
+        Command::Lyapunov(options) => commands::lyapunov::run(options, output),
+        Command::Basins(options) => commands::basins::run(options, output),
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),
     };

@@ -393,9 +393,9 @@ impl PathProblem for ShootingProblem {
             return Err(EvaluationError::OutsideDomain);
         }
         // What is evaluated last is often observed next.
-        self.integrator.begin_trace();
+        self.integrator.begin_course();
         let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
-        self.integrator.end_trace();
+        self.integrator.end_course();
         if let Err(error) = evaluated {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);

@@ -9,7 +9,8 @@
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
-//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows |
+//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; basins in their own |
+//! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
 //!
@@ -33,6 +34,7 @@
 //! assert!(fault.to_string().contains("mass_kg"), "{fault}");
 //! ```
 
+mod crossings;
 mod document;
 pub mod export;
 mod export_varied;
@@ -46,6 +48,7 @@ pub mod summary;
 pub mod varied;
 pub mod verify;
 
+pub use crossings::StoredBranches;
 pub use document::{Problem, Report};
 pub use export::export_csv;
 pub use file::{Study, StudyError, StudyFile};

@@ -1,9 +1,13 @@
 //! One file per command.
 
+pub mod basins;
 pub mod check;
 pub mod export;
+pub mod lyapunov;
 pub mod modes;
 pub mod new;
 pub mod orbit;
 pub mod run;
+pub mod simulate;
+pub mod sweep;
 pub mod verify;

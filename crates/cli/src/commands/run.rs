@@ -51,7 +51,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
 }
 
 /// Threads to work with: those asked for, else one for each core.
-fn threads(asked: Option<u16>) -> usize {
+pub fn threads(asked: Option<u16>) -> usize {
     asked.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
 }
 

@@ -228,9 +228,10 @@ impl ExactIntegrator {
             self.step.advance_sensitivity(sensitivity, self.parameter);
         }
         self.counts.steps += 1;
-        if self.traces {
-            self.trace.step(run, &self.step);
+        if self.notes_course {
+            self.course.step(run, &self.step);
         }
+        self.trace_step(run);
         self.step.advance_state(&self.series, &mut run.state);
         run.time += length;
         if end - run.time <= 4.0 * f64::EPSILON * end {

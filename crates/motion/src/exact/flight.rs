@@ -51,9 +51,10 @@ impl ExactIntegrator {
         if !placed {
             self.place(run, time);
         }
-        if self.traces {
-            self.trace.flight(run.time, time, &self.flight_start);
+        if self.notes_course {
+            self.course.flight(run.time, time, &self.flight_start);
         }
+        self.trace_flight(run, time);
         run.time = if touch.is_none() { end } else { run.time + time };
         if let Some(sensitivity) = &mut run.sensitivity {
             self.propagators.clear();

@@ -73,8 +73,8 @@ impl ExactIntegrator {
             let closed = self.contact_at_start(&run, element, stretch.duration());
             run.closed.push(closed);
         }
-        if self.traces {
-            self.trace.begin(stretch, state, &run);
+        if self.notes_course {
+            self.course.begin(stretch, state, &run);
         }
         self.touches.fill(0);
         self.counts.stretches += 1;
@@ -120,9 +120,10 @@ impl ExactIntegrator {
 
     /// Notes that a contact closes.
     pub(super) fn close(&mut self, run: &mut Run, touch: Touch) {
-        if self.traces {
-            self.trace.touch(self.output_jet(&run.state, touch.element, run.time).slope);
+        if self.notes_course {
+            self.course.touch(self.output_jet(&run.state, touch.element, run.time).slope);
         }
+        self.trace_touch(run, touch);
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
         run.proposal = 0.0;

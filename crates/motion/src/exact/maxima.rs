@@ -1,6 +1,6 @@
 //! Maxima of an orbit on the continuous motion.
 //!
-//! They are taken from the trace of the motion (`trace.rs`). Flights are searched last (`flight_maximum.rs`). In a force step the displacement of the response and the force of each
+//! They are taken from the course of the motion (`course.rs`). Flights are searched last (`flight_maximum.rs`). In a force step the displacement of the response and the force of each
 //! element are taken as polynomials in the variable of the step, which tell where the largest value `r` is. They are not accurate enough for the
 //! value itself: that is computed once more from the convolution `r(t) = C exp(A t) x + int C exp(A (t - s)) B F(s) ds + r_particular(t)`, at the time
 //! where Newton's method finds `r'(t) = 0` for it, or at an end of the step. The force follows from it by its law, and so does the acceleration, at the
@@ -9,10 +9,10 @@
 use super::{
     ExactIntegrator, MotionError,
     collocation::{FINE, Grading, NODES},
+    course::{Course, CourseStep, Passage},
     drive::Drive,
     flight_maximum::Flown,
     run::Run,
-    trace::{Passage, Trace, TracedStep},
 };
 use crate::Stretch;
 
@@ -43,7 +43,7 @@ impl Maxima {
     }
 }
 
-/// What a trace holds that can be among the maxima.
+/// What a course holds that can be among the maxima.
 #[derive(Debug, Default)]
 struct Observation {
     maxima: Maxima,
@@ -116,50 +116,50 @@ impl ExactIntegrator {
     /// # Errors
     /// See [`MotionError`].
     pub fn observe(&mut self, motion: &[(Stretch, &[f64])]) -> Result<Maxima, MotionError> {
-        let mut trace = self.take_trace(motion)?;
+        let mut course = self.take_course(motion)?;
         let mut observation = Observation::default();
         observation.maxima.closed_throughout = if motion.is_empty() { 0 } else { u64::MAX };
-        for piece in 0..trace.stretches.len() {
-            self.look_through(&trace, piece, &mut observation);
+        for piece in 0..course.stretches.len() {
+            self.look_through(&course, piece, &mut observation);
         }
-        std::mem::swap(&mut self.trace, &mut trace);
+        std::mem::swap(&mut self.course, &mut course);
         Ok(self.exact_maxima(observation, motion))
     }
 
     /// From now on what happens is noted, so that [`ExactIntegrator::observe`] need not go through the same motion again.
-    pub fn begin_trace(&mut self) {
-        self.trace.clear();
-        self.traces = true;
+    pub fn begin_course(&mut self) {
+        self.course.clear();
+        self.notes_course = true;
     }
 
-    /// From now on nothing is noted; what was stays until the next trace begins.
-    pub fn end_trace(&mut self) {
-        self.traces = false;
+    /// From now on nothing is noted; what was stays until the next course begins.
+    pub fn end_course(&mut self) {
+        self.notes_course = false;
     }
 
-    /// The trace of a motion, which is gone through where it was not gone through last.
-    fn take_trace(&mut self, motion: &[(Stretch, &[f64])]) -> Result<Trace, MotionError> {
-        if !self.trace.is_of(motion) {
-            self.begin_trace();
+    /// The course of a motion, which is gone through where it was not gone through last.
+    fn take_course(&mut self, motion: &[(Stretch, &[f64])]) -> Result<Course, MotionError> {
+        if !self.course.is_of(motion) {
+            self.begin_course();
             let advanced =
                 motion.iter().try_for_each(|(stretch, state)| self.advance(stretch, state).map(|_| ()));
-            self.end_trace();
+            self.end_course();
             advanced?;
         }
-        Ok(std::mem::take(&mut self.trace))
+        Ok(std::mem::take(&mut self.course))
     }
 
-    /// Notes what happened in one stretch of a trace.
-    fn look_through(&mut self, trace: &Trace, piece: usize, observation: &mut Observation) {
-        let traced = &trace.stretches[piece];
-        let end = trace.stretches.get(piece + 1).map_or(trace.passages.len(), |next| next.first_passage);
-        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, &traced.stretch);
-        observation.maxima.closed_throughout &= traced.closed;
-        for passage in &trace.passages[traced.first_passage..end] {
+    /// Notes what happened in one stretch of a course.
+    fn look_through(&mut self, course: &Course, piece: usize, observation: &mut Observation) {
+        let passed = &course.stretches[piece];
+        let end = course.stretches.get(piece + 1).map_or(course.passages.len(), |next| next.first_passage);
+        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, &passed.stretch);
+        observation.maxima.closed_throughout &= passed.closed;
+        for passage in &course.passages[passed.first_passage..end] {
             match *passage {
                 Passage::Flight { start, duration, state } => {
                     observation.maxima.closed_throughout = 0;
-                    let state = trace.numbers(state).to_vec();
+                    let state = course.numbers(state).to_vec();
                     observation.flights.push(Flown { piece, start, duration, state });
                 }
                 Passage::Touch { speed } => {
@@ -168,8 +168,8 @@ impl ExactIntegrator {
                     maxima.impact_velocity = maxima.impact_velocity.max(speed.abs());
                 }
                 Passage::Step(step) => {
-                    self.recall(&step, trace.elements(step.active), trace.numbers(step.force));
-                    self.observe_step(piece, trace.numbers(step.state), observation);
+                    self.recall(&step, course.elements(step.active), course.numbers(step.force));
+                    self.observe_step(piece, course.numbers(step.state), observation);
                     observation.maxima.closed_throughout &= step.closed;
                 }
             }
@@ -260,7 +260,7 @@ impl ExactIntegrator {
     }
 
     /// Makes a step that was solved earlier the present one.
-    fn recall(&mut self, step: &TracedStep, active: &[usize], force: &[f64]) {
+    fn recall(&mut self, step: &CourseStep, active: &[usize], force: &[f64]) {
         self.step.grading = Some(step.grading);
         self.step.start = step.start;
         self.step.weights.length = step.length;
@@ -349,7 +349,7 @@ impl ExactIntegrator {
         (value > best).then_some((value, place))
     }
 
-    fn largest_of_polynomial(&self, values: &[f64]) -> (f64, f64) {
+    pub(super) fn largest_of_polynomial(&self, values: &[f64]) -> (f64, f64) {
         let rule = self.step.grading().rule();
         let mut table = [0.0; FINE + 1];
         for (entry, row) in table.iter_mut().zip(&rule.fine) {

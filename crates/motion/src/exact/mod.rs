@@ -18,8 +18,9 @@
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
-//! | `trace.rs` | what a motion went through |
+//! | `course.rs` | what a motion went through |
 //! | `maxima.rs`, `flight_maximum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 
 mod attempt;
 mod block;
@@ -29,6 +30,7 @@ mod change;
 mod clearance;
 mod collocation;
 mod contact_phase;
+mod course;
 mod decouple;
 mod drive;
 mod event;
@@ -64,15 +66,16 @@ use std::collections::HashMap;
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
+pub use trace::{ContactPiece, Touchdown, Trace};
 
 use block::{Blocks, Propagator};
 use collocation::Grading;
+use course::Course;
 use drive::Drive;
 use force_step::ForceStep;
 use output::Output;
 use run::Run;
 use series::Series;
-use trace::Trace;
 use weights::StepWeights;
 
 use crate::{Law, Parameter, ParameterError, Stretch, System};
@@ -157,9 +160,10 @@ pub struct ExactIntegrator {
     flight_start: Vec<f64>,
     propagators: Vec<Propagator>,
     touches: Vec<u32>,
-    /// Whether what happens is noted in the trace.
-    traces: bool,
-    trace: Trace,
+    /// Whether what happens is noted.
+    notes_course: bool,
+    course: Course,
+    tracing: Option<trace::Tracing>,
     closed_throughout: u64,
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
@@ -224,8 +228,9 @@ impl ExactIntegrator {
             cache: HashMap::new(),
             flight_start: Vec::new(),
             propagators: Vec::new(),
-            traces: false,
-            trace: Trace::default(),
+            notes_course: false,
+            course: Course::default(),
+            tracing: None,
             closed_throughout: 0,
             response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
             parameter: None,

@@ -1,119 +1,208 @@
-//! What a motion went through, as far as its maxima need it: flights, touches and force steps, noted as they are computed.
+//! A motion written down: its states at given phases, and each of its contacts.
 //!
-//! An orbit is evaluated with its sensitivities first and observed then. The trace saves going through the motion a second time.
+//! In flight a state is that of the closed form; inside a step with forces it is carried there from the start of the step, forces included
+//! (`sampling.rs`). Of a contact force `F(t)` that acts along the relative displacement `r` are noted
+//!
+//! `impulse = int F dt`, `energy lost = - int F r' dt`
+//!
+//! by Gauss' rule on the nodes of the steps, where `F` and `r` obey the law and `r'` follows from the convolution with the modes. The energy lost by a
+//! law that depends on the displacement alone is zero over a whole contact; what comes out is the error of the steps. The largest force is that
+//! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
-use super::{collocation::Grading, force_step::ForceStep, maxima::closed_bits, run::Run};
+use super::{ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch, run::Run};
 use crate::Stretch;
 
-/// A place in a list of numbers: first and behind the last.
-type Span = (usize, usize);
-
-/// Something that happened.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Passage {
-    /// A flight, from a homogeneous block state.
-    Flight { start: f64, duration: f64, state: Span },
-    /// A contact closed with this relative velocity [m/s].
-    Touch { speed: f64 },
-    /// A force step.
-    Step(TracedStep),
+/// Begin of a contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Touchdown {
+    /// Time since the start of the stretch [s].
+    pub time: f64,
+    /// `r'` of the element as the contact closes [m/s].
+    pub velocity: f64,
+    /// Modal state `[q; q']` then, length 2n.
+    pub state: Vec<f64>,
 }
 
-/// A force step that was accepted.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct TracedStep {
-    pub grading: Grading,
-    /// Start in the time of the stretch, and length [s].
-    pub start: f64,
-    pub length: f64,
-    /// Homogeneous block state at the start.
-    pub state: Span,
-    /// Forces at the nodes.
-    pub force: Span,
-    /// Elements that act.
-    pub active: Span,
-    /// Closed elements, one bit each.
-    pub closed: u64,
+/// A contact, or the part of it that lies within a stretch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactPiece {
+    /// Number of the local element.
+    pub element: usize,
+    /// Number of the contact of its law.
+    pub contact: usize,
+    /// Where it closed; `None` if it was closed at the start of the stretch.
+    pub begin: Option<Touchdown>,
+    /// When it opened, since the start of the stretch [s]; `None` if it is closed at the end of the stretch.
+    pub end: Option<f64>,
+    /// Integral of the magnitude of the force [N s].
+    pub impulse: f64,
+    /// Largest magnitude of the force [N].
+    pub peak_force: f64,
+    /// Energy that the structure gave to the contact and did not get back [J].
+    pub energy_lost: f64,
 }
 
-/// One stretch of a motion.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct TracedStretch {
-    pub stretch: Stretch,
-    /// State at its start, as it was given.
-    given: Span,
-    /// Elements closed at its start, one bit each.
-    pub closed: u64,
-    pub first_passage: usize,
+/// What was written down of a motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trace {
+    /// State at the end of the stretch, bit by bit that of [`ExactIntegrator::advance`].
+    pub state: Vec<f64>,
+    /// Modal states at the phases asked for.
+    pub samples: Vec<Vec<f64>>,
+    /// Contacts in the order in which they closed.
+    pub contacts: Vec<ContactPiece>,
 }
 
-/// The trace of a motion over stretches.
-#[derive(Debug, Default)]
-pub(super) struct Trace {
-    pub stretches: Vec<TracedStretch>,
-    pub passages: Vec<Passage>,
-    numbers: Vec<f64>,
-    elements: Vec<usize>,
+/// What is being written down.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Tracing {
+    /// Times since the start of the stretch at which the state is wanted, ascending [s].
+    times: Vec<f64>,
+    trace: Trace,
+    /// Index of the open piece of each element.
+    open: Vec<Option<usize>>,
 }
 
-impl Trace {
-    pub fn clear(&mut self) {
-        self.stretches.clear();
-        self.passages.clear();
-        self.numbers.clear();
-        self.elements.clear();
+impl Tracing {
+    fn due(&self, before: f64) -> Option<f64> {
+        self.times.get(self.trace.samples.len()).copied().filter(|time| *time < before)
     }
 
-    /// Whether it is the whole trace of this motion: the same stretches from the same states.
-    pub fn is_of(&self, motion: &[(Stretch, &[f64])]) -> bool {
-        let same = |(traced, (stretch, state)): (&TracedStretch, &(Stretch, &[f64]))| {
-            traced.stretch == *stretch && self.numbers(traced.given) == *state
-        };
-        self.stretches.len() == motion.len() && self.stretches.iter().zip(motion).all(same)
+    /// Ends the pieces of elements that are no longer closed.
+    fn end_open(&mut self, closed: &[Option<usize>], time: f64) {
+        for (open, closed) in self.open.iter_mut().zip(closed) {
+            if closed.is_none()
+                && let Some(piece) = open.take()
+            {
+                self.trace.contacts[piece].end = Some(time);
+            }
+        }
     }
 
-    pub fn numbers(&self, (first, end): Span) -> &[f64] {
-        &self.numbers[first..end]
+    fn begin(&mut self, touch: Touch, begin: Option<Touchdown>) {
+        self.open[touch.element] = Some(self.trace.contacts.len());
+        self.trace.contacts.push(ContactPiece {
+            element: touch.element,
+            contact: touch.contact,
+            begin,
+            end: None,
+            impulse: 0.0,
+            peak_force: 0.0,
+            energy_lost: 0.0,
+        });
+    }
+}
+
+impl ExactIntegrator {
+    /// A motion over a stretch from `state`, with its states at `phases` [cycles, ascending, within the stretch] and its contacts.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn trace(&mut self, stretch: &Stretch, state: &[f64], phases: &[f64]) -> Result<Trace, MotionError> {
+        let times = phases.iter().map(|phase| (phase - stretch.start) / stretch.frequency_hz).collect();
+        let mut tracing = Tracing { times, trace: Trace::default(), open: vec![None; self.laws.len()] };
+        let mut run = self.begin(stretch, state, false);
+        for element in 0..self.laws.len() {
+            if let Some(contact) = run.closed[element] {
+                tracing.begin(Touch { element, contact }, None);
+            }
+        }
+        self.tracing = Some(tracing);
+        let result = self.complete(&mut run, stretch);
+        let mut tracing = self.tracing.take().unwrap_or_default();
+        tracing.end_open(&run.closed, run.time);
+        let end = self.modal_state(&run, stretch.duration());
+        self.run = run;
+        result?;
+        // Samples at the very end, or within rounding of it.
+        while tracing.trace.samples.len() < tracing.times.len() {
+            tracing.trace.samples.push(end.clone());
+        }
+        Ok(Trace { state: end, ..tracing.trace })
     }
 
-    pub fn elements(&self, (first, end): Span) -> &[usize] {
-        &self.elements[first..end]
+    /// Writes down a flight of that duration from the state at its start.
+    pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
+        let Some(mut tracing) = self.tracing.take() else { return };
+        tracing.end_open(&run.closed, run.time);
+        let n = self.blocks.count();
+        while let Some(time) = tracing.due(run.time + duration) {
+            let mut state = self.flight_start.clone();
+            for i in 0..n {
+                let after = (time - run.time).max(0.0);
+                let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], after);
+                (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
+            }
+            tracing.trace.samples.push(self.modal_of(state, time));
+        }
+        self.tracing = Some(tracing);
     }
 
-    fn keep(&mut self, numbers: &[f64]) -> Span {
-        let first = self.numbers.len();
-        self.numbers.extend_from_slice(numbers);
-        (first, self.numbers.len())
+    /// Writes down a contact that closes now.
+    pub(super) fn trace_touch(&mut self, run: &Run, touch: Touch) {
+        let Some(mut tracing) = self.tracing.take() else { return };
+        tracing.end_open(&run.closed, run.time);
+        let velocity = self.output_jet(&run.state, touch.element, run.time).slope;
+        let state = self.modal_state(run, run.time);
+        tracing.begin(touch, Some(Touchdown { time: run.time, velocity, state }));
+        self.tracing = Some(tracing);
     }
 
-    pub fn begin(&mut self, stretch: &Stretch, state: &[f64], run: &Run) {
-        let given = self.keep(state);
-        let (closed, first_passage) = (closed_bits(run), self.passages.len());
-        self.stretches.push(TracedStretch { stretch: *stretch, given, closed, first_passage });
+    /// Writes down the solved step that is being accepted; `run` stands at its start.
+    pub(super) fn trace_step(&mut self, run: &Run) {
+        let Some(mut tracing) = self.tracing.take() else { return };
+        tracing.end_open(&run.closed, run.time);
+        while let Some(time) = tracing.due(run.time + self.step.weights.length) {
+            let mut state = run.state.clone();
+            self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
+            tracing.trace.samples.push(self.modal_of(state, time));
+        }
+        for (a, &element) in self.step.active.iter().enumerate() {
+            let Some(piece) = tracing.open[element] else { continue };
+            let piece = &mut tracing.trace.contacts[piece];
+            let (impulse, energy_lost) = self.work_of(run, a);
+            piece.impulse += impulse.abs();
+            piece.energy_lost += energy_lost;
+            let force = &self.step.force[a * NODES..(a + 1) * NODES];
+            piece.peak_force = piece.peak_force.max(self.largest_of_polynomial(force).0);
+        }
+        self.tracing = Some(tracing);
     }
 
-    pub fn flight(&mut self, start: f64, duration: f64, state: &[f64]) {
-        let state = self.keep(state);
-        self.passages.push(Passage::Flight { start, duration, state });
+    /// Impulse of the force of the a-th active element in the solved step, and the energy that it took.
+    fn work_of(&self, run: &Run, a: usize) -> (f64, f64) {
+        let (step, rule) = (&self.step, self.step.grading().rule());
+        let force = &step.force[a * NODES..(a + 1) * NODES];
+        let velocity = self.velocity_nodes(run, step.active[a]);
+        let (mut impulse, mut work) = (0.0, 0.0);
+        for k in 0..NODES {
+            let part = rule.at_end[0][k] * step.weights.length * force[k];
+            impulse += part;
+            work += part * velocity[k];
+        }
+        (impulse, -work)
     }
 
-    pub fn touch(&mut self, speed: f64) {
-        self.passages.push(Passage::Touch { speed });
+    /// Velocity of an output at the nodes of the solved step.
+    fn velocity_nodes(&self, run: &Run, output: usize) -> [f64; NODES] {
+        let step = &self.step;
+        let length = step.weights.length;
+        if length > self.series.reach() {
+            return std::array::from_fn(|k| self.jet_in_step(&run.state, output, step.node_time(k)).slope);
+        }
+        let loads = (step.active.as_slice(), step.force.as_slice());
+        let mut values = self.series.node_values((output, 1), (step.grading(), length), &run.state, loads);
+        for (k, value) in values.iter_mut().enumerate() {
+            *value += self.drive.jet(output, &self.outputs[output], step.start + step.node_time(k)).slope;
+        }
+        values
     }
 
-    /// The solved step, with `run` at its start.
-    pub fn step(&mut self, run: &Run, step: &ForceStep) {
-        let first = self.elements.len();
-        self.elements.extend_from_slice(&step.active);
-        let traced = TracedStep {
-            grading: step.grading(),
-            start: step.start,
-            length: step.weights.length,
-            state: self.keep(&run.state),
-            force: self.keep(&step.force),
-            active: (first, self.elements.len()),
-            closed: closed_bits(run),
-        };
-        self.passages.push(Passage::Step(traced));
+    /// Modal state of a homogeneous block state at a time.
+    fn modal_of(&self, mut block: Vec<f64>, time: f64) -> Vec<f64> {
+        self.drive.add_state(time, 1.0, &mut block);
+        let mut modal = vec![0.0; block.len()];
+        self.blocks.to_modal(&block, &mut modal);
+        modal
     }
 }

@@ -19,6 +19,12 @@ pub enum StoreError {
     /// The folder holds the results of another study.
     #[error("{} holds the results of another study; it differs in\n{}", folder.display(), indented(differences))]
     OtherStudy { folder: PathBuf, differences: Vec<String> },
+    /// The folder holds basins of another study or grid.
+    #[error("{} holds other basins; they differ in\n{}", folder.display(), indented(differences))]
+    OtherBasins { folder: PathBuf, differences: Vec<String> },
+    /// `basins.db` is something else.
+    #[error("{} was not written by hammerbeam", folder.join(super::BASINS).display())]
+    NotBasins { folder: PathBuf },
     /// The folder was written by a program that stores or computes differently.
     #[error(
         "{} was written by hammerbeam {program} with {what} version {found}, this is version {expected}",

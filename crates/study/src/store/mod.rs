@@ -7,6 +7,7 @@
 //! Solutions are keyed by walk and number, so that a walk only ever appends, and read one after the other, so that
 //! no branch has to fit into memory.
 
+mod basins;
 mod blob;
 mod error;
 mod jobs;
@@ -24,6 +25,7 @@ use std::{
 use hammerbeam_orbit::{Side, StopReason};
 use rusqlite::{Connection, OpenFlags};
 
+pub use basins::{BASINS, BasinStore};
 pub use error::StoreError;
 pub use jobs::{JobKind, JobRecord, StartRecord};
 pub use read::{BranchRecord, Row, StoredMemory, WalkRecord};

@@ -1,0 +1,35 @@
+//! Why a motion or what is made of it cannot be given.
+
+use hammerbeam_motion::{exact::MotionError, general::GeneralError};
+
+/// Why there is nothing to give.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
+#[non_exhaustive]
+pub enum AttractorError {
+    /// The exact integrator cannot go on.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The general integrator cannot go on.
+    #[error(transparent)]
+    General(#[from] GeneralError),
+    /// A number that was asked for makes no sense.
+    #[error("{what} is {found}, must be {allowed}")]
+    Input { what: &'static str, found: f64, allowed: &'static str },
+    /// A state has the wrong length.
+    #[error("the state has {found} entries, the motion has {expected}")]
+    StateLength { found: usize, expected: usize },
+    /// Tangent vectors have become linearly dependent or infinite: the sections are too long for the growth in them.
+    #[error("tangent vectors cannot be told apart after section {section}: a shorter section is needed")]
+    TangentsLost { section: u64 },
+}
+
+/// Refuses a number.
+pub(crate) fn ensure(
+    what: &'static str,
+    found: f64,
+    allowed: &'static str,
+    holds: bool,
+) -> Result<(), AttractorError> {
+    if holds { Ok(()) } else { Err(AttractorError::Input { what, found, allowed }) }
+}

@@ -1,0 +1,72 @@
+//! Attractors of a motion: simulation in time, sweeps, Poincare sections, Lyapunov exponents and basins of attraction.
+//!
+//! # Mathematics
+//! A motion is seen section by section ([`SectionMap`]): `z(k + 1) = P(z(k))`, with the fundamental matrix `dP/dz` where tangent vectors are
+//! wanted. Of a [`System`](hammerbeam_motion::System) a section is an excitation period or a part of it, by the exact integrator; any vector field
+//! serves as well, by the general one, and so does any map.
+//!
+//! | question | indicator | file |
+//! |---|---|---|
+//! | does it repeat, after how many periods? | distance of states | `settle.rs` |
+//! | do neighbouring motions part, and how fast? | Lyapunov exponents, by QR, with confidence from block averages | `tangents.rs`, `lyapunov.rs` |
+//! | the same, from a series alone | the 0-1 test | `zero_one.rs` |
+//! | which kind is it? | all of these; doubtful where they disagree | `classify.rs` |
+//!
+//! | file | idea |
+//! |---|---|
+//! | `section.rs` | motions, advanced section by section |
+//! | `simulate.rs`, `poincare.rs` | motion in time with every contact; sections at a phase and at touches |
+//! | `sweep.rs` | stepped sweeps with the state carried over, diagrams from many states |
+//! | `grid.rs`, `basins.rs` | where the motions from a grid of states lead |
+//! | `parallel.rs`, `random.rs` | work on many threads with the same results; numbers from a seed |
+//!
+//! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of cells does so step by step, and can show
+//! progress and stop in between.
+//!
+//! # Example
+//! The exponents of Henon's map `x' = 1 - 1.4 x^2 + y`, `y' = 0.3 x`: 0.419 and, since areas shrink by 0.3, `ln 0.3` less that.
+//! ```
+//! use hammerbeam_attractor::{LyapunovSettings, StepMap, lyapunov};
+//!
+//! let mut henon = StepMap::new(2, |z: &[f64]| {
+//!     let derivative = faer::mat![[-2.8 * z[0], 1.0], [0.3, 0.0]];
+//!     (vec![1.0 - 1.4 * z[0] * z[0] + z[1], 0.3 * z[0]], derivative)
+//! });
+//! let settings = LyapunovSettings { aligning: 100, averaged: 20_000 };
+//! let spectrum = lyapunov(&mut henon, &[0.1, 0.1], settings)?;
+//! let largest = spectrum.exponents[0];
+//! assert!((largest.value - 0.419).abs() < 0.001 + largest.half_width);
+//! assert!((spectrum.sum - 0.3f64.ln()).abs() < 1e-9);
+//! # Ok::<(), hammerbeam_attractor::AttractorError>(())
+//! ```
+
+mod basins;
+mod classify;
+mod error;
+mod grid;
+mod lyapunov;
+mod parallel;
+mod poincare;
+mod random;
+mod section;
+mod settle;
+mod simulate;
+mod sweep;
+mod tangents;
+mod zero_one;
+
+pub use basins::{Attractor, Basins, Round, fractions};
+pub use classify::{Class, Classified, Doubt, Effort, classify, examine};
+pub use error::AttractorError;
+pub use grid::{Axis, Grid};
+pub use lyapunov::{
+    BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov, sections_needed,
+};
+pub use parallel::in_order;
+pub use poincare::{Section, SectionPoint, poincare};
+pub use section::{FieldMap, SectionMap, StepMap, SystemMap, state_scales};
+pub use settle::{Patience, Settled, distance, settle};
+pub use simulate::{ContactRecord, Sample, Simulation};
+pub use sweep::{Observable, SweepPoint, SweepSettings, Sweeper, frequencies};
+pub use tangents::Tangents;
+pub use zero_one::zero_one;

@@ -1,0 +1,229 @@
+//! What this room needs of a motion: the state, and the fundamental matrix, over one section.
+//!
+//! A section is a stretch of the motion that always has the same duration: a part of the excitation period of a [`System`], of the period or of the
+//! time of a vector field, or one step of a map. Sections are counted, so that a motion that depends on time knows its phase.
+
+use faer::Mat;
+use hammerbeam_motion::{
+    Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    general::{GeneralSettings, VectorField, integrate},
+};
+
+use crate::AttractorError;
+
+/// A motion that is advanced section by section.
+pub trait SectionMap {
+    /// Length of a state.
+    fn dimension(&self) -> usize;
+
+    /// Duration of a section, in the unit of time in which exponents are wanted.
+    fn duration(&self) -> f64;
+
+    /// Sizes of the entries of a state against one another: distances and tangent vectors are measured in them, length as the state.
+    fn scales(&self) -> Vec<f64> {
+        vec![1.0; self.dimension()]
+    }
+
+    /// State after the section of that number.
+    ///
+    /// # Errors
+    /// The motion cannot be computed.
+    fn advance(&mut self, section: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError>;
+
+    /// State after the section of that number, and its derivative by the state before it.
+    ///
+    /// # Errors
+    /// The motion cannot be computed.
+    fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError>;
+}
+
+/// A system at one excitation frequency, by the exact integrator; a section is a whole part of the excitation period.
+#[derive(Debug)]
+pub struct SystemMap {
+    integrator: ExactIntegrator,
+    frequency_hz: f64,
+    parts: u64,
+}
+
+impl SystemMap {
+    /// For a system at a frequency, with so many sections in an excitation period.
+    ///
+    /// # Errors
+    /// [`AttractorError::Input`], or the damping has no block form.
+    pub fn new(
+        system: System,
+        frequency_hz: f64,
+        parts: u64,
+        settings: ExactSettings,
+    ) -> Result<Self, AttractorError> {
+        let positive = frequency_hz.is_finite() && frequency_hz > 0.0;
+        crate::error::ensure("the frequency", frequency_hz, "finite and more than 0 Hz", positive)?;
+        crate::error::ensure(
+            "the number of sections",
+            parts as f64,
+            "1 to 1024",
+            (1..=1024).contains(&parts),
+        )?;
+        Ok(Self { integrator: ExactIntegrator::new(system, settings)?, frequency_hz, parts })
+    }
+
+    /// The integrator, for what is not advanced in sections.
+    pub fn integrator(&mut self) -> &mut ExactIntegrator {
+        &mut self.integrator
+    }
+
+    /// Excitation frequency [Hz].
+    #[must_use]
+    pub fn frequency_hz(&self) -> f64 {
+        self.frequency_hz
+    }
+
+    /// Goes to another frequency; states stay what they are.
+    pub fn set_frequency(&mut self, frequency_hz: f64) {
+        self.frequency_hz = frequency_hz;
+    }
+
+    /// Sections in an excitation period.
+    #[must_use]
+    pub fn parts(&self) -> u64 {
+        self.parts
+    }
+
+    /// Cuts the period into another number of sections.
+    pub fn set_parts(&mut self, parts: u64) {
+        self.parts = parts.clamp(1, 1024);
+    }
+
+    /// `-tr(M^-1 C)` [1/s]: the sum of all exponents, while no contact loses energy.
+    #[must_use]
+    pub fn divergence(&self) -> f64 {
+        let damping = &self.integrator.system().model().damping;
+        -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
+    }
+
+    fn stretch(&self, section: u64) -> Stretch {
+        let (part, parts) = ((section % self.parts) as f64, self.parts as f64);
+        Stretch { frequency_hz: self.frequency_hz, start: part / parts, end: (part + 1.0) / parts }
+    }
+}
+
+/// Sizes of modal states: velocities 1, displacements one over the eigenfrequency or, for slower modes, over the excitation.
+#[must_use]
+pub fn state_scales(system: &System, frequency_hz: f64) -> Vec<f64> {
+    let reference = std::f64::consts::TAU * frequency_hz;
+    let rates = system.model().natural_frequencies.iter().map(|w| w.max(reference));
+    rates.map(f64::recip).chain(vec![1.0; system.dof()]).collect()
+}
+
+impl SectionMap for SystemMap {
+    fn dimension(&self) -> usize {
+        2 * self.integrator.system().dof()
+    }
+
+    fn duration(&self) -> f64 {
+        1.0 / (self.frequency_hz * self.parts as f64)
+    }
+
+    fn scales(&self) -> Vec<f64> {
+        state_scales(self.integrator.system(), self.frequency_hz)
+    }
+
+    fn advance(&mut self, section: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError> {
+        Ok(self.integrator.advance(&self.stretch(section), state)?)
+    }
+
+    fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+        let flow = self.integrator.flow(&self.stretch(section), state)?;
+        Ok((flow.state, flow.by_state))
+    }
+}
+
+/// Any vector field, by the general integrator.
+#[derive(Debug)]
+pub struct FieldMap<F> {
+    field: F,
+    duration: f64,
+    parts: u64,
+    settings: GeneralSettings,
+}
+
+impl<F: VectorField> FieldMap<F> {
+    /// * `duration`: of a section, in the unit of the field's time.
+    /// * `parts`: sections after which the time of the field begins anew: those of a period; 1 where the field does not depend on time.
+    ///
+    /// # Errors
+    /// [`AttractorError::Input`].
+    pub fn new(
+        field: F,
+        duration: f64,
+        parts: u64,
+        settings: GeneralSettings,
+    ) -> Result<Self, AttractorError> {
+        let positive = duration.is_finite() && duration > 0.0;
+        crate::error::ensure("the duration of a section", duration, "finite and more than 0", positive)?;
+        Ok(Self { field, duration, parts: parts.max(1), settings })
+    }
+
+    fn run(
+        &mut self,
+        section: u64,
+        state: &[f64],
+        sensitivities: bool,
+    ) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+        let start = (section % self.parts) as f64 * self.duration;
+        let settings = GeneralSettings { sensitivities, ..self.settings };
+        let flow = integrate(&mut self.field, start, start + self.duration, state, &settings)?;
+        Ok((flow.state, flow.by_state))
+    }
+}
+
+impl<F: VectorField> SectionMap for FieldMap<F> {
+    fn dimension(&self) -> usize {
+        self.field.dimension()
+    }
+
+    fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    fn advance(&mut self, section: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError> {
+        Ok(self.run(section, state, false)?.0)
+    }
+
+    fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+        self.run(section, state, true)
+    }
+}
+
+/// A map with its derivative; a section is one step, of duration 1.
+#[derive(Debug)]
+pub struct StepMap<M> {
+    map: M,
+    dimension: usize,
+}
+
+impl<M: FnMut(&[f64]) -> (Vec<f64>, Mat<f64>)> StepMap<M> {
+    /// * `map`: gives the next state and its derivative by this one, `dimension` x `dimension`.
+    pub fn new(dimension: usize, map: M) -> Self {
+        Self { map, dimension }
+    }
+}
+
+impl<M: FnMut(&[f64]) -> (Vec<f64>, Mat<f64>)> SectionMap for StepMap<M> {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn duration(&self) -> f64 {
+        1.0
+    }
+
+    fn advance(&mut self, _: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError> {
+        Ok((self.map)(state).0)
+    }
+
+    fn flow(&mut self, _: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+        Ok((self.map)(state))
+    }
+}

@@ -1,0 +1,269 @@
+//! `hammerbeam basins`: which attractor each of a grid of initial states leads to.
+
+use std::path::PathBuf;
+
+use hammerbeam_attractor::{Attractor, Axis, Basins, Class, Effort, Estimate, Grid, fractions};
+use hammerbeam_motion::exact::ExactSettings;
+use hammerbeam_study::{
+    Model, StoredBranches, StudyFile,
+    store::{BasinStore, DATABASE},
+};
+use serde_json::{Value, json};
+
+use super::{run::threads, simulate::folder};
+use crate::{
+    failure::Failure,
+    interrupt::Interrupt,
+    motion_args::{AxisOption, BasinsOptions},
+    output::Output,
+    table::{Table, header, number},
+    ticker::Ticker,
+};
+
+pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read(&options.study)?;
+    let model = Model::build(&file)?;
+    let grid = grid(options, &model)?;
+    let effort = Effort::from(&options.effort);
+    let mut basins =
+        Basins::new(model.system.clone(), options.frequency, grid, effort, ExactSettings::default())?;
+    let branches = results(options).map(|folder| StoredBranches::open(&folder, &file, &model)).transpose()?;
+    let mut store = options
+        .out
+        .as_deref()
+        .map(|folder| BasinStore::open(folder, &file, &request(options)))
+        .transpose()?;
+    let mut cells = Vec::new();
+    if let Some(store) = &store {
+        let (done, attractors) = store.read()?;
+        basins.resume(done.len(), attractors);
+        cells = done;
+    }
+    let interrupt = Interrupt::listen()?;
+    let total = basins.grid().cells();
+    let mut ticker = Ticker::new(total as u64, "cells");
+    let threads = threads(options.jobs);
+    while !interrupt.raised() {
+        let known = basins.attractors().len();
+        let Some(round) = basins.round(threads, interrupt.flag()) else { break };
+        if let Some(store) = &mut store {
+            store.append(&round, known)?;
+        }
+        cells.extend(round.cells);
+        ticker.at(cells.len() as u64, || format!("{} attractor(s)", basins.attractors().len()));
+    }
+    ticker.clear();
+    if let Some(store) = store {
+        store.finish()?;
+    }
+    if cells.len() < total {
+        let kept = match &options.out {
+            Some(folder) => format!("are kept in {}, the same command goes on from there", folder.display()),
+            None => "are lost without --out".to_owned(),
+        };
+        return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {kept}", cells.len())));
+    }
+    let numbers = match &branches {
+        Some(branches) => branch_numbers(branches, options.frequency, basins.attractors())?,
+        None => vec![None; basins.attractors().len()],
+    };
+    let result = Outcome { options, basins: &basins, cells: &cells, branches: numbers };
+    result.write()?;
+    output.give(&result.document(), || result.text());
+    Ok(())
+}
+
+/// Folder with branches: the one given, else that of the basins if it holds some.
+fn results(options: &BasinsOptions) -> Option<PathBuf> {
+    let own = options.out.clone().filter(|folder| folder.join(DATABASE).is_file());
+    options.results.clone().or(own)
+}
+
+/// What a folder of basins belongs to, besides the study.
+fn request(options: &BasinsOptions) -> String {
+    let axis = |name: &str, axis: &AxisOption| {
+        format!(
+            "{name}.coordinate = {}\n{name}.low = {:e}\n{name}.high = {:e}",
+            axis.name, axis.low, axis.high
+        )
+    };
+    let effort = &options.effort;
+    [
+        format!("basins.frequency_hz = {:e}", options.frequency),
+        axis("basins.x", &options.x),
+        axis("basins.y", &options.y),
+        format!("basins.grid = {}", options.grid),
+        format!("basins.transient_periods = {}", effort.transient_periods),
+        format!("basins.patience_periods = {}", effort.patience_periods),
+        format!("basins.longest_period = {}", effort.longest_period),
+        format!("basins.averaged_periods = {}", effort.averaged_periods),
+    ]
+    .join("\n")
+}
+
+fn grid(options: &BasinsOptions, model: &Model) -> Result<Grid, Failure> {
+    if options.x.name == options.y.name {
+        return Err(Failure::BadInput(format!(
+            "--x and --y are both {:?}; two different ones are needed",
+            options.x.name
+        )));
+    }
+    let axis = |option: &AxisOption, flag: &str| {
+        let direction = direction(&option.name, flag, model)?;
+        Ok::<_, Failure>(Axis { direction, low: option.low, high: option.high, count: options.grid as usize })
+    };
+    Ok(Grid {
+        base: vec![0.0; 2 * model.system.dof()],
+        x: axis(&options.x, "--x")?,
+        y: axis(&options.y, "--y")?,
+    })
+}
+
+/// What one unit of a coordinate adds to the modal state.
+fn direction(name: &str, flag: &str, model: &Model) -> Result<Vec<f64>, Failure> {
+    let n = model.system.dof();
+    let mut direction = vec![0.0; 2 * n];
+    let first = model.response.shape[0];
+    let of_point = matches!(name, "displacement" | "velocity");
+    if of_point && first == 0.0 {
+        let point = "the first mode does not move the response point";
+        return Err(Failure::BadInput(format!("{flag}: {point}; allowed: q1 to q{n}, v1 to v{n}")));
+    }
+    let Some(index) = place(name, n) else {
+        let allowed = format!("q1 to q{n}, v1 to v{n}, displacement, velocity");
+        return Err(Failure::BadInput(format!("{flag}: found the coordinate {name:?}; allowed: {allowed}")));
+    };
+    direction[index] = if of_point { 1.0 / first } else { 1.0 };
+    Ok(direction)
+}
+
+/// Place of a coordinate in the modal state.
+fn place(name: &str, n: usize) -> Option<usize> {
+    match name {
+        "displacement" => return Some(0),
+        "velocity" => return Some(n),
+        _ => {}
+    }
+    let (offset, number) = match name.split_at_checked(1)? {
+        ("q", number) => (0, number),
+        ("v", number) => (n, number),
+        _ => return None,
+    };
+    let number = number.parse::<usize>().ok().filter(|number| (1..=n).contains(number))?;
+    Some(offset + number - 1)
+}
+
+fn branch_numbers(
+    branches: &StoredBranches<'_>,
+    frequency_hz: f64,
+    attractors: &[Attractor],
+) -> Result<Vec<Option<u32>>, Failure> {
+    let of = |attractor: &Attractor| match attractor.class {
+        Class::Periodic { .. } => branches.branch_of(frequency_hz, &attractor.states),
+        _ => Ok(None),
+    };
+    Ok(attractors.iter().map(of).collect::<Result<_, _>>()?)
+}
+
+struct Outcome<'a> {
+    options: &'a BasinsOptions,
+    basins: &'a Basins,
+    cells: &'a [u32],
+    branches: Vec<Option<u32>>,
+}
+
+impl Outcome<'_> {
+    /// Number, attractor, fraction of the cells and branch of each attractor.
+    fn attractors(&self) -> impl Iterator<Item = (usize, &Attractor, Estimate, Option<u32>)> {
+        let found = self.basins.attractors();
+        let fractions = fractions(self.cells, found.len());
+        let all = found.iter().zip(fractions.into_iter().skip(1)).zip(&self.branches).enumerate();
+        all.map(|(index, ((attractor, fraction), branch))| (index + 1, attractor, fraction, *branch))
+    }
+
+    fn lost(&self) -> usize {
+        self.cells.iter().filter(|&&number| number == 0).count()
+    }
+
+    fn write(&self) -> Result<(), Failure> {
+        let Some(folder) = &self.options.out else { return Ok(()) };
+        let mut table = Table::begin(folder, "basins.csv", &header(&["x", "y", "attractor"]))?;
+        for (cell, attractor) in self.cells.iter().enumerate() {
+            let [x, y] = self.basins.grid().place(cell);
+            table.row(&[number(x), number(y), attractor.to_string()])?;
+        }
+        table.finish()?;
+        let columns = [
+            "attractor",
+            "class",
+            "period",
+            "fraction",
+            "standard_error",
+            "largest_exponent_per_s",
+            "zero_one_k",
+            "branch",
+        ];
+        let mut table = Table::begin(folder, "attractors.csv", &header(&columns))?;
+        for (index, attractor, fraction, branch) in self.attractors() {
+            let period = attractor.class.period().map(|period| period.to_string());
+            table.row(&[
+                index.to_string(),
+                attractor.class.name().to_owned(),
+                period.unwrap_or_default(),
+                number(fraction.value),
+                number(fraction.half_width),
+                number(attractor.largest_exponent.map(|exponent| exponent.value)),
+                number(attractor.zero_one),
+                branch.map_or_else(String::new, |branch| branch.to_string()),
+            ])?;
+        }
+        table.finish()?;
+        Ok(())
+    }
+
+    fn document(&self) -> Value {
+        let attractor = |(index, attractor, fraction, branch): (usize, &Attractor, Estimate, Option<u32>)| {
+            json!({
+                "attractor": index,
+                "class": attractor.class.name(),
+                "period": attractor.class.period(),
+                "fraction": fraction.value,
+                "standard_error": fraction.half_width,
+                "largest_exponent_per_s": attractor.largest_exponent.map(|exponent| exponent.value),
+                "zero_one_k": attractor.zero_one,
+                "branch": branch,
+                "modal_state": attractor.states.last(),
+            })
+        };
+        let axis = |option: &AxisOption| json!({ "coordinate": option.name, "low": option.low, "high": option.high });
+        json!({
+            "frequency_hz": self.options.frequency,
+            "x": axis(&self.options.x),
+            "y": axis(&self.options.y),
+            "grid": self.options.grid,
+            "cells": self.cells,
+            "cells_not_computed": self.lost(),
+            "attractors": self.attractors().map(attractor).collect::<Vec<_>>(),
+            "results": folder(self.options.out.as_deref()),
+        })
+    }
+
+    fn text(&self) -> String {
+        let mut lines = vec![format!("{} cells at {} Hz", self.cells.len(), self.options.frequency)];
+        for (index, attractor, fraction, branch) in self.attractors() {
+            let class = attractor.class;
+            let branch = branch.map_or_else(String::new, |branch| format!(", branch {branch}"));
+            lines.push(format!(
+                "  attractor {index}: {class}{branch}, fraction {:.4} +- {:.4}",
+                fraction.value, fraction.half_width
+            ));
+        }
+        if self.lost() > 0 {
+            lines.push(format!("  the motion from {} cell(s) could not be computed", self.lost()));
+        }
+        if let Some(folder) = &self.options.out {
+            lines.push(format!("basins.csv and attractors.csv are in {}", folder.display()));
+        }
+        lines.join("\n")
+    }
+}

@@ -1,0 +1,97 @@
+//! The state from which a motion begins, and what is read off a motion.
+
+use std::path::Path;
+
+use hammerbeam_attractor::{AttractorError, SectionMap, SystemMap};
+use hammerbeam_motion::{Stretch, System};
+use hammerbeam_study::{Model, StoredBranches, StudyFile};
+
+use crate::failure::Failure;
+
+impl From<AttractorError> for Failure {
+    fn from(error: AttractorError) -> Self {
+        match error {
+            AttractorError::Input { .. } | AttractorError::StateLength { .. } => {
+                Self::BadInput(error.to_string())
+            }
+            other => Self::NoResult(other.to_string()),
+        }
+    }
+}
+
+/// The state that `--initial` means.
+///
+/// * `map`: of the system at the frequency.
+pub fn state(
+    text: &str,
+    map: &mut SystemMap,
+    (file, model): (&StudyFile, &Model),
+    results: Option<&Path>,
+) -> Result<Vec<f64>, Failure> {
+    let size = map.dimension();
+    if let Some(branch) = text.strip_prefix("branch:") {
+        return of_branch(branch, map.frequency_hz(), (file, model), results);
+    }
+    match text {
+        "rest" => Ok(vec![0.0; size]),
+        "linear" => {
+            let stretch = Stretch { frequency_hz: map.frequency_hz(), start: 0.0, end: 1.0 };
+            Ok(map.integrator().steady_state(&stretch))
+        }
+        numbers => numbers_of(numbers, size),
+    }
+}
+
+fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
+    let refused = |found: &str| {
+        let allowed = format!(
+            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas"
+        );
+        Failure::BadInput(format!("--initial: {found}; allowed: {allowed}"))
+    };
+    let mut state = Vec::new();
+    for part in text.split(',') {
+        match part.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => state.push(number),
+            _ => return Err(refused(&format!("found {:?}", part.trim()))),
+        }
+    }
+    if state.len() == size { Ok(state) } else { Err(refused(&format!("found {} number(s)", state.len()))) }
+}
+
+/// The first node of the orbit in which a branch crosses the frequency: of a stable one where there are several.
+fn of_branch(
+    text: &str,
+    frequency_hz: f64,
+    (file, model): (&StudyFile, &Model),
+    results: Option<&Path>,
+) -> Result<Vec<f64>, Failure> {
+    let Some(folder) = results else {
+        return Err(Failure::BadInput("--initial branch:N needs --results DIR".to_owned()));
+    };
+    let branches = StoredBranches::open(folder, file, model)?;
+    let known: Vec<u32> = branches.numbers().collect();
+    let Some(number) = text.parse::<u32>().ok().filter(|number| known.contains(number)) else {
+        let last = known.last().copied().unwrap_or(0);
+        return Err(Failure::BadInput(format!(
+            "--initial: there is no branch {text:?}; allowed: 1 to {last}"
+        )));
+    };
+    let mut orbits = branches.crossings(frequency_hz, |record| record.id == number)?;
+    orbits.sort_by_key(|(_, orbit)| !orbit.stable());
+    match orbits.into_iter().next() {
+        Some((_, orbit)) => Ok(orbit.nodes[0].clone()),
+        None => Err(Failure::NoResult(format!("branch {number} does not cross {frequency_hz} Hz"))),
+    }
+}
+
+/// Displacement, velocity and acceleration of the response point at a phase.
+pub fn response(model: &Model, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
+    let system: &System = &model.system;
+    let n = system.dof();
+    let rate = system.rate(frequency_hz, phase, state);
+    let support = system.support_motion(frequency_hz, phase);
+    let parts = [&state[..n], &state[n..], &rate[n..]];
+    let dot = |values: &[f64]| model.response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
+    std::array::from_fn(|k| dot(parts[k]) + model.response.support_ratio * support[k])
+}

@@ -1,0 +1,214 @@
+//! Options of the commands that follow motions: simulate, sweep, lyapunov, basins.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::args::positive;
+
+const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without contacts; the 2n numbers q1,..,qn,v1,..,vn of the modal state; or `branch:N` for the orbit in which that branch of --results crosses the frequency";
+
+#[derive(Debug, Args)]
+pub struct SimulateOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Excitation frequency
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub frequency: f64,
+
+    /// Excitation periods that are written down
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub periods: u64,
+
+    /// Excitation periods that are run first and not written down
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
+    pub transient_periods: u64,
+
+    /// Samples in an excitation period
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub samples_per_period: u32,
+
+    #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
+    pub initial: String,
+
+    /// Phase of the stroboscopic section, from 0 to 1 cycles
+    #[arg(long, value_name = "CYCLES", default_value_t = 0.0, value_parser = phase, allow_negative_numbers = true)]
+    pub section_phase: f64,
+
+    /// Results folder whose branches are meant by --initial branch:N
+    #[arg(long, value_name = "DIR")]
+    pub results: Option<PathBuf>,
+
+    /// Folder for samples.csv, contacts.csv and stroboscopic.csv, made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct LyapunovOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Excitation frequency
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub frequency: f64,
+
+    /// Excitation periods averaged over, rounded up to a multiple of 20
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(20..=100_000_000))]
+    pub periods: u64,
+
+    /// Excitation periods that are run first
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
+    pub transient_periods: u64,
+
+    /// Orthonormalisations in a period [default: as many as the growth of the tangent vectors demands]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
+    pub sections_per_period: Option<u64>,
+
+    #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
+    pub initial: String,
+
+    /// Results folder whose branches are meant by --initial branch:N
+    #[arg(long, value_name = "DIR")]
+    pub results: Option<PathBuf>,
+
+    /// Folder for exponents.csv and convergence.csv, made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// What is spent on telling a motion's kind.
+#[derive(Debug, Args)]
+pub struct EffortOptions {
+    /// Excitation periods in which a motion is not looked at
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
+    pub transient_periods: u64,
+
+    /// Excitation periods after those in which a motion has to repeat
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    pub patience_periods: u64,
+
+    /// Longest period looked for, in excitation periods
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub longest_period: u16,
+
+    /// Excitation periods over which exponents and the 0-1 test of a motion that does not repeat are taken
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(240..=10_000_000))]
+    pub averaged_periods: u64,
+}
+
+#[derive(Debug, Args)]
+pub struct SweepOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// First frequency [default: the low end of the study's range]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub from: Option<f64>,
+
+    /// Last frequency, above the first [default: the high end of the study's range]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub to: Option<f64>,
+
+    /// Step of the frequency [default: a hundredth of the way]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub step: Option<f64>,
+
+    /// Sweep down as well, from where the sweep up has ended
+    #[arg(long)]
+    pub down: bool,
+
+    /// Instead of a sweep: begin at N states at every frequency, the same ones each time
+    #[arg(long, value_name = "N", conflicts_with_all = ["down", "initial"], value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub starts: Option<u32>,
+
+    #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
+    pub initial: String,
+
+    /// Samples of a motion that does not repeat
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub samples: u32,
+
+    #[command(flatten)]
+    pub effort: EffortOptions,
+
+    /// Results folder with which periodic motions are compared: the branch that each lies on
+    #[arg(long, value_name = "DIR")]
+    pub results: Option<PathBuf>,
+
+    /// Folder for sweep.csv and sweep_samples.csv, made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Number of threads with --starts [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+pub struct BasinsOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Excitation frequency
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub frequency: f64,
+
+    /// First coordinate and its range: q1 .. qn or v1 .. vn for modal displacements and velocities, displacement or velocity for those of the response point in the first mode
+    #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = axis)]
+    pub x: AxisOption,
+
+    /// Second coordinate and its range
+    #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = axis)]
+    pub y: AxisOption,
+
+    /// Cells along each coordinate
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub grid: u32,
+
+    #[command(flatten)]
+    pub effort: EffortOptions,
+
+    /// Results folder whose branches the attractors are compared with [default: that of --out, if it holds branches]
+    #[arg(long, value_name = "DIR")]
+    pub results: Option<PathBuf>,
+
+    /// Folder for basins.db, basins.csv and attractors.csv, made if it is not there; one that holds part of the same basins is continued
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Number of threads [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+}
+
+/// A coordinate and its range.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisOption {
+    /// As it was given.
+    pub name: String,
+    /// Low end, in SI.
+    pub low: f64,
+    /// High end.
+    pub high: f64,
+}
+
+fn axis(text: &str) -> Result<AxisOption, String> {
+    let form = || "must be NAME=LOW..HIGH, as in q1=-1e-3..1e-3".to_owned();
+    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let (low, high) = range.split_once("..").ok_or_else(form)?;
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let (low, high) = number(low).zip(number(high)).ok_or_else(form)?;
+    if high <= low {
+        return Err(format!("the range {low}..{high} is empty; LOW must be below HIGH"));
+    }
+    Ok(AxisOption { name: name.trim().to_owned(), low, high })
+}
+
+fn phase(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (0.0..=1.0).contains(&number) => Ok(number),
+        _ => Err("must be a number of cycles from 0 to 1".to_owned()),
+    }
+}

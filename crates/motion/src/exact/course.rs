@@ -1,0 +1,119 @@
+//! What a motion went through, as far as its maxima need it: flights, touches and force steps, noted as they are computed.
+//!
+//! An orbit is evaluated with its sensitivities first and observed then. The course saves going through the motion a second time.
+
+use super::{collocation::Grading, force_step::ForceStep, maxima::closed_bits, run::Run};
+use crate::Stretch;
+
+/// A place in a list of numbers: first and behind the last.
+type Span = (usize, usize);
+
+/// Something that happened.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Passage {
+    /// A flight, from a homogeneous block state.
+    Flight { start: f64, duration: f64, state: Span },
+    /// A contact closed with this relative velocity [m/s].
+    Touch { speed: f64 },
+    /// A force step.
+    Step(CourseStep),
+}
+
+/// A force step that was accepted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CourseStep {
+    pub grading: Grading,
+    /// Start in the time of the stretch, and length [s].
+    pub start: f64,
+    pub length: f64,
+    /// Homogeneous block state at the start.
+    pub state: Span,
+    /// Forces at the nodes.
+    pub force: Span,
+    /// Elements that act.
+    pub active: Span,
+    /// Closed elements, one bit each.
+    pub closed: u64,
+}
+
+/// One stretch of a motion.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CourseStretch {
+    pub stretch: Stretch,
+    /// State at its start, as it was given.
+    given: Span,
+    /// Elements closed at its start, one bit each.
+    pub closed: u64,
+    pub first_passage: usize,
+}
+
+/// The course of a motion over stretches.
+#[derive(Debug, Default)]
+pub(super) struct Course {
+    pub stretches: Vec<CourseStretch>,
+    pub passages: Vec<Passage>,
+    numbers: Vec<f64>,
+    elements: Vec<usize>,
+}
+
+impl Course {
+    pub fn clear(&mut self) {
+        self.stretches.clear();
+        self.passages.clear();
+        self.numbers.clear();
+        self.elements.clear();
+    }
+
+    /// Whether it is the whole course of this motion: the same stretches from the same states.
+    pub fn is_of(&self, motion: &[(Stretch, &[f64])]) -> bool {
+        let same = |(passed, (stretch, state)): (&CourseStretch, &(Stretch, &[f64]))| {
+            passed.stretch == *stretch && self.numbers(passed.given) == *state
+        };
+        self.stretches.len() == motion.len() && self.stretches.iter().zip(motion).all(same)
+    }
+
+    pub fn numbers(&self, (first, end): Span) -> &[f64] {
+        &self.numbers[first..end]
+    }
+
+    pub fn elements(&self, (first, end): Span) -> &[usize] {
+        &self.elements[first..end]
+    }
+
+    fn keep(&mut self, numbers: &[f64]) -> Span {
+        let first = self.numbers.len();
+        self.numbers.extend_from_slice(numbers);
+        (first, self.numbers.len())
+    }
+
+    pub fn begin(&mut self, stretch: &Stretch, state: &[f64], run: &Run) {
+        let given = self.keep(state);
+        let (closed, first_passage) = (closed_bits(run), self.passages.len());
+        self.stretches.push(CourseStretch { stretch: *stretch, given, closed, first_passage });
+    }
+
+    pub fn flight(&mut self, start: f64, duration: f64, state: &[f64]) {
+        let state = self.keep(state);
+        self.passages.push(Passage::Flight { start, duration, state });
+    }
+
+    pub fn touch(&mut self, speed: f64) {
+        self.passages.push(Passage::Touch { speed });
+    }
+
+    /// The solved step, with `run` at its start.
+    pub fn step(&mut self, run: &Run, step: &ForceStep) {
+        let first = self.elements.len();
+        self.elements.extend_from_slice(&step.active);
+        let passed = CourseStep {
+            grading: step.grading(),
+            start: step.start,
+            length: step.weights.length,
+            state: self.keep(&run.state),
+            force: self.keep(&step.force),
+            active: (first, self.elements.len()),
+            closed: closed_bits(run),
+        };
+        self.passages.push(Passage::Step(passed));
+    }
+}

@@ -1,0 +1,93 @@
+//! van de Vorst, Fey, de Kraker, van Campen: between the stable branches, at 41 to 65 and 78 to 95 Hz, the paper finds chaos.
+//!
+//! What simulation makes of the beam there, against shooting, which knows nothing of it: chaos where no orbit is stable, quasi-periodic motion beyond the
+//! Neimark-Sacker points of the branches, and the periodic windows in between. docs/attractors.md has the table.
+#![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
+
+mod common;
+
+use common::{Rig, paper_beam, walk};
+use hammerbeam_attractor::{
+    Class, Classified, Effort, LyapunovSettings, Observable, Patience, SectionMap, SweepSettings, Sweeper,
+    SystemMap, classify, lyapunov,
+};
+use hammerbeam_motion::exact::ExactSettings;
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Side, find_start};
+
+fn map(rig: &Rig, frequency_hz: f64) -> SystemMap {
+    SystemMap::new(rig.system.clone(), frequency_hz, 1, ExactSettings::default()).unwrap()
+}
+
+fn effort() -> Effort {
+    Effort { patience: Patience { skipped: 300, periods: 700, longest: 24 }, ..Effort::default() }
+}
+
+fn from_rest(rig: &Rig, frequency_hz: f64) -> Classified {
+    let rest = vec![0.0; 2 * rig.system.dof()];
+    classify(&mut map(rig, frequency_hz), 1, &rest, &effort()).unwrap()
+}
+
+/// Both indicators say chaos, the interval of the largest exponent is well above zero, and the sum over all exponents is the divergence.
+#[test]
+fn both_indicators_find_chaos_where_the_paper_does() {
+    let rig = paper_beam();
+    for frequency_hz in [45.0, 49.0, 53.0, 83.5, 85.0, 93.0] {
+        let found = from_rest(&rig, frequency_hz);
+        assert_eq!(found.class, Class::Chaotic, "{frequency_hz} Hz");
+        let largest = found.largest_exponent.unwrap();
+        assert!(largest.low() > 5.0, "{frequency_hz} Hz: {largest:?}");
+        assert!(found.zero_one.unwrap() > 0.9, "{frequency_hz} Hz: {:?}", found.zero_one);
+        let mut map = map(&rig, frequency_hz);
+        let settings = LyapunovSettings { aligning: 10, averaged: 60 };
+        let spectrum = lyapunov(&mut map, found.states.last().unwrap(), settings).unwrap();
+        assert!((spectrum.sum / map.divergence() - 1.0).abs() < 1e-6);
+    }
+}
+
+/// The orbit at the upper end of a branch that is walked from `start_hz`.
+fn orbit_at(rig: &Rig, period_multiple: u32, start_hz: f64, frequency_hz: f64) -> PeriodicSolution {
+    let settings = OrbitSettings { max_step_hz: 0.02, ..OrbitSettings::default() };
+    let start = find_start(&rig.system, &rig.response, start_hz, period_multiple, &settings).unwrap();
+    let (rows, _, _) = walk(rig, &start, Side::Up, (start_hz - 0.01, frequency_hz), &settings);
+    let at = rows.into_iter().map(|row| row.solution).find(|orbit| orbit.frequency_hz == frequency_hz);
+    at.unwrap()
+}
+
+/// Beyond a Neimark-Sacker point the orbit has a pair of multipliers outside the unit circle, and the motion goes to a torus about it.
+#[test]
+fn motion_beyond_neimark_sacker_points_is_quasi_periodic() {
+    let rig = paper_beam();
+    for (period_multiple, start_hz, frequency_hz) in [(1, 40.0, 41.0), (2, 79.5, 81.0)] {
+        let orbit = orbit_at(&rig, period_multiple, start_hz, frequency_hz);
+        let [re, im] = orbit.floquet_multipliers[0];
+        assert!(re.hypot(im) > 1.0 && im.abs() > 0.01, "{frequency_hz} Hz: {re} {im}");
+        let found = from_rest(&rig, frequency_hz);
+        assert_eq!(
+            found.class,
+            Class::QuasiPeriodic,
+            "{frequency_hz} Hz: {:?} {:?}",
+            found.largest_exponent,
+            found.zero_one
+        );
+    }
+}
+
+/// Periodic windows between the chaos: simulation and shooting find the same orbit of two periods, to the eight digits to which the motion repeats.
+#[test]
+fn periodic_windows_are_found_by_simulation_and_by_shooting() {
+    let rig = paper_beam();
+    let observable =
+        Observable { shape: rig.response.shape.clone(), support_ratio: rig.response.support_ratio };
+    let settings = SweepSettings { effort: effort(), sampled: 16, motion: ExactSettings::default() };
+    let mut sweeper = Sweeper::new(&rig.system, &observable, settings).unwrap();
+    let rest = vec![0.0; map(&rig, 57.0).dimension()];
+    for frequency_hz in [57.0, 60.0, 67.0, 79.0] {
+        let found = sweeper.at(frequency_hz, &rest).unwrap();
+        assert_eq!(found.class, Class::Periodic { period: 2 }, "{frequency_hz} Hz");
+        let settings = OrbitSettings::default();
+        let orbit = find_start(&rig.system, &rig.response, frequency_hz, 2, &settings).unwrap();
+        assert!(orbit.stable());
+        let ratio = found.max_abs_displacement / orbit.maxima.displacement;
+        assert!((ratio - 1.0).abs() < 1e-6, "{frequency_hz} Hz: {ratio}");
+    }
+}
