@@ -148,7 +148,11 @@ impl ExactIntegrator {
         let Observation { maxima, fastest, farthest, hardest, .. } = &mut observation;
         for peak in std::mem::take(&mut hardest.peaks) {
             let law = self.laws[peak.output];
-            let force = self.exact_extremum(peak, |displacement| law.force(displacement).value.abs());
+            let force = if law.depends_on_velocity() {
+                self.exact_force(peak)
+            } else {
+                self.exact_extremum(peak, |displacement| law.force(displacement, 0.0).value.abs())
+            };
             maxima.contact_force = maxima.contact_force.max(force);
         }
         for peak in std::mem::take(&mut farthest.peaks) {
@@ -248,6 +252,14 @@ impl ExactIntegrator {
         largest
     }
 
+    /// The largest force of a law that depends on the velocity once more: the polynomial tells where it is.
+    fn exact_force(&mut self, peak: Peak) -> f64 {
+        let element = peak.output;
+        let (state, time) = self.recall(peak);
+        let jet = self.jet_in_step(&state, element, time);
+        self.laws[element].pressing_force(jet.value, jet.slope).value.abs()
+    }
+
     /// The largest acceleration once more: the polynomial tells where it is, and there the forces follow from the
     /// displacements, which are much more accurate.
     fn exact_peak(&mut self, peak: Peak) -> f64 {
@@ -256,9 +268,9 @@ impl ExactIntegrator {
         let mut exact = self.jet_in_step(&state, response, time).curvature;
         for (a, &element) in self.step.active.iter().enumerate() {
             let polynomial = self.step.interpolate(&self.step.force, a, place);
-            let displacement = self.jet_in_step(&state, element, time).value;
+            let jet = self.jet_in_step(&state, element, time);
             exact += self.mobility[response][element]
-                * (self.laws[element].force(displacement).value - polynomial);
+                * (self.laws[element].pressing_force(jet.value, jet.slope).value - polynomial);
         }
         exact.abs()
     }

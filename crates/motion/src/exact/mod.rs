@@ -12,6 +12,7 @@
 //! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
 //! | `weights.rs`, `series.rs`, `quadrature.rs` | the matrices of a step |
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
+//! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
 //! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
@@ -26,6 +27,7 @@ mod by_parameter;
 mod clearance;
 mod collocation;
 mod contact_phase;
+mod damped_step;
 mod decouple;
 mod drive;
 mod event;
@@ -39,6 +41,7 @@ mod lanes;
 mod lu;
 mod maxima;
 mod newton;
+mod onset;
 mod output;
 mod plane;
 mod polynomial;

@@ -106,6 +106,22 @@ impl Sensitivity {
         add_products(&mut self.values, force, self.columns, |i| weights[i].iter().copied());
     }
 
+    /// `row V`, one entry per column.
+    pub fn combined(&self, row: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.columns];
+        for (weight, values) in row.iter().zip(self.values.chunks_exact(self.columns)) {
+            sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+        }
+        sums
+    }
+
+    /// Adds `factor column row`.
+    pub fn add_outer(&mut self, column: &[f64], factor: f64, row: &[f64]) {
+        for (weight, values) in column.iter().zip(self.values.chunks_exact_mut(self.columns)) {
+            values.iter_mut().zip(row).for_each(|(value, entry)| *value += factor * weight * entry);
+        }
+    }
+
     /// Largest velocity of each column, raised from what is in `norms`.
     pub fn raise_velocity_norms(&self, norms: &mut [f64]) {
         vectorised(

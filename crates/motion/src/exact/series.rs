@@ -29,6 +29,8 @@ pub(crate) struct Series {
     columns: Vec<Vec<Vec<f64>>>,
     /// The same of each element entry by entry, `[i * TERMS + m]`: rows and columns.
     entries: Vec<(Vec<f64>, Vec<f64>)>,
+    /// Rows entry by entry from the first power on: those that read velocities, over the rate.
+    velocity_entries: Vec<Vec<f64>>,
     /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
     markov: Vec<Vec<f64>>,
 }
@@ -57,7 +59,8 @@ impl Series {
             })
             .collect();
         let entries = rows.iter().zip(&columns).map(|(r, c)| (by_entry(r), by_entry(c))).collect();
-        Self { rate, rates: blocks.rates(), entries, rows, columns, markov }
+        let velocity_entries = rows.iter().take(columns.len()).map(|r| by_entry(&r[1..])).collect();
+        Self { rate, rates: blocks.rates(), entries, velocity_entries, rows, columns, markov }
     }
 
     /// Longest step that the series serve [s].
@@ -138,16 +141,24 @@ impl Series {
         self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
     }
 
-    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
-    /// [`Series::complete`].
-    pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
+    /// Prepares a step within the reach: its convolution `W`, and `W'` if `velocity` says so. The rest follows with
+    /// [`StepWeights::set_propagators`] and [`Series::complete`].
+    pub fn prepare(
+        &self,
+        (active, velocity): (&[usize], bool),
+        grading: Grading,
+        length: f64,
+        into: &mut StepWeights,
+    ) {
         let rule = grading.rule();
         let z = length * self.rate;
         let terms = Self::terms(z);
         let count = self.columns.len();
         into.length = length;
         into.complete = false;
-        into.convolution.resize(active.len() * active.len(), [[0.0; NODES]; NODES]);
+        let pairs = active.len() * active.len();
+        into.convolution.resize(pairs, [[0.0; NODES]; NODES]);
+        into.velocity_convolution.resize(if velocity { pairs } else { 0 }, [[0.0; NODES]; NODES]);
         let factors = Self::factors(length, z, terms);
         for (a, &e) in active.iter().enumerate() {
             for (b, &f) in active.iter().enumerate() {
@@ -159,18 +170,25 @@ impl Series {
                 let target = convolution.as_flattened_mut();
                 let source = at_nodes.as_flattened().as_flattened();
                 add_products(target, source, NODES * NODES, |_| weights[..terms].iter().copied());
+                let Some(convolution) = into.velocity_convolution.get_mut(a * active.len() + b) else {
+                    continue;
+                };
+                let rates = factors.iter().zip(&markov[1..]).map(|(factor, m)| factor * m * self.rate);
+                convolution.fill([0.0; NODES]);
+                let target = convolution.as_flattened_mut();
+                add_products(target, source, NODES * NODES, |_| rates.clone().take(terms));
             }
         }
     }
 
-    /// Completes a prepared step: `X` and `P`.
-    pub fn complete(&self, active: &[usize], grading: Grading, step: &mut StepWeights) {
+    /// Completes a prepared step: `X` and `P`, and `X'` if `velocity` says so.
+    pub fn complete(&self, (active, velocity): (&[usize], bool), grading: Grading, step: &mut StepWeights) {
         let rule = grading.rule();
         let size = self.columns[0][0].len();
         let length = step.length;
         let z = length * self.rate;
         let terms = Self::terms(z);
-        step.resize(active.len(), size);
+        step.resize(active.len(), size, velocity);
         step.complete = true;
         let needed = self.terms_of_blocks(length);
         let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
@@ -178,6 +196,10 @@ impl Series {
             let (rows, columns) = &self.entries[e];
             sum_powers(rows, &powers, &rule.powers, &needed, &mut step.rows[a]);
             sum_powers(columns, &factors, &rule.at_end, &needed, &mut step.to_state[a]);
+            if let Some(rows) = step.velocity_rows.get_mut(a) {
+                sum_powers(&self.velocity_entries[e], &powers, &rule.powers, &needed, rows);
+                rows.iter_mut().for_each(|entry| *entry *= self.rate);
+            }
         }
     }
 
@@ -222,6 +244,18 @@ impl Series {
             (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
         }
         values
+    }
+
+    /// Velocities of the free motion at the nodes of a step from the readings at its start, apart from the particular part.
+    pub fn free_rates(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let mut rates = [0.0; NODES];
+        for m in (0..Self::terms(z)).rev() {
+            let share = z / (m + 1) as f64;
+            (0..NODES).for_each(|k| rates[k] = readings[m + 1] + rates[k] * share * rule.c[k]);
+        }
+        rates.map(|rate| rate * self.rate)
     }
 
     /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the direct part of the forces.
