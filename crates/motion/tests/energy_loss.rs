@@ -9,9 +9,9 @@ use common::{assert_agreement, beam_with, diagonal, element, integrator, model, 
 use faer::Mat;
 use hammerbeam_motion::{
     Flow, Law, Load, Stretch, System,
-    exact::{ExactIntegrator, ExactSettings},
-    general::{GeneralSettings, sample},
-    law::{HertzStop, HuntCrossleyStop, LinearStop},
+    exact::{ExactIntegrator, ExactSettings, MotionError},
+    general::{GeneralError, GeneralSettings, advance, sample},
+    law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop},
 };
 
 /// The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the largest entry.
@@ -23,6 +23,11 @@ fn damped(stiffness: f64, damping: f64, gap: f64) -> Law {
 
 fn hunt_crossley(stiffness: f64, loss: f64, gap: f64) -> Law {
     Law::HuntCrossley(HuntCrossleyStop::new(HertzStop::with_gap(stiffness, gap).unwrap(), loss).unwrap())
+}
+
+fn restitution(stiffness: f64, model: RestitutionModel, e: f64, gap: f64) -> Law {
+    let hertz = HertzStop::with_gap(stiffness, gap).unwrap();
+    Law::Restitution(RestitutionStop::new(hertz, model, e).unwrap())
 }
 
 /// From next to no loss to contacts that are overdamped, with gaps and preloads. At the contact point the beam weighs about 50 g: 140 N s/m are critical
@@ -222,4 +227,121 @@ fn no_loss_is_the_elastic_law() {
     let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
     let [found, expected] = [&system, &elastic].map(|s| integrator(s).advance(&stretch, &state).unwrap());
     assert_eq!(found, expected);
+}
+
+/// Every model, from light to heavy loss; the stretch starts where the contact is open.
+#[test]
+fn flows_of_the_beam_agree_for_laws_that_remember_the_impact() {
+    let mut contacts = 0;
+    for (model, e, gap, frequency_hz) in [
+        (RestitutionModel::HuntCrossley, 0.9, 0.0, 36.0),
+        (RestitutionModel::HerbertMcWhannell, 0.7, 0.0, 28.0),
+        (RestitutionModel::LeeWang, 0.5, 1e-4, 41.0),
+        (RestitutionModel::LankaraniNikravesh, 0.95, 0.0, 36.0),
+        (RestitutionModel::LankaraniNikravesh, 0.6, 0.0, 53.0),
+        (RestitutionModel::Gonthier, 0.3, 0.0, 41.0),
+        (RestitutionModel::Flores, 0.8, 2e-4, 50.0),
+        (RestitutionModel::HuGuo, 0.4, 0.0, 22.0),
+    ] {
+        for stiffness in [4.5e9, 1e7] {
+            let system = beam_with(0.015, restitution(stiffness, model, e, gap));
+            let what = format!("{model:?} {e} {stiffness:e}");
+            let mut exact = integrator(&system);
+            let mut state = vec![0.0; 12];
+            for _ in 0..60 {
+                state = exact.advance(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, &state).unwrap();
+            }
+            // The first of these phases at which the contact is open, with a little room.
+            for k in 1..40 {
+                let phase = 0.025 * f64::from(k);
+                let stretch = Stretch { frequency_hz, start: 0.0, end: phase };
+                let start = exact.advance(&stretch, &state).unwrap();
+                let r: f64 = start.iter().zip(&system.elements()[0].shape).map(|(q, phi)| q * phi).sum();
+                let stretch = Stretch { frequency_hz, start: phase, end: phase + 1.0 };
+                if r < gap - 2e-5 {
+                    contacts += assert_agreement(&system, &stretch, &start, BOUND, &what);
+                    break;
+                }
+                // Not in memory after another stretch.
+                state = exact.advance(&Stretch { frequency_hz, start: phase, end: 1.0 }, &start).unwrap();
+            }
+        }
+    }
+    assert!(contacts > 20, "{contacts}");
+}
+
+/// What comes out of two bodies alone solves `(1 + e_out) c = ln((1 + c)/(1 - e_out c))` with the factor c of the model.
+#[test]
+fn restitution_that_comes_out_is_that_of_the_first_integral() {
+    for model in RestitutionModel::ALL {
+        for e in [0.99, 0.9, 0.6, 0.3, 0.1] {
+            let bounce = Bounce::new(0.2, restitution(1e8, model, e, 0.0));
+            for speed in [0.05, 2.0] {
+                let (flow, found) = bounce.restitution(speed, 0.2);
+                let expected = hunt_crossley_restitution(model.factor(e));
+                assert!((found - expected).abs() < 1e-9, "{model:?} {e}: {found} against {expected}");
+                // Twice the speed comes back twice as fast: the column by the speed has the whole of e.
+                let by_speed = flow.by_state[(1, 1)];
+                assert!((by_speed + expected).abs() < 1e-8, "{model:?} {e}: {by_speed} against {expected}");
+            }
+        }
+    }
+}
+
+/// What the sources say of their range: exact to first order near 1 (four models), complete loss at 0 (those with e below the line), fair throughout (Flores).
+#[test]
+fn models_are_good_where_their_sources_say() {
+    use RestitutionModel::{
+        Flores, Gonthier, HerbertMcWhannell, HuGuo, HuntCrossley, LankaraniNikravesh, LeeWang,
+    };
+    let out = |model: RestitutionModel, e: f64| hunt_crossley_restitution(model.factor(e));
+    for model in [HuntCrossley, HerbertMcWhannell, LankaraniNikravesh, HuGuo] {
+        assert!((out(model, 0.999) - 0.999).abs() < 1e-5, "{model:?}");
+    }
+    for model in [Gonthier, Flores, HuGuo] {
+        assert!(out(model, 1e-3) < 2e-3, "{model:?}");
+    }
+    for e in [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95] {
+        // By 0.045 at most, near e = 0.25.
+        assert!((out(Flores, e) - e).abs() < 0.05, "{e}: {}", out(Flores, e));
+    }
+    // Three quarters of `1 - e` instead of three halves: half of the loss.
+    assert!((1.0 - out(LeeWang, 0.999) - 0.5e-3).abs() < 1e-5);
+}
+
+/// A state within a contact does not tell how it began.
+#[test]
+fn a_stretch_that_starts_in_a_contact_with_memory_is_refused() {
+    let system = beam_with(0.015, restitution(1e6, RestitutionModel::Flores, 0.6, 0.0));
+    let frequency_hz = 36.0;
+    let mut exact = integrator(&system);
+    let mut state = vec![0.0; 12];
+    let stretch = |part: u32| {
+        let phase = |part: u32| f64::from(part) / 40.0;
+        Stretch { frequency_hz, start: phase(part), end: phase(part + 1) }
+    };
+    let mut continued = 0;
+    for part in 0..400 {
+        let stretch = stretch(part % 40);
+        let r: f64 = state.iter().zip(&system.elements()[0].shape).map(|(q, phi)| q * phi).sum();
+        if r > 1e-9 {
+            let refused = integrator(&system).flow(&stretch, &state).unwrap_err();
+            assert!(matches!(refused, MotionError::StartsInContact { .. }), "{refused}");
+            let refused = advance(&system, &stretch, &state, &GeneralSettings::default()).unwrap_err();
+            assert!(matches!(refused, GeneralError::StartsInContact { .. }), "{refused}");
+            continued += 1;
+        }
+        // The motion itself goes on over the cuts.
+        state = exact.advance(&stretch, &state).unwrap();
+    }
+    assert!(continued > 10, "{continued}");
+    // Ten cycles in pieces are ten cycles.
+    let mut whole = vec![0.0; 12];
+    for _ in 0..10 {
+        whole = exact.advance(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, &whole).unwrap();
+    }
+    let scale = whole[6..].iter().fold(0.0_f64, |scale, v| scale.max(v.abs()));
+    for i in 6..12 {
+        assert!((whole[i] - state[i]).abs() < 1e-6 * scale, "{} {}", whole[i], state[i]);
+    }
 }

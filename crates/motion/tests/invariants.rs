@@ -10,7 +10,9 @@ use faer::Mat;
 use hammerbeam_motion::{
     Flow, Harmonic, HarmonicForce, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, TwoSidedStop},
+    law::{
+        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+    },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
 
@@ -74,6 +76,8 @@ fn lossy_laws() -> Vec<Law> {
         Law::Linear(damped),
         Law::HuntCrossley(HuntCrossleyStop::new(hertz, 1.5).unwrap()),
         Law::HuntCrossley(HuntCrossleyStop::new(hertz, 40.0).unwrap()),
+        Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::LankaraniNikravesh, 0.8).unwrap()),
+        Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::Flores, 0.3).unwrap()),
     ]
 }
 

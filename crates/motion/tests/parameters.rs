@@ -11,7 +11,9 @@ use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Parameter, ParameterError, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
-    law::{CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, TwoSidedStop},
+    law::{
+        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+    },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
 
@@ -90,14 +92,15 @@ fn lossy_laws() -> Vec<Law> {
     vec![
         Law::HuntCrossley(HuntCrossleyStop::new(hertz, 1.0).unwrap()),
         Law::Linear(LinearStop::with_gap(3e4, 2.5e-4).unwrap().with_damping(12.0).unwrap()),
+        Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::LankaraniNikravesh, 0.7).unwrap()),
     ]
 }
 
 fn lossy_parameters() -> Vec<(Parameter, f64)> {
     let mut all = vec![(Parameter::ExcitationScale, 3e-4), (Parameter::AddedDampingRatio, 1e-5)];
     // Times of contacts move with the root of the gap where they are slow: the steps are small.
-    all.extend((0..2).map(|element| (Parameter::Gap { element }, 2e-8)));
-    let stiffnesses = [5e5, 3e4].into_iter().enumerate();
+    all.extend((0..3).map(|element| (Parameter::Gap { element }, 2e-8)));
+    let stiffnesses = [5e5, 3e4, 5e5].into_iter().enumerate();
     all.extend(stiffnesses.map(|(element, k)| (Parameter::Stiffness { element }, 1e-4 * k)));
     all
 }

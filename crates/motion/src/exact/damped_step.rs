@@ -6,7 +6,9 @@
 //!
 //! and corrects `r` by `d_r + W dF`, `r'` by `d_v + W' dF`. With the same matrix the sensitivities of the forces are
 //!
-//! `(I - f_r W - f_v W') dF = f_r (X V + d r_particular) + f_v (X' V + d r'_particular) + f_p`.
+//! `(I - f_r W - f_v W') dF = f_r (X V + d r_particular) + f_v (X' V + d r'_particular) + f_p`,
+//!
+//! where `f_p` has the change of the speed that the contact remembers, too (`onset.rs`).
 //!
 //! The forces are those of a contact that presses, continued smoothly beyond its end, so that no kink lies in the step; where the pressure
 //! vanishes is an event (`event.rs`).
@@ -175,10 +177,15 @@ impl ForceStep {
                     rates[k * columns + column] += rate_a[k];
                 }
             }
+            let impact = sensitivity.impact_speed(e);
             for (k, i) in nodes.enumerate() {
                 let place = k * columns..(k + 1) * columns;
-                for (value, rate) in target[place.clone()].iter_mut().zip(&rates[place]) {
+                for (value, rate) in target[place.clone()].iter_mut().zip(&rates[place.clone()]) {
                     *value = self.slope[i] * *value + self.damping[i] * rate;
+                }
+                if let Some(row) = impact {
+                    let factor = laws[e].by_impact_speed(self.displacement[i], self.velocity[i]);
+                    target[place].iter_mut().zip(row).for_each(|(value, entry)| *value += factor * entry);
                 }
                 if let Some((parameter, column)) = last {
                     let (r, v) = (self.displacement[i], self.velocity[i]);

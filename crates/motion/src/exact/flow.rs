@@ -21,6 +21,7 @@ impl ExactIntegrator {
         let result = self.complete(&mut run, stretch);
         let end = self.modal_state(&run, stretch.duration());
         self.run = run;
+        self.remember_end(stretch, &end);
         result.map(|()| end)
     }
 
@@ -45,6 +46,7 @@ impl ExactIntegrator {
         let flow = result.map(|()| self.flow_of(&mut run, stretch));
         self.run = run;
         let mut flow = flow?;
+        self.remember_end(stretch, &flow.state);
         if self.parameter == Some(Parameter::AddedDampingRatio) {
             flow.by_parameter = self.by_damping(stretch, state)?;
         }
@@ -79,6 +81,10 @@ impl ExactIntegrator {
             sensitivity.start(&self.blocks, &by_frequency, by_parameter.as_deref());
             sensitivity
         });
+        self.forget_impacts();
+        if !sensitivities {
+            self.recall_impacts(stretch, state);
+        }
         run.closed.clear();
         run.parted.clear();
         for element in 0..self.laws.len() {
@@ -112,6 +118,7 @@ impl ExactIntegrator {
     /// Runs to the end of the stretch.
     pub(super) fn complete(&mut self, run: &mut Run, stretch: &Stretch) -> Result<(), MotionError> {
         let end = stretch.duration();
+        self.check_start(run, stretch)?;
         self.closed_throughout = closed_bits(run);
         let steps = MOST_STEPS * (1 + (stretch.end - stretch.start) as u64);
         let most = self.counts.steps + steps;
@@ -163,6 +170,7 @@ impl ExactIntegrator {
             self.observation = Some(observation);
         }
         self.jump_at_onset(run, touch);
+        self.remember_impact(run, touch);
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
         let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();

@@ -12,7 +12,7 @@ use super::{
     flight_maximum::Flown,
     run::Run,
 };
-use crate::Stretch;
+use crate::{Law, Stretch};
 
 /// Maxima of a motion on the continuous motion, and its contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -108,6 +108,8 @@ struct Peak {
     /// State at the start of the step.
     state: Vec<f64>,
     active: Vec<usize>,
+    /// Laws of the active elements, with what they remember.
+    laws: Vec<Law>,
     force: Vec<f64>,
 }
 
@@ -144,6 +146,7 @@ impl ExactIntegrator {
         let end = self.modal_state(&run, stretch.duration());
         let mut observation = self.observation.take().unwrap_or_default();
         self.run = run;
+        self.remember_end(stretch, &end);
         result?;
         let Observation { maxima, fastest, farthest, hardest, .. } = &mut observation;
         for peak in std::mem::take(&mut hardest.peaks) {
@@ -219,6 +222,7 @@ impl ExactIntegrator {
             length: self.step.weights.length,
             state: run.state.clone(),
             active: self.step.active.clone(),
+            laws: self.step.active.iter().map(|&e| self.laws[e]).collect(),
             force: self.step.force.clone(),
         }
     }
@@ -228,6 +232,7 @@ impl ExactIntegrator {
         self.step.grading = Some(peak.grading);
         self.step.start = peak.start;
         self.step.weights.length = peak.length;
+        peak.active.iter().zip(&peak.laws).for_each(|(&element, law)| self.laws[element] = *law);
         self.step.active = peak.active;
         self.step.force = peak.force;
         (peak.state, peak.grading.map(peak.place).0 * peak.length)

@@ -29,6 +29,8 @@ pub(crate) struct Sensitivity {
     columns: usize,
     values: Vec<f64>,
     has_parameter: bool,
+    /// Sensitivities of the speed with which the last contact of an element began; empty where nothing is remembered.
+    impact_speeds: Vec<Vec<f64>>,
 }
 
 impl Sensitivity {
@@ -38,6 +40,7 @@ impl Sensitivity {
         // An even number of rows leaves room for two columns besides.
         self.columns = (self.rows + 4) / 4 * 4;
         self.has_parameter = parameter.is_some();
+        self.impact_speeds.clear();
         self.values.clear();
         self.values.resize(self.rows * self.columns, 0.0);
         for i in 0..self.rows {
@@ -104,6 +107,19 @@ impl Sensitivity {
     pub fn add(&mut self, to_state: &[f64], force: &[f64]) {
         let weights = to_state.as_chunks::<NODES>().0;
         add_products(&mut self.values, force, self.columns, |i| weights[i].iter().copied());
+    }
+
+    /// Keeps the sensitivities of the speed with which a contact of an element began.
+    pub fn remember_impact(&mut self, element: usize, row: Vec<f64>) {
+        if self.impact_speeds.len() <= element {
+            self.impact_speeds.resize(element + 1, Vec::new());
+        }
+        self.impact_speeds[element] = row;
+    }
+
+    /// Sensitivities of the speed with which the present contact of an element began, if it is remembered.
+    pub fn impact_speed(&self, element: usize) -> Option<&[f64]> {
+        self.impact_speeds.get(element).map(Vec::as_slice).filter(|row| !row.is_empty())
     }
 
     /// `row V`, one entry per column.

@@ -49,7 +49,7 @@ pub trait VectorField {
     /// Writes `g(t, z; p)`.
     fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]);
 
-    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another.
+    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another, by the initial state and, last, by the parameter.
     fn tangents(&mut self, at: Point<'_>, columns: &[f64], derivatives: &mut [f64]);
 
     /// Adds `dg/dp` to `sum`; a field without a parameter adds nothing.
@@ -59,10 +59,10 @@ pub trait VectorField {
         let _ = (at, derivative, sum);
     }
 
-    /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous.
+    /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous; a field with a memory puts down here what it keeps.
     ///
     /// * `at`: the place, with the new region; `before`: the region that was left.
-    /// * `columns`: as in [`VectorField::tangents`], the one by the parameter last; to be changed.
+    /// * `columns`: as in [`VectorField::tangents`], the one by the parameter last; to be changed. Empty where no sensitivities are wanted.
     fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
         let _ = (at, before, columns);
     }

@@ -58,6 +58,7 @@ pub fn observe(
     check_frequency(stretch)?;
     let mut field = SystemField::new(system, stretch.frequency_hz);
     check(&field, (stretch.start, stretch.end), state, settings)?;
+    field.check_start(stretch.start, state)?;
     let mut observer = Observer::new(&field, state, (shape, support_ratio));
     let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
     march.run(&mut observer)?;
@@ -215,7 +216,7 @@ impl<'a> Observer<'a> {
                 return 0.0;
             }
             let [r, speed] = self.read(field, Output::Element(e), at.time, at.state);
-            force_in_region(element, (r, speed), inside).value.abs()
+            force_in_region(&field.laws[e], (r, speed), inside).value.abs()
         })
     }
 

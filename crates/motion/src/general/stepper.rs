@@ -94,9 +94,7 @@ impl Stepper {
         (inside, before): (&[bool], &[bool]),
     ) {
         let (state, columns) = self.value.split_at_mut(self.dimension);
-        if !columns.is_empty() {
-            field.jump(Point { time, state, inside }, before, columns);
-        }
+        field.jump(Point { time, state, inside }, before, columns);
     }
 
     /// Carries the columns over a step from `time`.

@@ -18,8 +18,8 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{Column, Point, VectorField};
-use crate::{Contact, Force, LocalElement, ModalLoad, System};
+use super::{Column, GeneralError, Point, VectorField};
+use crate::{Contact, Force, Law, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
@@ -35,6 +35,10 @@ pub(super) struct SystemField<'a> {
     rotations: Vec<c64>,
     /// `df_e/dr` and `df_e/dr'` at the last point.
     slopes: Vec<(f64, f64)>,
+    /// The laws, with the speeds of impact that they remember.
+    pub(super) laws: Vec<Law>,
+    /// `df_e/dv` by the remembered speed v at the last point, and the sensitivities of v.
+    impacts: Vec<(f64, Vec<f64>)>,
 }
 
 /// The modal damping matrix `C`.
@@ -58,6 +62,8 @@ impl<'a> SystemField<'a> {
             switches: system.elements().iter().map(switches_of).sum(),
             length: 1e-3 * shortest_length(system),
             slopes: vec![(0.0, 0.0); system.elements().len()],
+            laws: system.elements().iter().map(|element| element.law).collect(),
+            impacts: vec![(0.0, Vec::new()); system.elements().len()],
         }
     }
 
@@ -123,12 +129,69 @@ impl<'a> SystemField<'a> {
             let r = self.relative_displacement(element, q, at.time);
             let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;
-            let damped = element.law.depends_on_velocity();
+            let damped = self.laws[e].depends_on_velocity();
             let speed = if damped { self.relative_velocity(element, v, at.time) } else { 0.0 };
-            let force = force_in_region(element, (r, speed), inside);
+            let force = force_in_region(&self.laws[e], (r, speed), inside);
             self.slopes[e] = (force.slope, force.damping);
+            if force.damping != 0.0 {
+                self.impacts[e].0 = self.laws[e].by_impact_speed(r, speed);
+            } else {
+                self.impacts[e].0 = 0.0;
+            }
             add_scaled(rate, self.period * force.value, &element.shape);
         }
+    }
+}
+
+impl SystemField<'_> {
+    /// A stretch cannot start in a contact whose law needs to know how it began.
+    pub(super) fn check_start(&self, phase: f64, state: &[f64]) -> Result<(), GeneralError> {
+        let (q, v) = state.split_at(self.system.dof().min(state.len()));
+        for element in self.system.elements().iter().filter(|element| element.law.remembers_impact()) {
+            let contact = element.law.contacts()[0];
+            let penetration = contact.sign * (self.relative_displacement(element, q, phase) - contact.level);
+            let rate = contact.sign * self.relative_velocity(element, v, phase);
+            if penetration > 0.0 || (penetration == 0.0 && rate > 0.0) {
+                return Err(GeneralError::StartsInContact { element: element.name.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets the sensitivities jump with the force of a contact that closes.
+    fn jump_at_onset(&self, element: &LocalElement, columns: &mut [f64]) {
+        let (n, damping) = (self.system.dof(), element.law.onset_damping());
+        if damping == 0.0 {
+            return;
+        }
+        for column in columns.chunks_exact_mut(2 * n) {
+            let impulse = -damping * dot(&element.shape, &column[..n]);
+            add_scaled(&mut column[n..], impulse, &element.shape);
+        }
+    }
+
+    /// Keeps the speed of an impact in memory, and its sensitivities `dr' - r'' dr/r'`.
+    fn remember_impact(&mut self, e: usize, at: Point<'_>, columns: &[f64]) {
+        if !self.laws[e].remembers_impact() {
+            return;
+        }
+        let (n, element) = (self.system.dof(), &self.system.elements()[e]);
+        let speed = self.relative_velocity(element, &at.state[n..], at.time);
+        let mut rates = vec![0.0; 2 * n];
+        self.evaluate(at, &mut rates);
+        let support = self.support_motion(at.time);
+        let acceleration =
+            dot(&element.shape, &rates[n..]) / self.period + element.support_ratio * support[2];
+        let last = columns.len() / (2 * n);
+        let row = columns.chunks_exact(2 * n).enumerate().map(|(index, column)| {
+            let mut change = dot(&element.shape, &column[n..]);
+            if index + 1 == last {
+                change += element.support_ratio * support[1] * self.period;
+            }
+            (change - acceleration * dot(&element.shape, &column[..n]) / speed) * speed.signum()
+        });
+        self.impacts[e].1 = row.collect();
+        self.laws[e] = self.laws[e].struck_at(speed.abs());
     }
 }
 
@@ -162,7 +225,8 @@ impl VectorField for SystemField<'_> {
 
     fn tangents(&mut self, _: Point<'_>, columns: &[f64], derivatives: &mut [f64]) {
         let n = self.system.dof();
-        for (column, derivative) in columns.chunks_exact(2 * n).zip(derivatives.chunks_exact_mut(2 * n)) {
+        let pairs = columns.chunks_exact(2 * n).zip(derivatives.chunks_exact_mut(2 * n));
+        for (index, (column, derivative)) in pairs.enumerate() {
             linear_rates(&self.stiffness, &self.damping, self.period, column, derivative);
             for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
                 if slope != 0.0 || damping != 0.0 {
@@ -171,6 +235,11 @@ impl VectorField for SystemField<'_> {
                         force += damping * dot(&element.shape, &column[n..]);
                     }
                     add_scaled(&mut derivative[n..], self.period * force, &element.shape);
+                }
+            }
+            for (element, (by_speed, row)) in self.system.elements().iter().zip(&self.impacts) {
+                if *by_speed != 0.0 {
+                    add_scaled(&mut derivative[n..], self.period * by_speed * row[index], &element.shape);
                 }
             }
         }
@@ -189,18 +258,15 @@ impl VectorField for SystemField<'_> {
     }
 
     fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
-        let (n, mut first) = (self.system.dof(), 0);
-        for element in self.system.elements() {
+        let mut first = 0;
+        for (e, element) in self.system.elements().iter().enumerate() {
             let switch = first;
             first += switches_of(element);
-            let damping = element.law.onset_damping();
-            if damping == 0.0 || before[switch] || !(at.inside[switch] && at.inside[switch + 1]) {
+            if !element.law.depends_on_velocity() || before[switch] || !at.inside[switch] {
                 continue;
             }
-            for column in columns.chunks_exact_mut(2 * n) {
-                let impulse = -damping * dot(&element.shape, &column[..n]);
-                add_scaled(&mut column[n..], impulse, &element.shape);
-            }
+            self.remember_impact(e, at, columns);
+            self.jump_at_onset(element, columns);
         }
     }
 
@@ -211,7 +277,7 @@ impl VectorField for SystemField<'_> {
     fn switching(&self, phase: f64, state: &[f64], values: &mut [f64]) {
         let (q, v) = state.split_at(self.system.dof());
         let mut k = 0;
-        for element in self.system.elements() {
+        for (e, element) in self.system.elements().iter().enumerate() {
             let contacts = element.law.contacts();
             if contacts.is_empty() {
                 continue;
@@ -221,7 +287,7 @@ impl VectorField for SystemField<'_> {
                 values[k] = contact.sign * (r - contact.level);
                 k += 1;
             }
-            if let Some(pressure) = element.law.pressure() {
+            if let Some(pressure) = self.laws[e].pressure() {
                 let rate = contacts[0].sign * self.relative_velocity(element, v, phase);
                 values[k] = pressure.at(values[k - 1], rate);
                 k += 1;
@@ -284,31 +350,31 @@ fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64]
 }
 
 /// Force of an element whose contacts are held closed or open.
-pub(super) fn force_in_region(element: &LocalElement, (r, speed): (f64, f64), inside: &[bool]) -> Force {
-    let contacts = element.law.contacts();
+pub(super) fn force_in_region(law: &Law, (r, speed): (f64, f64), inside: &[bool]) -> Force {
+    let contacts = law.contacts();
     if contacts.is_empty() {
-        return element.law.force(r, speed);
+        return law.force(r, speed);
     }
-    if element.law.depends_on_velocity() {
+    if law.depends_on_velocity() {
         let presses = inside.iter().all(|inside| *inside);
-        return if presses { element.law.pressing_force(r, speed) } else { Force::ZERO };
+        return if presses { law.pressing_force(r, speed) } else { Force::ZERO };
     }
     let penetration = |contact: &Contact| contact.sign * (r - contact.level);
     let closed = contacts.iter().zip(inside).filter(|(_, inside)| **inside).map(|(contact, _)| contact);
     match closed.max_by(|a, b| penetration(a).total_cmp(&penetration(b))) {
         None => Force::ZERO,
-        Some(contact) if penetration(contact) > 0.0 => element.law.force(r, speed),
-        Some(contact) => continued_force(element, r, contact),
+        Some(contact) if penetration(contact) > 0.0 => law.force(r, speed),
+        Some(contact) => continued_force(law, r, contact),
     }
 }
 
 /// The tangent of the law at the level of a contact, where the law itself has ended.
-fn continued_force(element: &LocalElement, r: f64, contact: &Contact) -> Force {
+fn continued_force(law: &Law, r: f64, contact: &Contact) -> Force {
     if contact.onset_exponent > 1.0 {
         return Force::ZERO;
     }
     let beyond = contact.level + contact.sign * (1e-9 * contact.level.abs() + 1e-12);
-    let slope = element.law.force(beyond, 0.0).slope;
+    let slope = law.force(beyond, 0.0).slope;
     Force { value: slope * (r - contact.level), slope, damping: 0.0 }
 }
 

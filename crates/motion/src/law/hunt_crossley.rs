@@ -48,9 +48,10 @@ impl HuntCrossleyStop {
         damped_hertz(&self.elastic, 1.5 * self.loss, displacement, velocity)
     }
 
-    /// `2/(3 a) + p'`.
+    /// `1 + 3/2 a p'`.
     pub(super) fn pressure(&self) -> Option<Pressure> {
-        pressure_of(1.5 * self.loss)
+        let velocity = 1.5 * self.loss;
+        (velocity > 0.0).then_some(Pressure { displacement: 0.0, velocity, offset: 1.0 })
     }
 
     pub(super) fn contacts(&self) -> &[Contact] {
@@ -63,10 +64,4 @@ pub(super) fn damped_hertz(elastic: &HertzStop, factor: f64, displacement: f64, 
     let force = elastic.force(displacement);
     let share = 1.0 + factor * velocity;
     Force { value: force.value * share, slope: force.slope * share, damping: force.value * factor }
-}
-
-/// `1/factor + p'`.
-pub(super) fn pressure_of(factor: f64) -> Option<Pressure> {
-    let offset = factor.recip();
-    offset.is_finite().then_some(Pressure { displacement: 0.0, velocity: 1.0, offset })
 }

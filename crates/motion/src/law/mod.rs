@@ -7,18 +7,20 @@
 //! `s > 0`, else zero: contact is where there is penetration and [`Pressure`] `s`. Where the pressure vanishes first, the surfaces have parted
 //! although there is penetration left by the numbers (the surface does not follow): the contact has *parted*, and presses again if the pressure comes back.
 //! The force is continuous where the pressure vanishes. Where the penetration begins it is continuous too, or, for a damper, jumps by
-//! `-c p'`, see [`Law::onset_damping`].
+//! `-c p'`, see [`Law::onset_damping`]. Some laws remember the speed with which the present contact began ([`Law::remembers_impact`]).
 
 mod cubic;
 mod hertz;
 mod hunt_crossley;
 mod linear;
+mod restitution;
 mod two_sided;
 
 pub use cubic::CubicSpring;
 pub use hertz::HertzStop;
 pub use hunt_crossley::HuntCrossleyStop;
 pub use linear::LinearStop;
+pub use restitution::{RestitutionModel, RestitutionStop};
 pub use two_sided::TwoSidedStop;
 
 /// Why a law cannot be built from its parameters.
@@ -41,6 +43,13 @@ pub enum LawError {
     #[error("damping is {found}, must be finite and not negative")]
     #[expect(missing_docs, reason = "the message names its fields")]
     Damping { found: f64 },
+    /// Coefficients of restitution are positive and at most one.
+    #[error("coefficient of restitution is {found}, must be more than 0 and at most 1")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Restitution { found: f64 },
+    /// A law that remembers how fast its contact began cannot be closed from the outset.
+    #[error("the stop presses at rest, but its law needs the speed with which a contact begins")]
+    MemoryOfPreload,
 }
 
 /// Force of a law and its derivatives.
@@ -101,6 +110,8 @@ pub enum Law {
     Hertz(HertzStop),
     /// Sphere on sphere, losing energy, after Hunt and Crossley.
     HuntCrossley(HuntCrossleyStop),
+    /// Sphere on sphere, with a coefficient of restitution; remembers the speed of its impact.
+    Restitution(RestitutionStop),
     /// One-sided linear spring.
     Linear(LinearStop),
     /// Linear springs on both sides of a clearance.
@@ -116,6 +127,7 @@ impl Law {
         match self {
             Self::Hertz(law) => law.force(displacement),
             Self::HuntCrossley(law) => law.force(displacement, velocity),
+            Self::Restitution(law) => law.force(displacement, velocity),
             Self::Linear(law) => law.force(displacement, velocity),
             Self::TwoSided(law) => law.force(displacement),
             Self::Cubic(law) => law.force(displacement),
@@ -127,6 +139,7 @@ impl Law {
     pub(crate) fn pressing_force(&self, displacement: f64, velocity: f64) -> Force {
         match self {
             Self::HuntCrossley(law) => law.pressing_force(displacement, velocity),
+            Self::Restitution(law) => law.pressing_force(displacement, velocity),
             Self::Linear(law) if law.damping() > 0.0 => law.pressing_force(displacement, velocity),
             _ => self.force(displacement, velocity),
         }
@@ -137,6 +150,7 @@ impl Law {
     pub fn pressure(&self) -> Option<Pressure> {
         match self {
             Self::HuntCrossley(law) => law.pressure(),
+            Self::Restitution(law) => Some(law.pressure()),
             Self::Linear(law) => law.pressure(),
             Self::Hertz(_) | Self::TwoSided(_) | Self::Cubic(_) => None,
         }
@@ -146,6 +160,31 @@ impl Law {
     #[must_use]
     pub fn depends_on_velocity(&self) -> bool {
         self.pressure().is_some()
+    }
+
+    /// Whether the force depends on the speed with which the present contact began, so that a contact has to be followed from its beginning.
+    #[must_use]
+    pub fn remembers_impact(&self) -> bool {
+        matches!(self, Self::Restitution(_))
+    }
+
+    /// The law in a contact that began with that speed [m/s]; as built, a law that remembers loses nothing.
+    #[must_use]
+    pub fn struck_at(&self, impact_speed: f64) -> Self {
+        match self {
+            Self::Restitution(law) => Self::Restitution(law.struck_at(impact_speed)),
+            law => *law,
+        }
+    }
+
+    /// Whether the law knows how its contact began, if it needs to.
+    pub(crate) fn is_struck(&self) -> bool {
+        if let Self::Restitution(law) = self { law.is_struck() } else { true }
+    }
+
+    /// Derivative of the force of a pressing contact by the speed with which it began.
+    pub(crate) fn by_impact_speed(&self, displacement: f64, velocity: f64) -> f64 {
+        if let Self::Restitution(law) = self { law.by_impact_speed(displacement, velocity) } else { 0.0 }
     }
 
     /// The constant c [N s/m] of the force `-c r'` with which a contact begins; 0 where the force is continuous.
@@ -168,6 +207,7 @@ impl Law {
         match self {
             Self::Hertz(law) => law.contacts(),
             Self::HuntCrossley(law) => law.contacts(),
+            Self::Restitution(law) => law.contacts(),
             Self::Linear(law) => law.contacts(),
             Self::TwoSided(law) => law.contacts(),
             Self::Cubic(_) => &[],
@@ -180,6 +220,7 @@ impl Law {
         match self {
             Self::Hertz(law) => law.stiffness(),
             Self::HuntCrossley(law) => law.stiffness(),
+            Self::Restitution(law) => law.elastic().stiffness(),
             Self::Linear(law) => law.stiffness(),
             Self::TwoSided(law) => law.stiffness(),
             Self::Cubic(law) => law.stiffness(),
@@ -202,6 +243,9 @@ impl Law {
         Ok(match self {
             Self::Hertz(law) => Self::Hertz(law.with_stiffness(stiffness)?),
             Self::HuntCrossley(law) => Self::HuntCrossley(law.with_stiffness(stiffness)?),
+            Self::Restitution(law) => {
+                Self::Restitution(law.with_elastic(law.elastic().with_stiffness(stiffness)?))
+            }
             Self::Linear(law) => Self::Linear(law.with_stiffness(stiffness)?),
             Self::TwoSided(law) => Self::TwoSided(law.with_stiffness(stiffness)?),
             Self::Cubic(_) => Self::Cubic(CubicSpring::new(stiffness)?),
@@ -219,6 +263,9 @@ impl Law {
                 HertzStop::with_gap(law.stiffness(), gap)?,
                 law.loss(),
             )?),
+            Self::Restitution(law) => {
+                Self::Restitution(law.with_elastic(HertzStop::with_gap(law.elastic().stiffness(), gap)?))
+            }
             Self::Linear(law) => {
                 Self::Linear(LinearStop::with_gap(law.stiffness(), gap)?.with_damping(law.damping())?)
             }
