@@ -10,7 +10,7 @@ use faer::Mat;
 use hammerbeam_motion::{
     Flow, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
-    general::{GeneralError, GeneralSettings, advance, sample},
+    general::{GeneralError, GeneralSettings, advance, observe, sample},
     law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop},
 };
 
@@ -343,5 +343,123 @@ fn a_stretch_that_starts_in_a_contact_with_memory_is_refused() {
     let scale = whole[6..].iter().fold(0.0_f64, |scale, v| scale.max(v.abs()));
     for i in 6..12 {
         assert!((whole[i] - state[i]).abs() < 1e-6 * scale, "{} {}", whole[i], state[i]);
+    }
+}
+
+/// What a bounce tells: `(m v^2/2) (1 - e^2)` is lost, the impulse is `m v (1 + e)`, and the force of the damper is largest at once if it is heavy.
+#[test]
+fn records_of_a_bounce_are_those_of_its_speeds() {
+    let (mass, speed) = (0.3, 0.7);
+    for law in [
+        damped(2e4, 10.0, 0.0),
+        damped(2e4, 400.0, 0.0),
+        hunt_crossley(1e8, 0.5, 0.0),
+        restitution(1e8, RestitutionModel::Flores, 0.4, 0.0),
+        common::hertz(1e8, 0.0),
+    ] {
+        let bounce = Bounce::new(mass, law);
+        let (_, e) = bounce.restitution(speed, 0.2);
+        let start = [-1e-3 * mass.sqrt(), speed * mass.sqrt()];
+        let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.3 };
+        let mut exact = integrator(&bounce.system);
+        let (_, maxima, records) = exact.observe_contacts(&stretch, &start).unwrap();
+        let [record] = records[..] else { panic!("{law:?}: {} contacts", records.len()) };
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-9 * expected.abs().max(1e-2);
+        let lost = 0.5 * mass * speed * speed * (1.0 - e * e);
+        assert!(near(record.energy_lost, lost), "{law:?}: {} against {lost}", record.energy_lost);
+        assert!(near(record.impulse, mass * speed * (1.0 + e)), "{law:?}: {}", record.impulse);
+        assert!(near(record.begin.unwrap(), 1e-3 / speed) && near(record.impact_velocity.unwrap(), speed));
+        assert!(record.end.unwrap() > record.begin.unwrap() && record.end.unwrap() < 0.3);
+        assert_eq!(record.peak_force, maxima.contact_force);
+        assert_eq!((record.energy_lost, record.impulse), (maxima.energy_lost, maxima.impulse));
+        if law == damped(2e4, 400.0, 0.0) {
+            assert!(near(record.peak_force, 400.0 * speed), "{}", record.peak_force);
+        }
+    }
+    // Cut in the middle of the contact, the pieces add up.
+    let bounce = Bounce::new(mass, damped(2e4, 10.0, 0.0));
+    let mut exact = integrator(&bounce.system);
+    let start = [0.0, speed * mass.sqrt()];
+    let piece = |start: f64, end: f64| Stretch { frequency_hz: 1.0, start, end };
+    let (_, whole, _) = exact.observe_contacts(&piece(0.0, 0.1), &start).unwrap();
+    let (middle, first, records) = exact.observe_contacts(&piece(0.0, 5e-3), &start).unwrap();
+    assert_eq!((records[0].begin, records[0].end), (Some(0.0), None));
+    let (_, second, records) = exact.observe_contacts(&piece(5e-3, 0.1), &middle).unwrap();
+    assert_eq!(records[0].begin, None);
+    assert!((first.energy_lost + second.energy_lost - whole.energy_lost).abs() < 1e-10 * whole.energy_lost);
+}
+
+/// Both integrators see the same maxima.
+#[test]
+fn observations_agree() {
+    let laws = [
+        damped(1e5, 20.0, 0.0),
+        damped(1e5, 600.0, 0.0),
+        hunt_crossley(4.5e9, 0.6, 0.0),
+        restitution(4.5e9, RestitutionModel::LankaraniNikravesh, 0.7, 0.0),
+    ];
+    for law in laws {
+        let system = beam_with(0.015, law);
+        let shape = &system.model().points[0].shape.clone();
+        let state = settled(&system, 36.0, 80, 0.0);
+        let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
+        let settings = ExactSettings { tolerance: 1e-13 };
+        let mut exact = ExactIntegrator::watching(system.clone(), settings, Some((shape, 1.0))).unwrap();
+        let (_, found) = exact.observe(&stretch, &state).unwrap();
+        let expected =
+            observe(&system, &stretch, &state, (shape, 1.0), &GeneralSettings::with_tolerance(1e-12))
+                .unwrap();
+        for (what, found, expected) in [
+            ("displacement", found.displacement, expected.displacement),
+            ("acceleration", found.acceleration, expected.acceleration),
+            ("force", found.contact_force, expected.contact_force),
+            ("impact", found.impact_velocity, expected.impact_velocity),
+            ("impulse", found.impulse, expected.impulse),
+        ] {
+            // Maxima of forces and accelerations are located to some 1e-5 of a step, where they are flat.
+            assert!((found / expected - 1.0).abs() < 1e-8, "{law:?}, {what}: {found} against {expected}");
+        }
+        assert_eq!(found.touches, expected.touches);
+    }
+}
+
+/// A mass on a spring that just reaches the stop, by a depth that goes down to nothing: contacts of any depth end, and do next to nothing. With a damper
+/// the fundamental matrix jumps by `c` in the rate that the depth has, as the saltation matrix says.
+#[test]
+fn grazing_contacts_of_any_depth_come_to_their_end() {
+    let (omega, gap) = (100.0, 1e-3);
+    let laws = [
+        damped(1e5, 20.0, gap),
+        damped(1e5, 2000.0, gap),
+        hunt_crossley(1e8, 5.0, gap),
+        restitution(1e8, RestitutionModel::Gonthier, 0.2, gap),
+    ];
+    for law in laws {
+        let system =
+            System::new(model(&[omega], diagonal(&[0.2])), &Load::default(), vec![element(&[1.0], 0.0, law)])
+                .unwrap();
+        let mut exact = integrator(&system);
+        for exponent in 3..60 {
+            for part in [1.0, 0.7, 0.3] {
+                let depth = gap * part * 10f64.powf(-0.3 * f64::from(exponent));
+                // Half a period before the largest displacement, without the little that the damping takes.
+                let state = [-(gap + depth) * (0.1 * std::f64::consts::PI / omega).exp(), 0.0];
+                let stretch = Stretch { frequency_hz: omega / std::f64::consts::TAU, start: 0.0, end: 1.0 };
+                let what = format!("{law:?}, depth {depth:e}");
+                let flow = exact.flow(&stretch, &state).unwrap_or_else(|error| panic!("{what}: {error}"));
+                assert!(flow.state[0] < 0.0 && flow.state[0] > 1.0001 * state[0], "{what}: {:?}", flow.state);
+                if depth < 1e-12 {
+                    // `c` at the touch, turned round and damped over the half period that follows; the contact itself takes less than a microsecond.
+                    let jump = law.onset_damping();
+                    let decay = (-0.2 * std::f64::consts::PI / omega).exp();
+                    let expected = if exact.touches()[0] > 0 { -decay * jump } else { 0.0 };
+                    let found = flow.by_state[(1, 0)];
+                    assert!(
+                        (found - expected).abs() < 1e-2 * jump + 0.1,
+                        "{what}: {found} against {expected}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -62,6 +62,11 @@ impl ExactIntegrator {
             self.guess(run);
         }
         let margin = self.step.active.iter().map(|&e| run.start[e].margin).fold(0.0, f64::max);
+        if self.step.damped {
+            let speeds = self.step.active.iter().map(|&e| run.start[e].velocity);
+            let rate_margin = 8.0 * f64::EPSILON * speeds.fold(0.0, f64::max);
+            return self.step.solve_damped(&self.laws, (margin, rate_margin, precision)).ok();
+        }
         self.step.solve(&self.laws, (margin, precision), again && change.abs() < NEARLY_THE_SAME).ok()
     }
 

@@ -24,15 +24,17 @@ use super::{
 use crate::{Law, Parameter};
 
 impl ForceStep {
-    /// Solves for displacements and velocities from the guess of them.
+    /// Solves for displacements and velocities from the guess of them, until what is left is below `precision` times their range and size, or
+    /// corrections below their roundings.
     pub(super) fn solve_damped(
         &mut self,
         laws: &[Law],
-        (rounding, precision): (f64, f64),
+        (rounding, rate_rounding, precision): (f64, f64, f64),
     ) -> Result<(), NotSolved> {
         let size = self.free.len();
-        self.damping.resize(size, 0.0);
-        let mut previous = f64::NAN;
+        for values in [&mut self.force, &mut self.slope, &mut self.damping, &mut self.correction] {
+            values.resize(size, 0.0);
+        }
         for _ in 0..MAX_ITERATIONS {
             self.evaluate_damped(laws);
             let (gap, gap_rate) = (self.gap(&self.weights.convolution, &self.free, &self.displacement), {
@@ -43,7 +45,7 @@ impl ForceStep {
             }
             self.factorise_damped()?;
             self.solve_correction();
-            let (mut part, mut largest) = (0.0_f64, 0.0_f64);
+            let mut part = 0.0_f64;
             let moved = self.response(&self.weights.convolution);
             let moved_rate = self.response(&self.weights.velocity_convolution);
             for a in 0..self.active.len() {
@@ -59,21 +61,22 @@ impl ForceStep {
                     range = range.max((self.displacement[i] - self.displacement[nodes.start]).abs());
                     speed = speed.max(self.velocity[i].abs());
                 }
-                largest = largest.max(change);
-                part = part.max(change / range).max(change_rate / speed);
+                let beyond = |change: f64, rounding: f64, size: f64| {
+                    if change <= rounding { 0.0 } else { change / size }
+                };
+                let parts = [beyond(change, rounding, range), beyond(change_rate, rate_rounding, speed)];
+                part = parts
+                    .iter()
+                    .fold(part, |part, other| if other.is_nan() { f64::NAN } else { part.max(*other) });
             }
             if !part.is_finite() {
                 return Err(NotSolved);
             }
             // Every matrix is fresh: what is left is about the square of this correction.
-            if part * part <= precision
-                || part <= 4.0 * f64::EPSILON
-                || stalled(part, previous, largest <= rounding)
-            {
+            if part * part <= precision {
                 self.evaluate_damped(laws);
                 return Ok(());
             }
-            previous = part;
         }
         Err(NotSolved)
     }
@@ -222,9 +225,4 @@ fn products(weights: &[NodeMatrix], force: &[f64], count: usize) -> Vec<f64> {
         }
     }
     sums
-}
-
-/// Whether corrections are at rounding: no longer smaller than the last one, and of the size of the margin.
-fn stalled(part: f64, previous: f64, within_margin: bool) -> bool {
-    within_margin && part >= 0.5 * previous && part < 1e-9
 }

@@ -85,7 +85,8 @@ impl ExactIntegrator {
             let distance = self.distance_at_end(run, event);
             let change = time_to_zero(distance, length)?;
             let fine = precision < COARSE;
-            if fine && change.abs() <= accuracy * length {
+            let undecided = self.pressure_rounding(run, event) / distance.slope.abs();
+            if fine && change.abs() <= (accuracy * length).max(undecided) {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
             if fine && length == remaining && change > 0.0 {
@@ -120,15 +121,24 @@ impl ExactIntegrator {
         let exponent = self.exponent_of(run, Event::Touch(touch));
         let length = self.step.weights.length;
         let speed = self.distance(self.jet_at_step_end(run, touch.element), touch).slope.abs();
-        let margin = match (touch.boundary, self.laws[touch.element].pressure()) {
-            (Boundary::Presses, Some(pressure)) => {
-                let rates = 8.0 * f64::EPSILON * run.start[touch.element].velocity;
-                pressure.displacement * run.start[touch.element].margin + pressure.velocity * rates
-            }
-            _ => run.start[touch.element].margin,
-        };
+        let margin = run.start[touch.element].margin.max(self.pressure_rounding(run, Event::Touch(touch)));
         let rounding = (8.0 * margin / speed).min(length);
         (10.0 * self.location_accuracy(exponent)).max(1e-9) * length + rounding
+    }
+
+    /// What rounding leaves undecided of a pressure that vanishes or comes back; 0 at other events, whose distances are displacements.
+    fn pressure_rounding(&self, run: &Run, event: Event) -> f64 {
+        let of_pressure = match event {
+            Event::Part(_) => true,
+            Event::Touch(touch) => touch.boundary == Boundary::Presses,
+            Event::Release(_) => false,
+        };
+        let pressure = self.laws[event.element()].pressure().filter(|_| of_pressure);
+        let start = run.start[event.element()];
+        pressure.map_or(0.0, |pressure| {
+            pressure.displacement * start.margin
+                + 8.0 * f64::EPSILON * (pressure.velocity * start.velocity + pressure.offset)
+        })
     }
 
     /// Exponent with which the force sets in or ends at an event: where the pressure vanishes or comes back, linearly.
@@ -223,8 +233,10 @@ impl ExactIntegrator {
             }
         });
         let deepest = distance.iter().fold(0.0_f64, |deepest, d| deepest.max(d.abs()));
-        let start = run.start[event.element()];
-        let rounding = if matches!(event, Event::Part(_)) { 1e-14 * deepest } else { start.margin };
+        let rounding = match event {
+            Event::Part(_) => self.pressure_rounding(run, event),
+            _ => run.start[event.element()].margin,
+        };
         let s = first_below(&rule.bernstein(&distance), rule.s[0], 1e-9 * deepest + rounding)?;
         Some(self.step.grading().map(s).0 * self.step.weights.length)
     }

@@ -166,7 +166,8 @@ impl ExactIntegrator {
     /// Notes that an open contact closes.
     fn strike(&mut self, run: &mut Run, touch: Touch) {
         if let Some(mut observation) = self.observation.take() {
-            observation.touch(self.output_jet(&run.state, touch.element, run.time).slope);
+            let speed = self.output_jet(&run.state, touch.element, run.time).slope;
+            observation.touch(touch, run.time, speed);
             self.observation = Some(observation);
         }
         self.jump_at_onset(run, touch);

@@ -9,7 +9,9 @@
 use super::{
     ExactIntegrator, MotionError,
     collocation::{FINE, Grading, NODES},
+    flight::Touch,
     flight_maximum::Flown,
+    record::{ContactRecord, Recorder},
     run::Run,
 };
 use crate::{Law, Stretch};
@@ -27,6 +29,8 @@ pub struct Maxima {
     pub impact_velocity: f64,
     /// Sum of the impulses of all contacts [N s].
     pub impulse: f64,
+    /// Energy that the structure has lost to all contacts [J], as in [`ContactRecord::energy_lost`].
+    pub energy_lost: f64,
     /// Number of contacts that closed.
     pub touches: u32,
     /// Elements that were closed all the time, one bit each (the first 64).
@@ -43,6 +47,7 @@ impl Maxima {
             contact_force: self.contact_force.max(later.contact_force),
             impact_velocity: self.impact_velocity.max(later.impact_velocity),
             impulse: self.impulse + later.impulse,
+            energy_lost: self.energy_lost + later.energy_lost,
             touches: self.touches + later.touches,
             closed_throughout: self.closed_throughout & later.closed_throughout,
         }
@@ -66,6 +71,8 @@ pub(crate) struct Observation {
     farthest: Peaks,
     /// and of the force of elements with a contact.
     hardest: Peaks,
+    /// One record for each contact, if wanted.
+    recorder: Option<Recorder>,
 }
 
 /// Force steps that may hold the largest value.
@@ -96,7 +103,7 @@ impl Peaks {
 
 /// A force step with a large value of an output, as far as its polynomial tells.
 #[derive(Debug, Clone)]
-struct Peak {
+pub(super) struct Peak {
     output: usize,
     /// The largest value, by the polynomial.
     value: f64,
@@ -113,6 +120,13 @@ struct Peak {
     force: Vec<f64>,
 }
 
+impl Peak {
+    /// The largest value, by the polynomial.
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+}
+
 /// Parabolas by which the largest value of a polynomial is closed in.
 const PARABOLAS: usize = 6;
 /// Steps of Newton's method to the place of a largest displacement.
@@ -126,7 +140,10 @@ impl Observation {
         self.flights.push(Flown { start, duration, state: state.to_vec() });
     }
 
-    pub fn touch(&mut self, speed: f64) {
+    pub fn touch(&mut self, touch: Touch, time: f64, speed: f64) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.strike(touch, time, speed);
+        }
         self.maxima.touches += 1;
         self.maxima.impact_velocity = self.maxima.impact_velocity.max(speed.abs());
     }
@@ -138,25 +155,43 @@ impl ExactIntegrator {
     /// # Errors
     /// See [`MotionError`].
     pub fn observe(&mut self, stretch: &Stretch, state: &[f64]) -> Result<(Vec<f64>, Maxima), MotionError> {
-        let mut observation = Observation::default();
+        let (end, maxima, _) = self.observe_with(stretch, state, Observation::default())?;
+        Ok((end, maxima))
+    }
+
+    /// [`ExactIntegrator::observe`], with a record of each contact, in the order in which they begin.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn observe_contacts(
+        &mut self,
+        stretch: &Stretch,
+        state: &[f64],
+    ) -> Result<(Vec<f64>, Maxima, Vec<ContactRecord>), MotionError> {
+        let recording = Observation { recorder: Some(Recorder::default()), ..Observation::default() };
+        self.observe_with(stretch, state, recording)
+    }
+
+    fn observe_with(
+        &mut self,
+        stretch: &Stretch,
+        state: &[f64],
+        mut observation: Observation,
+    ) -> Result<(Vec<f64>, Maxima, Vec<ContactRecord>), MotionError> {
         let mut run = self.begin(stretch, state, false);
         observation.maxima.closed_throughout = closed_bits(&run);
         self.observation = Some(observation);
         let result = self.complete(&mut run, stretch);
         let end = self.modal_state(&run, stretch.duration());
         let mut observation = self.observation.take().unwrap_or_default();
-        self.run = run;
         self.remember_end(stretch, &end);
+        let recorder = observation.recorder.take().unwrap_or_default();
+        let records = if result.is_ok() { self.finish_records(&run, recorder) } else { Vec::new() };
+        self.run = run;
         result?;
         let Observation { maxima, fastest, farthest, hardest, .. } = &mut observation;
         for peak in std::mem::take(&mut hardest.peaks) {
-            let law = self.laws[peak.output];
-            let force = if law.depends_on_velocity() {
-                self.exact_force(peak)
-            } else {
-                self.exact_extremum(peak, |displacement| law.force(displacement, 0.0).value.abs())
-            };
-            maxima.contact_force = maxima.contact_force.max(force);
+            maxima.contact_force = maxima.contact_force.max(self.largest_force(peak));
         }
         for peak in std::mem::take(&mut farthest.peaks) {
             maxima.displacement = maxima.displacement.max(self.exact_extremum(peak, f64::abs));
@@ -173,7 +208,7 @@ impl ExactIntegrator {
                 observation.maxima.acceleration = self.flight_maximum(flown, 2, best);
             }
         }
-        Ok((end, observation.maxima))
+        Ok((end, observation.maxima, records))
     }
 
     fn watches(&self) -> bool {
@@ -191,7 +226,12 @@ impl ExactIntegrator {
             }
             let force = &step.force[a * NODES..(a + 1) * NODES];
             let impulse: f64 = (0..NODES).map(|j| rule.at_end[0][j] * force[j]).sum();
-            observation.maxima.impulse += (impulse * step.weights.length).abs();
+            let impulse = (impulse * step.weights.length).abs();
+            observation.maxima.impulse += impulse;
+            observation.maxima.energy_lost += self.energy_taken(a);
+            if let Some(recorder) = &mut observation.recorder {
+                self.record_step(run, a, impulse, recorder);
+            }
             if let Some(largest) = self.largest(force, observation.hardest.bar()) {
                 observation.hardest.note(self.peak(run, element, largest));
             }
@@ -212,7 +252,7 @@ impl ExactIntegrator {
     }
 
     /// The solved step, whose polynomial has this largest value at this place.
-    fn peak(&self, run: &Run, output: usize, (value, place): (f64, f64)) -> Peak {
+    pub(super) fn peak(&self, run: &Run, output: usize, (value, place): (f64, f64)) -> Peak {
         Peak {
             output,
             value,
@@ -257,9 +297,13 @@ impl ExactIntegrator {
         largest
     }
 
-    /// The largest force of a law that depends on the velocity once more: the polynomial tells where it is.
-    fn exact_force(&mut self, peak: Peak) -> f64 {
+    /// The largest force once more: at the extremum of the displacement; where the law depends on the velocity, at the place that the polynomial tells.
+    pub(super) fn largest_force(&mut self, peak: Peak) -> f64 {
         let element = peak.output;
+        let law = self.laws[element];
+        if !law.depends_on_velocity() {
+            return self.exact_extremum(peak, |displacement| law.force(displacement, 0.0).value.abs());
+        }
         let (state, time) = self.recall(peak);
         let jet = self.jet_in_step(&state, element, time);
         self.laws[element].pressing_force(jet.value, jet.slope).value.abs()
@@ -304,7 +348,7 @@ impl ExactIntegrator {
 
     /// Largest magnitude of a polynomial given at the nodes of the solved step, and where in its variable; `None` if it is not above
     /// `best`.
-    fn largest(&self, values: &[f64], best: f64) -> Option<(f64, f64)> {
+    pub(super) fn largest(&self, values: &[f64], best: f64) -> Option<(f64, f64)> {
         if values.iter().all(|value| value.abs() * BETWEEN_NODES <= best) {
             return None;
         }

@@ -20,7 +20,7 @@
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs` | the column of a parameter |
-//! | `maxima.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `maxima.rs`, `record.rs`, `sampling.rs` | maxima on the continuous motion, a record of each contact, reading inside a step |
 
 mod attempt;
 mod block;
@@ -48,6 +48,7 @@ mod output;
 mod plane;
 mod polynomial;
 mod quadrature;
+mod record;
 mod recurrence;
 mod run;
 mod sampling;
@@ -65,6 +66,7 @@ use std::collections::HashMap;
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
+pub use record::ContactRecord;
 
 use block::{Blocks, Propagator};
 use collocation::Grading;

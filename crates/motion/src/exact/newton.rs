@@ -34,9 +34,6 @@ impl ForceStep {
         self.force.resize(size, 0.0);
         self.slope.resize(size, 0.0);
         self.correction.resize(size, 0.0);
-        if self.damped {
-            return self.solve_damped(laws, (rounding, precision));
-        }
         self.evaluate(laws);
         if !again {
             self.improve_guess(laws);
