@@ -3,7 +3,7 @@
 
 mod common;
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use common::{assert_agreement, beam_with, diagonal, element, integrator, model, settled};
 use faer::Mat;
@@ -84,9 +84,9 @@ fn stretches_that_start_and_end_inside_contacts_agree() {
             if r > 0.0 {
                 let force = law.force(r, v).value;
                 if force < 0.0 {
-                    pressing += 1
+                    pressing += 1;
                 } else {
-                    parted += 1
+                    parted += 1;
                 }
                 assert_agreement(&system, &stretch, &state, BOUND, &format!("{law:?}, part {part}"));
             }
@@ -443,15 +443,15 @@ fn grazing_contacts_of_any_depth_come_to_their_end() {
             for part in [1.0, 0.7, 0.3] {
                 let depth = gap * part * 10f64.powf(-0.3 * f64::from(exponent));
                 // Half a period before the largest displacement, without the little that the damping takes.
-                let state = [-(gap + depth) * (0.1 * std::f64::consts::PI / omega).exp(), 0.0];
-                let stretch = Stretch { frequency_hz: omega / std::f64::consts::TAU, start: 0.0, end: 1.0 };
+                let state = [-(gap + depth) * (0.1 * PI / omega).exp(), 0.0];
+                let stretch = Stretch { frequency_hz: omega / TAU, start: 0.0, end: 1.0 };
                 let what = format!("{law:?}, depth {depth:e}");
                 let flow = exact.flow(&stretch, &state).unwrap_or_else(|error| panic!("{what}: {error}"));
                 assert!(flow.state[0] < 0.0 && flow.state[0] > 1.0001 * state[0], "{what}: {:?}", flow.state);
                 if depth < 1e-12 {
                     // `c` at the touch, turned round and damped over the half period that follows; the contact itself takes less than a microsecond.
                     let jump = law.onset_damping();
-                    let decay = (-0.2 * std::f64::consts::PI / omega).exp();
+                    let decay = (-0.2 * PI / omega).exp();
                     let expected = if exact.touches()[0] > 0 { -decay * jump } else { 0.0 };
                     let found = flow.by_state[(1, 0)];
                     assert!(
