@@ -29,7 +29,7 @@ impl System {
         motion
     }
 
-    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion.
+    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion. A law that remembers its impact is taken without loss: a state does not tell it.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
     #[must_use]

@@ -102,6 +102,7 @@ impl ExactIntegrator {
         self.system.set_parameter(parameter, value)?;
         self.laws.clear();
         self.laws.extend(self.system.elements().iter().map(|element| element.law));
+        self.memory = None;
         for neighbour in self.neighbours.iter_mut().flat_map(|n| &mut n.integrators) {
             neighbour.set_parameter(parameter, value)?;
         }

@@ -26,6 +26,7 @@ use crate::{Law, Parameter};
 impl ForceStep {
     /// Solves for displacements and velocities from the guess of them, until what is left is below `precision` times their range and size, or
     /// corrections below their roundings.
+    #[inline(never)]
     pub(super) fn solve_damped(
         &mut self,
         laws: &[Law],
@@ -140,6 +141,7 @@ impl ForceStep {
     }
 
     /// Solves for the sensitivities of the forces.
+    #[inline(never)]
     pub(super) fn solve_damped_sensitivity(
         &mut self,
         drive: &Drive,

@@ -101,6 +101,7 @@ impl ForceStep {
     }
 
     /// The same for the velocities.
+    #[inline(never)]
     fn set_free_velocity(&mut self, series: &Series, drive: &Drive, outputs: &[Output], state: &[f64]) {
         self.free_velocity.clear();
         for (a, &e) in self.active.iter().enumerate() {

@@ -2,7 +2,7 @@
 //!
 //! A state `[q; q']` within such a contact does not tell how the contact began, so a stretch that starts there is refused. One exception: states alone
 //! (without sensitivities) go on over the end of the stretch before, if they start with exactly the state, to the last bit, and at the phase in
-//! which that ended. So motion is followed period by period. Sensitivities would have to begin with those of the remembered speed, which a fundamental matrix
+//! which that ended, and no parameter was changed in between. So motion is followed period by period. Sensitivities would have to begin with those of the remembered speed, which a fundamental matrix
 //! over `[q; q']` does not carry: an orbit has to be cut where the contact is open.
 
 use super::{ExactIntegrator, MotionError, run::Run};

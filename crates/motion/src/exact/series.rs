@@ -170,14 +170,29 @@ impl Series {
                 let target = convolution.as_flattened_mut();
                 let source = at_nodes.as_flattened().as_flattened();
                 add_products(target, source, NODES * NODES, |_| weights[..terms].iter().copied());
-                let Some(convolution) = into.velocity_convolution.get_mut(a * active.len() + b) else {
-                    continue;
-                };
-                let rates = factors.iter().zip(&markov[1..]).map(|(factor, m)| factor * m * self.rate);
-                convolution.fill([0.0; NODES]);
-                let target = convolution.as_flattened_mut();
-                add_products(target, source, NODES * NODES, |_| rates.clone().take(terms));
             }
+        }
+        if velocity {
+            self.prepare_velocities(active, grading, &factors[..terms], into);
+        }
+    }
+
+    /// `W'` of a step.
+    #[inline(never)]
+    fn prepare_velocities(
+        &self,
+        active: &[usize],
+        grading: Grading,
+        factors: &[f64],
+        into: &mut StepWeights,
+    ) {
+        let source = grading.rule().at_nodes[..factors.len()].as_flattened().as_flattened();
+        for (place, convolution) in into.velocity_convolution.iter_mut().enumerate() {
+            let (e, f) = (active[place / active.len()], active[place % active.len()]);
+            let markov = &self.markov[e * self.columns.len() + f][1..];
+            let rates = factors.iter().zip(markov).map(|(factor, m)| factor * m * self.rate);
+            convolution.fill([0.0; NODES]);
+            add_products(convolution.as_flattened_mut(), source, NODES * NODES, |_| rates.clone());
         }
     }
 
@@ -196,10 +211,24 @@ impl Series {
             let (rows, columns) = &self.entries[e];
             sum_powers(rows, &powers, &rule.powers, &needed, &mut step.rows[a]);
             sum_powers(columns, &factors, &rule.at_end, &needed, &mut step.to_state[a]);
-            if let Some(rows) = step.velocity_rows.get_mut(a) {
-                sum_powers(&self.velocity_entries[e], &powers, &rule.powers, &needed, rows);
-                rows.iter_mut().for_each(|entry| *entry *= self.rate);
-            }
+        }
+        if velocity {
+            self.complete_velocities(active, grading, (&powers, &needed), step);
+        }
+    }
+
+    /// `X'` of a step.
+    #[inline(never)]
+    fn complete_velocities(
+        &self,
+        active: &[usize],
+        grading: Grading,
+        (powers, needed): (&[f64; TERMS], &[usize]),
+        step: &mut StepWeights,
+    ) {
+        for (rows, &e) in step.velocity_rows.iter_mut().zip(active) {
+            sum_powers(&self.velocity_entries[e], powers, &grading.rule().powers, needed, rows);
+            rows.iter_mut().for_each(|entry| *entry *= self.rate);
         }
     }
 
