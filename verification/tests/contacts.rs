@@ -99,7 +99,7 @@ impl Sampler<'_> {
         let read = |row: &[f64], part: &[f64]| row.iter().zip(part).map(|(a, b)| a * b).sum::<f64>();
         let level = element.law.contacts()[0].level;
         let relative = read(&element.shape, q);
-        let force = element.law.force(relative).value;
+        let force = element.law.force(relative, 0.0).value;
         let omega = TAU * self.orbit.frequency_hz;
         let u = self.rig.system.support_amplitudes()[0].re * (TAU * phase).cos();
         let inertia = &model.support.as_ref().unwrap().inertia;

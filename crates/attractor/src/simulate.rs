@@ -24,6 +24,8 @@ pub struct Sample {
     pub phase: f64,
     /// `[q; q']`, length 2n.
     pub state: Vec<f64>,
+    /// Forces of the local elements along their relative displacements [N].
+    pub forces: Vec<f64>,
 }
 
 /// A contact.
@@ -131,8 +133,13 @@ impl Simulation {
     pub fn period_at(&mut self, phases: &[f64]) -> Result<(Vec<Sample>, Vec<ContactRecord>), AttractorError> {
         let trace = self.integrator.trace(&self.stretch(), &self.state, phases)?;
         let begun = self.time();
-        let sample = |(&phase, state)| Sample { time: begun + phase / self.frequency_hz, phase, state };
-        let samples = phases.iter().zip(trace.samples).map(sample).collect();
+        let sample = |((&phase, state), forces)| Sample {
+            time: begun + phase / self.frequency_hz,
+            phase,
+            state,
+            forces,
+        };
+        let samples = phases.iter().zip(trace.samples).zip(trace.forces).map(sample).collect();
         let contacts = self.join(trace.contacts, begun);
         self.state = trace.state;
         self.periods += 1;

@@ -29,7 +29,7 @@ impl System {
         motion
     }
 
-    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion.
+    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion. A law that remembers its impact is taken without loss: a state does not tell it.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
     #[must_use]
@@ -45,10 +45,11 @@ impl System {
             let (load, turned) = (self.modal_load(index, TAU * frequency_hz), rotation(order, phase));
             (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * turned).re);
         }
-        let u = self.support_motion(frequency_hz, phase)[0];
+        let u = self.support_motion(frequency_hz, phase);
         for element in self.elements() {
-            let r = dot(&element.shape, q) + element.support_ratio * u;
-            let force = element.law.force(r).value;
+            let [r, speed] =
+                [(q, u[0]), (v, u[1])].map(|(z, u)| dot(&element.shape, z) + element.support_ratio * u);
+            let force = element.law.force(r, speed).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
         rate

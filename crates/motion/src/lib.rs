@@ -24,8 +24,13 @@
 //! matrix `1 - W f'`. The step resolves the force, whatever the highest mode. A Hertz force begins like `t^1.5`: in the graded variable
 //! `t = h s^2` it is smooth, so a contact takes a step up to its middle and one down to its release, whose time is part of the solution.
 //!
-//! **Sensitivities** `V` go through the same equations differentiated: `dr = (1 - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. The laws are
-//! continuous, so nothing jumps where a contact opens or closes. One further column can be the derivative by a [`Parameter`] `p` of the system. The
+//! **Laws that lose energy** depend on the relative velocity, too, which is known as exactly: `r'_k = r'_particular(t_k) + X'_k x + sum_l W'_kl F_l`, where `W'` and `X'` have
+//! `C A` in the place of C. Newton's matrix is `1 - f_r W - f_v W'`. Such a contact pushes or is idle: its force ends where the penetration or the
+//! pressure vanishes (`law`), which is an event of its own; a contact that has parted is watched, with the certified steps of a flight, for its pressure to come
+//! back. Some laws remember the speed v of the impact that began the present contact, with `dv = dr' - r'' dr/r'` at the touch.
+//!
+//! **Sensitivities** `V` go through the same equations differentiated: `dr = (1 - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. Where the force is continuous,
+//! nothing jumps as a contact opens or closes; where it begins with the jump `-c r'` of a damper, `V+ = (1 - c B C) V`. One further column can be the derivative by a [`Parameter`] `p` of the system. The
 //! particular solution is linear in the scale of the excitation; a gap shifts the argument of its law, `dr -> dr - 1`; a stiffness has the direct part
 //! `F/k` in `dF = f' (1 - W f')^-1 (X V + d r_particular + W F/k) + F/k`. The damping
 //! changes the system matrix by `dA` and so acts on the whole motion: `ds/dt = A s + dA x + ...`. Each part of x, the particular, the free and the
@@ -64,7 +69,10 @@
 //! ```
 //!
 //! # Limits
-//! Laws depend on the displacement alone, are continuous and have a continuous or a jumping slope: no friction, no damping in the contact, no rigid stop.
+//! No friction and no rigid stop. A stretch cannot start in a contact whose law remembers its impact, since a state `[q; q']` does not tell how the
+//! contact began; states alone go on from the stretch before (`exact`), flows with sensitivities do not. Such laws say nothing of a contact that is pressed on without
+//! an impact. Where such a contact closes in the very instant in which one with a damper does, the speed that it remembers has no derivative; that for
+//! one order of the two is given.
 
 pub mod exact;
 pub mod general;

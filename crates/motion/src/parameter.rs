@@ -49,6 +49,9 @@ pub enum ParameterError {
     /// Every mode keeps a damping that is not negative.
     #[error("an added damping ratio of {found} makes the damping of a mode negative or not finite")]
     DampingRatio { found: f64 },
+    /// The derivative by the damping of a force that depends on the velocity is not known.
+    #[error("{name} loses energy: there is no derivative by the damping with it")]
+    LossyLaw { name: String },
 }
 
 impl System {

@@ -164,6 +164,12 @@ impl System {
         &self.elements
     }
 
+    /// Whether an element has a law that remembers the speed of its impact, so that stretches start where its contact is open.
+    #[must_use]
+    pub fn remembers_impacts(&self) -> bool {
+        self.elements.iter().any(|element| element.law.remembers_impact())
+    }
+
     /// Orders of the load, ascending; 0 is the constant part.
     #[must_use]
     pub fn orders(&self) -> &[u32] {

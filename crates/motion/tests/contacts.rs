@@ -143,7 +143,7 @@ fn a_damped_mass_comes_to_rest_on_a_stop() {
         }
         // The load alone would drive the mass at some metres per second: that is the scale of the errors.
         assert!(
-            (law.force(state[0]).value + 9.81).abs() < 1e-6 && state[1].abs() < 1e-8,
+            (law.force(state[0], state[1]).value + 9.81).abs() < 1e-6 && state[1].abs() < 1e-8,
             "{law:?}: {state:?}"
         );
         assert!(exact.counts().steps < 30_000, "{:?}", exact.counts());

@@ -30,7 +30,7 @@ impl Damped<'_> {
     /// Force and slope; of a law of onset 1.5 or a spring, which need no continuation.
     fn add_forces(&self, at: Point<'_>, column: Option<&[f64]>, rate: &mut [f64]) {
         for (e, element) in self.system.elements().iter().enumerate() {
-            let force = element.law.force(self.displacement(e, at.state));
+            let force = element.law.force(self.displacement(e, at.state), 0.0);
             let value = column.map_or(force.value, |column| force.slope * self.displacement(e, column));
             rate.iter_mut().zip(&element.shape).for_each(|(r, phi)| *r += value * phi / self.frequency_hz);
         }

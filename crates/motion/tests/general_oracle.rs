@@ -31,7 +31,7 @@ impl ODE<f64, [f64; 4]> for ByHand {
         let w = TAU * self.frequency;
         let shaking = w * w * AMPLITUDE * (w * time).cos();
         let load = (2.0 * w * time + 0.5).cos();
-        let local = self.law.force(SHAPE[0] * state[0] + SHAPE[1] * state[1]).value;
+        let local = self.law.force(SHAPE[0] * state[0] + SHAPE[1] * state[1], 0.0).value;
         for i in 0..2 {
             derivative[i] = state[2 + i];
             derivative[2 + i] = INERTIA[i] * shaking + FORCE[i] * load + SHAPE[i] * local

@@ -10,7 +10,9 @@ use faer::Mat;
 use hammerbeam_motion::{
     Flow, Harmonic, HarmonicForce, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+    law::{
+        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+    },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
 
@@ -67,6 +69,18 @@ fn laws() -> Vec<Law> {
     ]
 }
 
+fn lossy_laws() -> Vec<Law> {
+    let damped = LinearStop::with_gap(3e5, 1e-3).unwrap().with_damping(90.0).unwrap();
+    let hertz = HertzStop::with_gap(5e6, 0.0).unwrap();
+    vec![
+        Law::Linear(damped),
+        Law::HuntCrossley(HuntCrossleyStop::new(hertz, 1.5).unwrap()),
+        Law::HuntCrossley(HuntCrossleyStop::new(hertz, 40.0).unwrap()),
+        Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::LankaraniNikravesh, 0.8).unwrap()),
+        Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::Flores, 0.3).unwrap()),
+    ]
+}
+
 const SHAPE: [f64; 3] = [-1.4, 1.1, -0.9];
 const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
 const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
@@ -75,7 +89,7 @@ const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
 #[test]
 fn sensitivities_agree_with_differences() {
     let mut systems = Vec::new();
-    for law in laws() {
+    for law in laws().into_iter().chain(lossy_laws()) {
         for support_ratio in [0.0, 1.0, -0.6] {
             systems.push((
                 format!("{law:?} {support_ratio}"),
@@ -84,7 +98,8 @@ fn sensitivities_agree_with_differences() {
         }
         systems.push((format!("{law:?} rigid"), three_modes(0.0, false, vec![element(&SHAPE, 0.0, law)])));
     }
-    let several = laws().into_iter().map(|law| element(&SHAPE, 0.3, law)).collect();
+    let every = laws().into_iter().chain(lossy_laws());
+    let several = every.map(|law| element(&SHAPE, 0.3, law)).collect();
     systems.push(("all laws at once".into(), three_modes(TAU * 3.5, true, several)));
     for (what, system) in systems {
         let found = flow(&system, &STRETCH, &STATE, 1e-12);

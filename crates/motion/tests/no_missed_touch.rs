@@ -79,7 +79,7 @@ impl Motion {
         }];
         let active = self.active_element();
         // The preload is held by a constant force, so that the motion is about the origin.
-        let balance = -active.law.force(0.0).value;
+        let balance = -active.law.force(0.0, 0.0).value;
         forces.push(HarmonicForce {
             shape: self.of(|mode| mode.shapes[0]),
             harmonic: Harmonic { order: 0, amplitude: balance, phase: 0.0 },

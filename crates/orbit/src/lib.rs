@@ -28,6 +28,12 @@
 //! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle. Folds, branch points, flips, Neimark-Sacker points
 //! and grazing are located as rows of their own.
 //!
+//! # Contacts that lose energy
+//! The same equations serve. Laws that remember the speed of their impact need every node in free flight: orbits are cut once, at the phase 0, unless
+//! [`Segments::Fixed`] says otherwise, and an orbit that is in contact there is refused with
+//! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact); another phase of the load moves the cut. Motion is simulated over
+//! any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which is walked round like any other.
+//!
 //! # Example
 //! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.
 //! ```

@@ -18,7 +18,7 @@ impl BranchWalk {
     /// Goes on from the present point with more segments; false if there are enough already, or if neither point is found with more.
     pub(crate) fn resegment(&mut self) -> Result<bool, OrbitError> {
         let segments = self.problem.segments();
-        if segments * FACTOR > MOST {
+        if segments * FACTOR > MOST || self.problem.integrator().system().remembers_impacts() {
             return Ok(false);
         }
         let current = refine(&mut self.problem, self.follower.current())?;

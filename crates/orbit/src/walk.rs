@@ -81,7 +81,7 @@ impl BranchWalk {
         let mut integrator = integrator(system, response, settings)?;
         let scale = state_scale(system, &start.nodes[0], start.frequency_hz);
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
-        let segments = segment_count(start, settings);
+        let segments = segment_count(system, start, settings);
         let nodes = nodes_from(&mut integrator, &start.nodes[0], frequency, multiple, segments)?;
         let length = hertz_per_norm(range_hz);
         let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
@@ -395,10 +395,12 @@ pub(crate) fn path_settings(settings: &OrbitSettings, length: f64) -> Settings {
     }
 }
 
-/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period.
-fn segment_count(start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
+/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period. Nodes must not lie in contacts whose
+/// laws remember how they began: then there is one.
+fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
     match settings.segments {
         Segments::Fixed(count) => count.max(1),
+        Segments::Automatic if system.remembers_impacts() => 1,
         Segments::Automatic => {
             let largest = start.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
             let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;

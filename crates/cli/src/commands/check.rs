@@ -140,9 +140,24 @@ fn stop_text(stop: &Stop) -> String {
         StopLaw::Hertz { stiffness, approach, side } => {
             format!("Hertz contact {}, {:e} N/m^1.5, {}", side_text(side), stiffness.value(), rest(approach))
         }
-        StopLaw::Linear { stiffness_n_m, approach, side } => {
-            format!("linear spring {}, {stiffness_n_m} N/m, {}", side_text(side), rest(approach))
+        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side } => {
+            let damper =
+                if damping_n_s_m > 0.0 { format!(" and {damping_n_s_m} N s/m") } else { String::new() };
+            format!("linear spring {}, {stiffness_n_m} N/m{damper}, {}", side_text(side), rest(approach))
         }
+        StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side } => format!(
+            "Hertz contact after Hunt and Crossley {}, {:e} N/m^1.5, loss {loss_s_m} s/m, {}",
+            side_text(side),
+            stiffness.value(),
+            rest(approach)
+        ),
+        StopLaw::Restitution { model, stiffness, restitution, approach, side } => format!(
+            "Hertz contact ({}) {}, {:e} N/m^1.5, coefficient of restitution {restitution}, {}",
+            word(&model),
+            side_text(side),
+            stiffness.value(),
+            rest(approach)
+        ),
         StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
             "linear springs on both sides, {stiffness_n_m} N/m, gaps {gap_above_m} m above and {gap_below_m} m below ({})",
             word(&gap_measured)

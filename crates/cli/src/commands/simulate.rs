@@ -241,9 +241,9 @@ fn sample_header(model: &Model) -> Vec<String> {
 fn sample_row(model: &Model, frequency_hz: f64, sample: &Sample) -> Vec<f64> {
     let mut row = vec![sample.time, sample.phase];
     row.extend(initial::response(model, frequency_hz, sample.phase, &sample.state));
-    for (e, element) in model.system.elements().iter().enumerate() {
+    for (e, force) in sample.forces.iter().enumerate() {
         let [r, ..] = model.system.relative_motion(e, frequency_hz, sample.phase, &sample.state);
-        row.extend([r, element.law.force(r).value]);
+        row.extend([r, *force]);
     }
     row
 }

@@ -21,7 +21,7 @@ impl ExactIntegrator {
             let start = ElementStart {
                 jet: self.output_jet(&run.state, element, run.time),
                 margin: self.bounds(&run.state, element, end).margin,
-                velocity: self.velocity_range(run, element),
+                velocity: self.speed_bound(&run.state, element),
             };
             run.start.push(start);
         }
@@ -62,21 +62,30 @@ impl ExactIntegrator {
             self.guess(run);
         }
         let margin = self.step.active.iter().map(|&e| run.start[e].margin).fold(0.0, f64::max);
+        if self.step.damped {
+            let speeds = self.step.active.iter().map(|&e| run.start[e].velocity);
+            let rate_margin = 8.0 * f64::EPSILON * speeds.fold(0.0, f64::max);
+            return self.step.solve_damped(&self.laws, (margin, rate_margin, precision)).ok();
+        }
         self.step.solve(&self.laws, (margin, precision), again && change.abs() < NEARLY_THE_SAME).ok()
     }
 
     fn set_weights(&mut self, length: f64, remaining: f64, grading: Grading) {
         let Self { blocks, series, step, cache, outputs, inputs, .. } = self;
+        let damped = step.damped;
         if length <= series.reach() {
-            return series.prepare(&step.active, grading, length, &mut step.weights);
+            return series.prepare((&step.active, damped), grading, length, &mut step.weights);
         }
         // Lengths on a grid, so that matrices made by quadrature serve again.
         let place = (4.0 * length.log2() + GRID_SLACK).floor().min((4.0 * remaining.log2()).floor());
         let length = (0.25 * place).exp2().min(remaining);
         if length <= series.reach() {
-            return series.prepare(&step.active, grading, length, &mut step.weights);
+            return series.prepare((&step.active, damped), grading, length, &mut step.weights);
         }
-        let make = || StepWeights::by_quadrature(blocks, outputs, inputs, &step.active, grading, length);
+        let make = || {
+            let active = (step.active.as_slice(), damped);
+            StepWeights::by_quadrature(blocks, outputs, inputs, active, grading, length)
+        };
         step.weights
             .clone_from(cache.entry((step.active.clone(), grading, place as i32)).or_insert_with(make));
     }
@@ -87,14 +96,16 @@ impl ExactIntegrator {
     /// `r + r' t + r'' t^2/2 + G f(r + r' t) t^2/((e + 1)(e + 2))`.
     fn guess(&mut self, run: &Run) {
         self.step.displacement.clear();
+        self.step.velocity.clear();
         for a in 0..self.step.active.len() {
             let element = self.step.active[a];
             let law = self.laws[element];
             let mobility = self.mobility[element][element];
             let mut jet = run.start[element].jet;
-            let stiffness = mobility * law.force(jet.value).slope * jet.slope;
+            let stiffness = mobility * law.pressing_force(jet.value, jet.slope).slope * jet.slope;
             for &other in &self.step.active {
-                let force = self.laws[other].force(run.start[other].jet.value).value;
+                let start = run.start[other].jet;
+                let force = self.laws[other].pressing_force(start.value, start.slope).value;
                 jet.curvature += self.mobility[element][other] * force;
             }
             let onset = self.closed_contact(run, element).map(|contact| contact.onset_exponent);
@@ -102,12 +113,15 @@ impl ExactIntegrator {
                 let t = self.step.node_time(k);
                 let mut guess = jet.value + t * (jet.slope + 0.5 * t * jet.curvature);
                 if let (Grading::Touch, Some(e)) = (self.step.grading(), onset) {
-                    guess += mobility * law.force(jet.value + jet.slope * t).value * t * t
+                    guess += mobility * law.force(jet.value + jet.slope * t, 0.0).value * t * t
                         / ((e + 1.0) * (e + 2.0));
                 } else {
                     guess += stiffness * t * t * t / 6.0;
                 }
                 self.step.displacement.push(guess);
+                if self.step.damped {
+                    self.step.velocity.push(jet.slope + t * (jet.curvature + 0.5 * t * stiffness));
+                }
             }
         }
     }

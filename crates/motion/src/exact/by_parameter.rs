@@ -17,7 +17,7 @@ use super::{
     run::Run,
     sensitivity::Sensitivity,
 };
-use crate::{Law, Parameter, System};
+use crate::{Law, Parameter, ParameterError, System};
 
 impl ForceStep {
     /// Adds what the parameter has in the equations for the displacements.
@@ -42,7 +42,7 @@ impl ForceStep {
                     let stiffness = laws[element].stiffness();
                     std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * force[j] / stiffness).sum())
                 }
-                Parameter::AddedDampingRatio => std::array::from_fn(|k| self.damped.0[a * NODES + k]),
+                Parameter::AddedDampingRatio => std::array::from_fn(|k| self.by_damping.0[a * NODES + k]),
                 Parameter::Gap { .. } => continue,
             };
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
@@ -70,10 +70,14 @@ impl ExactIntegrator {
     /// Chooses the parameter by which flows are differentiated besides the frequency; `None` for none.
     ///
     /// # Errors
-    /// [`MotionError::Parameter`] if the system has no such parameter.
+    /// [`MotionError::Parameter`] if the system has no such parameter, or the damping together with a law that depends on the velocity.
     pub fn differentiate_by(&mut self, parameter: Option<Parameter>) -> Result<(), MotionError> {
         if let Some(parameter) = parameter {
             self.system.parameter(parameter)?;
+            let lossy = self.system.elements().iter().find(|element| element.law.depends_on_velocity());
+            if let (Parameter::AddedDampingRatio, Some(element)) = (parameter, lossy) {
+                return Err(ParameterError::LossyLaw { name: element.name.clone() }.into());
+            }
         }
         self.parameter = parameter;
         self.prepare_damping();
@@ -95,6 +99,7 @@ impl ExactIntegrator {
         self.course.clear();
         self.laws.clear();
         self.laws.extend(self.system.elements().iter().map(|element| element.law));
+        self.memory = None;
         Ok(())
     }
 
@@ -140,7 +145,7 @@ impl ExactIntegrator {
     /// Readies what the damping has in the solved step that starts from the state of `run`.
     pub(super) fn prepare_damped_step(&mut self, run: &Run) {
         let Some(by_damping) = &self.by_damping else { return };
-        let (mut nodes, mut end) = std::mem::take(&mut self.step.damped);
+        let (mut nodes, mut end) = std::mem::take(&mut self.step.by_damping);
         let (grading, step) = (self.step.grading(), &self.step);
         let (length, active) = (step.weights.length, step.active.as_slice());
         let solved = SolvedStep { grading, length, active, force: &step.force, state: &run.state };
@@ -149,7 +154,7 @@ impl ExactIntegrator {
         for (values, &e) in nodes.as_chunks_mut::<NODES>().0.iter_mut().zip(active) {
             by_damping.drive.add_values(e, &self.outputs[e], span, c, values);
         }
-        self.step.damped = (nodes, end);
+        self.step.by_damping = (nodes, end);
     }
 
     /// Adds what the damping does over a flight, from the state at its start, to its column.

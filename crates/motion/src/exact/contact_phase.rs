@@ -5,9 +5,10 @@
 
 use super::{
     ExactIntegrator, MotionError,
+    clearance::ClearanceBounds,
     collocation::{Grading, NODES},
     event::{Event, Solved},
-    flight::{Touch, clearance_of},
+    flight::{Boundary, Touch, clearance_of},
     run::Run,
     step_error::LONGEST_GROWTH,
 };
@@ -40,7 +41,8 @@ impl ExactIntegrator {
     /// Takes one accepted step with forces, up to a release, a touch, the end of the stretch, or as far as the error allows.
     pub(super) fn contact_phase(&mut self, run: &mut Run, end: f64) -> Result<(), MotionError> {
         self.note_start(run, end);
-        if self.open_what_leaves(run) {
+        let pressed = run.pressed.take();
+        if self.open_what_leaves(run, pressed) {
             return Ok(());
         }
         self.set_active(run);
@@ -70,19 +72,37 @@ impl ExactIntegrator {
     }
 
     /// Opens contacts that have left the stop within rounding; true if no force acts any more.
-    fn open_what_leaves(&self, run: &mut Run) -> bool {
+    fn open_what_leaves(&self, run: &mut Run, pressed: Option<usize>) -> bool {
         for element in 0..self.laws.len() {
             let Some(contact) = self.closed_contact(run, element) else { continue };
-            if run.touched == Some(element) {
+            if run.touched == Some(element) || pressed == Some(element) {
                 continue;
             }
             let start = run.start[element];
             let jet = clearance_of(start.jet, contact.level, contact.sign);
-            if jet.slope > 0.0 && jet.value >= -run.slack * jet.slope - start.margin {
+            if self.laws[element].depends_on_velocity() && self.has_parted(run, element) {
+                run.parted[element] = run.closed[element].take();
+            } else if jet.slope > 0.0 && jet.value >= -run.slack * jet.slope - start.margin {
                 run.closed[element] = None;
             }
         }
         !self.forces_act(run)
+    }
+
+    /// Whether the pressure of a closed contact has vanished within rounding, and falls.
+    fn has_parted(&self, run: &Run, element: usize) -> bool {
+        let Some(contact) = run.closed[element] else { return false };
+        let touch = Touch { element, contact, boundary: Boundary::Presses };
+        let mut jet = run.start[element].jet;
+        for other in (0..self.laws.len()).filter(|&e| self.acts(run, e)) {
+            let at = run.start[other].jet;
+            jet.curvature +=
+                self.mobility[element][other] * self.laws[other].pressing_force(at.value, at.slope).value;
+        }
+        let missing = self.distance(jet, touch);
+        let elastic = ClearanceBounds { second: 0.0, third: 0.0, margin: run.start[element].margin };
+        let margin = self.boundary_bounds(elastic, &run.state, touch).margin;
+        missing.slope > 0.0 && missing.value >= -run.slack * missing.slope - margin
     }
 
     pub(super) fn closed_contact(&self, run: &Run, element: usize) -> Option<Contact> {
@@ -91,9 +111,12 @@ impl ExactIntegrator {
 
     pub(super) fn set_active(&mut self, run: &Run) {
         self.step.start_anew();
-        let active =
-            (0..self.laws.len()).filter(|&e| run.closed[e].is_some() || self.laws[e].contacts().is_empty());
-        self.step.active.extend(active);
+        for element in 0..self.laws.len() {
+            if self.acts(run, element) {
+                self.step.active.push(element);
+            }
+        }
+        self.step.damped = self.step.active.iter().any(|&e| self.laws[e].depends_on_velocity());
     }
 
     /// How a step is graded; a step from a touch that ends with a release cannot be.
@@ -113,17 +136,17 @@ impl ExactIntegrator {
 
     /// The first try: to the release where it is expected within reach, else as far as the last step's error allows.
     fn first_aim(&self, run: &Run, touched: Option<usize>, remaining: f64) -> Aim {
-        let known = run.release.filter(|known| known.1 > run.time && run.closed[known.0].is_some());
+        let known = run.release.filter(|known| known.1 > run.time && run.closed[known.0.element()].is_some());
         let forecast = match known {
-            Some((element, time)) => Some((element, time - run.time)),
-            None => self.first_forecast(run, touched),
+            Some((event, time)) => Some((event, time - run.time)),
+            None => self.first_forecast(run, touched).map(|(element, time)| (self.usual_end(element), time)),
         };
         let proposal = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };
-        let Some((element, time)) = forecast else {
+        let Some((ending, time)) = forecast else {
             return Aim { length: proposal.min(remaining), event: None, otherwise: 0.0 };
         };
         let proposal = if run.proposal > 0.0 { proposal } else { 0.5 * time };
-        let event = Some(Event::Release(element));
+        let event = Some(ending);
         let whole = self.grading(run, touched, event).is_some();
         if whole && (time <= 1.4 * proposal || run.proposal == 0.0) && time <= 1.2 * remaining {
             return Aim { length: time.min(remaining), event, otherwise: proposal.min(remaining) };
@@ -135,8 +158,8 @@ impl ExactIntegrator {
     /// A first guess of the step length: a part of the period of the loaded contact.
     fn first_length(&self, run: &Run, remaining: f64) -> f64 {
         let stiffest = |&e: &usize| {
-            let slope = self.laws[e].force(run.start[e].jet.value).slope;
-            (self.mobility[e][e] * slope.abs()).sqrt()
+            let force = self.laws[e].pressing_force(run.start[e].jet.value, run.start[e].jet.slope);
+            (self.mobility[e][e] * force.slope.abs()).sqrt() + self.mobility[e][e] * force.damping.abs()
         };
         let rate = self.step.active.iter().map(stiffest).fold(2.0 / remaining, f64::max);
         1.5 / rate
@@ -162,18 +185,18 @@ impl ExactIntegrator {
         };
         let event = aim.event.filter(|_| at_event);
         let release = match event {
-            Some(Event::Release(element)) => Some((element, length)),
+            Some(end @ (Event::Release(_) | Event::Part(_))) => Some((end, length)),
             _ => self.first_release(run, None),
         };
         if error > 1.0 {
             let shorter = length * self.growth(error).clamp(0.1, 0.7);
-            let Some((element, time)) = release else { return free(shorter) };
+            let Some((end, time)) = release else { return free(shorter) };
             // Where the step passed the release its error says little.
             let news = run.release.is_none();
-            run.release = Some((element, run.time + time));
-            let whole = news && self.grading(run, touched, Some(Event::Release(element))).is_some();
+            run.release = Some((end, run.time + time));
+            let whole = news && self.grading(run, touched, Some(end)).is_some();
             if whole && event.is_none() {
-                return to(Event::Release(element), time);
+                return to(end, time);
             }
             return free(if event.is_some() { 0.5 * time } else { shorter.min(0.5 * time) });
         }
@@ -189,14 +212,14 @@ impl ExactIntegrator {
             }
             return to(Event::Touch(touch), time);
         }
-        if let Some((element, time)) = self.first_release(run, event.map(Event::element))
+        if let Some((end, time)) = self.first_release(run, event)
             && time < length * (1.0 - 1e-9)
         {
-            return to(Event::Release(element), time);
+            return to(end, time);
         }
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
         if error > 1.0 {
-            run.release = release.map(|(element, time)| (element, run.time + time)).or(run.release);
+            run.release = release.map(|(end, time)| (end, run.time + time)).or(run.release);
             return free(length * self.growth(error).clamp(0.1, 0.7));
         }
         Tried::Accepted { error, event }
@@ -217,6 +240,10 @@ impl ExactIntegrator {
                 run.closed[element] = None;
                 run.slack = 1e-7 * self.step.weights.length;
             }
+            Some(Event::Part(element)) => {
+                run.parted[element] = run.closed[element].take();
+                run.slack = 1e-7 * self.step.weights.length;
+            }
         }
     }
 
@@ -229,7 +256,7 @@ impl ExactIntegrator {
         }
         self.counts.steps += 1;
         if self.notes_course {
-            self.course.step(run, &self.step);
+            self.course.step(run, &self.step, &self.laws);
         }
         self.trace_step(run);
         self.step.advance_state(&self.series, &mut run.state);

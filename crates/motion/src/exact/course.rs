@@ -2,8 +2,13 @@
 //!
 //! An orbit is evaluated with its sensitivities first and observed then. The course saves going through the motion a second time.
 
-use super::{collocation::Grading, force_step::ForceStep, maxima::closed_bits, run::Run};
-use crate::Stretch;
+use super::{
+    collocation::{Grading, NODES},
+    force_step::ForceStep,
+    maxima::closed_bits,
+    run::Run,
+};
+use crate::{Law, Stretch};
 
 /// A place in a list of numbers: first and behind the last.
 type Span = (usize, usize);
@@ -32,6 +37,8 @@ pub(super) struct CourseStep {
     pub force: Span,
     /// Elements that act.
     pub active: Span,
+    /// Energy that they took [J].
+    pub energy_taken: f64,
     /// Closed elements, one bit each.
     pub closed: u64,
 }
@@ -53,7 +60,8 @@ pub(super) struct Course {
     pub stretches: Vec<CourseStretch>,
     pub passages: Vec<Passage>,
     numbers: Vec<f64>,
-    elements: Vec<usize>,
+    /// Elements and their laws, with what these remember.
+    elements: Vec<(usize, Law)>,
 }
 
 impl Course {
@@ -76,8 +84,9 @@ impl Course {
         &self.numbers[first..end]
     }
 
-    pub fn elements(&self, (first, end): Span) -> &[usize] {
-        &self.elements[first..end]
+    /// The elements that act in a step, and their laws.
+    pub fn active(&self, step: &CourseStep) -> &[(usize, Law)] {
+        &self.elements[step.active.0..step.active.1]
     }
 
     fn keep(&mut self, numbers: &[f64]) -> Span {
@@ -102,9 +111,10 @@ impl Course {
     }
 
     /// The solved step, with `run` at its start.
-    pub fn step(&mut self, run: &Run, step: &ForceStep) {
+    pub fn step(&mut self, run: &Run, step: &ForceStep, laws: &[Law]) {
         let first = self.elements.len();
-        self.elements.extend_from_slice(&step.active);
+        self.elements.extend(step.active.iter().map(|&element| (element, laws[element])));
+        let damped = |a: &usize| laws[step.active[*a]].depends_on_velocity();
         let passed = CourseStep {
             grading: step.grading(),
             start: step.start,
@@ -112,8 +122,16 @@ impl Course {
             state: self.keep(&run.state),
             force: self.keep(&step.force),
             active: (first, self.elements.len()),
+            energy_taken: (0..step.active.len()).filter(damped).map(|a| energy_taken(step, a)).sum(),
             closed: closed_bits(run),
         };
         self.passages.push(Passage::Step(passed));
     }
+}
+
+/// Energy that the a-th active element takes in the solved step, `-sum_j w_j F_j r'_j`.
+fn energy_taken(step: &ForceStep, a: usize) -> f64 {
+    let weights = &step.grading().rule().at_end[0];
+    let power = |j: usize| step.force[a * NODES + j] * step.velocity[a * NODES + j];
+    -step.weights.length * (0..NODES).map(|j| weights[j] * power(j)).sum::<f64>()
 }

@@ -291,6 +291,62 @@ impl Drive {
         values
     }
 
+    /// Adds the rate of the particular part of output `index` (with the row `output`) at `start + c_k length` to `rates`.
+    pub fn add_rates(
+        &self,
+        index: usize,
+        output: &Output,
+        (start, length): (f64, f64),
+        c: &[f64; NODES],
+        rates: &mut [f64; NODES],
+    ) {
+        for (rate, c) in rates.iter_mut().zip(c) {
+            *rate += self.jet(index, output, start + c * length).slope;
+        }
+    }
+
+    /// Derivatives of the rate of the particular part of output `index` by the scale of the excitation at `start + c_k length`.
+    pub fn rates_by_scale(
+        &self,
+        index: usize,
+        output: &Output,
+        span: (f64, f64),
+        c: &[f64; NODES],
+    ) -> [f64; NODES] {
+        let mut rates = [0.0; NODES];
+        self.scaled_part().add_rates(index, output, span, c, &mut rates);
+        rates.map(|rate| rate / self.scale)
+    }
+
+    /// Derivatives of the rate of the particular part of output `index` by the frequency at the fixed times `start + c_k length`.
+    ///
+    /// That of `Re(i w A exp(i w t))` with `w_f = 2 pi m` is `Re(i (w A_f + w_f A + w w_f i t A) exp(i w t))`.
+    pub fn rates_by_frequency(
+        &self,
+        index: usize,
+        output: &Output,
+        (start, length): (f64, f64),
+        c: &[f64; NODES],
+    ) -> [f64; NODES] {
+        let n = output.row.len() / 2;
+        let at = |time: f64| {
+            let mut rate = 0.0;
+            for order in &self.orders {
+                let (amplitude, by_frequency) = order.outputs[index];
+                let (w, w_f) = (order.order * self.circular_frequency, TAU * order.order);
+                let sum = by_frequency * w + amplitude * w_f + amplitude * c64::new(0.0, w * w_f * time);
+                rate -= (sum * self.rotation(order, time)).im;
+            }
+            for load in &self.secular {
+                let by_frequency = load.rate_by_frequency(time);
+                rate +=
+                    output.row[load.block] * by_frequency[0] + output.row[n + load.block] * by_frequency[1];
+            }
+            rate
+        };
+        c.map(|c| at(start + c * length))
+    }
+
     /// Bounds on the second and third derivative of the particular part of output `index` until `until`.
     pub fn bounds(&self, index: usize, output: &Output, until: f64) -> (f64, f64) {
         let mut bounds = (0.0, 0.0);

@@ -1,14 +1,14 @@
 //! Steps that end exactly where a contact opens or closes.
 //!
 //! The length of the step is found by Newton's method on the distance that falls to zero at its end: the penetration of the contact that
-//! opens, the clearance of one that closes. A relative error d of the length leaves `d^exponent` of the contact's effect on the
-//! sensitivities, and less in the state.
+//! opens, the pressure of one that parts, the clearance of one that closes. A relative error d of the length leaves `d^exponent` of the
+//! contact's effect on the sensitivities, and less in the state.
 
 use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
     drive::Jet,
-    flight::{Touch, clearance_of},
+    flight::{Boundary, Touch},
     polynomial::first_below,
     run::Run,
 };
@@ -31,14 +31,16 @@ const HOPELESS: f64 = 1.5;
 pub(super) enum Event {
     /// The closed contact of this element opens.
     Release(usize),
-    /// An open contact closes.
+    /// The closed contact of this element parts: its pressure vanishes, while penetration is left.
+    Part(usize),
+    /// A contact without force crosses one of its boundaries.
     Touch(Touch),
 }
 
 impl Event {
     pub fn element(self) -> usize {
         match self {
-            Self::Release(element) => element,
+            Self::Release(element) | Self::Part(element) => element,
             Self::Touch(touch) => touch.element,
         }
     }
@@ -65,7 +67,7 @@ impl ExactIntegrator {
         length: f64,
         remaining: f64,
     ) -> Option<Solved> {
-        let exponent = self.contact_of(run, event).onset_exponent;
+        let exponent = self.exponent_of(run, event);
         let accuracy = self.location_accuracy(exponent);
         let mut length = length.min(remaining);
         // The first try tells little more than the length of the next, unless the event was located before.
@@ -80,9 +82,11 @@ impl ExactIntegrator {
             if last {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
-            let change = time_to_zero(self.distance_at_end(run, event), length)?;
+            let distance = self.distance_at_end(run, event);
+            let change = time_to_zero(distance, length)?;
             let fine = precision < COARSE;
-            if fine && change.abs() <= accuracy * length {
+            let undecided = self.pressure_rounding(run, event) / distance.slope.abs();
+            if fine && change.abs() <= (accuracy * length).max(undecided) {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
             if fine && length == remaining && change > 0.0 {
@@ -92,7 +96,7 @@ impl ExactIntegrator {
                 return Some(Solved { error: f64::INFINITY, at_event: true, length: length + change });
             }
             // Newton's method with the curvature: the next error is below the power 2.5 of this one.
-            let near = change.abs() <= 0.3 * accuracy.powf(0.4) * length;
+            let near = change.abs() <= 0.3 * accuracy.powf(0.4) * length && distance.curvature.is_finite();
             last = fine && near && length + change < remaining;
             precision = self.full_precision();
             length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
@@ -114,28 +118,66 @@ impl ExactIntegrator {
     /// How much earlier than at the end of the solved step the contact that was located there may be found to close [s]: what its location,
     /// and rounding of its clearance, leave undecided.
     pub(super) fn located_within(&self, run: &Run, touch: Touch) -> f64 {
-        let exponent = self.laws[touch.element].contacts()[touch.contact].onset_exponent;
+        let exponent = self.exponent_of(run, Event::Touch(touch));
         let length = self.step.weights.length;
-        let speed = self.jet_at_step_end(run, touch.element).slope.abs();
-        let rounding = (8.0 * run.start[touch.element].margin / speed).min(length);
+        let speed = self.distance(self.jet_at_step_end(run, touch.element), touch).slope.abs();
+        let margin = run.start[touch.element].margin.max(self.pressure_rounding(run, Event::Touch(touch)));
+        let rounding = (8.0 * margin / speed).min(length);
         (10.0 * self.location_accuracy(exponent)).max(1e-9) * length + rounding
     }
 
-    fn contact_of(&self, run: &Run, event: Event) -> crate::Contact {
-        let contact = match event {
-            Event::Release(element) => run.closed[element].unwrap_or(0),
-            Event::Touch(touch) => touch.contact,
+    /// What rounding leaves undecided of a pressure that vanishes or comes back; 0 at other events, whose distances are displacements.
+    fn pressure_rounding(&self, run: &Run, event: Event) -> f64 {
+        let of_pressure = match event {
+            Event::Part(_) => true,
+            Event::Touch(touch) => touch.boundary == Boundary::Presses,
+            Event::Release(_) => false,
         };
-        self.laws[event.element()].contacts()[contact]
+        let pressure = self.laws[event.element()].pressure().filter(|_| of_pressure);
+        let start = run.start[event.element()];
+        pressure.map_or(0.0, |pressure| {
+            pressure.displacement * start.margin
+                + 8.0 * f64::EPSILON * (pressure.velocity * start.velocity + pressure.offset)
+        })
     }
 
-    /// Penetration (release) or clearance (touch) at the end of the solved step, and its derivatives.
-    fn distance_at_end(&self, run: &Run, event: Event) -> Jet {
-        let contact = self.contact_of(run, event);
-        let clearance = clearance_of(self.jet_at_step_end(run, event.element()), contact.level, contact.sign);
+    /// Exponent with which the force sets in or ends at an event: where the pressure vanishes or comes back, linearly.
+    fn exponent_of(&self, run: &Run, event: Event) -> f64 {
+        let contacts = self.laws[event.element()].contacts();
         match event {
-            Event::Touch(_) => clearance,
-            Event::Release(_) => clearance_of(clearance, 0.0, 1.0),
+            Event::Release(element) => contacts[run.closed[element].unwrap_or(0)].onset_exponent,
+            Event::Touch(touch) if touch.boundary == Boundary::Closes => {
+                contacts[touch.contact].onset_exponent
+            }
+            Event::Part(_) | Event::Touch(_) => 1.0,
+        }
+    }
+
+    /// How the closed contact of an element ends as a rule: the pressure of a spring with a damper vanishes before its penetration does.
+    pub(super) fn usual_end(&self, element: usize) -> Event {
+        match self.laws[element].pressure() {
+            Some(pressure) if pressure.offset == 0.0 => Event::Part(element),
+            _ => Event::Release(element),
+        }
+    }
+
+    /// What falls to zero at the end of the solved step, and its derivatives.
+    fn distance_at_end(&self, run: &Run, event: Event) -> Jet {
+        let jet = self.jet_at_step_end(run, event.element());
+        self.distance_of(run, event, jet)
+    }
+
+    /// What falls to zero at an event, from the relative displacement.
+    fn distance_of(&self, run: &Run, event: Event, jet: Jet) -> Jet {
+        let touch =
+            |element: usize, boundary| Touch { element, contact: run.closed[element].unwrap_or(0), boundary };
+        match event {
+            Event::Touch(touch) => self.distance(jet, touch),
+            Event::Release(element) => self.distance(jet, touch(element, Boundary::Leaves)),
+            Event::Part(element) => {
+                let missing = self.distance(jet, touch(element, Boundary::Presses));
+                Jet { value: -missing.value, slope: -missing.slope, curvature: f64::NEG_INFINITY }
+            }
         }
     }
 
@@ -155,26 +197,48 @@ impl ExactIntegrator {
         };
         let mut found = jet(output);
         for &other in &self.step.active {
-            let displacement = if other == output { found.value } else { jet(other).value };
-            found.curvature += self.mobility[output][other] * self.laws[other].force(displacement).value;
+            let at = if other == output { found } else { jet(other) };
+            found.curvature +=
+                self.mobility[output][other] * self.laws[other].pressing_force(at.value, at.slope).value;
         }
         found
     }
 
-    /// The first closed contact, other than `except`, that opens within the solved step, and when.
-    pub(super) fn first_release(&self, run: &Run, except: Option<usize>) -> Option<(usize, f64)> {
-        let rule = self.step.grading().rule();
+    /// The first end of a closed contact within the solved step, other than `except`, and when.
+    pub(super) fn first_release(&self, run: &Run, except: Option<Event>) -> Option<(Event, f64)> {
         let of_active = |(a, &element): (usize, &usize)| {
-            let contact = self.closed_contact(run, element).filter(|_| except != Some(element))?;
-            let penetration: [f64; NODES] = std::array::from_fn(|k| {
-                contact.sign * (self.step.displacement[a * NODES + k] - contact.level)
-            });
-            let deepest = penetration.iter().fold(0.0_f64, |deepest, p| deepest.max(p.abs()));
-            let margin = 1e-9 * deepest + run.start[element].margin;
-            let s = first_below(&rule.bernstein(&penetration), rule.s[0], margin)?;
-            Some((element, self.step.grading().map(s).0 * self.step.weights.length))
+            let usual = Some(self.usual_end(element)).filter(|event| Some(*event) != except);
+            let both = self.laws[element].pressure().is_some_and(|pressure| pressure.offset > 0.0);
+            let parting = Some(Event::Part(element)).filter(|event| both && Some(*event) != except);
+            let ends = usual.into_iter().chain(parting);
+            ends.filter_map(|event| self.first_end(run, a, event).map(|time| (event, time)))
+                .collect::<Vec<_>>()
         };
-        self.step.active.iter().enumerate().filter_map(of_active).min_by(|x, y| x.1.total_cmp(&y.1))
+        let ends = self.step.active.iter().enumerate().flat_map(of_active);
+        ends.min_by(|x, y| x.1.total_cmp(&y.1))
+    }
+
+    /// When what ends the contact of the a-th active element first falls to zero within the solved step.
+    fn first_end(&self, run: &Run, a: usize, event: Event) -> Option<f64> {
+        let rule = self.step.grading().rule();
+        let contact = self.closed_contact(run, event.element())?;
+        let distance: [f64; NODES] = std::array::from_fn(|k| {
+            let i = a * NODES + k;
+            let penetration = contact.sign * (self.step.displacement[i] - contact.level);
+            match (event, self.laws[event.element()].pressure()) {
+                (Event::Part(_), Some(pressure)) => {
+                    pressure.at(penetration, contact.sign * self.step.velocity[i])
+                }
+                _ => penetration,
+            }
+        });
+        let deepest = distance.iter().fold(0.0_f64, |deepest, d| deepest.max(d.abs()));
+        let rounding = match event {
+            Event::Part(_) => self.pressure_rounding(run, event),
+            _ => run.start[event.element()].margin,
+        };
+        let s = first_below(&rule.bernstein(&distance), rule.s[0], 1e-9 * deepest + rounding)?;
+        Some(self.step.grading().map(s).0 * self.step.weights.length)
     }
 }
 
@@ -183,6 +247,9 @@ fn time_to_zero(distance: Jet, length: f64) -> Option<f64> {
     let Jet { value, slope, curvature } = distance;
     if slope >= 0.0 || slope.is_nan() {
         return None;
+    }
+    if curvature == f64::NEG_INFINITY {
+        return Some(-value / slope).filter(|change| change.abs() < length);
     }
     let discriminant = slope * slope - 2.0 * curvature * value;
     if discriminant <= 0.0 {

@@ -8,11 +8,23 @@ use super::{
     run::Run,
 };
 
-/// An open contact that closes.
+/// A contact without force that crosses one of its boundaries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Touch {
     pub element: usize,
     pub contact: usize,
+    pub boundary: Boundary,
+}
+
+/// Where a contact without force goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Boundary {
+    /// It was open and closes.
+    Closes,
+    /// It had parted and presses again.
+    Presses,
+    /// It had parted and opens.
+    Leaves,
 }
 
 /// Looks allowed in one flight; about twenty are usual.
@@ -80,15 +92,16 @@ impl ExactIntegrator {
     fn look_at_all(&self, run: &mut Run, time: f64, horizon: f64) -> (f64, Option<Touch>) {
         let mut free = f64::INFINITY;
         let mut touch = None;
-        for (element, law) in self.laws.iter().enumerate() {
-            if law.contacts().is_empty() {
+        for element in 0..self.laws.len() {
+            if self.laws[element].contacts().is_empty() {
                 continue;
             }
             let jet = self.output_jet(&run.state, element, run.time + time);
-            let bounds = self.bounds(&run.state, element, run.time + horizon);
-            for (contact, c) in law.contacts().iter().enumerate() {
-                let touching = Touch { element, contact };
-                let (step, hit) = match look(clearance_of(jet, c.level, c.sign), bounds) {
+            let elastic = self.bounds(&run.state, element, run.time + horizon);
+            let parted = run.parted[element];
+            for touching in self.watched(element, parted) {
+                let bounds = self.boundary_bounds(elastic, &run.state, touching);
+                let (step, hit) = match look(self.distance(jet, touching), bounds) {
                     Look::Contact => return (0.0, Some(touching)),
                     Look::FreeFor(step) => (step, false),
                     Look::MinimumAhead { at, convex } => {
@@ -114,8 +127,64 @@ impl ExactIntegrator {
     /// Clearance at `time` after the start of the flight; the state of `run` is moved there.
     fn clearance_ahead(&self, run: &mut Run, time: f64, touch: Touch) -> Jet {
         self.place(run, time);
-        let c = self.laws[touch.element].contacts()[touch.contact];
-        clearance_of(self.output_jet(&run.state, touch.element, run.time + time), c.level, c.sign)
+        self.distance(self.output_jet(&run.state, touch.element, run.time + time), touch)
+    }
+
+    /// The boundaries of an element without force: of its open contacts, or of the one that has parted.
+    pub(super) fn watched(
+        &self,
+        element: usize,
+        parted: Option<usize>,
+    ) -> impl Iterator<Item = Touch> + use<> {
+        let open = 0..if parted.is_none() { self.laws[element].contacts().len() } else { 0 };
+        let closing = open.map(move |contact| Touch { element, contact, boundary: Boundary::Closes });
+        let both = [Boundary::Presses, Boundary::Leaves];
+        closing.chain(
+            parted
+                .into_iter()
+                .flat_map(move |contact| both.map(move |boundary| Touch { element, contact, boundary })),
+        )
+    }
+
+    /// What falls to zero at a boundary, from the relative displacement: the clearance, the missing pressure (whose second derivative is not
+    /// known, only bounded), or the penetration.
+    pub(super) fn distance(&self, displacement: Jet, touch: Touch) -> Jet {
+        let law = &self.laws[touch.element];
+        let c = law.contacts()[touch.contact];
+        let clearance = clearance_of(displacement, c.level, c.sign);
+        let penetration = clearance_of(clearance, 0.0, 1.0);
+        match (touch.boundary, law.pressure()) {
+            (Boundary::Closes, _) => clearance,
+            (Boundary::Presses, Some(pressure)) => Jet {
+                value: -pressure.at(penetration.value, penetration.slope),
+                slope: -(pressure.displacement * penetration.slope
+                    + pressure.velocity * penetration.curvature),
+                curvature: f64::NEG_INFINITY,
+            },
+            _ => penetration,
+        }
+    }
+
+    /// Bounds on what falls to zero at a boundary, from those on the displacement: `|s''| <= a B_2 + b B_3` for the pressure `s = a p + b p' + d`.
+    pub(super) fn boundary_bounds(
+        &self,
+        elastic: ClearanceBounds,
+        state: &[f64],
+        touch: Touch,
+    ) -> ClearanceBounds {
+        let Some(pressure) =
+            self.laws[touch.element].pressure().filter(|_| touch.boundary == Boundary::Presses)
+        else {
+            return elastic;
+        };
+        let rounding = 8.0 * f64::EPSILON * self.speed_bound(state, touch.element);
+        ClearanceBounds {
+            second: pressure.displacement * elastic.second + pressure.velocity * elastic.third,
+            third: 0.0,
+            margin: pressure.displacement * elastic.margin
+                + pressure.velocity * rounding
+                + 8.0 * f64::EPSILON * pressure.offset,
+        }
     }
 
     /// Bounds on a clearance of `element` until `until`, from the homogeneous state now.

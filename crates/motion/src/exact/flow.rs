@@ -5,7 +5,7 @@ use faer::Mat;
 use super::{
     ExactIntegrator, MOST_STEPS, MotionError,
     drive::{Drive, Jet},
-    flight::{Touch, clearance_of},
+    flight::{Boundary, Touch, clearance_of},
     maxima::closed_bits,
     run::Run,
 };
@@ -21,6 +21,7 @@ impl ExactIntegrator {
         let result = self.complete(&mut run, stretch);
         let end = self.modal_state(&run, stretch.duration());
         self.run = run;
+        self.remember_end(stretch, &end);
         result.map(|()| end)
     }
 
@@ -44,7 +45,9 @@ impl ExactIntegrator {
         let result = self.complete(&mut run, stretch);
         let flow = result.map(|()| self.flow_of(&mut run, stretch));
         self.run = run;
-        flow
+        let flow = flow?;
+        self.remember_end(stretch, &flow.state);
+        Ok(flow)
     }
 
     pub(super) fn begin(&mut self, stretch: &Stretch, state: &[f64], sensitivities: bool) -> Run {
@@ -54,6 +57,7 @@ impl ExactIntegrator {
         run.time = 0.0;
         run.proposal = 0.0;
         run.touched = None;
+        run.pressed = None;
         run.slack = 0.0;
         run.release = None;
         run.state.resize(2 * n, 0.0);
@@ -68,10 +72,17 @@ impl ExactIntegrator {
             sensitivity.start(&self.blocks, &by_frequency, by_parameter.as_deref());
             sensitivity
         });
+        self.forget_impacts();
+        if !sensitivities {
+            self.recall_impacts(stretch, state);
+        }
         run.closed.clear();
+        run.parted.clear();
         for element in 0..self.laws.len() {
-            let closed = self.contact_at_start(&run, element, stretch.duration());
-            run.closed.push(closed);
+            let contact = self.contact_at_start(&run, element, stretch.duration());
+            let presses = contact.is_some_and(|contact| self.presses_at_start(&run, element, contact));
+            run.closed.push(contact.filter(|_| presses));
+            run.parted.push(contact.filter(|_| !presses));
         }
         if self.notes_course {
             self.course.begin(stretch, state, &run);
@@ -79,6 +90,13 @@ impl ExactIntegrator {
         self.touches.fill(0);
         self.counts.stretches += 1;
         run
+    }
+
+    /// Whether a contact with penetration at the start of a stretch has pressure, as far as its law asks for it.
+    fn presses_at_start(&self, run: &Run, element: usize, contact: usize) -> bool {
+        let touch = Touch { element, contact, boundary: Boundary::Presses };
+        let jet = self.output_jet(&run.state, element, 0.0);
+        !self.laws[element].depends_on_velocity() || self.distance(jet, touch).value < 0.0
     }
 
     /// The contact of an element that is closed at the start of a stretch.
@@ -94,6 +112,7 @@ impl ExactIntegrator {
     /// Runs to the end of the stretch.
     pub(super) fn complete(&mut self, run: &mut Run, stretch: &Stretch) -> Result<(), MotionError> {
         let end = stretch.duration();
+        self.check_start(run, stretch)?;
         self.closed_throughout = closed_bits(run);
         let steps = MOST_STEPS * (1 + (stretch.end - stretch.start) as u64);
         let most = self.counts.steps + steps;
@@ -115,20 +134,39 @@ impl ExactIntegrator {
     }
 
     pub(super) fn forces_act(&self, run: &Run) -> bool {
-        self.laws.iter().zip(&run.closed).any(|(law, closed)| closed.is_some() || law.contacts().is_empty())
+        (0..self.laws.len()).any(|element| self.acts(run, element))
     }
 
-    /// Notes that a contact closes.
+    /// Whether an element may have a force.
+    pub(super) fn acts(&self, run: &Run, element: usize) -> bool {
+        run.closed[element].is_some() || self.laws[element].contacts().is_empty()
+    }
+
+    /// Notes that a contact without force crosses a boundary.
     pub(super) fn close(&mut self, run: &mut Run, touch: Touch) {
+        run.proposal = 0.0;
+        run.release = None;
+        run.slack = 0.0;
+        match touch.boundary {
+            Boundary::Leaves => run.parted[touch.element] = None,
+            Boundary::Presses => {
+                run.closed[touch.element] = run.parted[touch.element].take();
+                run.pressed = Some(touch.element);
+            }
+            Boundary::Closes => self.strike(run, touch),
+        }
+    }
+
+    /// Notes that an open contact closes.
+    fn strike(&mut self, run: &mut Run, touch: Touch) {
         if self.notes_course {
             self.course.touch(self.output_jet(&run.state, touch.element, run.time).slope);
         }
         self.trace_touch(run, touch);
+        self.jump_at_onset(run, touch);
+        self.remember_impact(run, touch);
         run.closed[touch.element] = Some(touch.contact);
         run.touched = Some(touch.element);
-        run.proposal = 0.0;
-        run.release = None;
-        run.slack = 0.0;
         let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();
         self.touches[before + touch.contact] += 1;
     }
@@ -196,8 +234,12 @@ impl ExactIntegrator {
             (0..n).for_each(|i| rate[n + i] += (load.amplitude[i] * rotation).re);
         }
         for (e, element) in self.system.elements().iter().enumerate() {
-            let displacement = self.output_jet(&run.state, e, stretch.duration()).value;
-            let force = element.law.force(displacement).value;
+            let jet = self.output_jet(&run.state, e, stretch.duration());
+            // A law that depends on the velocity may jump at the level, where its contact is what counts.
+            if self.laws[e].depends_on_velocity() && !self.acts(run, e) {
+                continue;
+            }
+            let force = element.law.pressing_force(jet.value, jet.slope).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
         rate

@@ -1,7 +1,8 @@
 //! One step while forces act: solves `F_k = f(r_k)` at the nodes and maps the state.
 //!
 //! `r = r_free + W f(r)` is solved by Newton's method with the small matrix `I - W f'`; the state then goes over the step
-//! by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`.
+//! by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. Laws that depend on the velocity
+//! see `damped_step.rs`.
 
 use super::{
     collocation::{Grading, NODES},
@@ -31,6 +32,12 @@ pub(crate) struct ForceStep {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub slope: Vec<f64>,
+    /// Whether a law of an active element depends on the velocity: then velocities go with the displacements (`damped_step.rs`).
+    pub damped: bool,
+    pub velocity: Vec<f64>,
+    /// `df/dr'`.
+    pub damping: Vec<f64>,
+    pub(super) free_velocity: Vec<f64>,
     /// What each block has in the force per unit of its turning, relative to the velocities; see `step_error.rs` [1/s].
     pub unresolved: Vec<f64>,
     pub(super) free: Vec<f64>,
@@ -42,7 +49,7 @@ pub(crate) struct ForceStep {
     pub(super) fixed_lu: FixedLu<NODES>,
     pub(super) work: Vec<f64>,
     /// What the damping as parameter adds at the nodes and at the end of the solved step; see `by_damping.rs`.
-    pub(super) damped: (Vec<f64>, Vec<f64>),
+    pub(super) by_damping: (Vec<f64>, Vec<f64>),
 }
 
 fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
@@ -89,6 +96,25 @@ impl ForceStep {
             let span = (self.start, self.weights.length);
             drive.add_values(e, &outputs[e], span, &self.grading().rule().c, &mut free);
             self.free.extend_from_slice(&free);
+        }
+        if self.damped {
+            self.set_free_velocity(series, drive, outputs, state);
+        }
+    }
+
+    /// The same for the velocities.
+    #[inline(never)]
+    fn set_free_velocity(&mut self, series: &Series, drive: &Drive, outputs: &[Output], state: &[f64]) {
+        self.free_velocity.clear();
+        for (a, &e) in self.active.iter().enumerate() {
+            let mut rates = if self.weights.complete {
+                rows_times_state(&self.weights.velocity_rows[a], state)
+            } else {
+                series.free_rates(&self.readings[a], self.grading(), self.weights.length)
+            };
+            let span = (self.start, self.weights.length);
+            drive.add_rates(e, &outputs[e], span, &self.grading().rule().c, &mut rates);
+            self.free_velocity.extend_from_slice(&rates);
         }
     }
 
@@ -140,6 +166,9 @@ impl ForceStep {
         sensitivity: &Sensitivity,
         parameter: Option<Parameter>,
     ) -> Result<(), NotSolved> {
+        if self.damped {
+            return self.solve_damped_sensitivity(drive, (laws, outputs), sensitivity, parameter);
+        }
         self.factorise()?;
         let columns = sensitivity.columns();
         let size = self.active.len() * NODES;
@@ -184,7 +213,7 @@ impl ForceStep {
         if let (Some(Parameter::AddedDampingRatio), Some(column)) =
             (parameter, sensitivity.parameter_column())
         {
-            self.damped.1.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
+            self.by_damping.1.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
         }
         for (a, to_state) in self.weights.to_state.iter().enumerate().take(self.active.len()) {
             sensitivity.add(to_state, &self.work[a * NODES * columns..(a + 1) * NODES * columns]);
@@ -218,7 +247,7 @@ impl ForceStep {
     /// Moves the displacements of the last solution to a step whose length differs by the part `change`.
     pub fn shift_guess(&mut self, change: f64) {
         let rule = self.grading().rule();
-        for values in self.displacement.chunks_exact_mut(NODES) {
+        for values in self.displacement.chunks_exact_mut(NODES).chain(self.velocity.chunks_exact_mut(NODES)) {
             let nodal: [f64; NODES] = std::array::from_fn(|k| values[k]);
             let slope = rule.derivative(&nodal);
             (0..NODES).for_each(|k| values[k] += slope[k] * rule.lag[k] * change);

@@ -2,8 +2,8 @@
 //!
 //! With the mobility G and the law `f = K p^e` the penetration p of a closed contact obeys about `p'' = -c - G K p^e`, c being the
 //! acceleration with which the free motion leaves the stop. With the present p and speed w, energy gives the depth P
-//! from `w^2/2 = c (P - p) + G K/(e+1) (P^(e+1) - p^(e+1))`, and the time between P and p is the integral of `dx/v(x)`. Good to some percent:
-//! a start for Newton's method, and a first length.
+//! from `w^2/2 = c (P - p) + G K/(e+1) (P^(e+1) - p^(e+1))`, and the time between P and p is the integral of `dx/v(x)`. Good to some percent
+//! (less where the contact loses energy, which is left out): a start for Newton's method, and a first length.
 
 use super::{ExactIntegrator, flight::clearance_of, run::Run};
 
@@ -76,7 +76,7 @@ impl ExactIntegrator {
         let power = contact.onset_exponent + 1.0;
         // The coefficient K of the law, read off it where it is loaded.
         let probe = if penetration > 0.0 { penetration } else { 1e-6 };
-        let force = self.laws[element].force(contact.level + contact.sign * probe).value.abs();
+        let force = self.laws[element].force(contact.level + contact.sign * probe, 0.0).value.abs();
         let coefficient = force / probe.powf(contact.onset_exponent);
         let gain = mobility * coefficient / power;
         if !touched {

@@ -14,7 +14,7 @@ use super::{
     flight_maximum::Flown,
     run::Run,
 };
-use crate::Stretch;
+use crate::{Law, Stretch};
 
 /// Maxima of a motion on the continuous motion, and its contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -29,6 +29,8 @@ pub struct Maxima {
     pub impact_velocity: f64,
     /// Sum of the impulses of all contacts [N s].
     pub impulse: f64,
+    /// Energy that the structure has lost to all contacts [J], what is stored in them at the end included; 0 for laws that lose none.
+    pub energy_lost: f64,
     /// Number of contacts that closed.
     pub touches: u32,
     /// Elements that were closed all the time, one bit each (the first 64).
@@ -98,6 +100,8 @@ struct Peak {
     /// State at the start of the step.
     state: Vec<f64>,
     active: Vec<usize>,
+    /// Laws of the active elements, with what they remember.
+    laws: Vec<Law>,
     force: Vec<f64>,
 }
 
@@ -168,7 +172,8 @@ impl ExactIntegrator {
                     maxima.impact_velocity = maxima.impact_velocity.max(speed.abs());
                 }
                 Passage::Step(step) => {
-                    self.recall(&step, course.elements(step.active), course.numbers(step.force));
+                    self.recall(course, &step);
+                    observation.maxima.energy_lost += step.energy_taken;
                     self.observe_step(piece, course.numbers(step.state), observation);
                     observation.maxima.closed_throughout &= step.closed;
                 }
@@ -188,9 +193,7 @@ impl ExactIntegrator {
         let Observation { mut maxima, fastest, farthest, hardest, flights, .. } = observation;
         for peak in hardest.peaks {
             drive_of(self, peak.piece);
-            let law = self.laws[peak.output];
-            let force = self.exact_extremum(peak, |displacement| law.force(displacement).value.abs());
-            maxima.contact_force = maxima.contact_force.max(force);
+            maxima.contact_force = maxima.contact_force.max(self.largest_force(peak));
         }
         for peak in farthest.peaks {
             drive_of(self, peak.piece);
@@ -255,19 +258,23 @@ impl ExactIntegrator {
             length: self.step.weights.length,
             state: state.to_vec(),
             active: self.step.active.clone(),
+            laws: self.step.active.iter().map(|&e| self.laws[e]).collect(),
             force: self.step.force.clone(),
         }
     }
 
     /// Makes a step that was solved earlier the present one.
-    fn recall(&mut self, step: &CourseStep, active: &[usize], force: &[f64]) {
+    fn recall(&mut self, course: &Course, step: &CourseStep) {
         self.step.grading = Some(step.grading);
         self.step.start = step.start;
         self.step.weights.length = step.length;
         self.step.active.clear();
-        self.step.active.extend_from_slice(active);
+        for (element, law) in course.active(step) {
+            self.step.active.push(*element);
+            self.laws[*element] = *law;
+        }
         self.step.force.clear();
-        self.step.force.extend_from_slice(force);
+        self.step.force.extend_from_slice(course.numbers(step.force));
     }
 
     /// Makes the step of a peak the present one; the time of the peak in it.
@@ -275,6 +282,7 @@ impl ExactIntegrator {
         self.step.grading = Some(peak.grading);
         self.step.start = peak.start;
         self.step.weights.length = peak.length;
+        peak.active.iter().zip(&peak.laws).for_each(|(&element, law)| self.laws[element] = *law);
         self.step.active.clone_from(&peak.active);
         self.step.force.clone_from(&peak.force);
         peak.grading.map(peak.place).0 * peak.length
@@ -302,6 +310,19 @@ impl ExactIntegrator {
         largest
     }
 
+    /// The largest force once more: at the extremum of the displacement; where the law depends on the velocity, at the place that the polynomial tells.
+    fn largest_force(&mut self, peak: Peak) -> f64 {
+        let element = peak.output;
+        let of_element = peak.active.iter().position(|&active| active == element);
+        let law = of_element.map_or(self.laws[element], |a| peak.laws[a]);
+        if !law.depends_on_velocity() {
+            return self.exact_extremum(peak, |displacement| law.force(displacement, 0.0).value.abs());
+        }
+        let time = self.recall_peak(&peak);
+        let jet = self.jet_in_step(&peak.state, element, time);
+        law.pressing_force(jet.value, jet.slope).value.abs()
+    }
+
     /// The largest acceleration once more: the polynomial tells where it is, and there the forces follow from the
     /// displacements, which are much more accurate.
     fn exact_peak(&mut self, peak: Peak) -> f64 {
@@ -310,9 +331,9 @@ impl ExactIntegrator {
         let mut exact = self.jet_in_step(&peak.state, response, time).curvature;
         for (a, &element) in self.step.active.iter().enumerate() {
             let polynomial = self.step.interpolate(&self.step.force, a, place);
-            let displacement = self.jet_in_step(&peak.state, element, time).value;
+            let jet = self.jet_in_step(&peak.state, element, time);
             exact += self.mobility[response][element]
-                * (self.laws[element].force(displacement).value - polynomial);
+                * (self.laws[element].pressing_force(jet.value, jet.slope).value - polynomial);
         }
         exact.abs()
     }

@@ -12,6 +12,8 @@
 //! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
 //! | `weights.rs`, `series.rs`, `quadrature.rs` | the matrices of a step |
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
+//! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
+//! | `memory.rs` | laws that remember the speed of an impact |
 //! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
 //! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
@@ -31,6 +33,7 @@ mod clearance;
 mod collocation;
 mod contact_phase;
 mod course;
+mod damped_step;
 mod decouple;
 mod drive;
 mod event;
@@ -43,7 +46,9 @@ mod forecast;
 mod lanes;
 mod lu;
 mod maxima;
+mod memory;
 mod newton;
+mod onset;
 mod output;
 mod plane;
 mod polynomial;
@@ -91,6 +96,11 @@ pub enum MotionError {
     /// The system has no such parameter, or not with this value.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+    /// A law needs the speed with which a contact began, and the stretch begins within it. Another phase of the excitation moves the start.
+    #[error(
+        "{element} is closed at the start of a stretch, at the phase of {phase} cycles, and its law needs to know how fast it closed"
+    )]
+    StartsInContact { element: String, phase: f64 },
     /// No force step, however short, reached the tolerance.
     #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
     StepTooShort { time: f64, step: f64 },
@@ -168,6 +178,7 @@ pub struct ExactIntegrator {
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
     by_damping: Option<Box<by_damping::ByDamping>>,
+    memory: Option<memory::Memory>,
 }
 
 impl ExactIntegrator {
@@ -235,6 +246,7 @@ impl ExactIntegrator {
             response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
             parameter: None,
             by_damping: None,
+            memory: None,
         })
     }
 

@@ -9,7 +9,7 @@ use crate::Law;
 
 /// Slower convergence than this calls for a new factorisation.
 const FACTORISE_ABOVE: f64 = 0.03;
-const MAX_ITERATIONS: usize = 30;
+pub(super) const MAX_ITERATIONS: usize = 30;
 /// Substitutions by which a first guess is improved at most.
 const MAX_SUBSTITUTIONS: usize = 3;
 /// Largest response of the last displacement to a unit change of all displacements for which that is tried.
@@ -19,8 +19,8 @@ const SHORT: f64 = 2.0;
 pub(crate) struct NotSolved;
 
 impl ForceStep {
-    /// Solves for the displacements from the guess in `displacement`, until what is left is below `precision` times their range, or a
-    /// correction below `rounding`.
+    /// Solves for the displacements (and velocities, see `damped_step.rs`) from the guess of them, until what is left is below `precision` times their
+    /// range, or a correction below `rounding`.
     ///
     /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with, and so is that of the
     /// last step solved if this one is nearly the same (`again`).
@@ -91,7 +91,7 @@ impl ForceStep {
         }
     }
 
-    fn solve_correction(&mut self) {
+    pub(super) fn solve_correction(&mut self) {
         if let [_] = self.active.as_slice() {
             let mut right: [f64; NODES] = std::array::from_fn(|k| self.correction[k]);
             self.fixed_lu.solve(&mut right);
@@ -104,7 +104,7 @@ impl ForceStep {
     fn evaluate(&mut self, laws: &[Law]) {
         for (a, &e) in self.active.iter().enumerate() {
             for i in a * NODES..(a + 1) * NODES {
-                let force = laws[e].force(self.displacement[i]);
+                let force = laws[e].force(self.displacement[i], 0.0);
                 self.force[i] = force.value;
                 self.slope[i] = force.slope;
             }

@@ -18,19 +18,20 @@ const RADIANS: f64 = 4.0;
 type Integrals = [[f64; 4]; NODES];
 
 impl StepWeights {
-    /// Matrices of a step of any length; `active` lists elements.
+    /// Matrices of a step of any length; `active` lists elements, `velocity` tells whether their velocities are wanted.
     pub fn by_quadrature(
         blocks: &Blocks,
         outputs: &[Output],
         inputs: &[Vec<f64>],
-        active: &[usize],
+        (active, velocity): (&[usize], bool),
         grading: Grading,
         length: f64,
     ) -> Self {
         let n = blocks.count();
         let mut weights = Self { length, complete: true, ..Self::default() };
-        weights.resize(active.len(), 2 * n);
+        weights.resize(active.len(), 2 * n, velocity);
         weights.convolution.fill([[0.0; NODES]; NODES]);
+        weights.velocity_convolution.fill([[0.0; NODES]; NODES]);
         weights.set_propagators(blocks, length);
         for i in 0..n {
             let block = (blocks.stiffness[i], blocks.damping[i]);
@@ -62,10 +63,15 @@ impl StepWeights {
     ) {
         for (node, c) in grading.rule().c.iter().enumerate() {
             let propagator = Propagator::new(stiffness, damping, self.length * c);
+            let set = |rows: &mut [f64], row: &[f64]| {
+                rows[i * NODES + node] = row[i] * propagator.a + row[n + i] * propagator.c;
+                rows[(n + i) * NODES + node] = row[i] * propagator.b + row[n + i] * propagator.d;
+            };
             for (rows, &e) in self.rows.iter_mut().zip(active) {
-                let (row_p, row_s) = (outputs[e].row[i], outputs[e].row[n + i]);
-                rows[i * NODES + node] = row_p * propagator.a + row_s * propagator.c;
-                rows[(n + i) * NODES + node] = row_p * propagator.b + row_s * propagator.d;
+                set(rows, &outputs[e].row);
+            }
+            for (rows, &e) in self.velocity_rows.iter_mut().zip(active) {
+                set(rows, &outputs[e].velocity_row);
             }
         }
     }
@@ -85,8 +91,11 @@ impl StepWeights {
             return;
         }
         for (a, &e) in active.iter().enumerate() {
-            self.convolution[a * active.len() + b][j][node] +=
-                outputs[e].row[i] * p + outputs[e].row[n + i] * s;
+            let (place, o) = (a * active.len() + b, &outputs[e]);
+            self.convolution[place][j][node] += o.row[i] * p + o.row[n + i] * s;
+            if let Some(matrix) = self.velocity_convolution.get_mut(place) {
+                matrix[j][node] += o.velocity_row[i] * p + o.velocity_row[n + i] * s;
+            }
         }
     }
 }
@@ -165,13 +174,15 @@ mod tests {
         for grading in [Grading::Smooth, Grading::Touch, Grading::Release] {
             let length = 0.9 * series.reach();
             let active = [0, 1];
-            let found = StepWeights::by_quadrature(&blocks, &outputs, &inputs, &active, grading, length);
+            let found =
+                StepWeights::by_quadrature(&blocks, &outputs, &inputs, (&active, true), grading, length);
             let mut expected = StepWeights::default();
-            series.prepare(&active, grading, length, &mut expected);
-            series.complete(&active, grading, &mut expected);
+            series.prepare((&active, true), grading, length, &mut expected);
+            series.complete((&active, true), grading, &mut expected);
             for a in 0..2 {
                 assert!(near(&found.rows[a], &expected.rows[a]), "{grading:?}");
                 assert!(near(&found.to_state[a], &expected.to_state[a]), "{grading:?}");
+                assert!(near(&found.velocity_rows[a], &expected.velocity_rows[a]), "{grading:?}");
                 for b in 0..2 {
                     assert!(
                         near(
@@ -180,6 +191,8 @@ mod tests {
                         ),
                         "{grading:?}"
                     );
+                    let [found, expected] = [&found, &expected].map(|w| &w.velocity_convolution[2 * a + b]);
+                    assert!(near(found.as_flattened(), expected.as_flattened()), "{grading:?}");
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Where a run over a stretch stands.
 
-use super::{drive::Jet, sensitivity::Sensitivity};
+use super::{drive::Jet, event::Event, sensitivity::Sensitivity};
 
 /// State of a run; times are counted from the start of the stretch.
 #[derive(Debug, Default)]
@@ -11,6 +11,8 @@ pub(crate) struct Run {
     pub state: Vec<f64>,
     /// Closed contact of each element.
     pub closed: Vec<Option<usize>>,
+    /// Contact of each element that has parted: penetration is left, but no pressure.
+    pub parted: Vec<Option<usize>>,
     /// Sensitivities, if wanted.
     pub sensitivity: Option<Sensitivity>,
     /// Time to the end of the stretch at the start of a step [s].
@@ -19,10 +21,12 @@ pub(crate) struct Run {
     pub proposal: f64,
     /// Element that has just touched, whose force sets in now.
     pub touched: Option<usize>,
+    /// Element that has just come to press again after it had parted.
+    pub pressed: Option<usize>,
     /// What is known of every element at the start of a step.
     pub start: Vec<ElementStart>,
-    /// Element whose contact is known to open soon, and about when [s].
-    pub release: Option<(usize, f64)>,
+    /// End of a contact that is known to come soon, and about when [s].
+    pub release: Option<(Event, f64)>,
     /// Time within which contacts that leave count as open, after another was released [s].
     pub slack: f64,
 }

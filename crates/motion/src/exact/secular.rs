@@ -119,6 +119,17 @@ impl SecularLoad {
         if free { self.parabola(time) } else { self.exponential(time) }
     }
 
+    /// Derivative of the rate by the frequency at `time` after the start.
+    pub fn rate_by_frequency(&self, time: f64) -> [f64; 2] {
+        let [p, s] = self.response(time).by_frequency;
+        let (sin, cos) = (self.frequency * time).sin_cos();
+        let load = |row: usize| {
+            let input = &self.system[2 + row];
+            input[4] * cos + input[5] * sin + time * (input[6] * cos + input[7] * sin)
+        };
+        [s + load(0), -self.stiffness * p - self.damping * s + load(1)]
+    }
+
     fn parabola(&self, time: f64) -> ([f64; 2], [f64; 2]) {
         let [beta, phi] = [self.system[0][4], self.system[1][4]];
         let [beta_f, phi_f] = [self.system[2][4], self.system[3][4]];

@@ -29,6 +29,8 @@ pub(crate) struct Sensitivity {
     columns: usize,
     values: Vec<f64>,
     has_parameter: bool,
+    /// Sensitivities of the speed with which the last contact of an element began; empty where nothing is remembered.
+    impact_speeds: Vec<Vec<f64>>,
 }
 
 impl Sensitivity {
@@ -38,6 +40,7 @@ impl Sensitivity {
         // An even number of rows leaves room for two columns besides.
         self.columns = (self.rows + 4) / 4 * 4;
         self.has_parameter = parameter.is_some();
+        self.impact_speeds.clear();
         self.values.clear();
         self.values.resize(self.rows * self.columns, 0.0);
         for i in 0..self.rows {
@@ -104,6 +107,35 @@ impl Sensitivity {
     pub fn add(&mut self, to_state: &[f64], force: &[f64]) {
         let weights = to_state.as_chunks::<NODES>().0;
         add_products(&mut self.values, force, self.columns, |i| weights[i].iter().copied());
+    }
+
+    /// Keeps the sensitivities of the speed with which a contact of an element began.
+    pub fn remember_impact(&mut self, element: usize, row: Vec<f64>) {
+        if self.impact_speeds.len() <= element {
+            self.impact_speeds.resize(element + 1, Vec::new());
+        }
+        self.impact_speeds[element] = row;
+    }
+
+    /// Sensitivities of the speed with which the present contact of an element began, if it is remembered.
+    pub fn impact_speed(&self, element: usize) -> Option<&[f64]> {
+        self.impact_speeds.get(element).map(Vec::as_slice).filter(|row| !row.is_empty())
+    }
+
+    /// `row V`, one entry per column.
+    pub fn combined(&self, row: &[f64]) -> Vec<f64> {
+        let mut sums = vec![0.0; self.columns];
+        for (weight, values) in row.iter().zip(self.values.chunks_exact(self.columns)) {
+            sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+        }
+        sums
+    }
+
+    /// Adds `factor column row`.
+    pub fn add_outer(&mut self, column: &[f64], factor: f64, row: &[f64]) {
+        for (weight, values) in column.iter().zip(self.values.chunks_exact_mut(self.columns)) {
+            values.iter_mut().zip(row).for_each(|(value, entry)| *value += factor * weight * entry);
+        }
     }
 
     /// Largest velocity of each column, raised from what is in `norms`.

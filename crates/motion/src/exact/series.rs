@@ -30,6 +30,8 @@ pub(crate) struct Series {
     columns: Vec<Vec<Vec<f64>>>,
     /// The same of each element entry by entry, `[i * TERMS + m]`: rows and columns.
     entries: Vec<(Vec<f64>, Vec<f64>)>,
+    /// Rows entry by entry from the first power on: those that read velocities, over the rate.
+    velocity_entries: Vec<Vec<f64>>,
     /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
     markov: Vec<Vec<f64>>,
 }
@@ -58,7 +60,8 @@ impl Series {
             })
             .collect();
         let entries = rows.iter().zip(&columns).map(|(r, c)| (by_entry(r), by_entry(c))).collect();
-        Self { rate, rates: blocks.rates(), entries, rows, columns, markov }
+        let velocity_entries = rows.iter().take(columns.len()).map(|r| by_entry(&r[1..])).collect();
+        Self { rate, rates: blocks.rates(), entries, velocity_entries, rows, columns, markov }
     }
 
     /// The change of the series with the blocks: what they give is then the change of node values and states,
@@ -85,7 +88,8 @@ impl Series {
             columns.iter().map(|powers| powers.iter().map(|column| dot(&row[0], column)).collect())
         });
         let markov = markov.collect();
-        Self { rate: self.rate, rates: self.rates.clone(), rows, columns, entries: Vec::new(), markov }
+        let (entries, velocity_entries) = (Vec::new(), Vec::new());
+        Self { rate: self.rate, rates: self.rates.clone(), rows, columns, entries, velocity_entries, markov }
     }
 
     /// Longest step that the series serve [s].
@@ -166,16 +170,24 @@ impl Series {
         self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
     }
 
-    /// Prepares a step within the reach: its convolution `W`. The rest follows with [`StepWeights::set_propagators`] and
-    /// [`Series::complete`].
-    pub fn prepare(&self, active: &[usize], grading: Grading, length: f64, into: &mut StepWeights) {
+    /// Prepares a step within the reach: its convolution `W`, and `W'` if `velocity` says so. The rest follows with
+    /// [`StepWeights::set_propagators`] and [`Series::complete`].
+    pub fn prepare(
+        &self,
+        (active, velocity): (&[usize], bool),
+        grading: Grading,
+        length: f64,
+        into: &mut StepWeights,
+    ) {
         let rule = grading.rule();
         let z = length * self.rate;
         let terms = Self::terms(z);
         let count = self.columns.len();
         into.length = length;
         into.complete = false;
-        into.convolution.resize(active.len() * active.len(), [[0.0; NODES]; NODES]);
+        let pairs = active.len() * active.len();
+        into.convolution.resize(pairs, [[0.0; NODES]; NODES]);
+        into.velocity_convolution.resize(if velocity { pairs } else { 0 }, [[0.0; NODES]; NODES]);
         let factors = Self::factors(length, z, terms);
         for (a, &e) in active.iter().enumerate() {
             for (b, &f) in active.iter().enumerate() {
@@ -189,16 +201,38 @@ impl Series {
                 add_products(target, source, NODES * NODES, |_| weights[..terms].iter().copied());
             }
         }
+        if velocity {
+            self.prepare_velocities(active, grading, &factors[..terms], into);
+        }
     }
 
-    /// Completes a prepared step: `X` and `P`.
-    pub fn complete(&self, active: &[usize], grading: Grading, step: &mut StepWeights) {
+    /// `W'` of a step.
+    #[inline(never)]
+    fn prepare_velocities(
+        &self,
+        active: &[usize],
+        grading: Grading,
+        factors: &[f64],
+        into: &mut StepWeights,
+    ) {
+        let source = grading.rule().at_nodes[..factors.len()].as_flattened().as_flattened();
+        for (place, convolution) in into.velocity_convolution.iter_mut().enumerate() {
+            let (e, f) = (active[place / active.len()], active[place % active.len()]);
+            let markov = &self.markov[e * self.columns.len() + f][1..];
+            let rates = factors.iter().zip(markov).map(|(factor, m)| factor * m * self.rate);
+            convolution.fill([0.0; NODES]);
+            add_products(convolution.as_flattened_mut(), source, NODES * NODES, |_| rates.clone());
+        }
+    }
+
+    /// Completes a prepared step: `X` and `P`, and `X'` if `velocity` says so.
+    pub fn complete(&self, (active, velocity): (&[usize], bool), grading: Grading, step: &mut StepWeights) {
         let rule = grading.rule();
         let size = self.columns[0][0].len();
         let length = step.length;
         let z = length * self.rate;
         let terms = Self::terms(z);
-        step.resize(active.len(), size);
+        step.resize(active.len(), size, velocity);
         step.complete = true;
         let needed = self.terms_of_blocks(length);
         let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
@@ -206,6 +240,24 @@ impl Series {
             let (rows, columns) = &self.entries[e];
             sum_powers(rows, &powers, &rule.powers, &needed, &mut step.rows[a]);
             sum_powers(columns, &factors, &rule.at_end, &needed, &mut step.to_state[a]);
+        }
+        if velocity {
+            self.complete_velocities(active, grading, (&powers, &needed), step);
+        }
+    }
+
+    /// `X'` of a step.
+    #[inline(never)]
+    fn complete_velocities(
+        &self,
+        active: &[usize],
+        grading: Grading,
+        (powers, needed): (&[f64; TERMS], &[usize]),
+        step: &mut StepWeights,
+    ) {
+        for (rows, &e) in step.velocity_rows.iter_mut().zip(active) {
+            sum_powers(&self.velocity_entries[e], powers, &grading.rule().powers, needed, rows);
+            rows.iter_mut().for_each(|entry| *entry *= self.rate);
         }
     }
 
@@ -250,6 +302,18 @@ impl Series {
             (0..NODES).for_each(|k| values[k] = readings[m] + values[k] * share * rule.c[k]);
         }
         values
+    }
+
+    /// Velocities of the free motion at the nodes of a step from the readings at its start, apart from the particular part.
+    pub fn free_rates(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
+        let rule = grading.rule();
+        let z = length * self.rate;
+        let mut rates = [0.0; NODES];
+        for m in (0..Self::terms(z)).rev() {
+            let share = z / (m + 1) as f64;
+            (0..NODES).for_each(|k| rates[k] = readings[m + 1] + rates[k] * share * rule.c[k]);
+        }
+        rates.map(|rate| rate * self.rate)
     }
 
     /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the direct part of the forces.

@@ -5,7 +5,7 @@
 //! coefficients added, its decay D the tail over the same at half the degree. With the mobility `G` (of `C A B` what can follow within the step) and the largest relative
 //! velocity `V` that the present state can reach, or that the load gives it in the step,
 //!
-//! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . h^2 G tail(f'))` if that is larger,
+//! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . (h^2 G tail(f') + h G tail(f_v)))` if that is larger,
 //!
 //! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step, so the state at the end has
 //! about its square; `T D^2`, the force in the polynomials of twice the degree, if that is larger: near a half-integer power
@@ -68,14 +68,14 @@ const RESOLVED: f64 = 5.5;
 
 impl ExactIntegrator {
     /// Largest velocity that an output can reach from the present state.
-    pub(super) fn velocity_range(&self, run: &Run, output: usize) -> f64 {
+    pub(super) fn speed_bound(&self, state: &[f64], output: usize) -> f64 {
         let o = &self.outputs[output];
         self.drive.speed(output)
-            + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(run, i)).sum::<f64>()
+            + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(state, i)).sum::<f64>()
     }
 
-    fn energy_norm(&self, run: &Run, block: usize) -> f64 {
-        let (p, s) = (run.state[block], run.state[self.blocks.count() + block]);
+    fn energy_norm(&self, state: &[f64], block: usize) -> f64 {
+        let (p, s) = (state[block], state[self.blocks.count() + block]);
         (self.blocks.stiffness[block] * p * p + s * s).sqrt()
     }
 
@@ -94,22 +94,32 @@ impl ExactIntegrator {
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let force = step.tail(&step.force[nodes.clone()]);
             let tail = impulse * force.highest / velocity;
-            let dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]).highest;
+            let mut dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]).highest;
+            if step.damped {
+                dual += impulse * step.tail(&step.damping[nodes.clone()]).highest;
+            }
             let errors = Errors {
                 tail: tail.max((tail * dual).sqrt()),
                 slow: tail * force.decay(),
                 fast_share: response.fast_share,
             };
             largest = largest.max(self.relative_to_bound(errors));
-            let stiffest = largest_magnitude(&step.slope[nodes]);
-            let bounds = &self.outputs[element].value_bound;
+            let follows = self.following(element, nodes);
             for (i, amplitude) in amplitudes.iter_mut().enumerate() {
-                let own = response.mobility * stiffest * bounds[i] * self.vibration(run, i) / velocity;
+                let own = response.mobility * follows(i) * self.vibration(run, i) / velocity;
                 *amplitude = amplitude.max(own);
             }
         }
         self.step.unresolved = amplitudes;
         largest.max(self.unresolved_excess())
+    }
+
+    /// How much an element's force follows the vibration of each block in the solved step, per energy norm of the block.
+    fn following(&self, element: usize, nodes: std::ops::Range<usize>) -> impl Fn(usize) -> f64 {
+        let (step, output) = (&self.step, &self.outputs[element]);
+        let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
+        let viscous = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
+        move |block| stiffest * output.value_bound[block] + viscous * output.first_bound[block]
     }
 
     /// Energy norm of a block apart from what follows the present forces and their rates without vibrating: those are smooth.
@@ -120,13 +130,14 @@ impl ExactIntegrator {
         if k > 0.0 {
             for &element in &self.step.active {
                 let jet = run.start[element].jet;
-                let force = self.laws[element].force(jet.value);
+                let force = self.laws[element].pressing_force(jet.value, jet.slope);
+                let rate = force.slope * jet.slope + force.damping * jet.curvature;
                 let input = &self.inputs[element];
                 // `-A^-1 B F - A^-2 B F'`.
                 let first = [(input[n + block] + c * input[block]) / k, -input[block]];
                 let second = [-(first[1] + c * first[0]) / k, first[0]];
-                p -= first[0] * force.value + second[0] * force.slope * jet.slope;
-                s -= first[1] * force.value + second[1] * force.slope * jet.slope;
+                p -= first[0] * force.value + second[0] * rate;
+                s -= first[1] * force.value + second[1] * rate;
             }
         }
         (k * p * p + s * s).sqrt()
@@ -185,7 +196,8 @@ impl ExactIntegrator {
     pub(super) fn sensitivity_error(&mut self, run: &Run) -> Option<f64> {
         let Some(sensitivity) = &run.sensitivity else { return Some(0.0) };
         if !self.step.weights.complete {
-            self.series.complete(&self.step.active, self.step.grading(), &mut self.step.weights);
+            let active = (self.step.active.as_slice(), self.step.damped);
+            self.series.complete(active, self.step.grading(), &mut self.step.weights);
         }
         self.prepare_damped_step(run);
         let parameter = self.parameter;
@@ -219,13 +231,13 @@ impl ExactIntegrator {
         let error = self.relative_to_bound(errors).max(error[0]).max(error[1]);
         let mut amplitudes = std::mem::take(&mut self.step.unresolved);
         for &element in &self.step.active {
-            let stiffest = largest_magnitude(&self.step.slope) * self.response(element).mobility.sqrt();
-            let bounds = &self.outputs[element].value_bound;
+            let follows = self.following(element, 0..self.step.slope.len());
+            let mobility = self.response(element).mobility.sqrt();
             for (i, amplitude) in
                 amplitudes.iter_mut().enumerate().filter(|(i, _)| self.may_be_unresolved(*i))
             {
                 let largest = sensitivity.largest_energy_norm(i, self.blocks.stiffness[i], &scale);
-                *amplitude = amplitude.max(stiffest * bounds[i] * largest / norm);
+                *amplitude = amplitude.max(mobility * follows(i) * largest / norm);
             }
         }
         self.step.unresolved = amplitudes;

@@ -21,6 +21,9 @@
 //! the exact motion is the error of the step. The window is the rest of the step at first; where the safe step is much shorter, a
 //! window of its size gives better bounds.
 //!
+//! **A contact that has parted** is watched for its pressure `s = a p + b p' + d` to come back, with `|s''| <= a B_2 + b B_3` apart from the jump, which is
+//! taken off `s'`; and for its penetration to end.
+//!
 //! **The margin.** Every look carries the state on from the last one by the exact propagators and a quadrature that leaves rounding, so the
 //! margin grows with the number of looks k: `(8 + k) eps` times the sum of the magnitudes of the terms of `r`, those of the forces included. A
 //! clearance within it that still falls is a contact; a minimum within it is a graze.
@@ -34,7 +37,7 @@ use super::{
     collocation::NODES,
     drive::Jet,
     event::Event,
-    flight::{Touch, clearance_of},
+    flight::{Boundary, Touch},
     force_bound::ForceBound,
     run::Run,
 };
@@ -66,8 +69,7 @@ impl ExactIntegrator {
         }
         let forced = Forced::new(self);
         for element in (0..self.laws.len()).filter(|&e| run.closed[e].is_none()) {
-            for contact in 0..self.laws[element].contacts().len() {
-                let touch = Touch { element, contact };
+            for touch in self.watched(element, run.parted[element]) {
                 let mut until = first.map_or(self.step.weights.length, |(_, time)| time);
                 if event == Some(Event::Touch(touch)) {
                     until = until.min(self.step.weights.length - self.located_within(run, touch));
@@ -211,6 +213,9 @@ impl<'a> Search<'a> {
 
     /// Whether a contact that was just released comes back before it rises above what its own location left undecided.
     fn closes_again_at_once(&self) -> bool {
+        if self.touch.boundary != Boundary::Closes {
+            return false;
+        }
         let start = self.clearance(&self.state, 0.0);
         let highest = start.value - 0.5 * start.slope * start.slope / start.curvature;
         start.value <= 0.0 && start.curvature < 0.0 && highest <= self.bounds(self.until).margin
@@ -223,7 +228,7 @@ impl<'a> Search<'a> {
         let (mut free, mut window) = (0.0_f64, remaining);
         for _ in 0..WINDOWS {
             let bounds = self.bounds(window);
-            let cautious = Jet { curvature: clearance.curvature - self.direct.jump, ..clearance };
+            let cautious = self.cautious(clearance);
             match look(cautious, bounds) {
                 Look::Contact => return (0.0, true),
                 Look::FreeFor(step) => free = free.max(step.min(window)),
@@ -254,11 +259,19 @@ impl<'a> Search<'a> {
         state
     }
 
-    /// The clearance in the step from the homogeneous state at `time`.
+    /// What falls to zero at the boundary, in the step from the homogeneous state at `time`.
     fn clearance(&self, state: &[f64], time: f64) -> Jet {
-        let Touch { element, contact } = self.touch;
-        let c = self.integrator.laws[element].contacts()[contact];
-        clearance_of(self.integrator.forced_jet(state, element, time), c.level, c.sign)
+        self.integrator.distance(self.integrator.forced_jet(state, self.touch.element, time), self.touch)
+    }
+
+    /// The lowest derivatives with the jumps of the forces: `r''` may be lower by J, and so the rate of a pressure by J times its part of the velocity.
+    fn cautious(&self, clearance: Jet) -> Jet {
+        match self.integrator.laws[self.touch.element].pressure() {
+            Some(pressure) if self.touch.boundary == Boundary::Presses => {
+                Jet { slope: clearance.slope - pressure.velocity * self.direct.jump, ..clearance }
+            }
+            _ => Jet { curvature: clearance.curvature - self.direct.jump, ..clearance },
+        }
     }
 
     /// Bounds over a window from the last look.
@@ -279,6 +292,6 @@ impl<'a> Search<'a> {
             margin += (output.value_bound[i] + rigid) * gain * window;
         }
         bounds.margin = margin * f64::EPSILON * (8 + self.looks) as f64;
-        bounds
+        it.boundary_bounds(bounds, &self.state, self.touch)
     }
 }

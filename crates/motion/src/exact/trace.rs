@@ -49,6 +49,8 @@ pub struct Trace {
     pub state: Vec<f64>,
     /// Modal states at the phases asked for.
     pub samples: Vec<Vec<f64>>,
+    /// Forces of the elements along their relative displacements at these phases [N].
+    pub forces: Vec<Vec<f64>>,
     /// Contacts in the order in which they closed.
     pub contacts: Vec<ContactPiece>,
 }
@@ -68,22 +70,27 @@ impl Tracing {
         self.times.get(self.trace.samples.len()).copied().filter(|time| *time < before)
     }
 
-    /// Ends the pieces of elements that are no longer closed.
-    fn end_open(&mut self, closed: &[Option<usize>], time: f64) {
-        for (open, closed) in self.open.iter_mut().zip(closed) {
-            if closed.is_none()
-                && let Some(piece) = open.take()
-            {
-                self.trace.contacts[piece].end = Some(time);
+    /// Ends the pieces of elements without force. Those that have parted before their penetration has ended may go on.
+    fn end_open(&mut self, run: &Run) {
+        for (element, open) in self.open.iter_mut().enumerate() {
+            let Some(piece) = *open else { continue };
+            let contact = &mut self.trace.contacts[piece];
+            if run.closed[element].is_some() {
+                contact.end = None;
+                continue;
+            }
+            contact.end.get_or_insert(run.time);
+            if run.parted[element].is_none() {
+                *open = None;
             }
         }
     }
 
-    fn begin(&mut self, touch: Touch, begin: Option<Touchdown>) {
-        self.open[touch.element] = Some(self.trace.contacts.len());
+    fn begin(&mut self, element: usize, contact: usize, begin: Option<Touchdown>) {
+        self.open[element] = Some(self.trace.contacts.len());
         self.trace.contacts.push(ContactPiece {
-            element: touch.element,
-            contact: touch.contact,
+            element,
+            contact,
             begin,
             end: None,
             impulse: 0.0,
@@ -104,27 +111,28 @@ impl ExactIntegrator {
         let mut run = self.begin(stretch, state, false);
         for element in 0..self.laws.len() {
             if let Some(contact) = run.closed[element] {
-                tracing.begin(Touch { element, contact }, None);
+                tracing.begin(element, contact, None);
             }
         }
         self.tracing = Some(tracing);
         let result = self.complete(&mut run, stretch);
         let mut tracing = self.tracing.take().unwrap_or_default();
-        tracing.end_open(&run.closed, run.time);
+        tracing.end_open(&run);
         let end = self.modal_state(&run, stretch.duration());
-        self.run = run;
-        result?;
+        self.remember_end(stretch, &end);
         // Samples at the very end, or within rounding of it.
         while tracing.trace.samples.len() < tracing.times.len() {
             tracing.trace.samples.push(end.clone());
+            tracing.trace.forces.push(self.forces_of(&run, &run.state, stretch.duration()));
         }
-        Ok(Trace { state: end, ..tracing.trace })
+        self.run = run;
+        result.map(|()| Trace { state: end, ..tracing.trace })
     }
 
     /// Writes down a flight of that duration from the state at its start.
     pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
         let Some(mut tracing) = self.tracing.take() else { return };
-        tracing.end_open(&run.closed, run.time);
+        tracing.end_open(run);
         let n = self.blocks.count();
         while let Some(time) = tracing.due(run.time + duration) {
             let mut state = self.flight_start.clone();
@@ -133,6 +141,7 @@ impl ExactIntegrator {
                 let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], after);
                 (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
             }
+            tracing.trace.forces.push(vec![0.0; self.laws.len()]);
             tracing.trace.samples.push(self.modal_of(state, time));
         }
         self.tracing = Some(tracing);
@@ -141,20 +150,21 @@ impl ExactIntegrator {
     /// Writes down a contact that closes now.
     pub(super) fn trace_touch(&mut self, run: &Run, touch: Touch) {
         let Some(mut tracing) = self.tracing.take() else { return };
-        tracing.end_open(&run.closed, run.time);
+        tracing.end_open(run);
         let velocity = self.output_jet(&run.state, touch.element, run.time).slope;
         let state = self.modal_state(run, run.time);
-        tracing.begin(touch, Some(Touchdown { time: run.time, velocity, state }));
+        tracing.begin(touch.element, touch.contact, Some(Touchdown { time: run.time, velocity, state }));
         self.tracing = Some(tracing);
     }
 
     /// Writes down the solved step that is being accepted; `run` stands at its start.
     pub(super) fn trace_step(&mut self, run: &Run) {
         let Some(mut tracing) = self.tracing.take() else { return };
-        tracing.end_open(&run.closed, run.time);
+        tracing.end_open(run);
         while let Some(time) = tracing.due(run.time + self.step.weights.length) {
             let mut state = run.state.clone();
             self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
+            tracing.trace.forces.push(self.forces_of(run, &state, time));
             tracing.trace.samples.push(self.modal_of(state, time));
         }
         for (a, &element) in self.step.active.iter().enumerate() {
@@ -196,6 +206,17 @@ impl ExactIntegrator {
             *value += self.drive.jet(output, &self.outputs[output], step.start + step.node_time(k)).slope;
         }
         values
+    }
+
+    /// Forces of the elements that act, from the homogeneous block state at a time.
+    fn forces_of(&self, run: &Run, state: &[f64], time: f64) -> Vec<f64> {
+        let force = |element: usize| {
+            let jet = self.output_jet(state, element, time);
+            self.laws[element].pressing_force(jet.value, jet.slope).value
+        };
+        (0..self.laws.len())
+            .map(|element| if self.acts(run, element) { force(element) } else { 0.0 })
+            .collect()
     }
 
     /// Modal state of a homogeneous block state at a time.

@@ -4,6 +4,9 @@
 //! them come from power series in h (`collocation.rs`, `series.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
 //! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`](super::collocation::REACH), they come from quadrature (`quadrature.rs`)
 //! fine enough for every mode; such steps have lengths on a grid and are cached.
+//!
+//! Where a law depends on the velocity, `r'_k = r'_particular + X'_k x + sum W'_kj F_j` is wanted besides. `W'` and `X'` are the same with `C A`
+//! instead of C (`C B` vanishes); elsewhere they are not made.
 
 use super::{
     block::{Blocks, Propagator},
@@ -26,12 +29,18 @@ pub(crate) struct StepWeights {
     pub convolution: Vec<NodeMatrix>,
     /// `P` of each active element, `[i * NODES + j]`.
     pub to_state: Vec<Vec<f64>>,
+    /// `X'` of each active element and `W'`; empty where no law depends on the velocity.
+    pub velocity_rows: Vec<NodeRows>,
+    pub velocity_convolution: Vec<NodeMatrix>,
     /// Whether more than the convolution has been made.
     pub complete: bool,
 }
 
 impl StepWeights {
-    pub fn resize(&mut self, active: usize, size: usize) {
+    pub fn resize(&mut self, active: usize, size: usize, velocity: bool) {
+        self.velocity_rows.resize(if velocity { active } else { 0 }, Vec::new());
+        self.velocity_rows.iter_mut().for_each(|row| row.resize(size * NODES, 0.0));
+        self.velocity_convolution.resize(if velocity { active * active } else { 0 }, [[0.0; NODES]; NODES]);
         self.rows.resize(active, Vec::new());
         self.rows.iter_mut().for_each(|row| row.resize(size * NODES, 0.0));
         self.to_state.resize(active, Vec::new());

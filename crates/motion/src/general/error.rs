@@ -14,6 +14,9 @@ pub enum GeneralError {
     /// A state, a frequency or an end of the stretch is infinite, not a number, or out of order.
     #[error("{what} is {found}, must be {allowed}")]
     Input { what: &'static str, found: f64, allowed: &'static str },
+    /// A law needs the speed with which a contact began, and the stretch begins within it.
+    #[error("{element} is closed at the start of the stretch, and its law needs to know how fast it closed")]
+    StartsInContact { element: String },
     /// The motion runs away, or the field is not defined here.
     #[error("the motion is not finite beyond {time}")]
     NotFinite { time: f64 },

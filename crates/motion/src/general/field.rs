@@ -24,7 +24,8 @@ pub enum Column {
 
 /// A vector field `dz/dt = g(t, z; p)`, smooth within regions bounded by zeros of switching functions `s_k(t, z)`.
 ///
-/// Across a boundary `g` has to be continuous (its derivatives may jump), so that sensitivities are continuous too.
+/// Across a boundary `g` should be continuous (its derivatives may jump), so that sensitivities are continuous too; where it is not,
+/// [`VectorField::jump`] tells how they jump.
 /// Within a step the field is evaluated in one region, [`Point::inside`], even where a stage of the method lies beyond
 /// its boundary: there the field continues smoothly, if it can.
 ///
@@ -48,7 +49,7 @@ pub trait VectorField {
     /// Writes `g(t, z; p)`.
     fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]);
 
-    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another.
+    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another, by the initial state and, last, by the parameter.
     fn tangents(&mut self, at: Point<'_>, columns: &[f64], derivatives: &mut [f64]);
 
     /// Adds `dg/dp` to `sum`; a field without a parameter adds nothing.
@@ -56,6 +57,14 @@ pub trait VectorField {
     /// * `derivative`: `g` at the point, as [`VectorField::evaluate`] wrote it.
     fn add_by_parameter(&mut self, at: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
         let _ = (at, derivative, sum);
+    }
+
+    /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous; a field with a memory puts down here what it keeps.
+    ///
+    /// * `at`: the place, with the new region; `before`: the region that was left.
+    /// * `columns`: as in [`VectorField::tangents`], the one by the parameter last; to be changed. Empty where no sensitivities are wanted.
+    fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
+        let _ = (at, before, columns);
     }
 
     /// Number of switching functions.

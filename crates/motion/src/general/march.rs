@@ -226,7 +226,9 @@ impl<'a, F: VectorField> March<'a, F> {
 
     fn cross(&mut self, switch: usize, watcher: &mut impl Watcher<F>) {
         let moment = (self.time, self.instant());
+        let before = self.region.inside.clone();
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
+        self.stepper.jump(self.field, self.time, (&self.region.inside, &before));
         self.step = first_step.unwrap_or(self.step);
         self.restart = self.time;
         self.unmoved += 1;

@@ -133,6 +133,7 @@ pub fn advance(
 ) -> Result<GeneralFlow, GeneralError> {
     check_frequency(stretch)?;
     let mut field = SystemField::new(system, stretch.frequency_hz);
+    field.check_start(stretch.start, state)?;
     let FieldFlow { state, by_state, by_parameter, counts, next_step } =
         integrate(&mut field, stretch.start, stretch.end, state, settings)?;
     Ok(GeneralFlow {
@@ -159,6 +160,7 @@ pub fn sample(
 ) -> Result<Vec<Vec<f64>>, GeneralError> {
     check_frequency(stretch)?;
     let mut field = SystemField::new(system, stretch.frequency_hz);
+    field.check_start(stretch.start, state)?;
     sample_field(&mut field, (stretch.start, stretch.end), state, phases, settings)
 }
 

@@ -10,7 +10,7 @@ use super::{
     march::March,
     stepper::Stepper,
     switching::{minimum, zero},
-    system_field::{SystemField, dot, force_in_region},
+    system_field::{SystemField, dot, force_in_region, switches_of},
     watch::{Accepted, Place, Watcher},
 };
 use crate::{Contact, Flow, Stretch, System};
@@ -58,12 +58,13 @@ pub fn observe(
     check_frequency(stretch)?;
     let mut field = SystemField::new(system, stretch.frequency_hz);
     check(&field, (stretch.start, stretch.end), state, settings)?;
+    field.check_start(stretch.start, state)?;
     let mut observer = Observer::new(&field, state, (shape, support_ratio));
     let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
     march.run(&mut observer)?;
     let flow = march.flow();
     let Observer { maxima, closed, extrema, contacts, .. } = observer;
-    let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed);
+    let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed).map(|(watched, _)| watched);
     Ok(Observed {
         flow: Flow {
             state: flow.state,
@@ -80,7 +81,7 @@ pub fn observe(
         impulse: maxima.impulse,
         touches: maxima.touches,
         closed_throughout: closed
-            .fold(0, |bits, ((element, _), _)| bits | 1_u64.checked_shl(*element as u32).unwrap_or(0)),
+            .fold(0, |bits, watched| bits | 1_u64.checked_shl(watched.element as u32).unwrap_or(0)),
         extrema,
     })
 }
@@ -112,13 +113,43 @@ enum Output {
     Element(usize),
 }
 
+/// A contact and its switching functions: one of the penetration, and one of the pressure if its law has it.
+struct Watched {
+    element: usize,
+    contact: Contact,
+    penetration: usize,
+    pressure: Option<usize>,
+}
+
+impl Watched {
+    /// All contacts of a system.
+    fn of(field: &SystemField<'_>) -> Vec<Self> {
+        let (mut first, mut watched) = (0, Vec::new());
+        for (element, local) in field.system.elements().iter().enumerate() {
+            let contacts = local.law.contacts();
+            let pressure = local.law.depends_on_velocity().then_some(first + contacts.len());
+            watched.extend(contacts.iter().enumerate().map(|(k, &contact)| Self {
+                element,
+                contact,
+                penetration: first + k,
+                pressure,
+            }));
+            first += switches_of(local);
+        }
+        watched
+    }
+
+    fn presses(&self, inside: &[bool]) -> bool {
+        inside[self.penetration] && self.pressure.is_none_or(|switch| inside[switch])
+    }
+}
+
 struct Observer<'a> {
     shape: &'a [f64],
     support_ratio: f64,
-    /// Element and contact of each switching function.
-    contacts: Vec<(usize, Contact)>,
+    contacts: Vec<Watched>,
     inside: Vec<bool>,
-    /// Which were positive all the time.
+    /// Which contacts pressed all the time.
     closed: Vec<bool>,
     maxima: Maxima,
     extrema: Vec<f64>,
@@ -130,13 +161,11 @@ struct Observer<'a> {
 
 impl<'a> Observer<'a> {
     fn new(field: &SystemField<'_>, state: &[f64], (shape, support_ratio): (&'a [f64], f64)) -> Self {
-        let elements = field.system.elements().iter().enumerate();
-        let contacts: Vec<(usize, Contact)> =
-            elements.flat_map(|(e, element)| element.law.contacts().iter().map(move |c| (e, *c))).collect();
+        let contacts = Watched::of(field);
         Self {
             shape,
             support_ratio,
-            inside: vec![false; contacts.len()],
+            inside: vec![false; field.switches()],
             closed: vec![true; contacts.len()],
             contacts,
             maxima: Maxima::default(),
@@ -181,13 +210,13 @@ impl<'a> Observer<'a> {
     fn forces<'b>(&'b self, field: &'b SystemField<'_>, at: Place<'b>) -> impl Iterator<Item = f64> + 'b {
         let mut flags = at.inside;
         field.system.elements().iter().enumerate().map(move |(e, element)| {
-            let (inside, rest) = flags.split_at(element.law.contacts().len());
+            let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;
             if inside.is_empty() {
                 return 0.0;
             }
-            let [r, _] = self.read(field, Output::Element(e), at.time, at.state);
-            force_in_region(element, r, inside).value.abs()
+            let [r, speed] = self.read(field, Output::Element(e), at.time, at.state);
+            force_in_region(&field.laws[e], (r, speed), inside).value.abs()
         })
     }
 
@@ -226,8 +255,9 @@ impl<'a> Observer<'a> {
             let state = self.take_at(field, step, place);
             if let Output::Element(e) = output {
                 let [r, _] = self.read(field, output, step.time + place * step.length, &state);
-                let contacts = self.contacts.iter().filter(|(element, _)| *element == e);
-                self.extrema.extend(contacts.map(|(_, contact)| contact.sign * (r - contact.level)));
+                let contacts = self.contacts.iter().filter(|watched| watched.element == e);
+                let penetration = |watched: &Watched| watched.contact.sign * (r - watched.contact.level);
+                self.extrema.extend(contacts.map(penetration));
             }
         }
     }
@@ -244,6 +274,25 @@ impl<'a> Observer<'a> {
         let spread = values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - values[best];
         // Between samples a maximum is higher by a part of what the samples differ by.
         if -values[best] + 0.2 * spread <= self.maxima.acceleration {
+            return;
+        }
+        let (low, high) = (sample(best.saturating_sub(1)), sample((best + 1).min(SAMPLES)));
+        let place = minimum(&mut |x| negative(self, field, x), low, high);
+        self.take_at(field, step, place);
+    }
+
+    /// The largest force of a law that depends on the velocity, which need not be where the penetration is largest.
+    fn largest_force(&mut self, field: &mut SystemField<'_>, step: &Accepted<'_>, element: usize) {
+        let mut state = vec![0.0; self.state.len()];
+        let mut negative = |observer: &Self, field: &SystemField<'_>, x: f64| {
+            step.dense.state(x, &mut state);
+            let at = Place { time: step.time + x * step.length, state: &state, inside: step.inside };
+            -observer.forces(field, at).nth(element).unwrap_or(0.0)
+        };
+        let values: Vec<f64> = (0..=SAMPLES).map(|k| negative(self, field, sample(k))).collect();
+        let best = (0..=SAMPLES).fold(0, |best, k| if values[k] < values[best] { k } else { best });
+        let spread = values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - values[best];
+        if values[best] == 0.0 || -values[best] + 0.2 * spread <= self.maxima.contact_force {
             return;
         }
         let (low, high) = (sample(best.saturating_sub(1)), sample((best + 1).min(SAMPLES)));
@@ -272,7 +321,8 @@ fn sample(k: usize) -> f64 {
 impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
     fn begin(&mut self, field: &mut SystemField<'f>, start: Place<'_>) {
         self.inside.copy_from_slice(start.inside);
-        self.closed.copy_from_slice(start.inside);
+        let closed = self.closed.iter_mut().zip(&self.contacts);
+        closed.for_each(|(closed, watched)| *closed = watched.presses(start.inside));
         self.take(field, start);
     }
 
@@ -290,20 +340,29 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             }
         }
         self.largest_acceleration(field, step);
-        if step.inside.contains(&true) {
+        if self.contacts.iter().any(|watched| watched.presses(step.inside)) {
             self.add_impulse(field, step);
+        }
+        for element in 0..field.system.elements().len() {
+            if field.system.elements()[element].law.depends_on_velocity() {
+                self.largest_force(field, step, element);
+            }
         }
     }
 
     fn crossed(&mut self, field: &mut SystemField<'f>, at: Place<'_>) {
-        for switch in 0..self.contacts.len() {
-            if at.inside[switch] && !self.inside[switch] {
-                let (element, _) = self.contacts[switch];
-                let [_, velocity] = self.read(field, Output::Element(element), at.time, at.state);
+        for place in 0..self.contacts.len() {
+            let watched = &self.contacts[place];
+            if at.inside[watched.penetration] && !self.inside[watched.penetration] {
+                let [_, velocity] = self.read(field, Output::Element(watched.element), at.time, at.state);
                 self.maxima.touches += 1;
                 self.maxima.impact_velocity = self.maxima.impact_velocity.max(velocity.abs());
             }
-            self.closed[switch] &= at.inside[switch];
+            self.closed[place] &= watched.presses(at.inside);
+        }
+        // A force that sets in with a jump may be largest at once.
+        if field.system.elements().iter().any(|element| element.law.onset_damping() > 0.0) {
+            self.take(field, at);
         }
         self.inside.copy_from_slice(at.inside);
     }

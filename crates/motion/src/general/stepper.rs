@@ -86,6 +86,17 @@ impl Stepper {
         self.evaluate(field, 0, time, inside, self.value.len());
     }
 
+    /// Lets the sensitivities at the start jump at a boundary that was crossed, into one region from another.
+    pub(super) fn jump(
+        &mut self,
+        field: &mut impl VectorField,
+        time: f64,
+        (inside, before): (&[bool], &[bool]),
+    ) {
+        let (state, columns) = self.value.split_at_mut(self.dimension);
+        field.jump(Point { time, state, inside }, before, columns);
+    }
+
     /// Carries the columns over a step from `time`.
     pub(super) fn attempt(&mut self, field: &mut impl VectorField, time: f64, step: f64, inside: &[bool]) {
         self.carry(field, (time, step), inside, self.value.len());

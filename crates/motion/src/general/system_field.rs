@@ -8,15 +8,18 @@
 //! `dg/df = [0; 2 pi Re sum_m db_m/dW exp(i 2 pi m x)]` gives the whole derivative by the frequency: nothing is left
 //! to add for the duration.
 //!
-//! Switching functions are `sign (r - level)`, one for each contact of each element. In contact a law is continued
-//! below its level by its tangent there; out of contact its force is zero.
+//! A law that depends on the velocity does so on `r' = phi_e . v + s_e u'`, where `u'` at a fixed phase is proportional to f: `d(u')/df = u'/f`.
+//!
+//! Switching functions are `sign (r - level)`, one for each contact of each element, and the pressure of a law that depends on the velocity. In contact
+//! a law is continued below its level by its tangent there; out of contact its force is zero. Where a force sets in with the jump `-c r'`, the touch comes
+//! earlier by `dr/r'` and brings the impulse `-c dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e . dq)`.
 
 use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{Column, Point, VectorField};
-use crate::{Contact, Force, LocalElement, ModalLoad, System};
+use super::{Column, GeneralError, Point, VectorField};
+use crate::{Contact, Force, Law, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
@@ -30,8 +33,12 @@ pub(super) struct SystemField<'a> {
     length: f64,
     /// `exp(i 2 pi m x)` for each order at the last point.
     rotations: Vec<c64>,
-    /// `df_e/dr` at the last point.
-    slopes: Vec<f64>,
+    /// `df_e/dr` and `df_e/dr'` at the last point.
+    slopes: Vec<(f64, f64)>,
+    /// The laws, with the speeds of impact that they remember.
+    pub(super) laws: Vec<Law>,
+    /// `df_e/dv` by the remembered speed v at the last point, and the sensitivities of v.
+    impacts: Vec<(f64, Vec<f64>)>,
 }
 
 /// The modal damping matrix `C`.
@@ -52,9 +59,11 @@ impl<'a> SystemField<'a> {
             stiffness: system.model().natural_frequencies.iter().map(|w| w * w).collect(),
             rotations: vec![c64::new(0.0, 0.0); loads.len()],
             loads,
-            switches: system.elements().iter().map(|element| element.law.contacts().len()).sum(),
+            switches: system.elements().iter().map(switches_of).sum(),
             length: 1e-3 * shortest_length(system),
-            slopes: vec![0.0; system.elements().len()],
+            slopes: vec![(0.0, 0.0); system.elements().len()],
+            laws: system.elements().iter().map(|element| element.law).collect(),
+            impacts: vec![(0.0, Vec::new()); system.elements().len()],
         }
     }
 
@@ -104,16 +113,85 @@ impl<'a> SystemField<'a> {
         }
     }
 
-    fn add_local_forces(&mut self, at: Point<'_>, q: &[f64], rate: &mut [f64]) {
+    fn relative_velocity(&self, element: &LocalElement, v: &[f64], phase: f64) -> f64 {
+        let elastic = dot(&element.shape, v);
+        if element.support_ratio == 0.0 {
+            elastic
+        } else {
+            elastic + element.support_ratio * self.support_motion(phase)[1]
+        }
+    }
+
+    fn add_local_forces(&mut self, at: Point<'_>, rate: &mut [f64]) {
+        let (q, v) = at.state.split_at(self.system.dof());
         let mut flags = at.inside;
         for (e, element) in self.system.elements().iter().enumerate() {
             let r = self.relative_displacement(element, q, at.time);
-            let (inside, rest) = flags.split_at(element.law.contacts().len());
+            let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;
-            let force = force_in_region(element, r, inside);
-            self.slopes[e] = force.slope;
+            let damped = self.laws[e].depends_on_velocity();
+            let speed = if damped { self.relative_velocity(element, v, at.time) } else { 0.0 };
+            let force = force_in_region(&self.laws[e], (r, speed), inside);
+            self.slopes[e] = (force.slope, force.damping);
+            if force.damping != 0.0 {
+                self.impacts[e].0 = self.laws[e].by_impact_speed(r, speed);
+            } else {
+                self.impacts[e].0 = 0.0;
+            }
             add_scaled(rate, self.period * force.value, &element.shape);
         }
+    }
+}
+
+impl SystemField<'_> {
+    /// A stretch cannot start in a contact whose law needs to know how it began.
+    pub(super) fn check_start(&self, phase: f64, state: &[f64]) -> Result<(), GeneralError> {
+        let (q, v) = state.split_at(self.system.dof().min(state.len()));
+        for element in self.system.elements().iter().filter(|element| element.law.remembers_impact()) {
+            let contact = element.law.contacts()[0];
+            let penetration = contact.sign * (self.relative_displacement(element, q, phase) - contact.level);
+            let rate = contact.sign * self.relative_velocity(element, v, phase);
+            if penetration > 0.0 || (penetration == 0.0 && rate > 0.0) {
+                return Err(GeneralError::StartsInContact { element: element.name.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// Lets the sensitivities jump with the force of a contact that closes.
+    fn jump_at_onset(&self, element: &LocalElement, columns: &mut [f64]) {
+        let (n, damping) = (self.system.dof(), element.law.onset_damping());
+        if damping == 0.0 {
+            return;
+        }
+        for column in columns.chunks_exact_mut(2 * n) {
+            let impulse = -damping * dot(&element.shape, &column[..n]);
+            add_scaled(&mut column[n..], impulse, &element.shape);
+        }
+    }
+
+    /// Keeps the speed of an impact in memory, and its sensitivities `dr' - r'' dr/r'`.
+    fn remember_impact(&mut self, e: usize, at: Point<'_>, columns: &[f64]) {
+        if !self.laws[e].remembers_impact() {
+            return;
+        }
+        let (n, element) = (self.system.dof(), &self.system.elements()[e]);
+        let speed = self.relative_velocity(element, &at.state[n..], at.time);
+        let mut rates = vec![0.0; 2 * n];
+        self.evaluate(at, &mut rates);
+        let support = self.support_motion(at.time);
+        let acceleration =
+            dot(&element.shape, &rates[n..]) / self.period + element.support_ratio * support[2];
+        let last = columns.len() / (2 * n);
+        let row = columns.chunks_exact(2 * n).enumerate().map(|(index, column)| {
+            let mut change = dot(&element.shape, &column[n..]);
+            if index + 1 == last {
+                change += element.support_ratio * support[1] * self.period;
+            }
+            (change - acceleration * dot(&element.shape, &column[..n]) / speed) * speed.signum()
+        });
+        self.impacts[e].1 = row.collect();
+        self.laws[e] = self.laws[e].struck_at(speed.abs());
     }
 }
 
@@ -140,28 +218,56 @@ impl VectorField for SystemField<'_> {
         let n = self.system.dof();
         self.rotate(at.time);
         linear_rates(&self.stiffness, &self.damping, self.period, at.state, derivative);
-        let (q, rate) = (&at.state[..n], &mut derivative[n..]);
+        let rate = &mut derivative[n..];
         self.add_load(|load| &load.amplitude, self.period, rate);
-        self.add_local_forces(at, q, rate);
+        self.add_local_forces(at, rate);
     }
 
     fn tangents(&mut self, _: Point<'_>, columns: &[f64], derivatives: &mut [f64]) {
         let n = self.system.dof();
-        for (column, derivative) in columns.chunks_exact(2 * n).zip(derivatives.chunks_exact_mut(2 * n)) {
+        let pairs = columns.chunks_exact(2 * n).zip(derivatives.chunks_exact_mut(2 * n));
+        for (index, (column, derivative)) in pairs.enumerate() {
             linear_rates(&self.stiffness, &self.damping, self.period, column, derivative);
-            for (element, &slope) in self.system.elements().iter().zip(&self.slopes) {
-                if slope != 0.0 {
-                    let force = self.period * slope * dot(&element.shape, &column[..n]);
-                    add_scaled(&mut derivative[n..], force, &element.shape);
+            for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
+                if slope != 0.0 || damping != 0.0 {
+                    let mut force = slope * dot(&element.shape, &column[..n]);
+                    if damping != 0.0 {
+                        force += damping * dot(&element.shape, &column[n..]);
+                    }
+                    add_scaled(&mut derivative[n..], self.period * force, &element.shape);
+                }
+            }
+            for (element, (by_speed, row)) in self.system.elements().iter().zip(&self.impacts) {
+                if *by_speed != 0.0 {
+                    add_scaled(&mut derivative[n..], self.period * by_speed * row[index], &element.shape);
                 }
             }
         }
     }
 
-    fn add_by_parameter(&mut self, _: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
+    fn add_by_parameter(&mut self, at: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
         add_scaled(sum, -self.period, derivative);
         let n = self.system.dof();
         self.add_load(|load| &load.by_frequency, TAU * self.period, &mut sum[n..]);
+        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
+            if damping != 0.0 && element.support_ratio != 0.0 {
+                let by_frequency = element.support_ratio * self.support_motion(at.time)[1] * self.period;
+                add_scaled(&mut sum[n..], self.period * damping * by_frequency, &element.shape);
+            }
+        }
+    }
+
+    fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
+        let mut first = 0;
+        for (e, element) in self.system.elements().iter().enumerate() {
+            let switch = first;
+            first += switches_of(element);
+            if !element.law.depends_on_velocity() || before[switch] || !at.inside[switch] {
+                continue;
+            }
+            self.remember_impact(e, at, columns);
+            self.jump_at_onset(element, columns);
+        }
     }
 
     fn switches(&self) -> usize {
@@ -169,18 +275,30 @@ impl VectorField for SystemField<'_> {
     }
 
     fn switching(&self, phase: f64, state: &[f64], values: &mut [f64]) {
+        let (q, v) = state.split_at(self.system.dof());
         let mut k = 0;
-        for element in self.system.elements() {
+        for (e, element) in self.system.elements().iter().enumerate() {
             let contacts = element.law.contacts();
-            if !contacts.is_empty() {
-                let r = self.relative_displacement(element, &state[..self.system.dof()], phase);
-                for contact in contacts {
-                    values[k] = contact.sign * (r - contact.level);
-                    k += 1;
-                }
+            if contacts.is_empty() {
+                continue;
+            }
+            let r = self.relative_displacement(element, q, phase);
+            for contact in contacts {
+                values[k] = contact.sign * (r - contact.level);
+                k += 1;
+            }
+            if let Some(pressure) = self.laws[e].pressure() {
+                let rate = contacts[0].sign * self.relative_velocity(element, v, phase);
+                values[k] = pressure.at(values[k - 1], rate);
+                k += 1;
             }
         }
     }
+}
+
+/// Switching functions of an element: its contacts, and the pressure of a law that depends on the velocity, which has one contact.
+pub(super) fn switches_of(element: &LocalElement) -> usize {
+    element.law.contacts().len() + usize::from(element.law.depends_on_velocity())
 }
 
 /// Shortest modal displacement among those that take an element from rest to its contact, or as far as the support moves it; zero
@@ -232,28 +350,32 @@ fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64]
 }
 
 /// Force of an element whose contacts are held closed or open.
-pub(super) fn force_in_region(element: &LocalElement, r: f64, inside: &[bool]) -> Force {
-    let contacts = element.law.contacts();
+pub(super) fn force_in_region(law: &Law, (r, speed): (f64, f64), inside: &[bool]) -> Force {
+    let contacts = law.contacts();
     if contacts.is_empty() {
-        return element.law.force(r);
+        return law.force(r, speed);
+    }
+    if law.depends_on_velocity() {
+        let presses = inside.iter().all(|inside| *inside);
+        return if presses { law.pressing_force(r, speed) } else { Force::ZERO };
     }
     let penetration = |contact: &Contact| contact.sign * (r - contact.level);
     let closed = contacts.iter().zip(inside).filter(|(_, inside)| **inside).map(|(contact, _)| contact);
     match closed.max_by(|a, b| penetration(a).total_cmp(&penetration(b))) {
         None => Force::ZERO,
-        Some(contact) if penetration(contact) > 0.0 => element.law.force(r),
-        Some(contact) => continued_force(element, r, contact),
+        Some(contact) if penetration(contact) > 0.0 => law.force(r, speed),
+        Some(contact) => continued_force(law, r, contact),
     }
 }
 
 /// The tangent of the law at the level of a contact, where the law itself has ended.
-fn continued_force(element: &LocalElement, r: f64, contact: &Contact) -> Force {
+fn continued_force(law: &Law, r: f64, contact: &Contact) -> Force {
     if contact.onset_exponent > 1.0 {
         return Force::ZERO;
     }
     let beyond = contact.level + contact.sign * (1e-9 * contact.level.abs() + 1e-12);
-    let slope = element.law.force(beyond).slope;
-    Force { value: slope * (r - contact.level), slope }
+    let slope = law.force(beyond, 0.0).slope;
+    Force { value: slope * (r - contact.level), slope, damping: 0.0 }
 }
 
 #[inline]

@@ -26,6 +26,6 @@ impl CubicSpring {
 
     pub(super) fn force(&self, displacement: f64) -> Force {
         let square = displacement * displacement;
-        Force { value: -self.stiffness * square * displacement, slope: -3.0 * self.stiffness * square }
+        Force::elastic(-self.stiffness * square * displacement, -3.0 * self.stiffness * square)
     }
 }

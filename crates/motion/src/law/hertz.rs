@@ -67,7 +67,7 @@ impl HertzStop {
             return Force::ZERO;
         }
         let root = penetration.sqrt();
-        Force { value: -self.stiffness * penetration * root, slope: -1.5 * self.stiffness * root }
+        Force::elastic(-self.stiffness * penetration * root, -1.5 * self.stiffness * root)
     }
 
     pub(super) fn contacts(&self) -> &[Contact] {

@@ -1,16 +1,26 @@
-//! Laws of local elements: the force as a function of the relative displacement `r`.
+//! Laws of local elements: the force as a function of the relative displacement `r` and the relative velocity `r'`.
 //!
 //! The force acts on the structure along `+r` (a restoring force is negative for positive `r`). One-sided stops are
 //! oriented so that `r` is positive towards the stop; who builds the element turns the coordinate.
+//!
+//! **Laws that lose energy** push or are idle, they never pull. With the penetration `p = r - level` such a law is `f = -h(p) s(p, p')` for `p > 0` and
+//! `s > 0`, else zero: contact is where there is penetration and [`Pressure`] `s`. Where the pressure vanishes first, the surfaces have parted
+//! although there is penetration left by the numbers (the surface does not follow): the contact has *parted*, and presses again if the pressure comes back.
+//! The force is continuous where the pressure vanishes. Where the penetration begins it is continuous too, or, for a damper, jumps by
+//! `-c p'`, see [`Law::onset_damping`]. Some laws remember the speed with which the present contact began ([`Law::remembers_impact`]).
 
 mod cubic;
 mod hertz;
+mod hunt_crossley;
 mod linear;
+mod restitution;
 mod two_sided;
 
 pub use cubic::CubicSpring;
 pub use hertz::HertzStop;
+pub use hunt_crossley::HuntCrossleyStop;
 pub use linear::LinearStop;
+pub use restitution::{RestitutionModel, RestitutionStop};
 pub use two_sided::TwoSidedStop;
 
 /// Why a law cannot be built from its parameters.
@@ -29,20 +39,38 @@ pub enum LawError {
     #[error("preload is {found} N, must be finite and not negative")]
     #[expect(missing_docs, reason = "the message names its fields")]
     Preload { found: f64 },
+    /// Constants of damping are finite and not negative.
+    #[error("damping is {found}, must be finite and not negative")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Damping { found: f64 },
+    /// Coefficients of restitution are positive and at most one.
+    #[error("coefficient of restitution is {found}, must be more than 0 and at most 1")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Restitution { found: f64 },
+    /// A law that remembers how fast its contact began cannot be closed from the outset.
+    #[error("the stop presses at rest, but its law needs the speed with which a contact begins")]
+    MemoryOfPreload,
 }
 
-/// Force of a law and its derivative.
+/// Force of a law and its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Force {
     /// Force on the structure along `r` [N].
     pub value: f64,
     /// `df/dr` [N/m].
     pub slope: f64,
+    /// `df/dr'` [N s/m].
+    pub damping: f64,
 }
 
 impl Force {
     /// No force.
-    pub const ZERO: Self = Self { value: 0.0, slope: 0.0 };
+    pub const ZERO: Self = Self { value: 0.0, slope: 0.0, damping: 0.0 };
+
+    /// A force that does not depend on the velocity.
+    const fn elastic(value: f64, slope: f64) -> Self {
+        Self { value, slope, damping: 0.0 }
+    }
 }
 
 /// One of the ways in which an element can be loaded: contact is where `sign * (r - level) > 0`.
@@ -56,11 +84,34 @@ pub struct Contact {
     pub onset_exponent: f64,
 }
 
+/// What has to be positive besides the penetration p for a contact that loses energy to press: `displacement p + velocity p' + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressure {
+    /// Factor of the penetration.
+    pub displacement: f64,
+    /// Factor of its rate.
+    pub velocity: f64,
+    /// Constant part.
+    pub offset: f64,
+}
+
+impl Pressure {
+    /// Its value at a penetration and its rate.
+    #[must_use]
+    pub fn at(&self, penetration: f64, rate: f64) -> f64 {
+        self.displacement * penetration + self.velocity * rate + self.offset
+    }
+}
+
 /// The law of a local element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
     /// Sphere on sphere, after Hertz.
     Hertz(HertzStop),
+    /// Sphere on sphere, losing energy, after Hunt and Crossley.
+    HuntCrossley(HuntCrossleyStop),
+    /// Sphere on sphere, with a coefficient of restitution; remembers the speed of its impact.
+    Restitution(RestitutionStop),
     /// One-sided linear spring.
     Linear(LinearStop),
     /// Linear springs on both sides of a clearance.
@@ -70,14 +121,83 @@ pub enum Law {
 }
 
 impl Law {
-    /// Force on the structure along `r` at the relative displacement `r` [m].
+    /// Force on the structure along `r` at the relative displacement `r` [m] and the relative velocity `r'` [m/s].
     #[must_use]
-    pub fn force(&self, displacement: f64) -> Force {
+    pub fn force(&self, displacement: f64, velocity: f64) -> Force {
         match self {
             Self::Hertz(law) => law.force(displacement),
-            Self::Linear(law) => law.force(displacement),
+            Self::HuntCrossley(law) => law.force(displacement, velocity),
+            Self::Restitution(law) => law.force(displacement, velocity),
+            Self::Linear(law) => law.force(displacement, velocity),
             Self::TwoSided(law) => law.force(displacement),
             Self::Cubic(law) => law.force(displacement),
+        }
+    }
+
+    /// Force of a contact that presses, continued smoothly to where its pressure has vanished: what a step that ends there follows.
+    #[must_use]
+    pub(crate) fn pressing_force(&self, displacement: f64, velocity: f64) -> Force {
+        match self {
+            Self::HuntCrossley(law) => law.pressing_force(displacement, velocity),
+            Self::Restitution(law) => law.pressing_force(displacement, velocity),
+            Self::Linear(law) if law.damping() > 0.0 => law.pressing_force(displacement, velocity),
+            _ => self.force(displacement, velocity),
+        }
+    }
+
+    /// What has to be positive for a contact to press, if the force depends on the velocity.
+    #[must_use]
+    pub fn pressure(&self) -> Option<Pressure> {
+        match self {
+            Self::HuntCrossley(law) => law.pressure(),
+            Self::Restitution(law) => Some(law.pressure()),
+            Self::Linear(law) => law.pressure(),
+            Self::Hertz(_) | Self::TwoSided(_) | Self::Cubic(_) => None,
+        }
+    }
+
+    /// Whether the force depends on the velocity.
+    #[must_use]
+    pub fn depends_on_velocity(&self) -> bool {
+        self.pressure().is_some()
+    }
+
+    /// Whether the force depends on the speed with which the present contact began, so that a contact has to be followed from its beginning.
+    #[must_use]
+    pub fn remembers_impact(&self) -> bool {
+        matches!(self, Self::Restitution(_))
+    }
+
+    /// The law in a contact that began with that speed [m/s]; as built, a law that remembers loses nothing.
+    #[must_use]
+    pub fn struck_at(&self, impact_speed: f64) -> Self {
+        match self {
+            Self::Restitution(law) => Self::Restitution(law.struck_at(impact_speed)),
+            law => *law,
+        }
+    }
+
+    /// Whether the law knows how its contact began, if it needs to.
+    pub(crate) fn is_struck(&self) -> bool {
+        if let Self::Restitution(law) = self { law.is_struck() } else { true }
+    }
+
+    /// Derivative of the force of a pressing contact by the speed with which it began.
+    pub(crate) fn by_impact_speed(&self, displacement: f64, velocity: f64) -> f64 {
+        if let Self::Restitution(law) = self { law.by_impact_speed(displacement, velocity) } else { 0.0 }
+    }
+
+    /// The constant c [N s/m] of the force `-c r'` with which a contact begins; 0 where the force is continuous.
+    #[must_use]
+    pub fn onset_damping(&self) -> f64 {
+        if let Self::Linear(law) = self { law.damping() } else { 0.0 }
+    }
+
+    /// Derivative of the force of a pressing contact by [`Law::stiffness`].
+    pub(crate) fn by_stiffness(&self, displacement: f64, velocity: f64) -> f64 {
+        match self {
+            Self::Linear(law) => law.elastic_force(displacement) / law.stiffness(),
+            _ => self.pressing_force(displacement, velocity).value / self.stiffness(),
         }
     }
 
@@ -86,6 +206,8 @@ impl Law {
     pub fn contacts(&self) -> &[Contact] {
         match self {
             Self::Hertz(law) => law.contacts(),
+            Self::HuntCrossley(law) => law.contacts(),
+            Self::Restitution(law) => law.contacts(),
             Self::Linear(law) => law.contacts(),
             Self::TwoSided(law) => law.contacts(),
             Self::Cubic(_) => &[],
@@ -97,6 +219,8 @@ impl Law {
     pub fn stiffness(&self) -> f64 {
         match self {
             Self::Hertz(law) => law.stiffness(),
+            Self::HuntCrossley(law) => law.stiffness(),
+            Self::Restitution(law) => law.elastic().stiffness(),
             Self::Linear(law) => law.stiffness(),
             Self::TwoSided(law) => law.stiffness(),
             Self::Cubic(law) => law.stiffness(),
@@ -118,6 +242,10 @@ impl Law {
     pub fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
         Ok(match self {
             Self::Hertz(law) => Self::Hertz(law.with_stiffness(stiffness)?),
+            Self::HuntCrossley(law) => Self::HuntCrossley(law.with_stiffness(stiffness)?),
+            Self::Restitution(law) => {
+                Self::Restitution(law.with_elastic(law.elastic().with_stiffness(stiffness)?))
+            }
             Self::Linear(law) => Self::Linear(law.with_stiffness(stiffness)?),
             Self::TwoSided(law) => Self::TwoSided(law.with_stiffness(stiffness)?),
             Self::Cubic(_) => Self::Cubic(CubicSpring::new(stiffness)?),
@@ -131,7 +259,16 @@ impl Law {
     pub fn with_gap(&self, gap: f64) -> Result<Self, LawError> {
         Ok(match self {
             Self::Hertz(law) => Self::Hertz(HertzStop::with_gap(law.stiffness(), gap)?),
-            Self::Linear(law) => Self::Linear(LinearStop::with_gap(law.stiffness(), gap)?),
+            Self::HuntCrossley(law) => Self::HuntCrossley(HuntCrossleyStop::new(
+                HertzStop::with_gap(law.stiffness(), gap)?,
+                law.loss(),
+            )?),
+            Self::Restitution(law) => {
+                Self::Restitution(law.with_elastic(HertzStop::with_gap(law.elastic().stiffness(), gap)?))
+            }
+            Self::Linear(law) => {
+                Self::Linear(LinearStop::with_gap(law.stiffness(), gap)?.with_damping(law.damping())?)
+            }
             Self::TwoSided(law) => Self::TwoSided(TwoSidedStop::new(law.stiffness(), gap, gap)?),
             Self::Cubic(law) => Self::Cubic(*law),
         })
@@ -154,6 +291,10 @@ fn positive_stiffness(found: f64) -> Result<(), LawError> {
 
 fn valid_gap(found: f64) -> Result<f64, LawError> {
     if found.is_finite() && found >= 0.0 { Ok(found) } else { Err(LawError::Gap { found }) }
+}
+
+fn valid_damping(found: f64) -> Result<f64, LawError> {
+    if found.is_finite() && found >= 0.0 { Ok(found) } else { Err(LawError::Damping { found }) }
 }
 
 fn valid_preload(found: f64) -> Result<f64, LawError> {

@@ -26,8 +26,9 @@ fn slopes_agree_with_differences() {
     for law in every_law() {
         for place in PLACES {
             let step = 1e-7;
-            let difference = (law.force(place + step).value - law.force(place - step).value) / (2.0 * step);
-            let slope = law.force(place).slope;
+            let difference =
+                (law.force(place + step, 0.0).value - law.force(place - step, 0.0).value) / (2.0 * step);
+            let slope = law.force(place, 0.0).slope;
             let scale = slope.abs().max(1.0);
             assert!(
                 (slope - difference).abs() < 1e-6 * scale,
@@ -42,35 +43,35 @@ fn one_sided_stops_are_free_up_to_their_gap_and_press_back_beyond() {
     let hertz = Law::Hertz(HertzStop::with_gap(4.5e9, 1e-3).unwrap());
     let linear = Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap());
     for law in [hertz, linear] {
-        assert_eq!(law.force(1e-3), Force::ZERO);
-        assert_eq!(law.force(-1.0), Force::ZERO);
+        assert_eq!(law.force(1e-3, 0.0), Force::ZERO);
+        assert_eq!(law.force(-1.0, 0.0), Force::ZERO);
     }
-    assert_close(hertz.force(1e-3 + 4e-6).value, -4.5e9 * 8e-9, "Hertz at 4 micrometres");
-    assert_close(hertz.force(1e-3 + 4e-6).slope, -1.5 * 4.5e9 * 2e-3, "Hertz slope");
-    assert_close(linear.force(3e-3).value, -320.0, "linear at 2 millimetres");
+    assert_close(hertz.force(1e-3 + 4e-6, 0.0).value, -4.5e9 * 8e-9, "Hertz at 4 micrometres");
+    assert_close(hertz.force(1e-3 + 4e-6, 0.0).slope, -1.5 * 4.5e9 * 2e-3, "Hertz slope");
+    assert_close(linear.force(3e-3, 0.0).value, -320.0, "linear at 2 millimetres");
 }
 
 #[test]
 fn a_preload_is_the_force_on_the_undeformed_structure() {
     assert_close(HertzStop::with_preload(4.5e9, 12.0).unwrap().force(0.0).value, -12.0, "Hertz");
-    assert_close(LinearStop::with_preload(1.6e5, 12.0).unwrap().force(0.0).value, -12.0, "linear");
-    assert_eq!(LinearStop::with_preload(1.6e5, 0.0).unwrap().force(0.0), Force::ZERO);
+    assert_close(LinearStop::with_preload(1.6e5, 12.0).unwrap().force(0.0, 0.0).value, -12.0, "linear");
+    assert_eq!(LinearStop::with_preload(1.6e5, 0.0).unwrap().force(0.0, 0.0), Force::ZERO);
 }
 
 #[test]
 fn a_two_sided_stop_presses_back_on_either_side() {
     let law = Law::TwoSided(TwoSidedStop::new(2e4, 1e-3, 5e-4).unwrap());
-    assert_eq!(law.force(9e-4), Force::ZERO);
-    assert_eq!(law.force(-4e-4), Force::ZERO);
-    assert_close(law.force(2e-3).value, -20.0, "above");
-    assert_close(law.force(-1.5e-3).value, 20.0, "below");
+    assert_eq!(law.force(9e-4, 0.0), Force::ZERO);
+    assert_eq!(law.force(-4e-4, 0.0), Force::ZERO);
+    assert_close(law.force(2e-3, 0.0).value, -20.0, "above");
+    assert_close(law.force(-1.5e-3, 0.0).value, 20.0, "below");
 }
 
 #[test]
 fn a_cubic_spring_is_odd_and_always_active() {
     let law = Law::Cubic(CubicSpring::new(3e7).unwrap());
-    assert_close(law.force(1e-2).value, -30.0, "above");
-    assert_close(law.force(-1e-2).value, 30.0, "below");
+    assert_close(law.force(1e-2, 0.0).value, -30.0, "above");
+    assert_close(law.force(-1e-2, 0.0).value, 30.0, "below");
     assert!(law.contacts().is_empty());
 }
 
@@ -78,7 +79,7 @@ fn a_cubic_spring_is_odd_and_always_active() {
 fn forces_set_in_at_the_level_of_a_contact_and_with_its_exponent() {
     for law in every_law() {
         for contact in law.contacts() {
-            let force = |depth: f64| law.force(contact.level + contact.sign * depth).value;
+            let force = |depth: f64| law.force(contact.level + contact.sign * depth, 0.0).value;
             assert_eq!(force(-1e-9), 0.0);
             assert!(contact.sign * force(1e-9) < 0.0, "{law:?}");
             let exponent = (force(2e-6) / force(1e-6)).log2();

@@ -36,7 +36,7 @@ impl TwoSidedStop {
         for contact in &self.contacts {
             let beyond = displacement - contact.level;
             if contact.sign * beyond > 0.0 {
-                return Force { value: -self.stiffness * beyond, slope: -self.stiffness };
+                return Force::elastic(-self.stiffness * beyond, -self.stiffness);
             }
         }
         Force::ZERO

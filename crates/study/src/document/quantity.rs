@@ -155,6 +155,10 @@ pub(crate) const ROTATIONAL_STIFFNESS: Quantity = Quantity::new("N m/rad", Inclu
 pub(crate) const ROTATIONAL_DAMPER: Quantity = Quantity::new("N m s/rad", Including(0.0), Including(1e15));
 /// Constant of a Hertz contact.
 pub(crate) const HERTZ_STIFFNESS: Quantity = Quantity::new("N/m^1.5", Excluding(0.0), Including(1e24));
+/// Loss of a contact after Hunt and Crossley.
+pub(crate) const LOSS: Quantity = Quantity::new("s/m", Including(0.0), Including(1e6));
+/// Coefficient of restitution.
+pub(crate) const RESTITUTION: Quantity = Quantity::new("", Excluding(0.0), Including(1.0));
 /// Constant of a cubic spring, either sign.
 pub(crate) const CUBIC_STIFFNESS: Quantity = Quantity::new("N/m^3", Including(-1e30), Including(1e30));
 /// Rest distance of a stop.

@@ -32,7 +32,7 @@ pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;
 pub use search::Search;
 pub use stop::{FixedTo, Place, Stop};
-pub use stop_law::{Approach, GapMeasured, HertzStiffness, Side, StopLaw};
+pub use stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
 pub use vary::{Curve, CurveOf, Vary};

@@ -57,7 +57,8 @@ impl Variable<'_> {
             ExcitationKind::Force { .. } => ("excitation.amplitude_n", quantity::FORCE),
         };
         let mut known = vec![(amplitude.0.to_owned(), ParameterKind::Amplitude, amplitude.1)];
-        if matches!(self.damping, Damping::Modal(ModalRatio::Every(_))) {
+        let loses = self.stops.iter().any(|stop| stop.law.loses_energy());
+        if matches!(self.damping, Damping::Modal(ModalRatio::Every(_))) && !loses {
             let name = "damping.modal_ratio".to_owned();
             known.push((name, ParameterKind::ModalRatio, quantity::DAMPING_RATIO));
         }
@@ -82,7 +83,11 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
     let (gap, stiffness) = (ParameterKind::Gap { stop }, ParameterKind::Stiffness { stop });
     let gap_of = |approach: &Approach| matches!(approach, Approach::Gap { .. });
     let (key, quantity, has_gap) = match law {
-        StopLaw::Hertz { approach, .. } => ("stiffness_n_m15", quantity::HERTZ_STIFFNESS, gap_of(approach)),
+        StopLaw::Hertz { approach, .. }
+        | StopLaw::HuntCrossley { approach, .. }
+        | StopLaw::Restitution { approach, .. } => {
+            ("stiffness_n_m15", quantity::HERTZ_STIFFNESS, gap_of(approach))
+        }
         StopLaw::Linear { approach, .. } => ("stiffness_n_m", quantity::STIFFNESS, gap_of(approach)),
         StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
             ("stiffness_n_m", quantity::STIFFNESS, gap_above_m == gap_below_m)

@@ -21,7 +21,34 @@ pub enum StopLaw {
     Linear {
         /// Stiffness [N/m].
         stiffness_n_m: f64,
+        /// Constant of the damper beside the spring [N s/m].
+        #[serde(skip_serializing_if = "is_absent")]
+        damping_n_s_m: f64,
         /// Gap or preload.
+        approach: Approach,
+        /// On which side the stop is.
+        side: Side,
+    },
+    /// One-sided, `k p^1.5 (1 + 3/2 a p')`.
+    HuntCrossley {
+        /// The constant.
+        stiffness: HertzStiffness,
+        /// The loss a [s/m].
+        loss_s_m: f64,
+        /// Gap or preload.
+        approach: Approach,
+        /// On which side the stop is.
+        side: Side,
+    },
+    /// One-sided, `k p^1.5 (1 + c p'/v)` with the speed v of each impact.
+    Restitution {
+        /// How c follows from the coefficient of restitution.
+        model: ImpactModel,
+        /// The constant.
+        stiffness: HertzStiffness,
+        /// Coefficient of restitution.
+        restitution: f64,
+        /// The gap.
         approach: Approach,
         /// On which side the stop is.
         side: Side,
@@ -42,6 +69,26 @@ pub enum StopLaw {
         /// Constant [N/m^3], either sign.
         stiffness_n_m3: f64,
     },
+}
+
+/// Absent unless given, so that studies without it stay the same studies.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn is_absent(damping: &f64) -> bool {
+    *damping == 0.0
+}
+
+/// How the loss of a contact follows from its coefficient of restitution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "names of authors")]
+pub enum ImpactModel {
+    HuntCrossley,
+    HerbertMcwhannell,
+    LeeWang,
+    LankaraniNikravesh,
+    Gonthier,
+    Flores,
+    HuGuo,
 }
 
 /// The constant of a Hertz contact, given or from two spheres.
@@ -100,11 +147,23 @@ pub enum Side {
 }
 
 impl StopLaw {
+    /// Whether the force depends on the velocity.
+    #[must_use]
+    pub fn loses_energy(&self) -> bool {
+        match self {
+            Self::Linear { damping_n_s_m, .. } => *damping_n_s_m > 0.0,
+            Self::HuntCrossley { .. } | Self::Restitution { .. } => true,
+            Self::Hertz { .. } | Self::TwoSided { .. } | Self::Cubic { .. } => false,
+        }
+    }
+
     /// Its gap [m], if it has a single one.
     #[must_use]
     pub fn gap_m(&self) -> Option<f64> {
         match self {
             Self::Hertz { approach: Approach::Gap { gap_m, .. }, .. }
+            | Self::HuntCrossley { approach: Approach::Gap { gap_m, .. }, .. }
+            | Self::Restitution { approach: Approach::Gap { gap_m, .. }, .. }
             | Self::Linear { approach: Approach::Gap { gap_m, .. }, .. } => Some(*gap_m),
             Self::TwoSided { gap_above_m, gap_below_m, .. } if gap_above_m == gap_below_m => {
                 Some(*gap_above_m)
@@ -118,6 +177,8 @@ impl StopLaw {
     pub fn gap_measured(&self) -> GapMeasured {
         match self {
             Self::Hertz { approach: Approach::Gap { measured, .. }, .. }
+            | Self::HuntCrossley { approach: Approach::Gap { measured, .. }, .. }
+            | Self::Restitution { approach: Approach::Gap { measured, .. }, .. }
             | Self::Linear { approach: Approach::Gap { measured, .. }, .. } => *measured,
             Self::TwoSided { gap_measured, .. } => *gap_measured,
             _ => GapMeasured::Undeformed,
@@ -131,10 +192,23 @@ enum Kind {
     Linear,
     TwoSided,
     Cubic,
+    HuntCrossley,
+    Restitution(ImpactModel),
 }
 
-const KINDS: [(&str, Kind); 4] =
-    [("hertz", Kind::Hertz), ("linear", Kind::Linear), ("two-sided", Kind::TwoSided), ("cubic", Kind::Cubic)];
+const KINDS: [(&str, Kind); 11] = [
+    ("hertz", Kind::Hertz),
+    ("linear", Kind::Linear),
+    ("two-sided", Kind::TwoSided),
+    ("cubic", Kind::Cubic),
+    ("hunt-crossley", Kind::HuntCrossley),
+    ("herbert-mcwhannell", Kind::Restitution(ImpactModel::HerbertMcwhannell)),
+    ("lee-wang", Kind::Restitution(ImpactModel::LeeWang)),
+    ("lankarani-nikravesh", Kind::Restitution(ImpactModel::LankaraniNikravesh)),
+    ("gonthier", Kind::Restitution(ImpactModel::Gonthier)),
+    ("flores", Kind::Restitution(ImpactModel::Flores)),
+    ("hu-guo", Kind::Restitution(ImpactModel::HuGuo)),
+];
 
 pub(super) fn read(table: &Table<'_>) -> Option<StopLaw> {
     let law = table.required("law").and_then(|value| value.choice(&KINDS));
@@ -146,12 +220,63 @@ pub(super) fn read(table: &Table<'_>) -> Option<StopLaw> {
         }
         Kind::Linear => {
             let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
+            let damping =
+                table.optional("damping_n_s_m").map_or(Some(0.0), |value| value.number(&quantity::DAMPER));
             let (approach, side) = read_one_sided(table);
-            Some(StopLaw::Linear { stiffness_n_m: stiffness?, approach: approach?, side: side? })
+            Some(StopLaw::Linear {
+                stiffness_n_m: stiffness?,
+                damping_n_s_m: damping?,
+                approach: approach?,
+                side: side?,
+            })
         }
         Kind::TwoSided => read_two_sided(table),
         Kind::Cubic => read_cubic(table),
+        Kind::HuntCrossley => read_hunt_crossley(table),
+        Kind::Restitution(model) => read_restitution(table, model),
     }
+}
+
+/// With the loss itself, or with a coefficient of restitution for every impact.
+fn read_hunt_crossley(table: &Table<'_>) -> Option<StopLaw> {
+    if !table.has("restitution") {
+        let stiffness = read_hertz(table);
+        let loss = required(table, "loss_s_m", &quantity::LOSS);
+        let (approach, side) = read_one_sided(table);
+        return Some(StopLaw::HuntCrossley {
+            stiffness: stiffness?,
+            loss_s_m: loss?,
+            approach: approach?,
+            side: side?,
+        });
+    }
+    if let Some(loss) = table.optional("loss_s_m") {
+        let help = vec!["allowed: one of `loss_s_m` and `restitution`".into()];
+        loss.problem("`loss_s_m` is given besides `restitution`".into(), help);
+    }
+    read_restitution(table, ImpactModel::HuntCrossley)
+}
+
+fn read_restitution(table: &Table<'_>, model: ImpactModel) -> Option<StopLaw> {
+    let stiffness = read_hertz(table);
+    let restitution = required(table, "restitution", &quantity::RESTITUTION);
+    let (approach, side) = read_one_sided(table);
+    if let Some(Approach::Preload { .. }) = approach {
+        let help = vec!["allowed: a gap; a contact that is closed at rest has no impact to remember".into()];
+        table.problem(
+            "preload_n",
+            "`preload_n` is given, but the law needs the speed of each impact".into(),
+            help,
+        );
+        return None;
+    }
+    Some(StopLaw::Restitution {
+        model,
+        stiffness: stiffness?,
+        restitution: restitution?,
+        approach: approach?,
+        side: side?,
+    })
 }
 
 fn required(table: &Table<'_>, key: &'static str, quantity: &Quantity) -> Option<f64> {

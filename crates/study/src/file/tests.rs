@@ -285,3 +285,75 @@ fn depth_and_search_out_of_their_ranges_are_refused() {
         assert_refused(paper_with("[response]", &table), &[key]);
     }
 }
+
+/// The paper's stop with another law.
+fn law_with(keys: &str) -> Result<Study, String> {
+    paper_with("law = \"hertz\"", keys)
+}
+
+#[test]
+fn laws_that_lose_energy_are_read() {
+    let read = |keys: &str| law_with(keys).unwrap().stops[0].law;
+    let StopLaw::HuntCrossley { loss_s_m, .. } = read("law = \"hunt-crossley\"\nloss_s_m = 0.25") else {
+        panic!("not the law of Hunt and Crossley")
+    };
+    assert_eq!(loss_s_m, 0.25);
+    for (word, expected) in [
+        ("hunt-crossley", ImpactModel::HuntCrossley),
+        ("herbert-mcwhannell", ImpactModel::HerbertMcwhannell),
+        ("lee-wang", ImpactModel::LeeWang),
+        ("lankarani-nikravesh", ImpactModel::LankaraniNikravesh),
+        ("gonthier", ImpactModel::Gonthier),
+        ("flores", ImpactModel::Flores),
+        ("hu-guo", ImpactModel::HuGuo),
+    ] {
+        let StopLaw::Restitution { model, restitution, .. } =
+            read(&format!("law = \"{word}\"\nrestitution = 0.7"))
+        else {
+            panic!("{word} is no law with a coefficient of restitution")
+        };
+        assert_eq!((model, restitution), (expected, 0.7));
+    }
+}
+
+#[test]
+fn laws_that_lose_energy_refuse_what_they_cannot_be() {
+    let refused = |keys: &str, words: &[&str]| assert_refused(law_with(keys), words);
+    refused("law = \"hunt-crossley\"", &["`loss_s_m` is missing"]);
+    refused("law = \"hunt-crossley\"\nloss_s_m = -1.0", &["`loss_s_m`", "-1", "allowed: 0 to"]);
+    refused(
+        "law = \"hunt-crossley\"\nloss_s_m = 0.1\nrestitution = 0.9",
+        &["`loss_s_m` is given besides `restitution`"],
+    );
+    refused("law = \"flores\"", &["`restitution` is missing"]);
+    for e in ["0.0", "-0.1", "1.01", "70"] {
+        refused(&format!("law = \"flores\"\nrestitution = {e}"), &["`restitution`", "to 1"]);
+    }
+    refused("law = \"hertz\"\nrestitution = 0.9", &["unknown key `restitution`"]);
+    refused("law = \"lankarani\"", &["lankarani", "lankarani-nikravesh"]);
+    let preloaded = PAPER
+        .replace("law = \"hertz\"", "law = \"gonthier\"\nrestitution = 0.9")
+        .replace("gap_m = 0.0", "preload_n = 2.0");
+    assert_refused(parse(&preloaded), &["`preload_n` is given, but the law needs the speed of each impact"]);
+    let damped = |damping: &str| {
+        let linear = PAPER
+            .replace("law = \"hertz\"", "law = \"linear\"")
+            .replace("stiffness_n_m15 = 4.5e9", &format!("stiffness_n_m = 1e5\ndamping_n_s_m = {damping}"));
+        parse(&linear)
+    };
+    assert!(matches!(damped("3.0").unwrap().stops[0].law, StopLaw::Linear { damping_n_s_m: 3.0, .. }));
+    assert_refused(damped("-3.0"), &["`damping_n_s_m`", "-3", "allowed: 0 to"]);
+}
+
+/// A damper of 0 N s/m, written out or not, is the same study.
+#[test]
+fn a_linear_stop_without_a_damper_is_the_study_it_was() {
+    let linear = |damping: &str| {
+        let text = PAPER
+            .replace("law = \"hertz\"", "law = \"linear\"")
+            .replace("stiffness_n_m15 = 4.5e9", &format!("stiffness_n_m = 1e5\n{damping}"));
+        serde_json::to_string(&parse(&text).unwrap().stops).unwrap()
+    };
+    assert_eq!(linear(""), linear("damping_n_s_m = 0.0"));
+    assert!(!linear("").contains("damping"));
+}

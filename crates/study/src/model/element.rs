@@ -2,12 +2,15 @@
 
 use hammerbeam_motion::{
     Law, LawError, Load, LocalElement,
-    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+    law::{
+        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+    },
 };
 use hammerbeam_structure::ReducedModel;
 
 use crate::file::{
-    Approach, FixedTo, GapMeasured, HertzStiffness, Place, Side, Stop, StopLaw, StudyError, StudyFile,
+    Approach, FixedTo, GapMeasured, HertzStiffness, ImpactModel, Place, Side, Stop, StopLaw, StudyError,
+    StudyFile,
 };
 
 use super::load::rest;
@@ -103,9 +106,20 @@ fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalEle
             let law = hertz(stiffness.value(), approach, relative.at(rest))?;
             element(relative, Law::Hertz(law))
         }
-        StopLaw::Linear { stiffness_n_m, approach, side } => {
+        StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side } => {
             let relative = relative.towards(side);
-            let law = linear(stiffness_n_m, approach, relative.at(rest))?;
+            let elastic = hertz(stiffness.value(), approach, relative.at(rest))?;
+            element(relative, Law::HuntCrossley(HuntCrossleyStop::new(elastic, loss_s_m)?))
+        }
+        StopLaw::Restitution { model, stiffness, restitution, approach, side } => {
+            let relative = relative.towards(side);
+            let elastic = hertz(stiffness.value(), approach, relative.at(rest))?;
+            let law = RestitutionStop::new(elastic, model.formula(), restitution)?;
+            element(relative, Law::Restitution(law))
+        }
+        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side } => {
+            let relative = relative.towards(side);
+            let law = linear(stiffness_n_m, approach, relative.at(rest))?.with_damping(damping_n_s_m)?;
             element(relative, Law::Linear(law))
         }
         StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, .. } => {
@@ -148,6 +162,22 @@ fn linear_at(stiffness: f64, level: f64) -> Result<LinearStop, LawError> {
         LinearStop::with_gap(stiffness, level)
     } else {
         LinearStop::with_preload(stiffness, -stiffness * level)
+    }
+}
+
+impl ImpactModel {
+    /// The formula of the model.
+    #[must_use]
+    pub fn formula(self) -> RestitutionModel {
+        match self {
+            Self::HuntCrossley => RestitutionModel::HuntCrossley,
+            Self::HerbertMcwhannell => RestitutionModel::HerbertMcWhannell,
+            Self::LeeWang => RestitutionModel::LeeWang,
+            Self::LankaraniNikravesh => RestitutionModel::LankaraniNikravesh,
+            Self::Gonthier => RestitutionModel::Gonthier,
+            Self::Flores => RestitutionModel::Flores,
+            Self::HuGuo => RestitutionModel::HuGuo,
+        }
     }
 }
 

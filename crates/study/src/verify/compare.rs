@@ -87,7 +87,10 @@ pub(super) fn compare(
     let margin = tolerance * found.gain * measures.contact[0];
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
-    list.extend(multipliers(solution, found, sensitivity));
+    // A force that begins with a jump makes the monodromy matrix jump where its contact grazes: there are two of them then.
+    let jumps = system.elements().iter().any(|element| element.law.onset_damping() > 0.0);
+    let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
+    list.extend(of_multipliers.map(|found| Comparison { grazing: jumps && grazing > 0, ..found }));
     list.extend(leading(row, solution));
     list.extend(events(row, found, &measures, tolerance * (1.0 + norm(&found.monodromy) + sensitivity)));
     list

@@ -25,6 +25,8 @@
 //! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
+//! Where a contact grazes whose force begins with a jump (a stop with a damper), the monodromy matrix itself jumps: multipliers may differ there.
+//!
 //! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for: the time of the largest acceleration is read off a polynomial.
 //!
 //! | file | idea |

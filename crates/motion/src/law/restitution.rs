@@ -1,0 +1,144 @@
+//! Hertz contacts whose loss is set by a coefficient of restitution and by the speed of each impact.
+//!
+//! `f = -k p^1.5 (1 + c p'/v)` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`. The speed v is that with which the present contact
+//! began, so the law has a memory: a contact has to be followed from its beginning. The factor c is what the models differ in:
+//!
+//! | model | c(e) | source |
+//! |---|---|---|
+//! | [`HuntCrossley`](RestitutionModel::HuntCrossley) | `3 (1 - e)/2` | Hunt and Crossley, J. Appl. Mech. 42 (1975), 440-445 |
+//! | [`HerbertMcWhannell`](RestitutionModel::HerbertMcWhannell) | `6 (1 - e)/((2 e - 1)^2 + 3)` | Herbert and McWhannell, J. Eng. Ind. 99 (1977), 513-518 |
+//! | [`LeeWang`](RestitutionModel::LeeWang) | `3 (1 - e)/4` | Lee and Wang, J. Mech. Transm. Autom. Des. 105 (1983), 534-540 |
+//! | [`LankaraniNikravesh`](RestitutionModel::LankaraniNikravesh) | `3 (1 - e^2)/4` | Lankarani and Nikravesh, J. Mech. Des. 112 (1990), 369-376 |
+//! | [`Gonthier`](RestitutionModel::Gonthier) | `(1 - e^2)/e` | Gonthier and others, Multibody Syst. Dyn. 11 (2004), 209-233 |
+//! | [`Flores`](RestitutionModel::Flores) | `8 (1 - e)/(5 e)` | Flores and others, Multibody Syst. Dyn. 25 (2011), 357-375 |
+//! | [`HuGuo`](RestitutionModel::HuGuo) | `3 (1 - e)/(2 e)` | Hu and Guo, Multibody Syst. Dyn. 35 (2015), 131-151 |
+//!
+//! The coefficient e that goes in is not quite the ratio of speeds that comes out of two bodies with nothing else acting: that is the `e_out` of
+//! `(1 + e_out) c = ln((1 + c)/(1 - e_out c))`, `e_out = 1 - 2 c/3 + ...`. The models of Hunt and Crossley, Herbert and McWhannell, Lankarani and Nikravesh, and
+//! Hu and Guo agree with that to first order in `1 - e`; those with e in the denominator stop completely at `e = 0`.
+//!
+//! **Slow touches.** The loss is `c p'/v`, so it has no bound as v goes to zero and other forces press the contact on: such a law says nothing of pressing
+//! without an impact. A touch that turns by itself, `p'' < 0`, is harmless: its force goes like `v^3`.
+
+use super::{Contact, Force, HertzStop, LawError, Pressure, hunt_crossley::damped_hertz};
+
+/// How the loss follows from the coefficient of restitution; formulas and sources see the module.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum RestitutionModel {
+    /// Good near `e = 1`.
+    HuntCrossley,
+    /// Good near `e = 1`.
+    HerbertMcWhannell,
+    /// Loses about half of what e says.
+    LeeWang,
+    /// Good near `e = 1`.
+    LankaraniNikravesh,
+    /// Good near `e = 0`.
+    Gonthier,
+    /// Fair for every e.
+    Flores,
+    /// Good near both ends.
+    HuGuo,
+}
+
+impl RestitutionModel {
+    /// Every model.
+    pub const ALL: [Self; 7] = [
+        Self::HuntCrossley,
+        Self::HerbertMcWhannell,
+        Self::LeeWang,
+        Self::LankaraniNikravesh,
+        Self::Gonthier,
+        Self::Flores,
+        Self::HuGuo,
+    ];
+
+    /// The factor c for a coefficient of restitution e.
+    #[must_use]
+    pub fn factor(self, e: f64) -> f64 {
+        match self {
+            Self::HuntCrossley => 1.5 * (1.0 - e),
+            Self::HerbertMcWhannell => 6.0 * (1.0 - e) / ((2.0 * e - 1.0).powi(2) + 3.0),
+            Self::LeeWang => 0.75 * (1.0 - e),
+            Self::LankaraniNikravesh => 0.75 * (1.0 - e * e),
+            Self::Gonthier => (1.0 - e * e) / e,
+            Self::Flores => 1.6 * (1.0 - e) / e,
+            Self::HuGuo => 1.5 * (1.0 - e) / e,
+        }
+    }
+}
+
+/// One-sided Hertz stop with a coefficient of restitution; the law see the module.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RestitutionStop {
+    elastic: HertzStop,
+    model: RestitutionModel,
+    factor: f64,
+    /// Speed v with which the present contact began [m/s]; infinite before the first.
+    impact_speed: f64,
+}
+
+impl RestitutionStop {
+    /// The stop `elastic` with a coefficient of restitution.
+    ///
+    /// * `restitution`: e, more than 0 and at most 1; 1 loses nothing.
+    ///
+    /// # Errors
+    /// [`LawError::Restitution`] if it is outside, [`LawError::MemoryOfPreload`] if the stop presses on the undeformed structure: a contact that
+    /// never began has no speed to remember.
+    pub fn new(elastic: HertzStop, model: RestitutionModel, restitution: f64) -> Result<Self, LawError> {
+        if !(restitution > 0.0 && restitution <= 1.0) {
+            return Err(LawError::Restitution { found: restitution });
+        }
+        if elastic.contacts()[0].level < 0.0 {
+            return Err(LawError::MemoryOfPreload);
+        }
+        Ok(Self { elastic, model, factor: model.factor(restitution), impact_speed: f64::INFINITY })
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> RestitutionModel {
+        self.model
+    }
+
+    pub(super) fn struck_at(&self, impact_speed: f64) -> Self {
+        Self { impact_speed, ..*self }
+    }
+
+    pub(super) fn is_struck(&self) -> bool {
+        self.impact_speed.is_finite()
+    }
+
+    pub(super) fn with_elastic(&self, elastic: HertzStop) -> Self {
+        Self { elastic, ..*self }
+    }
+
+    pub(super) fn elastic(&self) -> &HertzStop {
+        &self.elastic
+    }
+
+    pub(super) fn force(&self, displacement: f64, velocity: f64) -> Force {
+        let force = self.pressing_force(displacement, velocity);
+        if force.value < 0.0 { force } else { Force::ZERO }
+    }
+
+    pub(super) fn pressing_force(&self, displacement: f64, velocity: f64) -> Force {
+        damped_hertz(&self.elastic, self.factor / self.impact_speed, displacement, velocity)
+    }
+
+    /// `df/dv = k p^1.5 c p'/v^2`.
+    pub(super) fn by_impact_speed(&self, displacement: f64, velocity: f64) -> f64 {
+        let speed = self.impact_speed;
+        -self.elastic.force(displacement).value * self.factor * velocity / (speed * speed)
+    }
+
+    /// `1 + c p'/v`.
+    pub(super) fn pressure(&self) -> Pressure {
+        Pressure { displacement: 0.0, velocity: self.factor / self.impact_speed, offset: 1.0 }
+    }
+
+    pub(super) fn contacts(&self) -> &[Contact] {
+        self.elastic.contacts()
+    }
+}

@@ -1,0 +1,470 @@
+//! Contacts that lose energy: both integrators agree, volumes shrink as Liouville's formula says, and bounces come back as the laws' sources say.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use std::f64::consts::{PI, TAU};
+
+use common::{assert_agreement, beam_with, diagonal, element, integrator, model, settled};
+use faer::Mat;
+use hammerbeam_motion::{
+    Flow, Law, Load, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings, MotionError, Trace},
+    general::{GeneralError, GeneralSettings, advance, observe, sample},
+    law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop},
+};
+
+/// The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the largest entry.
+const BOUND: f64 = 1e-9;
+
+fn damped(stiffness: f64, damping: f64, gap: f64) -> Law {
+    Law::Linear(LinearStop::with_gap(stiffness, gap).unwrap().with_damping(damping).unwrap())
+}
+
+fn hunt_crossley(stiffness: f64, loss: f64, gap: f64) -> Law {
+    Law::HuntCrossley(HuntCrossleyStop::new(HertzStop::with_gap(stiffness, gap).unwrap(), loss).unwrap())
+}
+
+fn restitution(stiffness: f64, model: RestitutionModel, e: f64, gap: f64) -> Law {
+    let hertz = HertzStop::with_gap(stiffness, gap).unwrap();
+    Law::Restitution(RestitutionStop::new(hertz, model, e).unwrap())
+}
+
+/// From next to no loss to contacts that are overdamped, with gaps and preloads. At the contact point the beam weighs about 50 g: 140 N s/m are critical
+/// for the linear stop.
+#[test]
+fn flows_of_the_beam_agree() {
+    let preloaded = LinearStop::with_preload(1e5, 3.0).unwrap().with_damping(15.0).unwrap();
+    let hertz = HertzStop::with_preload(4.5e9, 2.0).unwrap();
+    let laws = [
+        (damped(1e5, 0.5, 0.0), 36.0),
+        (damped(1e5, 20.0, 0.0), 36.0),
+        (damped(1e5, 140.0, 1e-4), 50.0),
+        (damped(1e5, 600.0, 0.0), 41.0),
+        (damped(1e7, 300.0, 0.0), 22.0),
+        (Law::Linear(preloaded), 30.0),
+        (hunt_crossley(4.5e9, 0.02, 0.0), 36.0),
+        (hunt_crossley(4.5e9, 0.6, 0.0), 22.0),
+        (hunt_crossley(4.5e9, 0.6, 2e-4), 41.0),
+        (hunt_crossley(4.5e9, 8.0, 0.0), 53.0),
+        (hunt_crossley(1e7, 3.0, 0.0), 28.0),
+        (Law::HuntCrossley(HuntCrossleyStop::new(hertz, 0.8).unwrap()), 30.0),
+    ];
+    for (law, frequency_hz) in laws {
+        for damping_ratio in [0.015, 0.0] {
+            let system = beam_with(damping_ratio, law);
+            let state = settled(&system, frequency_hz, if damping_ratio > 0.0 { 60 } else { 3 }, 0.3);
+            let stretch = Stretch { frequency_hz, start: 0.3, end: 1.3 };
+            let what = format!("{law:?}, damping {damping_ratio}");
+            let contacts = assert_agreement(&system, &stretch, &state, BOUND, &what);
+            assert!(contacts > 0, "{what}: no contact");
+        }
+    }
+}
+
+/// Stretches of a small part of a cycle: some start or end in a contact, some where it has parted.
+#[test]
+fn stretches_that_start_and_end_inside_contacts_agree() {
+    for (law, parts) in [(damped(1e5, 60.0, 0.0), 200_u32), (hunt_crossley(1e6, 20.0, 0.0), 400)] {
+        let system = beam_with(0.015, law);
+        let element = &system.elements()[0];
+        let relative = |state: &[f64]| {
+            let read = |part: &[f64]| part.iter().zip(&element.shape).map(|(q, phi)| q * phi).sum::<f64>();
+            (read(&state[..6]), read(&state[6..]))
+        };
+        let (mut pressing, mut parted) = (0, 0);
+        let mut exact = integrator(&system);
+        let frequency_hz = 36.0;
+        let mut state = settled(&system, frequency_hz, 100, 0.0);
+        for part in 0..parts {
+            let phase = |part: u32| f64::from(part) / f64::from(parts);
+            let stretch = Stretch { frequency_hz, start: phase(part), end: phase(part + 1) };
+            let end = exact.advance(&stretch, &state).unwrap();
+            let (r, v) = relative(&end);
+            if r > 0.0 {
+                let force = law.force(r, v).value;
+                if force < 0.0 {
+                    pressing += 1;
+                } else {
+                    parted += 1;
+                }
+                assert_agreement(&system, &stretch, &state, BOUND, &format!("{law:?}, part {part}"));
+            }
+            state = end;
+        }
+        assert!(pressing > 5 && parted > 0, "{law:?}: {pressing} and {parted}");
+    }
+}
+
+/// A mass that flies against a stop on a heavy base, from `ahead` before it.
+struct Bounce {
+    system: System,
+    mass: f64,
+}
+
+impl Bounce {
+    fn new(mass: f64, law: Law) -> Self {
+        let shape = [1.0 / mass.sqrt()];
+        let system =
+            System::new(model(&[0.0], Mat::zeros(1, 1)), &Load::default(), vec![element(&shape, 0.0, law)])
+                .unwrap();
+        Self { system, mass }
+    }
+
+    /// The flow from the speed `speed`, and the coefficient of restitution.
+    fn restitution(&self, speed: f64, duration: f64) -> (Flow, f64) {
+        let start = [-1e-6 * self.mass.sqrt(), speed * self.mass.sqrt()];
+        let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: duration };
+        let mut exact =
+            ExactIntegrator::new(self.system.clone(), ExactSettings { tolerance: 1e-13 }).unwrap();
+        let flow = exact.flow(&stretch, &start).unwrap();
+        let restitution = -flow.state[1] / start[1];
+        (flow, restitution)
+    }
+}
+
+/// With `ratio = c/(2 sqrt(k m)) = sin x` the force ends after the angle `pi - 2 x`, and `e = exp(-(pi - 2 x) tan x)`; overdamped the continuation of that,
+/// `exp(-2 ratio arcosh(ratio)/sqrt(ratio^2 - 1))`.
+#[test]
+fn a_spring_with_a_damper_sends_back_the_closed_form() {
+    let (mass, stiffness): (f64, f64) = (0.3, 2e4);
+    for ratio in [1e-3_f64, 0.1, 0.5, 0.9, 1.5, 4.0] {
+        let damping = 2.0 * ratio * (stiffness * mass).sqrt();
+        let (flow, found) = Bounce::new(mass, damped(stiffness, damping, 0.0)).restitution(0.7, 0.4);
+        let (expected, time) = if ratio < 1.0 {
+            let angle = PI - 2.0 * ratio.asin();
+            let slowed = (1.0 - ratio * ratio).sqrt();
+            ((-angle * ratio / slowed).exp(), angle / slowed)
+        } else {
+            let root = (ratio * ratio - 1.0).sqrt();
+            ((-2.0 * ratio * ratio.acosh() / root).exp(), 2.0 * ratio.acosh() / root)
+        };
+        assert!((found / expected - 1.0).abs() < 1e-10, "ratio {ratio}: {found} against {expected}");
+        // Liouville: the damper acts over the time of the contact; the saltation matrix has the determinant 1.
+        let shrunk = (-damping / mass * time / (stiffness / mass).sqrt()).exp();
+        let determinant = flow.by_state.determinant();
+        assert!((determinant / shrunk - 1.0).abs() < 1e-9, "ratio {ratio}: {determinant} against {shrunk}");
+    }
+}
+
+/// `(1 + e) y = ln((1 + y)/(1 - e y))`, by bisection.
+fn hunt_crossley_restitution(y: f64) -> f64 {
+    let (mut low, mut high) = (0.0, (1.0_f64).min(1.0 / y));
+    for _ in 0..200 {
+        let e = 0.5 * (low + high);
+        let excess = (1.0 + e) * y - y.ln_1p() + (-e * y).ln_1p();
+        if excess > 0.0 { low = e } else { high = e }
+    }
+    0.5 * (low + high)
+}
+
+/// First integral of `p'' = -k/m p^1.5 (1 + y p'/v)`; `e = 1 - a v` to first order, and `-integral f_v/m` is the logarithm in it.
+#[test]
+fn hunt_and_crossley_send_back_what_the_first_integral_says() {
+    for (loss, speed) in [(1e-4, 1.0), (0.05, 0.8), (0.4, 0.5), (2.0, 1.0), (20.0, 2.0)] {
+        let y = 1.5 * loss * speed;
+        let bounce = Bounce::new(0.2, hunt_crossley(1e8, loss, 0.0));
+        let (flow, found) = bounce.restitution(speed, 0.05);
+        let expected = hunt_crossley_restitution(y);
+        assert!((found - expected).abs() < 1e-9 * expected, "y {y}: {found} against {expected}");
+        if loss * speed < 1e-3 {
+            // The next term of the series is (a v)^2 times a number below one.
+            assert!((found - (1.0 - loss * speed)).abs() < (loss * speed).powi(2));
+        }
+        // `(1 - e y)/(1 + y)`; the entries of the matrix are of order one.
+        let shrunk = (-(1.0 + expected) * y).exp();
+        let determinant = flow.by_state.determinant();
+        assert!((determinant - shrunk).abs() < 1e-10, "y {y}: {determinant} against {shrunk}");
+    }
+}
+
+/// Undamped modes without load: what they lose is the work of the contact, by Simpson's rule on samples of the general integrator.
+#[test]
+fn the_modes_lose_what_the_contact_takes() {
+    let frequencies = [30.0, 170.0, 410.0];
+    let state = [0.0, 0.0, 0.0, 1.0, 0.2, -0.1];
+    for law in [damped(3e5, 40.0, 1e-3), hunt_crossley(1e8, 0.7, 1e-3)] {
+        let system = System::new(
+            model(&frequencies, diagonal(&[0.0; 3])),
+            &Load::default(),
+            vec![element(&[1.0, 0.6, -0.4], 0.0, law)],
+        )
+        .unwrap();
+        let stretch = Stretch { frequency_hz: 20.0, start: 0.0, end: 1.0 };
+        let mut exact = integrator(&system);
+        let end = exact.advance(&stretch, &state).unwrap();
+        assert!(exact.touches()[0] > 0);
+        let energy = |z: &[f64]| -> f64 {
+            (0..3).map(|i| 0.5 * (z[3 + i].powi(2) + (frequencies[i] * z[i]).powi(2))).sum()
+        };
+        let lost = energy(&state) - energy(&end);
+        let count = 200_000;
+        let phases: Vec<f64> = (0..=count).map(|k| f64::from(k) / f64::from(count)).collect();
+        let states =
+            sample(&system, &stretch, &state, &phases, &GeneralSettings::with_tolerance(1e-12)).unwrap();
+        let power = |z: &Vec<f64>| {
+            let read = |part: &[f64]| part[0] + 0.6 * part[1] - 0.4 * part[2];
+            let (r, v) = (read(&z[..3]), read(&z[3..]));
+            -law.force(r, v).value * v
+        };
+        let simpson = |k: usize| if k == 0 || k == count as usize { 1.0 } else { [2.0, 4.0][k % 2] };
+        let work: f64 = states.iter().enumerate().map(|(k, z)| simpson(k) * power(z)).sum();
+        let work = work * stretch.duration() / (3.0 * f64::from(count));
+        assert!(lost > 1e-3 * energy(&state), "{law:?}: hardly any loss");
+        // The rule misses up to half a sample of 0.25 us where the force jumps.
+        assert!((lost / work - 1.0).abs() < 1e-3, "{law:?}: {lost} against {work}");
+    }
+}
+
+/// Without damping they are the elastic laws, to the last bit of the law.
+#[test]
+fn no_loss_is_the_elastic_law() {
+    let linear = LinearStop::with_gap(1e5, 0.0).unwrap();
+    assert_eq!(Law::Linear(linear.with_damping(0.0).unwrap()), Law::Linear(linear));
+    let system = beam_with(0.015, hunt_crossley(4.5e9, 0.0, 0.0));
+    let elastic = beam_with(0.015, common::hertz(4.5e9, 0.0));
+    let state = settled(&elastic, 36.0, 20, 0.0);
+    let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
+    let [found, expected] = [&system, &elastic].map(|s| integrator(s).advance(&stretch, &state).unwrap());
+    assert_eq!(found, expected);
+}
+
+/// Every model, from light to heavy loss; the stretch starts where the contact is open.
+#[test]
+fn flows_of_the_beam_agree_for_laws_that_remember_the_impact() {
+    let mut contacts = 0;
+    for (model, e, gap, frequency_hz) in [
+        (RestitutionModel::HuntCrossley, 0.9, 0.0, 36.0),
+        (RestitutionModel::HerbertMcWhannell, 0.7, 0.0, 28.0),
+        (RestitutionModel::LeeWang, 0.5, 1e-4, 41.0),
+        (RestitutionModel::LankaraniNikravesh, 0.95, 0.0, 36.0),
+        (RestitutionModel::LankaraniNikravesh, 0.6, 0.0, 53.0),
+        (RestitutionModel::Gonthier, 0.3, 0.0, 41.0),
+        (RestitutionModel::Flores, 0.8, 2e-4, 50.0),
+        (RestitutionModel::HuGuo, 0.4, 0.0, 22.0),
+    ] {
+        for stiffness in [4.5e9, 1e7] {
+            let system = beam_with(0.015, restitution(stiffness, model, e, gap));
+            let what = format!("{model:?} {e} {stiffness:e}");
+            let mut exact = integrator(&system);
+            let mut state = vec![0.0; 12];
+            for _ in 0..60 {
+                state = exact.advance(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, &state).unwrap();
+            }
+            // The first of these phases at which the contact is open, with a little room.
+            for k in 1..40 {
+                let phase = 0.025 * f64::from(k);
+                let stretch = Stretch { frequency_hz, start: 0.0, end: phase };
+                let start = exact.advance(&stretch, &state).unwrap();
+                let r: f64 = start.iter().zip(&system.elements()[0].shape).map(|(q, phi)| q * phi).sum();
+                let stretch = Stretch { frequency_hz, start: phase, end: phase + 1.0 };
+                if r < gap - 2e-5 {
+                    contacts += assert_agreement(&system, &stretch, &start, BOUND, &what);
+                    break;
+                }
+                // Not in memory after another stretch.
+                state = exact.advance(&Stretch { frequency_hz, start: phase, end: 1.0 }, &start).unwrap();
+            }
+        }
+    }
+    assert!(contacts > 20, "{contacts}");
+}
+
+/// What comes out of two bodies alone solves `(1 + e_out) c = ln((1 + c)/(1 - e_out c))` with the factor c of the model.
+#[test]
+fn restitution_that_comes_out_is_that_of_the_first_integral() {
+    for model in RestitutionModel::ALL {
+        for e in [0.99, 0.9, 0.6, 0.3, 0.1] {
+            let bounce = Bounce::new(0.2, restitution(1e8, model, e, 0.0));
+            for speed in [0.05, 2.0] {
+                let (flow, found) = bounce.restitution(speed, 0.2);
+                let expected = hunt_crossley_restitution(model.factor(e));
+                assert!((found - expected).abs() < 1e-9, "{model:?} {e}: {found} against {expected}");
+                // Twice the speed comes back twice as fast: the column by the speed has the whole of e.
+                let by_speed = flow.by_state[(1, 1)];
+                assert!((by_speed + expected).abs() < 1e-8, "{model:?} {e}: {by_speed} against {expected}");
+            }
+        }
+    }
+}
+
+/// What the sources say of their range: exact to first order near 1 (four models), complete loss at 0 (those with e below the line), fair throughout (Flores).
+#[test]
+fn models_are_good_where_their_sources_say() {
+    use RestitutionModel::{
+        Flores, Gonthier, HerbertMcWhannell, HuGuo, HuntCrossley, LankaraniNikravesh, LeeWang,
+    };
+    let out = |model: RestitutionModel, e: f64| hunt_crossley_restitution(model.factor(e));
+    for model in [HuntCrossley, HerbertMcWhannell, LankaraniNikravesh, HuGuo] {
+        assert!((out(model, 0.999) - 0.999).abs() < 1e-5, "{model:?}");
+    }
+    for model in [Gonthier, Flores, HuGuo] {
+        assert!(out(model, 1e-3) < 2e-3, "{model:?}");
+    }
+    for e in [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95] {
+        // By 0.045 at most, near e = 0.25.
+        assert!((out(Flores, e) - e).abs() < 0.05, "{e}: {}", out(Flores, e));
+    }
+    // Three quarters of `1 - e` instead of three halves: half of the loss.
+    assert!((1.0 - out(LeeWang, 0.999) - 0.5e-3).abs() < 1e-5);
+}
+
+/// A state within a contact does not tell how it began.
+#[test]
+fn a_stretch_that_starts_in_a_contact_with_memory_is_refused() {
+    let system = beam_with(0.015, restitution(1e6, RestitutionModel::Flores, 0.6, 0.0));
+    let frequency_hz = 36.0;
+    let mut exact = integrator(&system);
+    let mut state = vec![0.0; 12];
+    let stretch = |part: u32| {
+        let phase = |part: u32| f64::from(part) / 40.0;
+        Stretch { frequency_hz, start: phase(part), end: phase(part + 1) }
+    };
+    let mut continued = 0;
+    for part in 0..400 {
+        let stretch = stretch(part % 40);
+        let r: f64 = state.iter().zip(&system.elements()[0].shape).map(|(q, phi)| q * phi).sum();
+        if r > 1e-9 {
+            let refused = integrator(&system).flow(&stretch, &state).unwrap_err();
+            assert!(matches!(refused, MotionError::StartsInContact { .. }), "{refused}");
+            let refused = advance(&system, &stretch, &state, &GeneralSettings::default()).unwrap_err();
+            assert!(matches!(refused, GeneralError::StartsInContact { .. }), "{refused}");
+            continued += 1;
+        }
+        // The motion itself goes on over the cuts.
+        state = exact.advance(&stretch, &state).unwrap();
+    }
+    assert!(continued > 10, "{continued}");
+    // Ten cycles in pieces are ten cycles.
+    let mut whole = vec![0.0; 12];
+    for _ in 0..10 {
+        whole = exact.advance(&Stretch { frequency_hz, start: 0.0, end: 1.0 }, &whole).unwrap();
+    }
+    let scale = whole[6..].iter().fold(0.0_f64, |scale, v| scale.max(v.abs()));
+    for i in 6..12 {
+        assert!((whole[i] - state[i]).abs() < 1e-6 * scale, "{} {}", whole[i], state[i]);
+    }
+}
+
+/// What a bounce tells: `(m v^2/2) (1 - e^2)` is lost, the impulse is `m v (1 + e)`, and the force of the damper is largest at once if it is heavy.
+#[test]
+fn records_of_a_bounce_are_those_of_its_speeds() {
+    let (mass, speed) = (0.3, 0.7);
+    for law in [
+        damped(2e4, 10.0, 0.0),
+        damped(2e4, 400.0, 0.0),
+        hunt_crossley(1e8, 0.5, 0.0),
+        restitution(1e8, RestitutionModel::Flores, 0.4, 0.0),
+        common::hertz(1e8, 0.0),
+    ] {
+        let bounce = Bounce::new(mass, law);
+        let (_, e) = bounce.restitution(speed, 0.2);
+        let start = [-1e-3 * mass.sqrt(), speed * mass.sqrt()];
+        let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.3 };
+        let mut exact = integrator(&bounce.system);
+        let trace = exact.trace(&stretch, &start, &[]).unwrap();
+        let maxima = exact.observe(&[(stretch, &start)]).unwrap();
+        let [record] = &trace.contacts[..] else { panic!("{law:?}: {} contacts", trace.contacts.len()) };
+        let begin = record.begin.as_ref().unwrap();
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-9 * expected.abs().max(1e-2);
+        let lost = 0.5 * mass * speed * speed * (1.0 - e * e);
+        assert!(near(record.energy_lost, lost), "{law:?}: {} against {lost}", record.energy_lost);
+        assert!(near(record.impulse, mass * speed * (1.0 + e)), "{law:?}: {}", record.impulse);
+        assert!(near(begin.time, 1e-3 / speed) && near(begin.velocity.abs(), speed));
+        assert!(record.end.unwrap() > begin.time && record.end.unwrap() < 0.3);
+        // The largest force of a record is that of its polynomial.
+        assert!((record.peak_force / maxima.contact_force - 1.0).abs() < 1e-4, "{law:?}");
+        assert!(near(record.energy_lost, maxima.energy_lost) && near(record.impulse, maxima.impulse));
+        if law == damped(2e4, 400.0, 0.0) {
+            assert!(near(maxima.contact_force, 400.0 * speed), "{}", maxima.contact_force);
+        }
+    }
+    // Cut in the middle of the contact, the pieces add up.
+    let bounce = Bounce::new(mass, damped(2e4, 10.0, 0.0));
+    let mut exact = integrator(&bounce.system);
+    let start = [0.0, speed * mass.sqrt()];
+    let piece = |start: f64, end: f64| Stretch { frequency_hz: 1.0, start, end };
+    let lost = |trace: &Trace| trace.contacts.iter().map(|contact| contact.energy_lost).sum::<f64>();
+    let whole = lost(&exact.trace(&piece(0.0, 0.1), &start, &[]).unwrap());
+    let first = exact.trace(&piece(0.0, 5e-3), &start, &[]).unwrap();
+    let begin = first.contacts[0].begin.as_ref().map(|begin| begin.time);
+    assert_eq!((begin, first.contacts[0].end), (Some(0.0), None));
+    let second = exact.trace(&piece(5e-3, 0.1), &first.state, &[]).unwrap();
+    assert_eq!(second.contacts[0].begin, None);
+    assert!((lost(&first) + lost(&second) - whole).abs() < 1e-10 * whole);
+}
+
+/// Both integrators see the same maxima.
+#[test]
+fn observations_agree() {
+    let laws = [
+        damped(1e5, 20.0, 0.0),
+        damped(1e5, 600.0, 0.0),
+        hunt_crossley(4.5e9, 0.6, 0.0),
+        restitution(4.5e9, RestitutionModel::LankaraniNikravesh, 0.7, 0.0),
+    ];
+    for law in laws {
+        let system = beam_with(0.015, law);
+        let shape = &system.model().points[0].shape.clone();
+        let state = settled(&system, 36.0, 80, 0.0);
+        let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
+        let settings = ExactSettings { tolerance: 1e-13 };
+        let mut exact = ExactIntegrator::watching(system.clone(), settings, Some((shape, 1.0))).unwrap();
+        let found = exact.observe(&[(stretch, &state)]).unwrap();
+        let expected =
+            observe(&system, &stretch, &state, (shape, 1.0), &GeneralSettings::with_tolerance(1e-12))
+                .unwrap();
+        for (what, found, expected) in [
+            ("displacement", found.displacement, expected.displacement),
+            ("acceleration", found.acceleration, expected.acceleration),
+            ("force", found.contact_force, expected.contact_force),
+            ("impact", found.impact_velocity, expected.impact_velocity),
+            ("impulse", found.impulse, expected.impulse),
+        ] {
+            // Maxima of forces and accelerations are located to some 1e-5 of a step, where they are flat.
+            assert!((found / expected - 1.0).abs() < 1e-8, "{law:?}, {what}: {found} against {expected}");
+        }
+        assert_eq!(found.touches, expected.touches);
+    }
+}
+
+/// A mass on a spring that just reaches the stop, by a depth that goes down to nothing: contacts of any depth end, and do next to nothing. With a damper
+/// the fundamental matrix jumps by `c` in the rate that the depth has, as the saltation matrix says.
+#[test]
+fn grazing_contacts_of_any_depth_come_to_their_end() {
+    let (omega, gap) = (100.0, 1e-3);
+    let laws = [
+        damped(1e5, 20.0, gap),
+        damped(1e5, 2000.0, gap),
+        hunt_crossley(1e8, 5.0, gap),
+        restitution(1e8, RestitutionModel::Gonthier, 0.2, gap),
+    ];
+    for law in laws {
+        let system =
+            System::new(model(&[omega], diagonal(&[0.2])), &Load::default(), vec![element(&[1.0], 0.0, law)])
+                .unwrap();
+        let mut exact = integrator(&system);
+        for exponent in 3..60 {
+            for part in [1.0, 0.7, 0.3] {
+                let depth = gap * part * 10f64.powf(-0.3 * f64::from(exponent));
+                // Half a period before the largest displacement, without the little that the damping takes.
+                let state = [-(gap + depth) * (0.1 * PI / omega).exp(), 0.0];
+                let stretch = Stretch { frequency_hz: omega / TAU, start: 0.0, end: 1.0 };
+                let what = format!("{law:?}, depth {depth:e}");
+                let flow = exact.flow(&stretch, &state).unwrap_or_else(|error| panic!("{what}: {error}"));
+                assert!(flow.state[0] < 0.0 && flow.state[0] > 1.0001 * state[0], "{what}: {:?}", flow.state);
+                if depth < 1e-12 {
+                    // `c` at the touch, turned round and damped over the half period that follows; the contact itself takes less than a microsecond.
+                    let jump = law.onset_damping();
+                    let decay = (-0.2 * PI / omega).exp();
+                    let expected = if exact.touches()[0] > 0 { -decay * jump } else { 0.0 };
+                    let found = flow.by_state[(1, 0)];
+                    assert!(
+                        (found - expected).abs() < 1e-2 * jump + 0.1,
+                        "{what}: {found} against {expected}"
+                    );
+                }
+            }
+        }
+    }
+}

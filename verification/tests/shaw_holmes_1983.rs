@@ -1,0 +1,129 @@
+//! The rigid impact oscillator `x'' + x = cos(w t)`, `x <= s`, `x' -> -e x'` at `x = s`, as the limit of ever stiffer contacts that lose energy.
+//!
+//! Orbits with one impact of speed V in each period `T = 2 pi/w` are in closed form (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155, section 3; written out anew
+//! here): with `g = 1/(1 - w^2)` and `C = cot(T/2)`
+//!
+//! `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2 = g^2`.
+//!
+//! Their multipliers have the product `e^2` and the sum `-2 e cos T + (1 + e) (a/V) sin T`, with the acceleration a at the impact (Nordmark, J. Sound Vib. 145
+//! (1991), 279-297, has the `1/V` of grazing orbits in it). There is no rigid stop here: stops of stiffness k take its place, and what differs
+//! falls with the duration of a contact, like `k^(-2/5)` for a Hertz contact and `k^(-1/2)` for a linear one.
+#![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
+
+mod common;
+
+use std::f64::consts::{PI, TAU};
+
+use common::{Rig, element_at, force_at, response_of, single_mass};
+use hammerbeam_motion::{
+    Law, Load, System,
+    law::{HertzStop, LinearStop, RestitutionModel, RestitutionStop},
+};
+use hammerbeam_orbit::{OrbitSettings, find_start};
+
+const FREQUENCY: f64 = 1.8;
+const GAP: f64 = 0.1;
+const RESTITUTION: f64 = 0.6;
+
+/// Speed of the impact, sum and product of the multipliers.
+fn rigid() -> [f64; 3] {
+    let (w, s, e) = (FREQUENCY, GAP, RESTITUTION);
+    let (period, g) = (TAU / w, 1.0 / (1.0 - w * w));
+    let cot = (period / 2.0).tan().recip();
+    let square = ((1.0 + e) / 2.0 * cot).powi(2) + ((1.0 - e) / (2.0 * w)).powi(2);
+    let half = s * (1.0 + e) / 2.0 * cot;
+    let speed = (-half + (half * half - square * (s * s - g * g)).sqrt()) / square;
+    // `g cos(phase)` and `-g w sin(phase)` are what the particular solution has at the impact.
+    let phase = (-speed * (1.0 - e) / (2.0 * g * w)).atan2((s + speed * (1.0 + e) / 2.0 * cot) / g);
+    let acceleration = phase.cos() - s;
+    let sum = -2.0 * e * period.cos() + (1.0 + e) * acceleration / speed * period.sin();
+    [speed, sum, e * e]
+}
+
+/// The same of the orbit with this stop.
+fn compliant(law: Law) -> [f64; 3] {
+    let model = single_mass(1.0, 1.0, 0.0, false);
+    let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, 1.0)] };
+    let stop = element_at(&model, "mass", law);
+    let response = response_of(&model, "mass");
+    let rig = Rig { system: System::new(model, &load, vec![stop]).unwrap(), response };
+    let orbit =
+        find_start(&rig.system, &rig.response, FREQUENCY / TAU, 1, &OrbitSettings::default()).unwrap();
+    assert_eq!(orbit.maxima.contacts, 1);
+    let [[a, b], [c, d]] = [orbit.floquet_multipliers[0], orbit.floquet_multipliers[1]];
+    [orbit.maxima.impact_velocity, a + c, a * c - b * d]
+}
+
+/// Largest difference at each stiffness, and the slope of its logarithm.
+fn convergence(stiffnesses: [f64; 2], law: impl Fn(f64) -> Law) -> ([f64; 2], f64) {
+    let rigid = rigid();
+    let errors = stiffnesses.map(|stiffness| {
+        let found = compliant(law(stiffness));
+        (0..3).map(|i| (found[i] - rigid[i]).abs()).fold(0.0, f64::max)
+    });
+    (errors, (errors[1] / errors[0]).ln() / (stiffnesses[1] / stiffnesses[0]).ln())
+}
+
+/// Coefficient with which a model lets two bodies alone part with [`RESTITUTION`]: `(1 + e) c = ln((1 + c)/(1 - e c))`, by bisection.
+fn coefficient_for(model: RestitutionModel) -> f64 {
+    let e = RESTITUTION;
+    let (mut low, mut high) = (0.05, 0.95);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        let c = model.factor(middle);
+        // A factor that is too large leaves less than e.
+        let loses_more = e * c >= 1.0 || (1.0 + e) * c < c.ln_1p() - (-e * c).ln_1p();
+        if loses_more { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+#[test]
+fn stiffer_hertz_contacts_with_restitution_converge_to_the_rigid_stop() {
+    for model in [RestitutionModel::HuntCrossley, RestitutionModel::Flores, RestitutionModel::Gonthier] {
+        let e = coefficient_for(model);
+        let (errors, slope) = convergence([1e8, 1e12], |stiffness| {
+            let hertz = HertzStop::with_gap(stiffness, GAP).unwrap();
+            Law::Restitution(RestitutionStop::new(hertz, model, e).unwrap())
+        });
+        assert!(errors[1] < 1e-3, "{model:?}: {errors:?}");
+        assert!((slope + 0.4).abs() < 0.01, "{model:?}: {errors:?}, slope {slope}");
+    }
+}
+
+/// A spring with a damper that has a fixed part of the critical damping: `e = exp(-(pi - 2 x) tan x)`, `sin x` that part.
+#[test]
+fn stiffer_springs_with_dampers_converge_to_the_rigid_stop() {
+    let restitution = |x: f64| (-(PI - 2.0 * x) * x.tan()).exp();
+    let (mut low, mut high) = (0.0, 1.5);
+    for _ in 0..100 {
+        let middle = 0.5 * (low + high);
+        if restitution(middle) > RESTITUTION { low = middle } else { high = middle }
+    }
+    let (errors, slope) = convergence([1e6, 1e10], |stiffness: f64| {
+        let damping = 2.0 * low.sin() * stiffness.sqrt();
+        Law::Linear(LinearStop::with_gap(stiffness, GAP).unwrap().with_damping(damping).unwrap())
+    });
+    assert!(errors[1] < 1e-3, "{errors:?}");
+    assert!((slope + 0.5).abs() < 0.01, "{errors:?}, slope {slope}");
+}
+
+/// A stop that stays closed is a spring and a damper more: `|x| = F/|k - m w^2 + i c w|`, and multipliers of modulus `exp(-c T/2)`.
+#[test]
+fn a_preloaded_stop_that_stays_closed_adds_its_spring_and_its_damper() {
+    let (stiffness, damping, force, frequency_hz): (f64, f64, f64, f64) = (3.0, 0.4, 0.2, 0.25);
+    let model = single_mass(1.0, 1.0, 0.1, false);
+    let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, force)] };
+    let stop = LinearStop::with_preload(stiffness, 10.0).unwrap().with_damping(damping).unwrap();
+    let element = element_at(&model, "mass", Law::Linear(stop));
+    let response = response_of(&model, "mass");
+    let system = System::new(model, &load, vec![element]).unwrap();
+    let orbit = find_start(&system, &response, frequency_hz, 1, &OrbitSettings::default()).unwrap();
+    let w = TAU * frequency_hz;
+    let amplitude = force / (1.0 + stiffness - w * w).hypot((0.1 + damping) * w);
+    // The preload pushes the mass off by `10/(1 + 3)`.
+    let expected = amplitude + 2.5;
+    assert!((orbit.maxima.displacement - expected).abs() < 1e-8, "{}", orbit.maxima.displacement);
+    let [re, im] = orbit.floquet_multipliers[0];
+    assert!((re.hypot(im) - (-0.5 * (0.1 + damping) / frequency_hz).exp()).abs() < 1e-9);
+}
