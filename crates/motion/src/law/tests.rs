@@ -2,8 +2,13 @@
 
 use super::*;
 
-fn every_law() -> [Law; 7] {
+fn every_law() -> [Law; 10] {
+    let hertz = HertzStop::with_gap(4.5e9, 1e-3).unwrap();
+    let flores = RestitutionStop::new(hertz, RestitutionModel::Flores, 0.7).unwrap();
     [
+        Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap().with_damping(30.0).unwrap()),
+        Law::HuntCrossley(HuntCrossleyStop::new(hertz, 0.4).unwrap()),
+        Law::Restitution(flores).struck_at(0.6),
         Law::Hertz(HertzStop::with_gap(4.5e9, 1e-3).unwrap()),
         Law::Hertz(HertzStop::with_preload(4.5e9, 12.0).unwrap()),
         Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap()),
@@ -139,4 +144,60 @@ fn refusals_say_what_was_found_and_what_is_allowed() {
     assert_eq!(message, "gap is -0.5 m, must be finite and not negative");
     let message = CubicSpring::new(0.0).unwrap_err().to_string();
     assert_eq!(message, "stiffness is 0, must be finite and not zero");
+}
+
+#[test]
+fn derivatives_by_velocity_and_impact_speed_agree_with_differences() {
+    let step = 1e-6;
+    for law in every_law().into_iter().filter(Law::depends_on_velocity) {
+        for (r, v) in [(1.3e-3, 0.5), (1.002e-3, 0.1), (1.3e-3, -0.1)] {
+            let force = law.force(r, v);
+            assert!(force.value < 0.0, "{law:?} does not press");
+            let by_velocity = (law.force(r, v + step).value - law.force(r, v - step).value) / (2.0 * step);
+            let close = |found: f64, expected: f64| (found - expected).abs() < 1e-6 * force.value.abs();
+            assert!(close(force.damping, by_velocity), "{law:?}: {} {by_velocity}", force.damping);
+            if law.remembers_impact() {
+                let struck = |speed: f64| law.struck_at(speed).force(r, v).value;
+                let by_speed = (struck(0.6 + step) - struck(0.6 - step)) / (2.0 * step);
+                assert!(close(law.by_impact_speed(r, v), by_speed), "{law:?}: {by_speed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn stops_never_pull() {
+    for law in every_law().into_iter().filter(Law::depends_on_velocity) {
+        // The pressure vanishes where the force does.
+        for v in [-0.2, -1.0, -5.0, -1e3] {
+            for depth in [1e-6, 1e-4] {
+                let (force, pressure) = (law.force(1e-3 + depth, v).value, law.pressure().unwrap());
+                assert!(
+                    force <= 0.0 && (force < 0.0) == (pressure.at(depth, v) > 0.0),
+                    "{law:?} {v} {depth}"
+                );
+            }
+        }
+        assert_eq!(law.force(1e-3 + 1e-6, -1e6), Force::ZERO);
+    }
+}
+
+#[test]
+fn damping_and_restitution_are_in_their_ranges() {
+    let hertz = HertzStop::with_gap(1.0, 0.0).unwrap();
+    for found in [-1e-9, f64::INFINITY] {
+        let refused = LawError::Damping { found };
+        assert_eq!(LinearStop::with_gap(1.0, 0.0).unwrap().with_damping(found), Err(refused.clone()));
+        assert_eq!(HuntCrossleyStop::new(hertz, found), Err(refused));
+    }
+    for model in RestitutionModel::ALL {
+        for found in [0.0, -0.5, 1.0 + 1e-9] {
+            let refused = Err(LawError::Restitution { found });
+            assert_eq!(RestitutionStop::new(hertz, model, found), refused);
+        }
+        assert!(RestitutionStop::new(hertz, model, f64::NAN).is_err());
+        assert_eq!(model.factor(1.0), 0.0, "{model:?} loses something at e = 1");
+        let preloaded = HertzStop::with_preload(1.0, 2.0).unwrap();
+        assert_eq!(RestitutionStop::new(preloaded, model, 0.5), Err(LawError::MemoryOfPreload));
+    }
 }
