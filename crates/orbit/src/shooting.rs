@@ -397,6 +397,9 @@ impl PathProblem for ShootingProblem {
         let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
         self.integrator.end_course();
         if let Err(error) = evaluated {
+            // What was noted is not the whole motion.
+            self.integrator.begin_course();
+            self.integrator.end_course();
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use hammerbeam_study::{
     Model, OrbitSolver, Store, Study, StudyFile,
     run::{Plan, RunOutcome},
-    store::{PieceRecord, StoredReason, WalkRecord},
+    store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
     summary::{BranchSummary, Peak, summarise},
     varied::{self, VariedOutcome},
 };
@@ -36,7 +36,9 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     }
     let branches = summarise(&store)?;
     let pieces = store.pieces()?;
-    let summary = Summary { study: &file.study, folder: options.out.display().to_string(), branches, pieces };
+    let jobs = store.jobs()?;
+    let summary =
+        Summary { study: &file.study, folder: options.out.display().to_string(), branches, pieces, jobs };
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         _ if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
@@ -61,6 +63,7 @@ struct Summary<'a> {
     folder: String,
     branches: Vec<BranchSummary>,
     pieces: Vec<PieceRecord>,
+    jobs: Vec<JobRecord>,
 }
 
 impl Summary<'_> {
@@ -81,8 +84,43 @@ impl Summary<'_> {
         format!("no periodic solution was found between {low} and {high} Hz")
     }
 
+    /// Searches, flips and branch points that were not come to.
+    fn left(&self) -> usize {
+        self.jobs.iter().filter(|job| job.outcome.is_none()).count()
+    }
+
+    /// Those of which nothing came, with the reason.
+    fn failed(&self) -> impl Iterator<Item = (&JobRecord, &str)> {
+        let ended = self.jobs.iter().filter(|job| job.outcome.is_some());
+        ended.filter_map(|job| Some((job, job.message.as_deref()?)))
+    }
+
+    fn failed_text(&self) -> Vec<String> {
+        const SHOWN: usize = 5;
+        let failed: Vec<_> = self.failed().collect();
+        if failed.is_empty() {
+            return Vec::new();
+        }
+        let mut lines = vec![format!(
+            "\nnothing came of {} of {} searches, flips and branch points:",
+            failed.len(),
+            self.jobs.len()
+        )];
+        let line = |(job, message): &(&JobRecord, &str)| format!("  {:.6} Hz: {message}", job.frequency_hz);
+        lines.extend(failed.iter().take(SHOWN).map(line));
+        if failed.len() > SHOWN {
+            lines.push("  ...".to_owned());
+        }
+        lines
+    }
+
     fn document(&self, figures: &[String]) -> Value {
+        let failed = self
+            .failed()
+            .map(|(job, message)| json!({ "frequency_hz": job.frequency_hz, "message": message }));
         json!({
+            "unfinished": self.left(),
+            "failed": failed.collect::<Vec<_>>(),
             "results": self.folder,
             "title": self.study.title,
             "solutions": self.solutions(),
@@ -102,6 +140,13 @@ impl Summary<'_> {
         )];
         lines.extend(self.branches.iter().map(branch_text));
         lines.extend(self.pieces.iter().map(piece_text));
+        lines.extend(self.failed_text());
+        if self.left() > 0 {
+            lines.push(format!(
+                "\nout of time: {} searches, flips and branch points are left; the same command goes on with them",
+                self.left()
+            ));
+        }
         lines.push(format!("figures: {}", figures.join(", ")));
         lines.join("\n")
     }

@@ -148,7 +148,10 @@ impl ExactIntegrator {
             let advanced =
                 motion.iter().try_for_each(|(stretch, state)| self.advance(stretch, state).map(|_| ()));
             self.end_course();
-            advanced?;
+            if let Err(error) = advanced {
+                self.course.clear();
+                return Err(error);
+            }
         }
         Ok(std::mem::take(&mut self.course))
     }

@@ -8,7 +8,7 @@ use std::sync::{
 use hammerbeam_orbit::{BranchRow, Side};
 
 use super::{Plan, follow_ups};
-use crate::store::{JobRecord, Row, Store, StoreError, StoredReason};
+use crate::store::{JobRecord, Row, StartRecord, Store, StoreError, StoredReason};
 
 /// Distance from the unit circle up to which a multiplier is on it, at a located event.
 const ON_CIRCLE: f64 = 1e-3;
@@ -114,6 +114,11 @@ impl Start {
         }
     }
 
+    /// Whether a side that was left at its budget has more of it now.
+    pub fn goes_on(&self, plan: &Plan) -> bool {
+        [&self.up, &self.down].iter().any(|walk| walk.reason.is_some() && !walk.is_finished(plan))
+    }
+
     /// Whether both sides are followed as far as they are to be.
     pub fn is_finished(&self, plan: &Plan) -> bool {
         self.up.is_finished(plan) && self.down.is_finished(plan)
@@ -144,10 +149,9 @@ impl Agenda {
             store.add_jobs(&plan.first_jobs())?;
         }
         let mut agenda = Self::read(store)?;
-        let finished = agenda.jobs.iter().filter(|job| job.record.outcome.is_some());
-        let mut branches = finished.flat_map(|job| &job.starts).filter(|start| start.branch.is_some());
-        if let Some(goes_on) = branches.find(|start| !start.is_finished(plan)) {
-            store.take_back_to(goes_on.key)?;
+        let goes_on = agenda.accepted().find(|start| start.goes_on(plan)).map(|start| start.key);
+        if let Some(key) = goes_on {
+            store.take_back_to(key)?;
             agenda = Self::read(store)?;
         }
         agenda.add_what_is_wanted_now(store, plan)?;
@@ -201,7 +205,9 @@ impl Agenda {
         let job = &mut self.jobs[job as usize];
         job.record.evaluated = true;
         job.running = false;
-        for record in store.starts()?.iter().filter(|record| record.job == job.record.id) {
+        let known: Vec<u32> = job.starts.iter().map(|start| start.key).collect();
+        let is_new = |record: &&StartRecord| record.job == job.record.id && !known.contains(&record.key);
+        for record in store.starts()?.iter().filter(is_new) {
             let rows = store.walked(record.key, Side::Up)?.iter().map(Sketch::of_row).collect();
             let down = store.walk(record.key, Side::Down)?.reason;
             job.starts.push(Start {

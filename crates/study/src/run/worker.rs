@@ -152,10 +152,9 @@ fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop
     let mut stored = task.stored;
     loop {
         let mut rows = Vec::new();
-        let reason = match stretch(walk.as_mut(), &mut rows, (stored, task.budget), &leave) {
-            Ok(reason) => reason,
-            Err(message) => return reports.send(Report::Failed { key: task.key, message }).is_ok(),
-        };
+        // What cannot be computed ends its side and nothing else.
+        let reason = stretch(walk.as_mut(), &mut rows, (stored, task.budget), &leave)
+            .unwrap_or_else(|message| Some(StoredReason::failed(&message)));
         if task.cancelled.load(Ordering::Relaxed) {
             return reports.send(Report::Left).is_ok();
         }

@@ -151,8 +151,11 @@ impl Store {
         let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
         transaction.execute(update, params![job.id, message])?;
         for (start, key) in starts.iter().zip(job.id * MOST_STARTS..(job.id + 1) * MOST_STARTS) {
-            let insert = "INSERT INTO start (id, job, period_multiple) VALUES (?1, ?2, ?3)";
-            transaction.execute(insert, params![key, job.id, start.period_multiple])?;
+            let insert = "INSERT OR IGNORE INTO start (id, job, period_multiple) VALUES (?1, ?2, ?3)";
+            if transaction.execute(insert, params![key, job.id, start.period_multiple])? == 0 {
+                // It is there since before the job was taken back, with what was walked.
+                continue;
+            }
             for (side, name, solutions) in [(Side::Up, "up", 1), (Side::Down, "down", 0)] {
                 let reason = one_sided.as_ref().filter(|_| side == Side::Down);
                 let insert = "INSERT INTO walk (id, start, side, solutions, stop_kind, stop_frequency_hz,
@@ -227,27 +230,29 @@ impl Store {
         Ok(())
     }
 
-    /// Takes everything back that was decided after a start: the agenda is as it was then, but for the walks from the starts of its job.
+    /// Takes everything back that was decided after a start: its job is looked at again, later ones are as if they had never been begun, and those that
+    /// came of later branches go.
     ///
     /// # Errors
     /// The database refuses.
     pub fn take_back_to(&mut self, start: u32) -> Result<(), StoreError> {
         let transaction = self.connection.transaction()?;
         let job = start / MOST_STARTS;
-        let first_start = (job + 1) * MOST_STARTS;
-        let first = first_key(walk_id(first_start, Side::Up));
-        transaction.execute("DELETE FROM event WHERE solution >= ?1", [first])?;
-        transaction.execute("DELETE FROM solution WHERE id >= ?1", [first])?;
-        transaction.execute("DELETE FROM journal WHERE walk >= ?1", [walk_id(first_start, Side::Up)])?;
-        transaction.execute("DELETE FROM walk WHERE start >= ?1", [first_start])?;
-        transaction.execute("DELETE FROM start WHERE id >= ?1", [first_start])?;
-        transaction.execute("UPDATE start SET branch = NULL WHERE id > ?1", [start])?;
-        // Jobs that its own branches and later ones gave.
+        let later = first_key(walk_id(start + 1, Side::Up));
+        transaction.execute("DELETE FROM event WHERE solution >= ?1", [later])?;
+        transaction.execute("DELETE FROM solution WHERE id >= ?1", [later])?;
+        transaction.execute("DELETE FROM journal WHERE walk >= ?1", [walk_id(start + 1, Side::Up)])?;
+        transaction.execute("DELETE FROM walk WHERE start > ?1", [start])?;
+        transaction.execute("DELETE FROM start WHERE id > ?1", [start])?;
+        // The jobs that branches of this job and of later ones gave, and what was added behind them: their numbers are to follow one another.
         let own = first_key(walk_id(job * MOST_STARTS, Side::Up));
-        transaction.execute("DELETE FROM job WHERE source >= ?1", [own])?;
-        let update = "UPDATE job SET evaluated = 0, message = NULL, outcome = NULL WHERE id > ?1";
+        let given = "SELECT min(id) FROM job WHERE source >= ?1 AND id > ?2";
+        let first: Option<u32> = transaction.query_row(given, params![own, job], |row| row.get(0))?;
+        if let Some(first) = first {
+            transaction.execute("DELETE FROM job WHERE id >= ?1", [first])?;
+        }
+        let update = "UPDATE job SET evaluated = 0, message = NULL, outcome = NULL WHERE id >= ?1";
         transaction.execute(update, [job])?;
-        transaction.execute("UPDATE job SET outcome = NULL WHERE id = ?1", [job])?;
         transaction.commit()?;
         Ok(())
     }

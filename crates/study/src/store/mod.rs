@@ -136,6 +136,16 @@ impl StoredReason {
         }
     }
 
+    /// A walk whose next solution could not be computed.
+    #[must_use]
+    pub fn failed(message: &str) -> Self {
+        Self {
+            kind: "failed".to_owned(),
+            frequency_hz: None,
+            message: format!("the next solution cannot be computed: {message}"),
+        }
+    }
+
     /// The reason, as it is stored.
     #[must_use]
     pub fn of(reason: &StopReason) -> Self {

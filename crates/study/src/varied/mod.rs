@@ -68,23 +68,27 @@ pub fn run(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<VariedOutcome, StoreError> {
-    let varies =
-        study.varies.iter().map(|vary| (piece("vary", vary, &vary.parameter.name), None, Some(vary)));
-    let curves =
-        study.curves.iter().map(|curve| (piece("curve", curve, &curve.parameter.name), Some(curve), None));
-    let asked: Vec<_> = varies.chain(curves).collect();
-    let wanted: Vec<Piece> = asked.iter().map(|(piece, ..)| piece.clone()).collect();
+    let budget = study.continuation.budget_solutions;
+    let mut asked: Vec<(Piece, Work<'_>)> = Vec::new();
+    for vary in &study.varies {
+        let definition = (vary, budget);
+        asked.push((piece("vary", &definition, &vary.parameter.name), Work::Vary(vary)));
+    }
+    for curve in &study.curves {
+        let start = curve::start(store, curve)?.map(Box::new);
+        // It begins elsewhere when branches have gone on since.
+        let from = start.as_ref().map(|start| start.0.frequency_hz).map_err(String::as_str);
+        let definition = (curve, budget, from);
+        asked.push((piece("curve", &definition, &curve.parameter.name), Work::Curve(curve, start)));
+    }
+    let wanted: Vec<Piece> = asked.iter().map(|(piece, _)| piece.clone()).collect();
     store.keep_pieces(&wanted)?;
     let (mut pieces, mut works) = (Vec::new(), Vec::new());
-    for (piece, curve, vary) in asked {
-        if store.has_piece(&piece)? {
-            continue;
+    for (piece, work) in asked {
+        if !store.has_piece(&piece)? {
+            works.push(work);
+            pieces.push(piece);
         }
-        works.extend(vary.map(Work::Vary));
-        if let Some(curve) = curve {
-            works.push(Work::Curve(curve, curve::start(store, curve)?.map(Box::new)));
-        }
-        pieces.push(piece);
     }
     let names: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
     let compute = |number: usize, watch: &watch::Watch<'_>| match &works[number] {
