@@ -12,10 +12,8 @@ use crate::{
     run::{Match, Origin, Solver, Walk},
 };
 
-/// Frequencies in the part of the range of a survey at which harmonic solutions are tried,
+/// Frequencies in the part of the range of a survey at which harmonic solutions are tried.
 const TRIED_IN_A_PART: u32 = 8;
-/// and trials without a new one at each of them.
-const TRIALS: usize = 12;
 
 /// Periodic solutions of one model and their branches.
 #[derive(Debug)]
@@ -25,6 +23,8 @@ pub struct OrbitSolver<'m> {
     settings: OrbitSettings,
     budget: usize,
     effort: SurveyEffort,
+    /// Trials without a new harmonic solution.
+    trials: usize,
 }
 
 impl<'m> OrbitSolver<'m> {
@@ -44,6 +44,7 @@ impl<'m> OrbitSolver<'m> {
                 near_returns: if study.search.unstable_starts { usual.near_returns } else { 0 },
                 ..usual
             },
+            trials: if study.search.unstable_starts { study.search.trials as usize } else { 0 },
         }
     }
 
@@ -115,11 +116,12 @@ impl Solver for OrbitSolver<'_> {
         let (system, response, settings) = (&self.model.system, self.response(), &self.settings);
         let mut found = survey(system, response, frequency_hz, multiples, &self.effort, settings)
             .map_err(|error| error.to_string())?;
-        if self.effort.near_returns > 0 && multiples.contains(&1) {
+        if self.trials > 0 && multiples.contains(&1) {
             for part in 0..TRIED_IN_A_PART {
                 let place = (f64::from(part) + 0.5) / f64::from(TRIED_IN_A_PART) - 0.5;
                 let at_hz = frequency_hz + place * width_hz;
-                let tried = harmonic_trials(system, response, at_hz, TRIALS, settings, &mut *interrupted);
+                let tried =
+                    harmonic_trials(system, response, at_hz, self.trials, settings, &mut *interrupted);
                 found.extend(tried.map_err(|error| error.to_string())?);
             }
         }

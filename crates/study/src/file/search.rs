@@ -13,6 +13,8 @@ pub struct Search {
     pub starts: u32,
     /// Excitation periods that a motion has to settle.
     pub settling_periods: u32,
+    /// Trials without a new harmonic solution at each of eight frequencies in each part of the range.
+    pub trials: u32,
     /// Whether branches also begin at unstable solutions, and leave at the flips of unstable ones.
     pub unstable_starts: bool,
 }
@@ -29,6 +31,7 @@ pub(super) fn read(root: &Table<'_>) -> Option<Search> {
     let frequencies = key("frequencies", 0, 100_000, 24);
     let starts = key("starts", 0, 100_000, 6);
     let settling = key("settling_periods", 1, 1_000_000, 128);
+    let trials = key("trials", 0, 100_000, 12);
     let unstable = table.as_ref().and_then(|table| table.optional("unstable_starts"));
     let unstable = unstable.map_or(Some(true), |value| value.boolean());
     if let Some(table) = table {
@@ -38,6 +41,7 @@ pub(super) fn read(root: &Table<'_>) -> Option<Search> {
         frequencies: frequencies?,
         starts: starts?,
         settling_periods: settling?,
+        trials: trials?,
         unstable_starts: unstable?,
     })
 }

@@ -278,9 +278,13 @@ fn text_that_is_not_toml_is_refused_with_its_line() {
 #[test]
 fn depth_and_search_out_of_their_ranges_are_refused() {
     assert_refused(paper_with("period_doubling_depth = 0", "period_doubling_depth = 11"), &["0 to 10"]);
-    for (key, value) in
-        [("frequencies", "-1"), ("starts", "0.5"), ("settling_periods", "0"), ("unstable_starts", "\"no\"")]
-    {
+    for (key, value) in [
+        ("frequencies", "-1"),
+        ("starts", "0.5"),
+        ("settling_periods", "0"),
+        ("trials", "-1"),
+        ("unstable_starts", "\"no\""),
+    ] {
         let table = format!("[search]\n{key} = {value}\n\n[response]");
         assert_refused(paper_with("[response]", &table), &[key]);
     }
