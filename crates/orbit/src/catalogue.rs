@@ -9,7 +9,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     matching::{distance_in_phase, phases},
     shooting::{ShootingProblem, StateScale},
-    solve::{correct, has_minimal_period, integrator, solution, state_scale},
+    solve::{approach, correct, has_minimal_period, integrator, solution, state_scale},
 };
 
 /// Two orbits this close, relative to the orbit, are the same.
@@ -87,7 +87,8 @@ impl<'a> Catalogue<'a> {
         let integrator = self.integrator.take().expect("it is back after every use");
         let shape = (period_multiple, nodes.len());
         let mut problem = ShootingProblem::new(integrator, shape, self.scale(&nodes[0]), 1.0);
-        let result = self.newton(&mut problem, nodes);
+        let result = approach(&mut problem, nodes, self.frequency_hz, self.settings)
+            .and_then(|(point, correction)| self.arrive(&mut problem, &point, correction));
         self.integrator = Some(problem.into_integrator());
         match result {
             Ok(arrived) => Ok(arrived),
@@ -98,18 +99,18 @@ impl<'a> Catalogue<'a> {
         }
     }
 
-    fn newton(
+    /// The orbit at which Newton's method has ended, among those known.
+    fn arrive(
         &mut self,
         problem: &mut ShootingProblem,
-        nodes: &[Vec<f64>],
+        point: &[f64],
+        correction: f64,
     ) -> Result<Option<Arrived>, OrbitError> {
-        let mut point = problem.point(nodes, self.frequency_hz);
-        let correction = correct(problem, &mut point, self.settings)?;
         let multiple = problem.period_multiple();
-        if let Some(place) = self.place(&problem.nodes(&point)[0], multiple) {
+        if let Some(place) = self.place(&problem.nodes(point)[0], multiple) {
             return Ok(Some(Arrived { place, is_new: false }));
         }
-        let found = solution(problem, &point, correction)?;
+        let found = solution(problem, point, correction)?;
         let scale = self.scale(&found.nodes[0]);
         if has_minimal_period(problem.integrator(), &scale, &found)? {
             return self.add(problem.integrator(), found, scale).map(Some);

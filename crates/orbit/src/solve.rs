@@ -12,6 +12,8 @@ use crate::{
 };
 
 const MAX_ITERATIONS: u32 = 25;
+/// Scale of an orbit over that of its guess, below which the guess is too coarse a measure of the error.
+const COARSE: f64 = 0.5;
 /// After so many iterations,
 const MANY: u32 = 12;
 /// a correction that is still larger than this, relative to the orbit, means that the guess leads nowhere.
@@ -47,6 +49,29 @@ pub(crate) fn correct(
     let mut row = vec![0.0; point.len()];
     row[last] = 1.0;
     correct_in_plane(problem, point, &row, settings)
+}
+
+/// Newton's method at a fixed frequency from a guess, whose scale the problem has; the point of the orbit and the correction that is still due, relative
+/// to the orbit.
+pub(crate) fn approach(
+    problem: &mut ShootingProblem,
+    nodes: &[Vec<f64>],
+    frequency_hz: f64,
+    settings: &OrbitSettings,
+) -> Result<(Vec<f64>, f64), OrbitError> {
+    let mut point = problem.point(nodes, frequency_hz);
+    let correction = correct(problem, &mut point, settings)?;
+    let reached = problem.nodes(&point);
+    let scale = state_scale(problem.integrator().system(), &reached[0], frequency_hz);
+    let factor = scale.values()[0] / problem.scale().values()[0];
+    if factor > COARSE {
+        return Ok((point, correction));
+    }
+    // A guess far larger than the orbit has measured the error too coarsely.
+    problem.rescale(factor);
+    point = problem.point(&reached, frequency_hz);
+    let correction = correct(problem, &mut point, settings)?;
+    Ok((point, correction))
 }
 
 /// Newton's method in the plane with this border through `point`, which ends at the orbit; returns the correction that is still due.
@@ -207,8 +232,7 @@ pub(crate) fn orbit_near(
 ) -> Result<(PeriodicSolution, ShootingProblem), OrbitError> {
     let scale = state_scale(integrator.system(), &nodes[0], frequency_hz);
     let mut problem = ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0);
-    let mut point = problem.point(nodes, frequency_hz);
-    let correction = correct(&mut problem, &mut point, settings)?;
+    let (point, correction) = approach(&mut problem, nodes, frequency_hz, settings)?;
     let solution = solution(&mut problem, &point, correction)?;
     Ok((solution, problem))
 }

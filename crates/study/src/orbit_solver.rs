@@ -25,6 +25,8 @@ pub struct OrbitSolver<'m> {
     effort: SurveyEffort,
     /// Trials without a new harmonic solution.
     trials: usize,
+    /// Whether unstable solutions are wanted.
+    unstable_starts: bool,
 }
 
 impl<'m> OrbitSolver<'m> {
@@ -41,10 +43,10 @@ impl<'m> OrbitSolver<'m> {
             effort: SurveyEffort {
                 starts: study.search.starts as usize,
                 settling: study.search.settling_periods as usize,
-                near_returns: if study.search.unstable_starts { usual.near_returns } else { 0 },
                 ..usual
             },
             trials: if study.search.unstable_starts { study.search.trials as usize } else { 0 },
+            unstable_starts: study.search.unstable_starts,
         }
     }
 
@@ -116,6 +118,8 @@ impl Solver for OrbitSolver<'_> {
         let (system, response, settings) = (&self.model.system, self.response(), &self.settings);
         let mut found = survey(system, response, frequency_hz, multiples, &self.effort, settings)
             .map_err(|error| error.to_string())?;
+        // What has not settled yet may be near a stable solution, too.
+        found.retain(|orbit| self.unstable_starts || orbit.stable());
         if self.trials > 0 && multiples.contains(&1) {
             for part in 0..TRIED_IN_A_PART {
                 let place = (f64::from(part) + 0.5) / f64::from(TRIED_IN_A_PART) - 0.5;
