@@ -75,7 +75,7 @@ fn contacts_agree_with_the_maxima_of_the_motion() {
     for _ in 0..30 {
         let start = simulation.state().to_vec();
         let stretch = Stretch { frequency_hz: 53.0, start: 0.0, end: 1.0 };
-        let (_, maxima) = integrator.observe(&stretch, &start).unwrap();
+        let maxima = integrator.observe(&[(stretch, &start)]).unwrap();
         let before = simulation.unfinished();
         let (_, ended) = simulation.period(3).unwrap();
         let after = simulation.unfinished();
