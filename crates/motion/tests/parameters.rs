@@ -115,8 +115,10 @@ fn the_damping_is_no_parameter_beside_laws_that_lose_energy() {
 #[test]
 fn derivatives_agree_with_differences_of_both_integrators() {
     let lossless = (laws(), parameters());
-    let cases = [(false, &lossless), (true, &lossless), (true, &(lossy_laws(), lossy_parameters()))];
-    for (coupled, (laws, parameters)) in cases {
+    let lossy = (lossy_laws(), lossy_parameters());
+    // Noise of the differences: states good to 1e-13, steps of 1e-3 to 1e-4 of a parameter; those of gaps are ten times shorter beside laws that lose energy.
+    let cases = [(false, &lossless, 1e-8), (true, &lossless, 1e-8), (true, &lossy, 1e-7)];
+    for (coupled, (laws, parameters), bound) in cases {
         let system = three_modes(laws, coupled);
         for &(parameter, step) in parameters {
             let case = (&system, &STRETCH, &STATE[..]);
@@ -128,8 +130,7 @@ fn derivatives_agree_with_differences_of_both_integrators() {
                 error_by_differences(case, parameter, step, of_exact),
                 error_by_differences(case, parameter, step, of_general),
             );
-            // Noise of the differences: a step of 1e-4 of the parameter or less, and states good to 1e-13.
-            assert!(errors.0 < 1e-8 && errors.1 < 1e-8, "{parameter:?} coupled {coupled}: {errors:?}");
+            assert!(errors.0 < bound && errors.1 < bound, "{parameter:?} coupled {coupled}: {errors:?}");
         }
     }
 }
