@@ -285,8 +285,8 @@ fn depth_and_search_out_of_their_ranges_are_refused() {
         ("trials", "-1"),
         ("unstable_starts", "\"no\""),
     ] {
-        let table = format!("[search]\n{key} = {value}\n\n[response]");
-        assert_refused(paper_with("[response]", &table), &[key]);
+        let table = format!("[search]\n{key} = {value}\n");
+        assert_refused(paper_with("[search]\ntrials = 0 ", &format!("{table}#")), &[key]);
     }
 }
 

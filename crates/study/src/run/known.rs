@@ -17,9 +17,9 @@ use crate::store::{Store, StoreError, solution_key};
 /// Relative margin of the maxima of candidates.
 const MARGIN: f64 = 0.02;
 /// Relative difference of frequencies up to which two branch points can be the same.
-const SAME_FREQUENCY: f64 = 1e-8;
+const SAME_FREQUENCY: f64 = 1e-7;
 /// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the same.
-const SAME_STATE: f64 = 1e-3;
+const SAME_STATE: f64 = 5e-3;
 /// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
 const OVERHANG: f64 = 1e-3;
 
