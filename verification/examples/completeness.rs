@@ -19,7 +19,7 @@ fn main() -> Result<(), Failure> {
     let results = Results::read(&fs::read_to_string(study)?, Path::new(folder))?;
     let effort = Effort { states, longest, patience: 1200 };
     let report = check(&results, frequencies, &effort, 1)?;
-    println!("{} branches, {} frequencies", results.branches.len(), report.frequencies);
+    println!("{} branches, {} frequencies", results.branches().len(), report.frequencies);
     println!("{} motions, {} of them did not settle", report.motions, report.restless);
     for (period, found) in report.found.iter().enumerate().skip(1) {
         let missing = report.missing.iter().filter(|attractor| attractor.period() == period).count();

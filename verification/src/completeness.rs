@@ -4,6 +4,7 @@
 //! cross that frequency. What is not found is what a run misses, or where simulation and shooting disagree.
 
 use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
+use hammerbeam_study::corrected;
 
 use crate::{
     attractors::{Attractor, Effort, Random, attractors, distance},
@@ -91,7 +92,7 @@ fn shortest(results: &Results, attractor: Attractor) -> Attractor {
     };
     let period = attractor.period();
     for shorter in (1..period).filter(|shorter| period.is_multiple_of(*shorter)) {
-        if let Some(orbit) = results.corrected(guess(&attractor.states[0], shorter)) {
+        if let Some(orbit) = corrected(&results.model, guess(&attractor.states[0], shorter)) {
             let off = distance(&results.model.system, &attractor.states[0], &orbit.nodes[0]);
             if off < SAME {
                 let states = attractor.states[..shorter].to_vec();

@@ -40,7 +40,7 @@ fn run(text: &str) -> Results {
 }
 
 fn frequencies(results: &Results, branch: usize, event: fn(&hammerbeam_orbit::Events) -> bool) -> Vec<f64> {
-    let rows = results.branches[branch].rows.iter().filter(|placed| event(&placed.row.events));
+    let rows = results.branches()[branch].rows.iter().filter(|placed| event(&placed.row.events));
     let mut found: Vec<f64> = rows.map(|placed| placed.row.frequency_hz).collect();
     found.sort_by(f64::total_cmp);
     found
@@ -56,8 +56,8 @@ fn isola() -> Results {
 #[test]
 fn an_isola_is_found_closed_and_only_once() {
     let results = isola();
-    assert_eq!(results.branches.len(), 1);
-    let record = &results.branches[0].record;
+    assert_eq!(results.branches().len(), 1);
+    let record = &results.branches()[0].record;
     for walk in [&record.up, &record.down] {
         assert!(walk.reason.as_ref().unwrap().is_closed(), "{:?}", walk.reason);
     }
@@ -101,14 +101,14 @@ fn simulation_finds_period_three_within_the_isola_only() {
 fn a_pair_of_mirror_images_is_one_closed_branch_met_from_either_end() {
     let more = "[response]\nperiod_multiples = [1]\n[continuation]\nmax_step_hz = 0.0005";
     let results = run(&study(0.2, 15.0, [0.095, 0.16], more));
-    let closed: Vec<usize> = (0..results.branches.len())
-        .filter(|&k| results.branches[k].record.up.reason.as_ref().unwrap().is_closed())
+    let closed: Vec<usize> = (0..results.branches().len())
+        .filter(|&k| results.branches()[k].record.up.reason.as_ref().unwrap().is_closed())
         .collect();
     let holding = |k: usize| frequencies(&results, k, |events| events.branch_point);
     let [pair] = closed[..] else { panic!("{closed:?}") };
     let ends = holding(pair);
     assert_eq!(ends.len(), 2, "{ends:?}");
-    let symmetric: Vec<usize> = (0..results.branches.len()).filter(|&k| k != pair).collect();
+    let symmetric: Vec<usize> = (0..results.branches().len()).filter(|&k| k != pair).collect();
     let met: Vec<f64> = symmetric.iter().flat_map(|&k| holding(k)).collect();
     for end in &ends {
         let nearest = met.iter().map(|at| (at / end - 1.0).abs()).fold(f64::INFINITY, f64::min);
@@ -116,7 +116,9 @@ fn a_pair_of_mirror_images_is_one_closed_branch_met_from_either_end() {
     }
     // Inside the interval the pair are two orbits, each the image of the other.
     let at = 0.5 * (ends[0] + ends[1]);
-    let orbits: Vec<_> = results.crossings(at, 1).unwrap().into_iter().filter(|(k, _)| *k == pair).collect();
+    let number = results.branches()[pair].record.id;
+    let crossing = results.crossings(at, 1).unwrap();
+    let orbits: Vec<_> = crossing.into_iter().filter(|(branch, _)| *branch == number).collect();
     assert_eq!(orbits.len(), 2);
     let mut exact = hammerbeam_motion::exact::ExactIntegrator::new(
         results.model.system.clone(),

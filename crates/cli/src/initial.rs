@@ -69,15 +69,15 @@ fn of_branch(
     let Some(folder) = results else {
         return Err(Failure::BadInput("--initial branch:N needs --results DIR".to_owned()));
     };
-    let branches = StoredBranches::open(folder, file, model)?;
-    let known: Vec<u32> = branches.numbers().collect();
+    let branches = StoredBranches::open(folder, file)?;
+    let known: Vec<u32> = branches.branches().iter().map(|branch| branch.record.id).collect();
     let Some(number) = text.parse::<u32>().ok().filter(|number| known.contains(number)) else {
         let last = known.last().copied().unwrap_or(0);
         return Err(Failure::BadInput(format!(
             "--initial: there is no branch {text:?}; allowed: 1 to {last}"
         )));
     };
-    let mut orbits = branches.crossings(frequency_hz, |record| record.id == number)?;
+    let mut orbits = branches.crossings(model, frequency_hz, |record| record.id == number)?;
     orbits.sort_by_key(|(_, orbit)| !orbit.stable());
     match orbits.into_iter().next() {
         Some((_, orbit)) => Ok(orbit.nodes[0].clone()),

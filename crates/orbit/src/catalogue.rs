@@ -8,8 +8,9 @@ use hammerbeam_motion::{System, exact::ExactIntegrator};
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     matching::{distance_in_phase, phases},
-    shooting::{ShootingProblem, StateScale},
+    shooting::ShootingProblem,
     solve::{approach, correct, has_minimal_period, integrator, solution, state_scale},
+    state_scale::StateScale,
 };
 
 /// Two orbits this close, relative to the orbit, are the same.

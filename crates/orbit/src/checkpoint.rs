@@ -12,9 +12,11 @@ use hammerbeam_path::{
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
+    continuation_parameter::ContinuationParameter,
     density::{LastRows, Place},
-    shooting::{ContinuationParameter, ShootingProblem, StateScale},
+    shooting::ShootingProblem,
     solve::integrator,
+    state_scale::StateScale,
     walk::{hertz_per_norm, path_settings},
 };
 

@@ -8,6 +8,7 @@
 //! | file | idea |
 //! |---|---|
 //! | `shooting.rs` | the equations of multiple shooting, condensed to the first node; made for the path crate |
+//! | `continuation_parameter.rs`, `state_scale.rs` | what varies along a branch; in which units states are measured |
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
 //! | `start.rs`, `reach.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere |
 //! | `find.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, the orbits known, Newton's method from many states, where branches cross the frequency |
@@ -63,6 +64,7 @@
 
 mod catalogue;
 mod checkpoint;
+mod continuation_parameter;
 mod crossings;
 mod curve;
 mod density;
@@ -83,11 +85,13 @@ mod solution;
 mod solve;
 mod stability;
 mod start;
+mod state_scale;
 mod survey;
 mod switch;
 mod trials;
 mod walk;
 
+pub use continuation_parameter::ContinuationParameter;
 pub use curve::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
 pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
@@ -98,7 +102,6 @@ pub use matching::Matcher;
 pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
-pub use shooting::ContinuationParameter;
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 pub use start::{Interruption, find_start, find_start_unless};
 pub use survey::{SurveyEffort, survey};

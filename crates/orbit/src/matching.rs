@@ -7,8 +7,8 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
-    shooting::StateScale,
     solve::{integrator, nodes_from, orbit_near, state_scale},
+    state_scale::StateScale,
 };
 
 /// States of an orbit at phase 0 of each of its excitation periods.

@@ -7,8 +7,8 @@ use hammerbeam_motion::{
 use hammerbeam_path::PathProblem;
 
 use crate::{
-    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
-    shooting::{ShootingProblem, StateScale},
+    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, shooting::ShootingProblem,
+    state_scale::StateScale,
 };
 
 const MAX_ITERATIONS: u32 = 25;

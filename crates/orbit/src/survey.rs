@@ -9,9 +9,9 @@ use hammerbeam_motion::{Stretch, System};
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     matching::{distance_in_phase, phases},
-    shooting::StateScale,
     solve::{integrator, state_scale},
     start::{attempt, attempt_nodes, simulate, starting_states},
+    state_scale::StateScale,
 };
 
 /// How much is simulated.

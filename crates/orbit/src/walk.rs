@@ -8,9 +8,10 @@ use hammerbeam_path::{
 use crate::{
     BranchRow, Crossing, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side,
     StopReason,
+    continuation_parameter::ContinuationParameter,
     density::{LastRows, Place},
     located,
-    shooting::{ContinuationParameter, ShootingProblem},
+    shooting::ShootingProblem,
     solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
 };
 

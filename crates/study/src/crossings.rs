@@ -16,26 +16,37 @@ const SAME: f64 = 1e-4;
 
 /// The stored branches of a study.
 #[derive(Debug)]
-pub struct StoredBranches<'m> {
+pub struct StoredBranches {
     store: Store,
-    model: &'m Model,
-    branches: Vec<(BranchRecord, Vec<Placed>)>,
+    branches: Vec<StoredBranch>,
+}
+
+/// A branch with its rows end to end.
+#[derive(Debug)]
+pub struct StoredBranch {
+    /// As it is stored.
+    pub record: BranchRecord,
+    /// Its rows.
+    pub rows: Vec<PlacedRow>,
 }
 
 /// A row with its place in the store.
 #[derive(Debug, Clone, Copy)]
-struct Placed {
-    side: Side,
-    number: u32,
-    row: Row,
+pub struct PlacedRow {
+    /// Its side,
+    pub side: Side,
+    /// and its number there.
+    pub number: u32,
+    /// What its tables show.
+    pub row: Row,
 }
 
-impl<'m> StoredBranches<'m> {
+impl StoredBranches {
     /// Reads the branches of a results folder.
     ///
     /// # Errors
     /// [`StoreError`]: there are no results, or they are those of another study.
-    pub fn open(folder: &Path, file: &StudyFile, model: &'m Model) -> Result<Self, StoreError> {
+    pub fn open(folder: &Path, file: &StudyFile) -> Result<Self, StoreError> {
         let store = Store::open(folder)?;
         if store.about("identity")? != file.study.identity() {
             let differences = differences(&store.about("canonical")?, &file.study.canonical(), 12);
@@ -43,38 +54,40 @@ impl<'m> StoredBranches<'m> {
         }
         let branches = store.branches()?.into_iter().map(|record| {
             let rows = rows_of(&store, &record)?;
-            Ok((record, rows))
+            Ok(StoredBranch { record, rows })
         });
         let branches = branches.collect::<Result<_, StoreError>>()?;
-        Ok(Self { store, model, branches })
+        Ok(Self { store, branches })
     }
 
-    /// Numbers of all branches.
-    pub fn numbers(&self) -> impl Iterator<Item = u32> + '_ {
-        self.branches.iter().map(|(record, _)| record.id)
+    /// All branches, in their order.
+    #[must_use]
+    pub fn branches(&self) -> &[StoredBranch] {
+        &self.branches
     }
 
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the state is interpolated and then
     /// corrected at the frequency.
     ///
+    /// * `model`: that of the study.
     /// * `wanted`: of a branch's record, whether it is looked at.
     ///
     /// # Errors
     /// The store refuses.
     pub fn crossings(
         &self,
+        model: &Model,
         frequency_hz: f64,
         wanted: impl Fn(&BranchRecord) -> bool,
     ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
         let mut orbits = Vec::new();
-        for (record, rows) in self.branches.iter().filter(|(record, _)| wanted(record)) {
+        for StoredBranch { record, rows } in self.branches.iter().filter(|branch| wanted(&branch.record)) {
             for pair in rows.windows(2) {
                 let [a, b] = [&pair[0], &pair[1]].map(|placed| placed.row.frequency_hz);
                 if (a < frequency_hz) != (b < frequency_hz) {
                     let share = (frequency_hz - a) / (b - a);
-                    orbits.extend(
-                        self.between(record, pair, share, frequency_hz)?.map(|orbit| (record.id, orbit)),
-                    );
+                    let guess = self.between(record, pair, share, frequency_hz)?;
+                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
                 }
             }
         }
@@ -87,40 +100,51 @@ impl<'m> StoredBranches<'m> {
     ///
     /// # Errors
     /// The store refuses.
-    pub fn branch_of(&self, frequency_hz: f64, states: &[Vec<f64>]) -> Result<Option<u32>, StoreError> {
-        let scales = state_scales(&self.model.system, frequency_hz);
+    pub fn branch_of(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        states: &[Vec<f64>],
+    ) -> Result<Option<u32>, StoreError> {
+        let scales = state_scales(&model.system, frequency_hz);
         let orbits =
-            self.crossings(frequency_hz, |record| record.period_multiple as usize == states.len())?;
+            self.crossings(model, frequency_hz, |record| record.period_multiple as usize == states.len())?;
         let same = |orbit: &PeriodicSolution| {
             states.iter().any(|state| distance(&scales, state, &orbit.nodes[0]) < SAME)
         };
         Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
     }
 
+    /// The state between two rows, as a guess at a frequency.
     fn between(
         &self,
         record: &BranchRecord,
-        pair: &[Placed],
+        pair: &[PlacedRow],
         share: f64,
         frequency_hz: f64,
-    ) -> Result<Option<PeriodicSolution>, StoreError> {
-        let stored = |placed: &Placed| self.store.solution(record.start, placed.side, placed.number);
+    ) -> Result<PeriodicSolution, StoreError> {
+        let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
         let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
         let states = first.nodes[0].iter().zip(&second.nodes[0]);
         let state = states.map(|(a, b)| a + share * (b - a)).collect();
-        let guess = PeriodicSolution { frequency_hz, nodes: vec![state], ..first };
-        let range_hz = (0.5 * frequency_hz, 2.0 * frequency_hz);
-        let (system, response) = (&self.model.system, &self.model.response);
-        let settings = OrbitSettings::default();
-        let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
-        Ok(walk.ok().and_then(|mut walk| walk.start_row().ok()).map(|row| row.solution))
+        Ok(PeriodicSolution { frequency_hz, nodes: vec![state], ..first })
     }
 }
 
-fn rows_of(store: &Store, record: &BranchRecord) -> Result<Vec<Placed>, StoreError> {
-    let of = |side: Side| -> Result<Vec<Placed>, StoreError> {
+/// The orbit near a guess at its frequency; `None` if there is none that Newton's method finds.
+#[must_use]
+pub fn corrected(model: &Model, guess: PeriodicSolution) -> Option<PeriodicSolution> {
+    let range_hz = (0.5 * guess.frequency_hz, 2.0 * guess.frequency_hz);
+    let (system, response) = (&model.system, &model.response);
+    let settings = OrbitSettings::default();
+    let walk = BranchWalk::new(system, response, &guess, Side::Up, range_hz, &settings);
+    Some(walk.ok()?.start_row().ok()?.solution)
+}
+
+fn rows_of(store: &Store, record: &BranchRecord) -> Result<Vec<PlacedRow>, StoreError> {
+    let of = |side: Side| -> Result<Vec<PlacedRow>, StoreError> {
         let rows = store.walked(record.start, side)?.into_iter().enumerate();
-        Ok(rows.map(|(number, row)| Placed { side, number: number as u32, row }).collect())
+        Ok(rows.map(|(number, row)| PlacedRow { side, number: number as u32, row }).collect())
     };
     let mut rows = of(Side::Down)?;
     rows.reverse();

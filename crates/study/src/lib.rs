@@ -48,7 +48,7 @@ pub mod summary;
 pub mod varied;
 pub mod verify;
 
-pub use crossings::StoredBranches;
+pub use crossings::{PlacedRow, StoredBranch, StoredBranches, corrected};
 pub use document::{Problem, Report};
 pub use export::export_csv;
 pub use file::{Study, StudyError, StudyFile};

@@ -27,7 +27,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let effort = Effort::from(&options.effort);
     let mut basins =
         Basins::new(model.system.clone(), options.frequency, grid, effort, ExactSettings::default())?;
-    let branches = results(options).map(|folder| StoredBranches::open(&folder, &file, &model)).transpose()?;
+    let branches = results(options).map(|folder| StoredBranches::open(&folder, &file)).transpose()?;
     let mut store = options
         .out
         .as_deref()
@@ -64,7 +64,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {kept}", cells.len())));
     }
     let numbers = match &branches {
-        Some(branches) => branch_numbers(branches, options.frequency, basins.attractors())?,
+        Some(branches) => branch_numbers(branches, &model, options.frequency, basins.attractors())?,
         None => vec![None; basins.attractors().len()],
     };
     let result = Outcome { options, basins: &basins, cells: &cells, branches: numbers };
@@ -154,12 +154,13 @@ fn place(name: &str, n: usize) -> Option<usize> {
 }
 
 fn branch_numbers(
-    branches: &StoredBranches<'_>,
+    branches: &StoredBranches,
+    model: &Model,
     frequency_hz: f64,
     attractors: &[Attractor],
 ) -> Result<Vec<Option<u32>>, Failure> {
     let of = |attractor: &Attractor| match attractor.class {
-        Class::Periodic { .. } => branches.branch_of(frequency_hz, &attractor.states),
+        Class::Periodic { .. } => branches.branch_of(model, frequency_hz, &attractor.states),
         _ => Ok(None),
     };
     Ok(attractors.iter().map(of).collect::<Result<_, _>>()?)

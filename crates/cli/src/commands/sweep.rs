@@ -43,7 +43,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let model = Model::build(&file)?;
     let upward = upward(options, file.study.excitation.frequency_hz)?;
     let branches =
-        options.results.as_deref().map(|folder| StoredBranches::open(folder, &file, &model)).transpose()?;
+        options.results.as_deref().map(|folder| StoredBranches::open(folder, &file)).transpose()?;
     let observable =
         Observable { shape: model.response.shape.clone(), support_ratio: model.response.support_ratio };
     let motion = ExactSettings::default();
@@ -165,14 +165,14 @@ impl Work<'_> {
 }
 
 /// The branch that a periodic motion lies on.
-fn branch(branches: &StoredBranches<'_>, model: &Model, point: &SweepPoint) -> Result<Option<u32>, Failure> {
+fn branch(branches: &StoredBranches, model: &Model, point: &SweepPoint) -> Result<Option<u32>, Failure> {
     let Class::Periodic { period } = point.class else { return Ok(None) };
     let mut map = SystemMap::new(model.system.clone(), point.frequency_hz, 1, ExactSettings::default())?;
     let mut states = vec![point.state.clone()];
     for k in 1..period {
         states.push(hammerbeam_attractor::SectionMap::advance(&mut map, 0, &states[k - 1])?);
     }
-    Ok(branches.branch_of(point.frequency_hz, &states)?)
+    Ok(branches.branch_of(model, point.frequency_hz, &states)?)
 }
 
 fn write(options: &SweepOptions, found: &[Found]) -> Result<(), Failure> {

@@ -8,7 +8,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError},
 };
 
-use crate::shooting::StateScale;
+use crate::state_scale::StateScale;
 
 /// Step of central differences along a vector, relative to the orbit.
 const DIFFERENCE: f64 = 1e-4;

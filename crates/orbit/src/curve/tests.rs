@@ -17,7 +17,7 @@ use super::{
     problem::CurveProblem,
     shooting::{Place, Shooting},
 };
-use crate::{OrbitSettings, Response, shooting::StateScale, solve::integrator};
+use crate::{OrbitSettings, Response, solve::integrator, state_scale::StateScale};
 
 /// Two modes with a cubic spring and a stop, under two harmonics of a force.
 fn system() -> System {

@@ -1,0 +1,28 @@
+//! What varies along a branch: the excitation frequency, or another parameter of the system.
+
+use hammerbeam_motion::Parameter;
+
+/// What varies along a branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ContinuationParameter {
+    /// The excitation frequency [Hz].
+    Frequency,
+    /// A parameter of the system, at a fixed excitation frequency.
+    Other {
+        /// Which one.
+        parameter: Parameter,
+        /// Excitation frequency [Hz].
+        frequency_hz: f64,
+    },
+}
+
+impl ContinuationParameter {
+    /// The parameter of the system, if it is one.
+    #[must_use]
+    pub fn parameter(self) -> Option<Parameter> {
+        match self {
+            Self::Frequency => None,
+            Self::Other { parameter, .. } => Some(parameter),
+        }
+    }
+}
