@@ -110,7 +110,6 @@ pub struct BranchRow {
 ///
 /// Places are frequencies [Hz], or values of the parameter where another one varies.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum StopReason {
     /// The branch left the frequency range and was cut exactly at its end.
     RangeEnd {
@@ -147,13 +146,6 @@ pub enum StopReason {
         frequency_hz: f64,
         /// Arc length of the stretch that was met.
         met_arc_length: f64,
-    },
-    /// Another reason of the path.
-    Other {
-        /// Where [Hz].
-        frequency_hz: f64,
-        /// What the path said.
-        message: String,
     },
     /// The motion could not be computed.
     Motion {

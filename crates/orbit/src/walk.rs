@@ -367,7 +367,6 @@ impl BranchWalk {
             hammerbeam_path::StopReason::Budget => {
                 StopReason::Budget { solutions: self.follower.counters().accepted as usize }
             }
-            other => StopReason::Other { frequency_hz, message: other.to_string() },
         }
     }
 }

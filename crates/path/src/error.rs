@@ -29,7 +29,6 @@ pub enum PathError {
 
 /// Why a branch ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub enum StopReason {
     /// The last point lies exactly at an end of the range.
     RangeEnd,

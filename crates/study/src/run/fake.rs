@@ -12,11 +12,13 @@ pub(crate) struct FakeSolver {
     pub state_length: usize,
     /// Shooting nodes for each solution.
     pub segments: usize,
+    /// Whether walks of two periods panic.
+    pub panics: bool,
 }
 
 impl Default for FakeSolver {
     fn default() -> Self {
-        Self { range_hz: [10.0, 20.0], step: 0.01, state_length: 4, segments: 2 }
+        Self { range_hz: [10.0, 20.0], step: 0.01, state_length: 4, segments: 2, panics: false }
     }
 }
 
@@ -118,6 +120,7 @@ struct FakeWalk<'a> {
 
 impl Walk for FakeWalk<'_> {
     fn step(&mut self, rows: &mut Vec<BranchRow>) -> Result<Option<StopReason>, String> {
+        assert!(!(self.solver.panics && self.multiple == 2), "a panic that was asked for");
         self.steps += self.direction;
         self.walked += 1;
         self.journal.push(1);

@@ -17,7 +17,7 @@ use super::{
     schedule::next_task,
     worker::{self, Report, Stretch, Task},
 };
-use crate::store::{Continuation, Memory, Store, StoreError};
+use crate::store::{Continuation, MOST_STARTS, Memory, Store, StoreError};
 
 /// How a run came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,11 +70,12 @@ pub fn run(
     let of_threads = Mutex::new(of_threads);
     let (sender, reports) = mpsc::sync_channel(4 * threads);
     thread::scope(|scope| {
-        for _ in 0..threads {
+        let begin = |_| {
             let sender = sender.clone();
             let (of_threads, stop) = (&of_threads, &stop);
-            scope.spawn(move || worker::work(solver, of_threads, &sender, stop));
-        }
+            scope.spawn(move || worker::work(solver, of_threads, &sender, stop))
+        };
+        let begun: Vec<_> = (0..threads).map(begin).collect();
         drop(sender);
         let mut run = Run {
             store,
@@ -92,7 +93,9 @@ pub fn run(
         // Threads that still walk, for nothing any more, hear that nobody listens.
         stop.store(true, Ordering::Relaxed);
         drop((tasks, reports));
-        outcome
+        // A panic has been told on standard error; here it is one error among others.
+        let ended = begun.into_iter().map(thread::ScopedJoinHandle::join).fold(Ok(()), Result::and);
+        ended.map_err(|_| RunError::Thread).and(outcome)
     })
 }
 
@@ -171,7 +174,10 @@ impl Run<'_> {
                 self.busy -= 1;
                 let record = self.agenda.jobs[job as usize].record.clone();
                 let (starts, message) = match starts {
-                    Ok(starts) => (starts, None),
+                    Ok(starts) => {
+                        let message = too_many(starts.len());
+                        (starts, message)
+                    }
                     Err(message) => (Vec::new(), Some(message)),
                 };
                 self.store.note_starts(&record, &starts, message.as_deref())?;
@@ -180,6 +186,7 @@ impl Run<'_> {
             }
             Report::Walked(stretch) => self.keep(&stretch)?,
             Report::Left => self.busy -= 1,
+            Report::Lost => return Err(RunError::Thread),
             Report::Failed { key, message } => return Err(RunError::Walk { start: key, message }),
         }
         Ok(())
@@ -241,4 +248,9 @@ impl Run<'_> {
         let walked: f64 = unfinished.map(|start| reach(start).clamp(0.0, 1.0)).sum();
         ((finished + walked) / (jobs + 1.0)).clamp(0.0, 1.0)
     }
+}
+
+/// What is to be said when a job has more starts than can be taken.
+pub(super) fn too_many(starts: usize) -> Option<String> {
+    (starts > MOST_STARTS as usize).then(|| format!("{starts} starts, of which {MOST_STARTS} are followed"))
 }

@@ -171,3 +171,22 @@ fn a_hundred_thousand_solutions_take_less_than_200_megabytes() {
     let of_100_000 = size as f64 / rows as f64 * 1e5;
     assert!(of_100_000 < 100e6, "{of_100_000:.3e} bytes");
 }
+
+#[test]
+fn a_panic_in_one_of_several_threads_ends_the_run_and_keeps_what_was_finished() {
+    let (study, folder) = (study(), tempdir().unwrap());
+    let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+    let solver = FakeSolver { panics: true, ..FakeSolver::default() };
+    let ended = run(&mut store, &solver, &Plan::of(&study.study), 2, &mut Quiet);
+    assert!(matches!(ended, Err(RunError::Thread)), "{ended:?}");
+    drop(store);
+    assert_eq!(run_into(folder.path(), &study, &mut Quiet), RunOutcome::Done);
+    assert_eq!(csv(folder.path()), undisturbed(&study).1);
+}
+
+#[test]
+fn starts_beyond_those_that_have_numbers_are_told() {
+    let most = crate::store::MOST_STARTS as usize;
+    assert_eq!(runner::too_many(most), None);
+    assert!(runner::too_many(most + 1).is_some_and(|text| text.contains("1025 starts, of which 1024")));
+}

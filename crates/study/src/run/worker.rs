@@ -6,6 +6,7 @@ use std::{
         atomic::{AtomicBool, Ordering},
         mpsc::{Receiver, SyncSender},
     },
+    thread,
     time::{Duration, Instant},
 };
 
@@ -70,6 +71,20 @@ pub(super) enum Report {
     Left,
     /// A stored walk cannot be taken up.
     Failed { key: u32, message: String },
+    /// The thread has panicked: its task will never be done.
+    Lost,
+}
+
+/// Tells of a panic, so that nobody waits for the thread.
+struct Alarm<'a>(&'a SyncSender<Report>);
+
+impl Drop for Alarm<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            // If nobody listens, nobody waits.
+            let _ = self.0.send(Report::Lost);
+        }
+    }
 }
 
 /// Solutions of a walk, to be committed together.
@@ -94,6 +109,7 @@ pub(super) fn work(
     reports: &SyncSender<Report>,
     stop: &AtomicBool,
 ) {
+    let _alarm = Alarm(reports);
     loop {
         let task = match tasks.lock() {
             Ok(tasks) => tasks.recv(),

@@ -37,6 +37,9 @@ pub enum StoreError {
     /// Something stored has an impossible size.
     #[error("the stored {what} has {found} bytes, {expected} are expected")]
     Damaged { what: &'static str, found: usize, expected: usize },
+    /// Something stored has a name that this program does not know.
+    #[error("the stored {what} {found} is unknown")]
+    Unknown { what: &'static str, found: String },
     /// The folder cannot be made or written.
     #[error("cannot write to {}: {source}", folder.display())]
     Folder { folder: PathBuf, source: io::Error },
@@ -53,7 +56,7 @@ impl StoreError {
     /// Whether the user pointed at the wrong folder, as opposed to a disk that refuses.
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Self::Database(_) | Self::Damaged { .. })
+        !matches!(self, Self::Database(_) | Self::Damaged { .. } | Self::Unknown { .. })
     }
 }
 

@@ -5,8 +5,8 @@ use rusqlite::{Row as SqlRow, Transaction, params};
 
 use super::{Store, StoreError, StoredReason, first_key, walk_id, write::insert_solution};
 
-/// Most starts of one job.
-const MOST_STARTS: u32 = 1024;
+/// Most starts of one job: the numbers of starts leave no room for more.
+pub(crate) const MOST_STARTS: u32 = 1024;
 
 /// What a job is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -65,13 +65,10 @@ impl JobKind {
         }
     }
 
-    fn named(name: &str) -> Self {
-        match name {
-            "harmonic" => Self::Harmonic,
-            "survey" => Self::Survey,
-            "doubling" => Self::Doubling,
-            _ => Self::Crossing,
-        }
+    fn named(name: &str) -> Option<Self> {
+        [Self::Harmonic, Self::Survey, Self::Doubling, Self::Crossing]
+            .into_iter()
+            .find(|kind| kind.name() == name)
     }
 }
 
@@ -84,19 +81,24 @@ impl Store {
         let select =
             "SELECT id, kind, frequency_hz, source, depth, evaluated, message, outcome FROM job ORDER BY id";
         let mut statement = self.connection.prepare(select)?;
-        let read = |row: &SqlRow<'_>| {
-            Ok(JobRecord {
+        let mut rows = statement.query([])?;
+        let mut jobs = Vec::new();
+        while let Some(row) = rows.next()? {
+            let name: String = row.get(1)?;
+            let kind =
+                JobKind::named(&name).ok_or(StoreError::Unknown { what: "kind of job", found: name })?;
+            jobs.push(JobRecord {
                 id: row.get(0)?,
-                kind: JobKind::named(&row.get::<_, String>(1)?),
+                kind,
                 frequency_hz: row.get(2)?,
                 source: row.get(3)?,
                 depth: row.get(4)?,
                 evaluated: row.get(5)?,
                 message: row.get(6)?,
                 outcome: row.get(7)?,
-            })
-        };
-        Ok(statement.query_map([], read)?.collect::<Result<_, _>>()?)
+            });
+        }
+        Ok(jobs)
     }
 
     /// Adds jobs to the end of the agenda; those whose source has one already are left out.
@@ -135,6 +137,8 @@ impl Store {
     /// Notes what came of a job: its starts, each with the walks that will begin there.
     ///
     /// * `message`: why there are none.
+    ///
+    /// Those beyond [`MOST_STARTS`] are left out.
     ///
     /// A branch of doubled period is walked away from its flip only: the other way it is its own copy, a period later.
     ///

@@ -27,6 +27,7 @@ use rusqlite::{Connection, OpenFlags};
 
 pub use basins::{BASINS, BasinStore};
 pub use error::StoreError;
+pub(crate) use jobs::MOST_STARTS;
 pub use jobs::{JobKind, JobRecord, StartRecord};
 pub use read::{BranchRecord, Row, StoredMemory, WalkRecord};
 pub use schema::SCHEMA_VERSION;
@@ -181,7 +182,6 @@ impl StoredReason {
                 Some(*frequency_hz),
                 format!("the motion could not be computed at {frequency_hz:.6} Hz: {message}"),
             ),
-            other => ("other", None, format!("{other:?}")),
         };
         Self { kind: kind.to_owned(), frequency_hz, message }
     }

@@ -143,9 +143,6 @@ fn in_words(reason: &StopReason, name: &str, parameter: &StudyParameter) -> Stri
         StopReason::RunsBack { frequency_hz, .. } => {
             format!("at {} every step led back to a stretch already walked", at(*frequency_hz))
         }
-        StopReason::Motion { frequency_hz, message } | StopReason::Other { frequency_hz, message } => {
-            format!("at {}: {message}", at(*frequency_hz))
-        }
-        other => format!("{other:?}"),
+        StopReason::Motion { frequency_hz, message } => format!("at {}: {message}", at(*frequency_hz)),
     }
 }
