@@ -114,6 +114,10 @@ impl std::fmt::Display for Class {
 }
 
 impl Doubt {
+    /// Every doubt.
+    pub const ALL: [Self; 4] =
+        [Self::IndicatorsDisagree, Self::ExponentUndecided, Self::ZeroOneUndecided, Self::NotSettled];
+
     /// In words.
     #[must_use]
     pub fn reason(self) -> &'static str {

@@ -6,10 +6,11 @@ mod failure;
 mod figures;
 mod initial;
 mod interrupt;
+mod kept;
 mod motion_args;
 mod output;
 mod progress;
-mod table;
+mod series;
 mod ticker;
 
 use std::process::ExitCode;

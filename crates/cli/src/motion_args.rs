@@ -50,9 +50,17 @@ pub struct LyapunovOptions {
     /// Study file
     pub study: PathBuf,
 
-    /// Excitation frequency
+    /// Excitation frequency, or the first of a series
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub frequency: f64,
+
+    /// Last frequency of a series; the motion begins anew at each
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub to: Option<f64>,
+
+    /// Step of the series [default: a hundredth of the way]
+    #[arg(long, value_name = "HZ", requires = "to", value_parser = positive, allow_negative_numbers = true)]
+    pub step: Option<f64>,
 
     /// Excitation periods averaged over, rounded up to a multiple of 20
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(20..=100_000_000))]
@@ -73,7 +81,7 @@ pub struct LyapunovOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Folder for exponents.csv and convergence.csv, made if it is not there
+    /// Results folder, made if it is not there: keeps the exponents, so that the same series goes on after an interruption, with spectra.csv, exponents.csv, convergence.csv and section.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -96,6 +104,18 @@ pub struct EffortOptions {
     /// Excitation periods over which exponents and the 0-1 test of a motion that does not repeat are taken
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(240..=10_000_000))]
     pub averaged_periods: u64,
+}
+
+impl EffortOptions {
+    /// What of it is asked of the study, as lines `key = value`.
+    pub fn words(&self) -> [String; 4] {
+        [
+            format!("transient_periods = {}", self.transient_periods),
+            format!("patience_periods = {}", self.patience_periods),
+            format!("longest_period = {}", self.longest_period),
+            format!("averaged_periods = {}", self.averaged_periods),
+        ]
+    }
 }
 
 #[derive(Debug, Args)]
@@ -137,7 +157,7 @@ pub struct SweepOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Folder for sweep.csv and sweep_samples.csv, made if it is not there
+    /// Results folder, made if it is not there: keeps the motions, so that the same command goes on after an interruption, with sweep.csv and sweep_samples.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -174,7 +194,7 @@ pub struct BasinsOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Folder for basins.db, basins.csv and attractors.csv, made if it is not there; one that holds part of the same basins is continued
+    /// Results folder, made if it is not there: keeps the cells, so that the same command goes on after an interruption, with basins.csv and attractors.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 

@@ -9,7 +9,7 @@
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
-//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; basins in their own |
+//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; sweeps, exponents and basins by request |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
@@ -37,7 +37,6 @@
 mod crossings;
 mod document;
 pub mod export;
-mod export_varied;
 pub mod file;
 mod identity;
 mod model;

@@ -1,22 +1,17 @@
 //! `hammerbeam basins`: which attractor each of a grid of initial states leads to.
 
-use std::path::PathBuf;
-
 use hammerbeam_attractor::{Attractor, Axis, Basins, Class, Effort, Estimate, Grid, fractions};
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{
-    Model, StoredBranches, StudyFile,
-    store::{BasinStore, DATABASE},
-};
+use hammerbeam_study::{Model, Store, StoredBranches, StudyFile, export::write_basins, store::RequestKind};
 use serde_json::{Value, json};
 
 use super::{run::threads, simulate::folder};
 use crate::{
     failure::Failure,
     interrupt::Interrupt,
+    kept::{Kept, branch_folder},
     motion_args::{AxisOption, BasinsOptions},
     output::Output,
-    table::{Table, header, number},
     ticker::Ticker,
 };
 
@@ -27,78 +22,57 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let effort = Effort::from(&options.effort);
     let mut basins =
         Basins::new(model.system.clone(), options.frequency, grid, effort, ExactSettings::default())?;
-    let branches = results(options).map(|folder| StoredBranches::open(&folder, &file)).transpose()?;
-    let mut store = options
-        .out
-        .as_deref()
-        .map(|folder| BasinStore::open(folder, &file, &request(options)))
+    let branches = branch_folder(options.results.as_deref(), options.out.as_deref())
+        .map(|folder| StoredBranches::open(folder, &file))
         .transpose()?;
-    let mut cells = Vec::new();
-    if let Some(store) = &store {
-        let (done, attractors) = store.read()?;
-        basins.resume(done.len(), attractors);
-        cells = done;
-    }
-    let interrupt = Interrupt::listen()?;
     let total = basins.grid().cells();
+    let request = (RequestKind::Basins, request(options));
+    let mut kept = Kept::open(options.out.as_deref(), &file, (request.0, &request.1), total as u64)?;
+    let (mut cells, attractors) = kept.read(Store::basins)?;
+    basins.resume(cells.len(), attractors);
+    let interrupt = Interrupt::listen()?;
     let mut ticker = Ticker::new(total as u64, "cells");
     let threads = threads(options.jobs);
     while !interrupt.raised() {
         let known = basins.attractors().len();
         let Some(round) = basins.round(threads, interrupt.flag()) else { break };
-        if let Some(store) = &mut store {
-            store.append(&round, known)?;
-        }
+        kept.add(|store, request| store.append_round(request, &round, known))?;
         cells.extend(round.cells);
         ticker.at(cells.len() as u64, || format!("{} attractor(s)", basins.attractors().len()));
     }
     ticker.clear();
-    if let Some(store) = store {
-        store.finish()?;
-    }
+    kept.finish()?;
     if cells.len() < total {
-        let kept = match &options.out {
-            Some(folder) => format!("are kept in {}, the same command goes on from there", folder.display()),
-            None => "are lost without --out".to_owned(),
-        };
-        return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {kept}", cells.len())));
+        let fate = kept.fate();
+        return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {fate}", cells.len())));
     }
     let numbers = match &branches {
         Some(branches) => branch_numbers(branches, &model, options.frequency, basins.attractors())?,
         None => vec![None; basins.attractors().len()],
     };
     let result = Outcome { options, basins: &basins, cells: &cells, branches: numbers };
-    result.write()?;
+    if let Some(folder) = &options.out {
+        write_basins(folder, "", (basins.grid(), &cells), basins.attractors(), &result.branches)?;
+    }
     output.give(&result.document(), || result.text());
     Ok(())
 }
 
-/// Folder with branches: the one given, else that of the basins if it holds some.
-fn results(options: &BasinsOptions) -> Option<PathBuf> {
-    let own = options.out.clone().filter(|folder| folder.join(DATABASE).is_file());
-    options.results.clone().or(own)
-}
-
-/// What a folder of basins belongs to, besides the study.
-fn request(options: &BasinsOptions) -> String {
+/// What is asked of the study.
+fn request(options: &BasinsOptions) -> Vec<String> {
     let axis = |name: &str, axis: &AxisOption| {
-        format!(
-            "{name}.coordinate = {}\n{name}.low = {:e}\n{name}.high = {:e}",
-            axis.name, axis.low, axis.high
-        )
+        [
+            format!("{name}.coordinate = {}", axis.name),
+            format!("{name}.low = {:e}", axis.low),
+            format!("{name}.high = {:e}", axis.high),
+        ]
     };
-    let effort = &options.effort;
-    [
-        format!("basins.frequency_hz = {:e}", options.frequency),
-        axis("basins.x", &options.x),
-        axis("basins.y", &options.y),
-        format!("basins.grid = {}", options.grid),
-        format!("basins.transient_periods = {}", effort.transient_periods),
-        format!("basins.patience_periods = {}", effort.patience_periods),
-        format!("basins.longest_period = {}", effort.longest_period),
-        format!("basins.averaged_periods = {}", effort.averaged_periods),
-    ]
-    .join("\n")
+    let mut words =
+        vec![format!("frequency_hz = {:e}", options.frequency), format!("grid = {}", options.grid)];
+    words.extend(axis("x", &options.x));
+    words.extend(axis("y", &options.y));
+    words.extend(options.effort.words());
+    words
 }
 
 fn grid(options: &BasinsOptions, model: &Model) -> Result<Grid, Failure> {
@@ -184,42 +158,6 @@ impl Outcome<'_> {
 
     fn lost(&self) -> usize {
         self.cells.iter().filter(|&&number| number == 0).count()
-    }
-
-    fn write(&self) -> Result<(), Failure> {
-        let Some(folder) = &self.options.out else { return Ok(()) };
-        let mut table = Table::begin(folder, "basins.csv", &header(&["x", "y", "attractor"]))?;
-        for (cell, attractor) in self.cells.iter().enumerate() {
-            let [x, y] = self.basins.grid().place(cell);
-            table.row(&[number(x), number(y), attractor.to_string()])?;
-        }
-        table.finish()?;
-        let columns = [
-            "attractor",
-            "class",
-            "period",
-            "fraction",
-            "standard_error",
-            "largest_exponent_per_s",
-            "zero_one_k",
-            "branch",
-        ];
-        let mut table = Table::begin(folder, "attractors.csv", &header(&columns))?;
-        for (index, attractor, fraction, branch) in self.attractors() {
-            let period = attractor.class.period().map(|period| period.to_string());
-            table.row(&[
-                index.to_string(),
-                attractor.class.name().to_owned(),
-                period.unwrap_or_default(),
-                number(fraction.value),
-                number(fraction.half_width),
-                number(attractor.largest_exponent.map(|exponent| exponent.value)),
-                number(attractor.zero_one),
-                branch.map_or_else(String::new, |branch| branch.to_string()),
-            ])?;
-        }
-        table.finish()?;
-        Ok(())
     }
 
     fn document(&self) -> Value {

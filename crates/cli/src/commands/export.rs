@@ -17,7 +17,12 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
     };
     let path = exported.path.display().to_string();
     let events_path = exported.events_path.display().to_string();
-    let varied: Vec<String> = exported.varied_paths.iter().map(|path| path.display().to_string()).collect();
+    let varied: Vec<String> = exported
+        .varied_paths
+        .iter()
+        .chain(&exported.motion_paths)
+        .map(|path| path.display().to_string())
+        .collect();
     let mut files = vec![path.clone(), events_path.clone()];
     files.extend(varied.iter().cloned());
     output.give(&json!({ "files": files, "rows": exported.rows }), || {

@@ -1,10 +1,12 @@
 //! `hammerbeam lyapunov`: the exponents of a motion.
 
-use hammerbeam_attractor::{
-    Lyapunov, LyapunovSettings, SectionMap, Spectrum, SystemMap, sections_needed, zero_one,
-};
+use hammerbeam_attractor::{Lyapunov, LyapunovSettings, SectionMap, SystemMap, sections_needed, zero_one};
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{Model, StudyFile};
+use hammerbeam_study::{
+    Model, Store, StudyFile,
+    export::write_exponents,
+    store::{ExponentRecord, RequestKind},
+};
 use serde_json::{Value, json};
 
 use super::simulate::folder;
@@ -12,9 +14,10 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
+    kept::{Kept, state_words},
     motion_args::LyapunovOptions,
     output::Output,
-    table::{Table, header, number},
+    series::series,
     ticker::Ticker,
 };
 
@@ -22,89 +25,159 @@ use crate::{
 const ALIGNING: u64 = 50;
 /// Correlation of neighbouring blocks beyond which the confidence is not to be trusted: two standard errors with 20 blocks.
 const CORRELATED: f64 = 0.45;
+/// Points of a stroboscopic section that are kept.
+const MOST_POINTS: usize = 4096;
 
 pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
-    let mut map = SystemMap::new(model.system.clone(), options.frequency, 1, ExactSettings::default())?;
-    let mut state = initial::state(&options.initial, &mut map, (&file, &model), options.results.as_deref())?;
+    let ends = (options.frequency, options.to.unwrap_or(options.frequency));
+    let frequencies = series(ends, options.step, "--frequency")?;
+    let mut motion = Motion::new(options, &model)?;
+    let states = motion.initial_states(&file, &frequencies)?;
+    let words = words(options, &frequencies, &states);
+    let request = (RequestKind::Exponents, words.as_slice());
+    let mut kept = Kept::open(options.out.as_deref(), &file, request, frequencies.len() as u64)?;
+    let mut records = kept.read(Store::exponents)?;
     let interrupt = Interrupt::listen()?;
-    let mut ticker = Ticker::new(options.transient_periods + ALIGNING + options.periods, "periods");
-    for period in 0..options.transient_periods {
-        if interrupt.raised() {
-            return Err(Failure::Interrupted("interrupted before anything was averaged".to_owned()));
-        }
-        state = map.advance(period, &state)?;
-        ticker.at(period, String::new);
-    }
-    let parts = match options.sections_per_period {
-        Some(parts) => parts,
-        None => sections_needed(&mut map, &state)?,
-    };
-    map.set_parts(parts);
-    let settings = LyapunovSettings {
-        aligning: ALIGNING * parts,
-        averaged: options.periods.next_multiple_of(20) * parts,
-    };
-    let mut average = Lyapunov::new(&map, 0, &state, settings)?;
-    let mut series = Vec::new();
-    while !interrupt.raised() && average.step(&mut map)? {
-        let sections = average.progress().0;
-        if sections > settings.aligning && sections.is_multiple_of(parts) {
-            series.push(average.state()[0]);
-        }
-        ticker.at(options.transient_periods + sections / parts, String::new);
+    let periods = options.transient_periods + ALIGNING + options.periods;
+    let mut ticker = Ticker::new(frequencies.len() as u64 * periods, "periods");
+    for piece in kept.done as usize..frequencies.len() {
+        let tell = |period: u64| {
+            ticker.at(piece as u64 * periods + period, || format!("{:.4} Hz", frequencies[piece]))
+        };
+        let Some(record) = motion.exponents(frequencies[piece], &states[piece], &interrupt, tell)? else {
+            break;
+        };
+        kept.add(|store, request| store.append_exponents(request, piece as u64, &record))?;
+        records.push(record);
     }
     ticker.clear();
-    let Some(spectrum) = average.spectrum() else {
-        return Err(Failure::Interrupted("interrupted before two blocks were averaged".to_owned()));
-    };
-    let result = Outcome { spectrum, parts, divergence: map.divergence(), zero_one: zero_one(&series) };
-    result.write(options)?;
-    if interrupt.raised() {
-        let kept = if options.out.is_some() { "kept" } else { "computed" };
-        return Err(Failure::Interrupted(format!(
-            "interrupted; the average over {:.6} s is {kept}",
-            result.spectrum.time
-        )));
+    kept.finish()?;
+    if let Some(folder) = &options.out {
+        write_exponents(folder, "", &records)?;
     }
-    output.give(&result.document(options), || result.text(options));
+    if records.len() < frequencies.len() {
+        let done = format!("{} of {} spectra", records.len(), frequencies.len());
+        return Err(Failure::Interrupted(format!("interrupted; {done} {}", kept.fate())));
+    }
+    let results: Vec<Outcome> = records.iter().map(|record| Outcome { options, record }).collect();
+    output.give(&document(options, &results), || text(&results));
     Ok(())
 }
 
-struct Outcome {
-    spectrum: Spectrum,
-    parts: u64,
-    divergence: f64,
-    zero_one: Option<f64>,
+/// What is asked of the study.
+fn words(options: &LyapunovOptions, frequencies: &[f64], states: &[Vec<f64>]) -> Vec<String> {
+    let mut words = vec![
+        format!("from_hz = {:e}", options.frequency),
+        format!("to_hz = {:e}", options.to.unwrap_or(options.frequency)),
+        format!("frequencies = {}", frequencies.len()),
+        format!("transient_periods = {}", options.transient_periods),
+        format!("periods = {}", options.periods),
+    ];
+    words.extend(options.sections_per_period.map(|parts| format!("sections_per_period = {parts}")));
+    words.extend(states.first().into_iter().flat_map(|state| state_words(state)));
+    words
 }
 
-impl Outcome {
-    fn write(&self, options: &LyapunovOptions) -> Result<(), Failure> {
-        let Some(folder) = &options.out else { return Ok(()) };
-        let mut table = Table::begin(
-            folder,
-            "exponents.csv",
-            &header(&["number", "exponent_per_s", "half_width_per_s"]),
-        )?;
-        for (index, exponent) in self.spectrum.exponents.iter().enumerate() {
-            table.row(&[(index + 1).to_string(), number(exponent.value), number(exponent.half_width)])?;
-        }
-        table.finish()?;
-        let mut words = vec!["time_s".to_owned()];
-        words.extend((1..=self.spectrum.exponents.len()).map(|i| format!("exponent_{i}_per_s")));
-        let mut table = Table::begin(folder, "convergence.csv", &words)?;
-        for place in &self.spectrum.convergence {
-            let entries = std::iter::once(&place.time).chain(&place.exponents);
-            table.row(&entries.map(|value| number(*value)).collect::<Vec<_>>())?;
-        }
-        table.finish()?;
-        Ok(())
+/// The motion whose exponents are taken.
+struct Motion<'a> {
+    options: &'a LyapunovOptions,
+    model: &'a Model,
+    map: SystemMap,
+}
+
+impl<'a> Motion<'a> {
+    fn new(options: &'a LyapunovOptions, model: &'a Model) -> Result<Self, Failure> {
+        let map = SystemMap::new(model.system.clone(), options.frequency, 1, ExactSettings::default())?;
+        Ok(Self { options, model, map })
     }
 
+    /// Where the motion begins at each frequency.
+    fn initial_states(&mut self, file: &StudyFile, frequencies: &[f64]) -> Result<Vec<Vec<f64>>, Failure> {
+        let (options, model) = (self.options, self.model);
+        let mut at = |frequency_hz: &f64| {
+            self.map.set_frequency(*frequency_hz);
+            initial::state(&options.initial, &mut self.map, (file, model), options.results.as_deref())
+        };
+        frequencies.iter().map(&mut at).collect()
+    }
+
+    /// The exponents at a frequency; nothing if the user stops it.
+    fn exponents(
+        &mut self,
+        frequency_hz: f64,
+        initial: &[f64],
+        interrupt: &Interrupt,
+        mut tell: impl FnMut(u64),
+    ) -> Result<Option<ExponentRecord>, Failure> {
+        let map = &mut self.map;
+        map.set_frequency(frequency_hz);
+        map.set_parts(1);
+        let mut state = initial.to_vec();
+        for period in 0..self.options.transient_periods {
+            if interrupt.raised() {
+                return Ok(None);
+            }
+            state = map.advance(period, &state)?;
+            tell(period);
+        }
+        let parts = match self.options.sections_per_period {
+            Some(parts) => parts,
+            None => sections_needed(map, &state)?,
+        };
+        map.set_parts(parts);
+        let settings = LyapunovSettings {
+            aligning: ALIGNING * parts,
+            averaged: self.options.periods.next_multiple_of(20) * parts,
+        };
+        let mut average = Lyapunov::new(map, 0, &state, settings)?;
+        let mut states = Vec::new();
+        while average.step(map)? {
+            if interrupt.raised() {
+                return Ok(None);
+            }
+            let sections = average.progress().0;
+            if sections > settings.aligning && sections.is_multiple_of(parts) {
+                states.push(average.state().to_vec());
+            }
+            tell(self.options.transient_periods + sections / parts);
+        }
+        let Some(spectrum) = average.spectrum() else { return Ok(None) };
+        let series: Vec<f64> = states.iter().map(|state| state[0]).collect();
+        Ok(Some(ExponentRecord {
+            frequency_hz,
+            sections_per_period: parts,
+            spectrum,
+            divergence: Some(map.divergence()),
+            zero_one: zero_one(&series),
+            section: states.iter().take(MOST_POINTS).map(|state| self.point(frequency_hz, state)).collect(),
+        }))
+    }
+
+    /// Displacement and velocity of the response point at phase 0.
+    fn point(&self, frequency_hz: f64, state: &[f64]) -> [f64; 2] {
+        let response = &self.model.response;
+        let [support, speed, ..] = self.model.system.support_motion(frequency_hz, 0.0);
+        let (displacements, velocities) = state.split_at(state.len() / 2);
+        let read = |values: &[f64]| response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
+        [
+            read(displacements) + response.support_ratio * support,
+            read(velocities) + response.support_ratio * speed,
+        ]
+    }
+}
+
+/// The exponents at one frequency, for the user.
+struct Outcome<'a> {
+    options: &'a LyapunovOptions,
+    record: &'a ExponentRecord,
+}
+
+impl Outcome<'_> {
     /// What the sign of the largest exponent says.
     fn verdict(&self) -> &'static str {
-        let largest = self.spectrum.exponents[0];
+        let largest = self.record.spectrum.exponents[0];
         if largest.low() > 0.0 {
             "positive"
         } else if largest.high() < 0.0 {
@@ -115,21 +188,21 @@ impl Outcome {
     }
 
     fn correlated(&self) -> bool {
-        self.spectrum.block_correlation.abs() > CORRELATED
+        self.record.spectrum.block_correlation.abs() > CORRELATED
     }
 
-    fn document(&self, options: &LyapunovOptions) -> Value {
-        let spectrum = &self.spectrum;
+    fn document(&self) -> Value {
+        let (options, spectrum) = (self.options, &self.record.spectrum);
         let convergence = spectrum
             .convergence
             .iter()
             .map(|place| json!({ "time_s": place.time, "exponents_per_s": place.exponents }));
         json!({
-            "frequency_hz": options.frequency,
+            "frequency_hz": self.record.frequency_hz,
             "transient_periods": options.transient_periods,
-            "averaged_periods": (spectrum.time * options.frequency).round(),
+            "averaged_periods": (spectrum.time * self.record.frequency_hz).round(),
             "time_s": spectrum.time,
-            "sections_per_period": self.parts,
+            "sections_per_period": self.record.sections_per_period,
             "exponents_per_s": spectrum.exponents.iter().map(|exponent| exponent.value).collect::<Vec<_>>(),
             "half_widths_per_s": spectrum.exponents.iter().map(|exponent| exponent.half_width).collect::<Vec<_>>(),
             "confidence": 0.95,
@@ -137,30 +210,32 @@ impl Outcome {
             "block_correlation": spectrum.block_correlation,
             "blocks_are_independent": !self.correlated(),
             "sum_per_s": spectrum.sum,
-            "divergence_per_s": self.divergence,
+            "divergence_per_s": self.record.divergence,
             "kaplan_yorke_dimension": spectrum.kaplan_yorke_dimension,
-            "zero_one_k": self.zero_one,
+            "zero_one_k": self.record.zero_one,
             "convergence": convergence.collect::<Vec<_>>(),
             "results": folder(options.out.as_deref()),
         })
     }
 
-    fn text(&self, options: &LyapunovOptions) -> String {
-        let spectrum = &self.spectrum;
+    fn text(&self) -> String {
+        let spectrum = &self.record.spectrum;
         let mut lines = vec![format!(
             "exponents at {} Hz over {:.6} s, {} section(s) in a period, with intervals of 95 %",
-            options.frequency, spectrum.time, self.parts
+            self.record.frequency_hz, spectrum.time, self.record.sections_per_period
         )];
         for exponent in &spectrum.exponents {
             lines.push(format!("  {:>14.6} +- {:.6} 1/s", exponent.value, exponent.half_width));
         }
         lines.push(format!("  sum            {:.9} 1/s", spectrum.sum));
-        lines.push(format!("  -tr(M^-1 C)    {:.9} 1/s", self.divergence));
+        if let Some(divergence) = self.record.divergence {
+            lines.push(format!("  -tr(M^-1 C)    {divergence:.9} 1/s"));
+        }
         lines.push(format!(
             "  Kaplan-Yorke dimension of the stroboscopic section {:.4}",
             spectrum.kaplan_yorke_dimension
         ));
-        if let Some(k) = self.zero_one {
+        if let Some(k) = self.record.zero_one {
             lines.push(format!("  K of the 0-1 test {k:.3}"));
         }
         lines.push(format!("the largest exponent is {}", self.verdict()));
@@ -170,4 +245,40 @@ impl Outcome {
         }
         lines.join("\n")
     }
+}
+
+/// The document of the only spectrum, or of a series.
+fn document(options: &LyapunovOptions, results: &[Outcome<'_>]) -> Value {
+    match results {
+        [only] if options.to.is_none() => only.document(),
+        _ => json!({
+            "spectra": results.iter().map(Outcome::document).collect::<Vec<_>>(),
+            "results": folder(options.out.as_deref()),
+        }),
+    }
+}
+
+/// All of the only spectrum, or a row for each of a series.
+fn text(results: &[Outcome<'_>]) -> String {
+    if let [only] = results {
+        return only.text();
+    }
+    let mut lines = vec![format!(
+        "{:>12} {:>28} {:>10} {:>6}  {}",
+        "Hz", "largest exponent 1/s", "dimension", "K", "which is"
+    )];
+    for result in results {
+        let (record, spectrum) = (result.record, &result.record.spectrum);
+        let largest = spectrum.exponents[0];
+        let k = record.zero_one.map_or_else(String::new, |k| format!("{k:.2}"));
+        lines.push(format!(
+            "{:>12.6} {:>14.6} +- {:<10.6} {:>10.4} {k:>6}  {}",
+            record.frequency_hz,
+            largest.value,
+            largest.half_width,
+            spectrum.kaplan_yorke_dimension,
+            result.verdict()
+        ));
+    }
+    lines.join("\n")
 }

@@ -4,16 +4,14 @@ use std::path::Path;
 
 use hammerbeam_attractor::{ContactRecord, Sample, Simulation, SystemMap};
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{Model, StudyFile};
+use hammerbeam_study::{
+    Model, StudyFile,
+    export::{Table, number, word},
+};
 use serde_json::{Value, json};
 
 use crate::{
-    failure::Failure,
-    initial,
-    interrupt::Interrupt,
-    motion_args::SimulateOptions,
-    output::Output,
-    table::{Table, number, word},
+    failure::Failure, initial, interrupt::Interrupt, motion_args::SimulateOptions, output::Output,
     ticker::Ticker,
 };
 

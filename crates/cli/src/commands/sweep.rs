@@ -2,10 +2,14 @@
 
 use hammerbeam_attractor::{
     AttractorError, Class, Effort, Observable, Patience, SweepPoint, SweepSettings, Sweeper, SystemMap,
-    frequencies, in_order,
+    in_order,
 };
 use hammerbeam_motion::exact::ExactSettings;
-use hammerbeam_study::{Model, StoredBranches, StudyFile};
+use hammerbeam_study::{
+    Model, Store, StoredBranches, StudyFile,
+    export::write_sweep,
+    store::{RequestKind, SettledMotion},
+};
 use serde_json::{Value, json};
 
 use super::{run::threads, simulate::folder};
@@ -13,9 +17,10 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
+    kept::{Kept, branch_folder, state_words},
     motion_args::{EffortOptions, SweepOptions},
     output::Output,
-    table::{Table, header, number},
+    series::series,
     ticker::Ticker,
 };
 
@@ -30,20 +35,14 @@ impl From<&EffortOptions> for Effort {
     }
 }
 
-/// A motion of a sweep, and where it comes from.
-struct Found {
-    /// `up`, `down`, or the number of the start.
-    from: String,
-    point: SweepPoint,
-    branch: Option<u32>,
-}
-
 pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
-    let upward = upward(options, file.study.excitation.frequency_hz)?;
-    let branches =
-        options.results.as_deref().map(|folder| StoredBranches::open(folder, &file)).transpose()?;
+    let [low, high] = file.study.excitation.frequency_hz;
+    let upward = series((options.from.unwrap_or(low), options.to.unwrap_or(high)), options.step, "--from")?;
+    let branches = branch_folder(options.results.as_deref(), options.out.as_deref())
+        .map(|folder| StoredBranches::open(folder, &file))
+        .transpose()?;
     let observable =
         Observable { shape: model.response.shape.clone(), support_ratio: model.response.support_ratio };
     let motion = ExactSettings::default();
@@ -52,47 +51,72 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let make = || Sweeper::new(&model.system, &observable, settings);
     let mut first = SystemMap::new(model.system.clone(), upward[0], 1, motion)?;
     let state = initial::state(&options.initial, &mut first, (&file, &model), options.results.as_deref())?;
+    let (kind, pieces) = pieces(options, &upward);
+    let words = words(options, &upward, &state);
+    let kept = Kept::open(options.out.as_deref(), &file, (kind, &words), pieces.len() as u64)?;
+    let found = kept.read(Store::settled)?;
     let interrupt = Interrupt::listen()?;
-    let mut work = Work { options, interrupt: &interrupt, found: Vec::new() };
+    let mut work = Work { options, interrupt: &interrupt, kept, found };
     match options.starts {
-        Some(starts) => work.diagram(&make, &upward, starts as usize)?,
-        None => work.sweep(&mut make()?, &upward, state)?,
+        Some(starts) => work.diagram(&make, &pieces, starts as usize)?,
+        None => work.sweep(&mut make()?, &pieces, state)?,
     }
-    let mut found = work.found;
-    if let Some(branches) = &branches {
-        for motion in &mut found {
-            motion.branch = branch(branches, &model, &motion.point)?;
+    let Work { found, mut kept, .. } = work;
+    kept.finish()?;
+    let on_branches = match &branches {
+        Some(branches) => {
+            found.iter().map(|motion| branch(branches, &model, &motion.point)).collect::<Result<_, _>>()?
         }
+        None => vec![None; found.len()],
+    };
+    if let Some(folder) = &options.out {
+        write_sweep(folder, "", &found, &on_branches)?;
     }
-    write(options, &found)?;
     if interrupt.raised() {
-        let kept = if options.out.is_some() { "kept" } else { "computed" };
-        return Err(Failure::Interrupted(format!("interrupted; {} motions are {kept}", found.len())));
+        return Err(Failure::Interrupted(format!("interrupted; {} motions {}", found.len(), kept.fate())));
     }
     if found.is_empty() {
         return Err(Failure::NoResult("no motion could be computed".to_owned()));
     }
-    output.give(&document(options, &found), || text(options, &found, &model));
+    let result = Outcome { options, found: &found, branches: &on_branches, dof: model.system.dof() };
+    output.give(&result.document(), || result.text());
     Ok(())
 }
 
-/// Frequencies from low to high.
-fn upward(options: &SweepOptions, range_hz: [f64; 2]) -> Result<Vec<f64>, Failure> {
-    let (from, to) = (options.from.unwrap_or(range_hz[0]), options.to.unwrap_or(range_hz[1]));
-    if to < from {
-        let message = format!(
-            "--to is {to} Hz, which is below --from, {from} Hz; --down sweeps down after the sweep up"
-        );
-        return Err(Failure::BadInput(message));
+/// Directions and frequencies, one after the other.
+fn pieces(options: &SweepOptions, upward: &[f64]) -> (RequestKind, Vec<(&'static str, f64)>) {
+    let mut pieces: Vec<_> = upward.iter().map(|frequency_hz| ("up", *frequency_hz)).collect();
+    if options.down {
+        pieces.extend(upward.iter().rev().map(|frequency_hz| ("down", *frequency_hz)));
     }
-    let step = options.step.unwrap_or(((to - from) / 100.0).max(f64::MIN_POSITIVE));
-    Ok(frequencies(from, to, step)?)
+    (if options.starts.is_some() { RequestKind::Starts } else { RequestKind::Sweep }, pieces)
+}
+
+/// What is asked of the study.
+fn words(options: &SweepOptions, upward: &[f64], state: &[f64]) -> Vec<String> {
+    let mut words: Vec<String> = upward
+        .first()
+        .zip(upward.last())
+        .map(|(from, to)| vec![format!("from_hz = {from:e}"), format!("to_hz = {to:e}")])
+        .unwrap_or_default();
+    words.push(format!("frequencies = {}", upward.len()));
+    words.push(format!("samples = {}", options.samples));
+    words.extend(options.effort.words());
+    match options.starts {
+        Some(starts) => words.push(format!("starts = {starts}")),
+        None => {
+            words.push(format!("down = {}", options.down));
+            words.extend(state_words(state));
+        }
+    }
+    words
 }
 
 struct Work<'a> {
     options: &'a SweepOptions,
     interrupt: &'a Interrupt,
-    found: Vec<Found>,
+    kept: Kept,
+    found: Vec<SettledMotion>,
 }
 
 impl Work<'_> {
@@ -100,32 +124,30 @@ impl Work<'_> {
     fn sweep(
         &mut self,
         sweeper: &mut Sweeper,
-        upward: &[f64],
-        mut state: Vec<f64>,
-    ) -> Result<(), AttractorError> {
-        let mut downward = upward.to_vec();
-        downward.reverse();
-        let passes = [("up", upward), ("down", &downward)];
-        let passes = &passes[..1 + usize::from(self.options.down)];
-        let mut ticker = Ticker::new((passes.len() * upward.len()) as u64, "frequencies");
-        for (direction, frequencies) in passes {
-            for &frequency_hz in *frequencies {
-                if self.interrupt.raised() {
+        pieces: &[(&'static str, f64)],
+        initial: Vec<f64>,
+    ) -> Result<(), Failure> {
+        let mut state = self.found.last().map_or(initial, |last| last.point.state.clone());
+        let mut ticker = Ticker::new(pieces.len() as u64, "frequencies");
+        for (piece, (direction, frequency_hz)) in (0..).zip(pieces).skip(self.kept.done as usize) {
+            if self.interrupt.raised() {
+                return Ok(());
+            }
+            // A sweep that cannot go on is told, and what it has found is kept.
+            let point = match sweeper.at(*frequency_hz, &state) {
+                Ok(point) => point,
+                Err(error @ AttractorError::Input { .. }) => return Err(error.into()),
+                Err(error) => {
+                    anstream::eprintln!("the sweep {direction} ends at {frequency_hz} Hz: {error}");
                     return Ok(());
                 }
-                // A sweep that cannot go on is told, and what it has found is kept.
-                let point = match sweeper.at(frequency_hz, &state) {
-                    Ok(point) => point,
-                    Err(error @ AttractorError::Input { .. }) => return Err(error),
-                    Err(error) => {
-                        anstream::eprintln!("the sweep {direction} ends at {frequency_hz} Hz: {error}");
-                        return Ok(());
-                    }
-                };
-                state.clone_from(&point.state);
-                self.found.push(Found { from: (*direction).to_owned(), point, branch: None });
-                ticker.at(self.found.len() as u64, || format!("{direction} {frequency_hz:.4} Hz"));
-            }
+            };
+            state.clone_from(&point.state);
+            let motion = SettledMotion { origin: (*direction).to_owned(), point };
+            self.kept
+                .add(|store, request| store.append_settled(request, piece, std::slice::from_ref(&motion)))?;
+            self.found.push(motion);
+            ticker.at(piece + 1, || format!("{direction} {frequency_hz:.4} Hz"));
         }
         ticker.clear();
         Ok(())
@@ -135,12 +157,12 @@ impl Work<'_> {
     fn diagram(
         &mut self,
         make: &(impl Fn() -> Result<Sweeper, AttractorError> + Sync),
-        frequencies: &[f64],
+        pieces: &[(&'static str, f64)],
         starts: usize,
-    ) -> Result<(), AttractorError> {
+    ) -> Result<(), Failure> {
         let threads = threads(self.options.jobs);
-        let mut ticker = Ticker::new(frequencies.len() as u64, "frequencies");
-        for (done, &frequency_hz) in frequencies.iter().enumerate() {
+        let mut ticker = Ticker::new(pieces.len() as u64, "frequencies");
+        for (piece, &(_, frequency_hz)) in (0..).zip(pieces).skip(self.kept.done as usize) {
             let states = make()?.starts(frequency_hz, starts)?;
             let at = |sweeper: &mut Result<Sweeper, AttractorError>, state: &Vec<f64>| match sweeper {
                 Ok(sweeper) => sweeper.at(frequency_hz, state),
@@ -149,15 +171,16 @@ impl Work<'_> {
             let Some(points) = in_order(&states, threads, self.interrupt.flag(), make, at) else {
                 return Ok(());
             };
+            let mut motions = Vec::new();
             for (start, point) in points.into_iter().enumerate() {
                 match point {
-                    Ok(point) => {
-                        self.found.push(Found { from: (start + 1).to_string(), point, branch: None });
-                    }
+                    Ok(point) => motions.push(SettledMotion { origin: (start + 1).to_string(), point }),
                     Err(error) => anstream::eprintln!("{frequency_hz} Hz, start {}: {error}", start + 1),
                 }
             }
-            ticker.at(done as u64 + 1, || format!("{frequency_hz:.4} Hz"));
+            self.kept.add(|store, request| store.append_settled(request, piece, &motions))?;
+            self.found.extend(motions);
+            ticker.at(piece + 1, || format!("{frequency_hz:.4} Hz"));
         }
         ticker.clear();
         Ok(())
@@ -175,101 +198,68 @@ fn branch(branches: &StoredBranches, model: &Model, point: &SweepPoint) -> Resul
     Ok(branches.branch_of(model, point.frequency_hz, &states)?)
 }
 
-fn write(options: &SweepOptions, found: &[Found]) -> Result<(), Failure> {
-    let Some(folder) = &options.out else { return Ok(()) };
-    let columns = [
-        "from",
-        "frequency_hz",
-        "class",
-        "period",
-        "max_abs_displacement_m",
-        "contacts_per_period",
-        "largest_exponent_per_s",
-        "half_width_per_s",
-        "zero_one_k",
-        "branch",
-    ];
-    let mut table = Table::begin(folder, "sweep.csv", &header(&columns))?;
-    let mut samples = Table::begin(
-        folder,
-        "sweep_samples.csv",
-        &header(&["from", "frequency_hz", "class", "displacement_m"]),
-    )?;
-    for Found { from, point, branch } in found {
-        let optional = |value: Option<String>| value.unwrap_or_default();
-        let class = point.class.name().to_owned();
-        table.row(&[
-            from.clone(),
-            number(point.frequency_hz),
-            class.clone(),
-            optional(point.class.period().map(|period| period.to_string())),
-            number(point.max_abs_displacement),
-            number(point.contacts_per_period),
-            number(point.largest_exponent.map(|exponent| exponent.value)),
-            number(point.largest_exponent.map(|exponent| exponent.half_width)),
-            number(point.zero_one),
-            optional(branch.map(|branch| branch.to_string())),
-        ])?;
-        for sample in &point.samples {
-            samples.row(&[from.clone(), number(point.frequency_hz), class.clone(), number(*sample)])?;
-        }
-    }
-    table.finish()?;
-    samples.finish()?;
-    Ok(())
+struct Outcome<'a> {
+    options: &'a SweepOptions,
+    found: &'a [SettledMotion],
+    /// The branch each of them lies on.
+    branches: &'a [Option<u32>],
+    /// Number of modes.
+    dof: usize,
 }
 
-fn document(options: &SweepOptions, found: &[Found]) -> Value {
-    let motion = |found: &Found| {
-        let point = &found.point;
+impl Outcome<'_> {
+    fn document(&self) -> Value {
+        let motion = |(motion, branch): (&SettledMotion, &Option<u32>)| {
+            let point = &motion.point;
+            json!({
+                "from": motion.origin,
+                "frequency_hz": point.frequency_hz,
+                "class": point.class.name(),
+                "period": point.class.period(),
+                "doubt": point.class.doubt(),
+                "max_abs_displacement_m": point.max_abs_displacement,
+                "contacts_per_period": point.contacts_per_period,
+                "largest_exponent_per_s": point.largest_exponent.map(|exponent| exponent.value),
+                "half_width_per_s": point.largest_exponent.map(|exponent| exponent.half_width),
+                "zero_one_k": point.zero_one,
+                "branch": branch,
+                "sampled_displacements_m": point.samples,
+            })
+        };
         json!({
-            "from": found.from,
-            "frequency_hz": point.frequency_hz,
-            "class": point.class.name(),
-            "period": point.class.period(),
-            "doubt": point.class.doubt(),
-            "max_abs_displacement_m": point.max_abs_displacement,
-            "contacts_per_period": point.contacts_per_period,
-            "largest_exponent_per_s": point.largest_exponent.map(|exponent| exponent.value),
-            "half_width_per_s": point.largest_exponent.map(|exponent| exponent.half_width),
-            "zero_one_k": point.zero_one,
-            "branch": found.branch,
-            "sampled_displacements_m": point.samples,
+            "kind": if self.options.starts.is_some() { "starts" } else { "sweep" },
+            "motions": self.found.iter().zip(self.branches).map(motion).collect::<Vec<_>>(),
+            "results": folder(self.options.out.as_deref()),
         })
-    };
-    json!({
-        "kind": if options.starts.is_some() { "starts" } else { "sweep" },
-        "motions": found.iter().map(motion).collect::<Vec<_>>(),
-        "results": folder(options.out.as_deref()),
-    })
-}
+    }
 
-fn text(options: &SweepOptions, found: &[Found], model: &Model) -> String {
-    let mut lines = vec![format!(
-        "{:>6} {:>12}  {:<16} {:>14} {:>9}  {:<24} {:>6}  branch",
-        "from", "Hz", "class", "max. displ. m", "contacts", "largest exponent 1/s", "K"
-    )];
-    for Found { from, point, branch } in found {
-        let class = point.class;
-        let exponent = point.largest_exponent.map_or_else(String::new, |exponent| {
-            format!("{:.3} +- {:.3}", exponent.value, exponent.half_width)
-        });
-        let k = point.zero_one.map_or_else(String::new, |k| format!("{k:.2}"));
-        let branch = branch.map_or_else(String::new, |branch| branch.to_string());
-        lines.push(format!(
-            "{from:>6} {:>12.6}  {class:<16} {:>14.6e} {:>9.2}  {exponent:<24} {k:>6}  {branch}",
-            point.frequency_hz, point.max_abs_displacement, point.contacts_per_period
-        ));
+    fn text(&self) -> String {
+        let mut lines = vec![format!(
+            "{:>6} {:>12}  {:<16} {:>14} {:>9}  {:<24} {:>6}  branch",
+            "from", "Hz", "class", "max. displ. m", "contacts", "largest exponent 1/s", "K"
+        )];
+        for (SettledMotion { origin, point }, branch) in self.found.iter().zip(self.branches) {
+            let class = point.class;
+            let exponent = point.largest_exponent.map_or_else(String::new, |exponent| {
+                format!("{:.3} +- {:.3}", exponent.value, exponent.half_width)
+            });
+            let k = point.zero_one.map_or_else(String::new, |k| format!("{k:.2}"));
+            let branch = branch.map_or_else(String::new, |branch| branch.to_string());
+            lines.push(format!(
+                "{origin:>6} {:>12.6}  {class:<16} {:>14.6e} {:>9.2}  {exponent:<24} {k:>6}  {branch}",
+                point.frequency_hz, point.max_abs_displacement, point.contacts_per_period
+            ));
+        }
+        let doubtful = self.found.iter().filter(|motion| motion.point.class.doubt().is_some()).count();
+        if doubtful > 0 {
+            lines.push(format!(
+                "{doubtful} motion(s) of {} modes are doubtful; --json has the reasons",
+                self.dof
+            ));
+        }
+        if let Some(folder) = &self.options.out {
+            lines.push(format!("sweep.csv and sweep_samples.csv are in {}", folder.display()));
+        }
+        lines.join("\n")
     }
-    let doubtful = found.iter().filter(|motion| motion.point.class.doubt().is_some()).count();
-    if doubtful > 0 {
-        lines.push(format!(
-            "{doubtful} motion(s) of {} modes are doubtful; --json has the reasons",
-            model.system.dof()
-        ));
-    }
-    if let Some(folder) = &options.out {
-        lines.push(format!("sweep.csv and sweep_samples.csv are in {}", folder.display()));
-    }
-    lines.join("\n")
 }

@@ -19,12 +19,6 @@ pub enum StoreError {
     /// The folder holds the results of another study.
     #[error("{} holds the results of another study; it differs in\n{}", folder.display(), indented(differences))]
     OtherStudy { folder: PathBuf, differences: Vec<String> },
-    /// The folder holds basins of another study or grid.
-    #[error("{} holds other basins; they differ in\n{}", folder.display(), indented(differences))]
-    OtherBasins { folder: PathBuf, differences: Vec<String> },
-    /// `basins.db` is something else.
-    #[error("{} was not written by hammerbeam", folder.join(super::BASINS).display())]
-    NotBasins { folder: PathBuf },
     /// The folder was written by a program that stores or computes differently.
     #[error(
         "{} was written by hammerbeam {program} with {what} version {found}, this is version {expected}",
@@ -40,6 +34,9 @@ pub enum StoreError {
     /// Something stored has a name that this program does not know.
     #[error("the stored {what} {found} is unknown")]
     Unknown { what: &'static str, found: String },
+    /// Somebody else has gone on with a request in the meantime.
+    #[error("request {request} is at piece {found}, piece {expected} cannot follow")]
+    OutOfOrder { request: i64, found: u64, expected: u64 },
     /// The folder cannot be made or written.
     #[error("cannot write to {}: {source}", folder.display())]
     Folder { folder: PathBuf, source: io::Error },
@@ -56,7 +53,10 @@ impl StoreError {
     /// Whether the user pointed at the wrong folder, as opposed to a disk that refuses.
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Self::Database(_) | Self::Damaged { .. } | Self::Unknown { .. })
+        !matches!(
+            self,
+            Self::Database(_) | Self::Damaged { .. } | Self::Unknown { .. } | Self::OutOfOrder { .. }
+        )
     }
 }
 

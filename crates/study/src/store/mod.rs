@@ -9,11 +9,15 @@
 
 mod basins;
 mod blob;
+mod class;
 mod error;
+mod exponents;
 mod jobs;
 mod lock;
 mod read;
+mod requests;
 mod schema;
+mod settled;
 mod varied;
 mod write;
 
@@ -25,12 +29,14 @@ use std::{
 use hammerbeam_orbit::{Side, StopReason};
 use rusqlite::{Connection, OpenFlags};
 
-pub use basins::{BASINS, BasinStore};
 pub use error::StoreError;
+pub use exponents::ExponentRecord;
 pub(crate) use jobs::MOST_STARTS;
 pub use jobs::{JobKind, JobRecord, StartRecord};
 pub use read::{BranchRecord, Row, StoredMemory, WalkRecord};
+pub use requests::{RequestKind, RequestRecord};
 pub use schema::SCHEMA_VERSION;
+pub use settled::SettledMotion;
 pub use varied::{Piece, PieceBranchRecord, PieceRecord, StoredVariedRow, VariedBranch, VariedRow};
 pub(crate) use write::{Continuation, Memory};
 
@@ -238,5 +244,7 @@ fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {
     Ok(connection)
 }
 
+#[cfg(test)]
+mod motion_tests;
 #[cfg(test)]
 mod tests;

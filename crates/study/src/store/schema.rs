@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -80,6 +80,70 @@ CREATE TABLE event (
     contact INTEGER,
     appears INTEGER
 );
+";
+
+/// What came of requests for motions that need not repeat.
+const TABLES_OF_MOTIONS: &str = "
+CREATE TABLE request (
+    id INTEGER PRIMARY KEY,
+    kind TEXT NOT NULL CHECK (kind IN ('sweep', 'starts', 'exponents', 'basins')),
+    words TEXT NOT NULL,
+    pieces INTEGER NOT NULL,
+    done INTEGER NOT NULL DEFAULT 0,
+    UNIQUE (kind, words)
+);
+CREATE TABLE settled (
+    request INTEGER NOT NULL REFERENCES request (id),
+    number INTEGER NOT NULL,
+    origin TEXT NOT NULL,
+    frequency_hz REAL NOT NULL,
+    class TEXT NOT NULL,
+    period INTEGER,
+    doubt TEXT,
+    exponent_per_s REAL,
+    exponent_half_width_per_s REAL,
+    zero_one REAL,
+    max_abs_displacement_m REAL NOT NULL,
+    contacts_per_period REAL NOT NULL,
+    samples BLOB NOT NULL,
+    state BLOB NOT NULL,
+    PRIMARY KEY (request, number)
+) WITHOUT ROWID;
+CREATE TABLE exponents (
+    request INTEGER NOT NULL REFERENCES request (id),
+    number INTEGER NOT NULL,
+    frequency_hz REAL NOT NULL,
+    sections_per_period INTEGER NOT NULL,
+    time_s REAL NOT NULL,
+    sum_per_s REAL NOT NULL,
+    divergence_per_s REAL,
+    kaplan_yorke_dimension REAL NOT NULL,
+    block_correlation REAL NOT NULL,
+    zero_one REAL,
+    exponents BLOB NOT NULL,
+    convergence BLOB NOT NULL,
+    section BLOB NOT NULL,
+    PRIMARY KEY (request, number)
+) WITHOUT ROWID;
+CREATE TABLE attractor (
+    request INTEGER NOT NULL REFERENCES request (id),
+    number INTEGER NOT NULL,
+    class TEXT NOT NULL,
+    period INTEGER,
+    doubt TEXT,
+    exponent_per_s REAL,
+    exponent_half_width_per_s REAL,
+    zero_one REAL,
+    state_length INTEGER NOT NULL,
+    states BLOB NOT NULL,
+    PRIMARY KEY (request, number)
+) WITHOUT ROWID;
+CREATE TABLE cell (
+    request INTEGER NOT NULL REFERENCES request (id),
+    number INTEGER NOT NULL,
+    attractor INTEGER NOT NULL,
+    PRIMARY KEY (request, number)
+) WITHOUT ROWID;
 ";
 
 /// Refuses the database of another study or version; an empty one is nobody's yet.
@@ -155,6 +219,7 @@ pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) ->
     if tables == 0 {
         transaction.pragma_update(None, "application_id", APPLICATION_ID)?;
         transaction.execute_batch(TABLES)?;
+        transaction.execute_batch(TABLES_OF_MOTIONS)?;
         let fixed = [
             ("schema_version", SCHEMA_VERSION.to_string()),
             ("data_version", DATA_VERSION.to_string()),

@@ -1,14 +1,24 @@
-//! Stored branches as CSV for other programs.
+//! Stored results as CSV for other programs: branches and events here, the rest in files of their own.
+
+mod motions;
+mod table;
+mod varied;
 
 use std::{
-    fs::{self, File},
+    fs::File,
     io::{self, BufWriter, Write},
     path::{Path, PathBuf},
 };
 
 use hammerbeam_orbit::{EventStatus, Events, LocatedEvent, Side};
 
-use crate::export_varied::export_varied;
+pub use motions::{write_basins, write_exponents, write_sweep};
+pub use table::{Table, header, number, word};
+
+use motions::export_motions;
+use table::WholeFile;
+use varied::export_varied;
+
 use crate::store::{BranchRecord, Row, Store, StoreError, solution_key};
 
 /// Columns of `branches.csv`; the first twelve are fixed, further ones follow after them.
@@ -69,6 +79,8 @@ pub struct Exported {
     pub events_path: PathBuf,
     /// `parameter_branches.csv` and `curves.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
+    /// Tables of sweeps, exponents and basins, with the numbers of their requests.
+    pub motion_paths: Vec<PathBuf>,
 }
 
 /// Writes `branches.csv`, one row per solution, end to end along each branch, and `events.csv`, one row per event, into a folder.
@@ -84,25 +96,19 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     let events_path = folder.join("events.csv");
     write_whole(&events_path, |writer| write_events(store, writer, &events_path))?;
     let varied_paths = export_varied(store, folder)?;
+    let motion_paths = export_motions(store, folder)?;
     drop(snapshot);
-    Ok(Exported { path, rows, events_path, varied_paths })
+    Ok(Exported { path, rows, events_path, varied_paths, motion_paths })
 }
 
-/// Writes a file beside its place and moves it there when it is complete.
+/// Writes a file that appears complete or not at all.
 pub(crate) fn write_whole<T>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(failed)?;
-    }
-    let unfinished = path.with_extension("csv.part");
-    let mut writer = BufWriter::new(File::create(&unfinished).map_err(failed)?);
-    let written = write(&mut writer)?;
-    let file = writer.into_inner().map_err(|error| failed(error.into_error()))?;
-    file.sync_all().map_err(failed)?;
-    fs::rename(&unfinished, path).map_err(failed)?;
+    let mut file = WholeFile::begin(path.to_owned())?;
+    let written = write(&mut file.writer)?;
+    file.finish()?;
     Ok(written)
 }
 

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::export::{ExportError, write_whole};
+use super::{ExportError, write_whole};
 use crate::store::{PieceBranchRecord, PieceRecord, Store};
 
 /// Columns of `parameter_branches.csv`.

@@ -1,0 +1,81 @@
+//! Where the results of a request are kept: in the results folder of `--out`, or nowhere.
+
+use std::path::{Path, PathBuf};
+
+use hammerbeam_study::{
+    Store, StudyFile,
+    store::{DATABASE, RequestKind, StoreError},
+};
+
+use crate::failure::Failure;
+
+/// A request, and the store that keeps its results if there is one.
+#[derive(Debug)]
+pub struct Kept {
+    folder: Option<PathBuf>,
+    store: Option<Store>,
+    request: i64,
+    /// Pieces that were done before.
+    pub done: u64,
+}
+
+impl Kept {
+    /// Finds or begins a request in a results folder.
+    ///
+    /// * `words`: everything that its results depend on besides the study, as lines `key = value`.
+    pub fn open(
+        out: Option<&Path>,
+        file: &StudyFile,
+        (kind, words): (RequestKind, &[String]),
+        pieces: u64,
+    ) -> Result<Self, Failure> {
+        let Some(folder) = out else { return Ok(Self { folder: None, store: None, request: 0, done: 0 }) };
+        let mut store = Store::open_for_run(folder, file)?;
+        let request = store.request(kind, &words.join("\n"), pieces)?;
+        Ok(Self {
+            folder: Some(folder.to_owned()),
+            store: Some(store),
+            request: request.id,
+            done: request.done,
+        })
+    }
+
+    /// What is stored of the request.
+    pub fn read<T: Default>(
+        &self,
+        read: impl FnOnce(&Store, i64) -> Result<T, StoreError>,
+    ) -> Result<T, StoreError> {
+        self.store.as_ref().map_or_else(|| Ok(T::default()), |store| read(store, self.request))
+    }
+
+    /// Stores more of it.
+    pub fn add(
+        &mut self,
+        add: impl FnOnce(&mut Store, i64) -> Result<(), StoreError>,
+    ) -> Result<(), StoreError> {
+        self.store.as_mut().map_or(Ok(()), |store| add(store, self.request))
+    }
+
+    /// Closes the store.
+    pub fn finish(&mut self) -> Result<(), StoreError> {
+        self.store.take().map_or(Ok(()), Store::finish)
+    }
+
+    /// What becomes of the results of an interrupted command.
+    pub fn fate(&self) -> String {
+        match &self.folder {
+            Some(folder) => format!("are kept in {}, the same command goes on from there", folder.display()),
+            None => "are lost without --out".to_owned(),
+        }
+    }
+}
+
+/// The words of a state.
+pub fn state_words(state: &[f64]) -> impl Iterator<Item = String> {
+    state.iter().enumerate().map(|(index, entry)| format!("state[{index}] = {entry:e}"))
+}
+
+/// Folder with branches: the one given, else that of the results if it holds some.
+pub fn branch_folder<'a>(results: Option<&'a Path>, out: Option<&'a Path>) -> Option<&'a Path> {
+    results.or_else(|| out.filter(|folder| folder.join(DATABASE).is_file()))
+}
