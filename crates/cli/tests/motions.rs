@@ -95,6 +95,8 @@ fn lyapunov_tells_exponents_their_sum_and_their_convergence() {
     assert!(number("zero_one_k") > 0.8);
     assert!(number("kaplan_yorke_dimension") > 1.0);
     assert_eq!(table(&workshop, "out/exponents.csv").len(), 13);
+    assert_eq!(table(&workshop, "out/spectra.csv").len(), 2);
+    assert_eq!(table(&workshop, "out/section.csv").len(), 301);
     let convergence = table(&workshop, "out/convergence.csv");
     assert_eq!(convergence.len() - 1, document["convergence"].as_array().unwrap().len());
     let last = *column(&convergence, "exponent_1_per_s").last().unwrap();
@@ -204,9 +206,12 @@ fn basins_go_on_after_a_kill_with_the_same_bytes() {
 }
 
 fn start(workshop: &Workshop) -> std::process::Child {
+    spawn(workshop, &[&BASINS[..], &["out", "--jobs", "1"]].concat())
+}
+
+fn spawn(workshop: &Workshop, arguments: &[&str]) -> std::process::Child {
     Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
-        .args(BASINS)
-        .args(["out", "--jobs", "1"])
+        .args(arguments)
         .current_dir(workshop.path(""))
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
@@ -226,7 +231,7 @@ fn kill_after(workshop: &Workshop, wait: Duration) {
 fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
     let workshop = Workshop::with(DUFFING);
     let child = start(&workshop);
-    while !workshop.path("out/basins.db").exists() {
+    while !workshop.path("out/results.db").exists() {
         sleep(Duration::from_millis(2));
     }
     sleep(Duration::from_millis(150));
@@ -272,31 +277,86 @@ fn ctrl_c_ends_every_command_with_130() {
 }
 
 #[test]
-fn basins_of_another_grid_or_study_are_refused() {
+fn a_folder_keeps_several_requests_and_refuses_those_of_another_study() {
     let workshop = Workshop::with(DUFFING);
-    let small: Vec<&str> = BASINS.iter().map(|word| if *word == "60" { "3" } else { word }).collect();
-    assert_success(&workshop.hammerbeam(&[&small[..], &["out"]].concat()));
+    let of_size = |cells: &str| -> Vec<String> {
+        let words = BASINS.iter().map(|word| if *word == "60" { cells } else { word });
+        words.chain(["out"]).map(str::to_owned).collect()
+    };
+    let basins = |cells: &str| {
+        let words = of_size(cells);
+        workshop.hammerbeam(&words.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    assert_success(&basins("3"));
+    assert_success(&basins("4"));
+    assert_success(&workshop.hammerbeam(&["sweep", "study.toml", "--step", "0.1", "--out", "out"]));
+    assert_success(&workshop.hammerbeam(&["export", "out", "--format", "csv"]));
+    assert_eq!(table(&workshop, "out/export/basins-1.csv").len(), 10);
+    assert_eq!(table(&workshop, "out/export/basins-2.csv").len(), 17);
+    let read = |name: &str| fs::read(workshop.path(name)).unwrap();
+    assert!(read("out/export/basins-2.csv") == read("out/basins.csv"));
+    assert!(read("out/export/sweep-3.csv") == read("out/sweep.csv"));
     let before = workshop.listing();
-    let other = [&BASINS[..], &["out"]].concat();
-    assert_bad_input(
-        &workshop.hammerbeam(&other),
-        &["out holds other basins", "basins.grid: 3 there, 60 here"],
-    );
     let changed = DUFFING.replace("amplitude_n = 0.3", "amplitude_n = 0.4");
     fs::write(workshop.path("study.toml"), changed).unwrap();
-    let again = [&small[..], &["out"]].concat();
     assert_bad_input(
-        &workshop.hammerbeam(&again),
-        &["out holds other basins", "amplitude_n: 0.3 there, 0.4 here"],
+        &basins("3"),
+        &["out holds the results of another study", "amplitude_n: 0.3 there, 0.4 here"],
     );
     fs::write(workshop.path("study.toml"), DUFFING).unwrap();
     assert_eq!(workshop.listing(), before);
     fs::create_dir(workshop.path("mine")).unwrap();
-    fs::write(workshop.path("mine/basins.db"), "not a database").unwrap();
+    fs::write(workshop.path("mine/results.db"), "not a database").unwrap();
     let before = workshop.listing();
-    let mine = [&small[..], &["mine"]].concat();
-    assert_bad_input(&workshop.hammerbeam(&mine), &["basins.db was not written by hammerbeam"]);
+    let mine = [&BASINS[..], &["mine"]].concat();
+    assert_bad_input(&workshop.hammerbeam(&mine), &["results.db was not written by hammerbeam"]);
     assert_eq!(workshop.listing(), before, "something was written");
+}
+
+/// Sweeps, diagrams and series of exponents that were killed have the bytes of those that were not.
+#[test]
+fn sweeps_and_exponents_go_on_after_a_kill_with_the_same_bytes() {
+    let sweep = ["sweep", "study.toml", "--step", "0.001", "--down", "--out", "out"];
+    let starts = ["sweep", "study.toml", "--step", "0.005", "--starts", "3", "--out", "out"];
+    let series =
+        ["lyapunov", "study.toml", "--frequency", "0.1", "--to", "0.4", "--step", "0.05", "--out", "out"];
+    for (arguments, names) in [
+        (&sweep[..], &["sweep.csv", "sweep_samples.csv"][..]),
+        (&starts, &["sweep.csv", "sweep_samples.csv"]),
+        (&series, &["spectra.csv", "exponents.csv", "convergence.csv", "section.csv"]),
+    ] {
+        let whole = Workshop::with(DUFFING);
+        let begun = Instant::now();
+        assert_success(&whole.hammerbeam(arguments));
+        let duration = begun.elapsed();
+        let workshop = Workshop::with(DUFFING);
+        for _ in 0..3 {
+            let mut child = spawn(&workshop, arguments);
+            sleep(duration.mul_f64(0.3));
+            child.kill().unwrap();
+            child.wait().unwrap();
+        }
+        assert_success(&workshop.hammerbeam(arguments));
+        for name in names {
+            let of = |workshop: &Workshop| fs::read(workshop.path("out").join(name)).unwrap();
+            assert!(of(&whole) == of(&workshop), "{arguments:?} {name}");
+        }
+    }
+}
+
+#[test]
+fn exponents_over_a_series_of_frequencies_are_those_of_each() {
+    let workshop = Workshop::with(DUFFING);
+    let of = |more: &[&str]| {
+        let words = ["lyapunov", "study.toml", "--periods", "100", "--json", "--frequency"];
+        document(&workshop, &[&words[..], more].concat())
+    };
+    let series = of(&["0.1", "--to", "0.3", "--step", "0.1"]);
+    let spectra = series["spectra"].as_array().unwrap();
+    assert_eq!(spectra.len(), 3);
+    for (spectrum, frequency_hz) in spectra.iter().zip(["0.1", "0.2", "0.3"]) {
+        assert_eq!(spectrum["exponents_per_s"], of(&[frequency_hz])["exponents_per_s"], "{frequency_hz}");
+    }
 }
 
 #[test]
@@ -317,6 +377,8 @@ fn options_that_make_no_sense_are_refused() {
         (&simulate, &["--initial", "-1,2,nan,4"], "found \"nan\""),
         (&simulate, &["--initial", "branch:1"], "needs --results DIR"),
         (&simulate, &["--initial", "branch:1", "--results", "nowhere"], "there are no results in nowhere"),
+        (&lyapunov, &["--to", "4"], "--to is 4 Hz, which is below --frequency, 5 Hz"),
+        (&lyapunov, &["--step", "1"], "--to"),
         (&lyapunov, &["--periods", "19"], "19 is not in 20..="),
         (&lyapunov, &["--sections-per-period", "0"], "0 is not in 1..=1024"),
         (&lyapunov, &["--initial", "somewhere"], "found \"somewhere\""),

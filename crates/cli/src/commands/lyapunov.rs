@@ -39,6 +39,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
     let request = (RequestKind::Exponents, words.as_slice());
     let mut kept = Kept::open(options.out.as_deref(), &file, request, frequencies.len() as u64)?;
     let mut records = kept.read(Store::exponents)?;
+    let mut whole_ones = records.len();
     let interrupt = Interrupt::listen()?;
     let periods = options.transient_periods + ALIGNING + options.periods;
     let mut ticker = Ticker::new(frequencies.len() as u64 * periods, "periods");
@@ -46,20 +47,29 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         let tell = |period: u64| {
             ticker.at(piece as u64 * periods + period, || format!("{:.4} Hz", frequencies[piece]))
         };
-        let Some(record) = motion.exponents(frequencies[piece], &states[piece], &interrupt, tell)? else {
+        let (record, whole) = motion.exponents(frequencies[piece], &states[piece], &interrupt, tell)?;
+        if whole && let Some(record) = &record {
+            kept.add(|store, request| store.append_exponents(request, piece as u64, record))?;
+        }
+        whole_ones += usize::from(whole);
+        records.extend(record);
+        if !whole {
             break;
-        };
-        kept.add(|store, request| store.append_exponents(request, piece as u64, &record))?;
-        records.push(record);
+        }
     }
     ticker.clear();
     kept.finish()?;
     if let Some(folder) = &options.out {
         write_exponents(folder, "", &records)?;
     }
-    if records.len() < frequencies.len() {
-        let done = format!("{} of {} spectra", records.len(), frequencies.len());
-        return Err(Failure::Interrupted(format!("interrupted; {done} {}", kept.fate())));
+    if whole_ones < frequencies.len() {
+        let mut message =
+            format!("interrupted; {whole_ones} of {} spectra {}", frequencies.len(), kept.fate());
+        if let Some(part) = records.get(whole_ones) {
+            message +=
+                &format!("; the tables have what was averaged over {:.6} s of one more", part.spectrum.time);
+        }
+        return Err(Failure::Interrupted(message));
     }
     let results: Vec<Outcome> = records.iter().map(|record| Outcome { options, record }).collect();
     output.give(&document(options, &results), || text(&results));
@@ -103,21 +113,21 @@ impl<'a> Motion<'a> {
         frequencies.iter().map(&mut at).collect()
     }
 
-    /// The exponents at a frequency; nothing if the user stops it.
+    /// The exponents at a frequency, and whether they are averaged as long as they should be: if the user stops it they are not, or there are none.
     fn exponents(
         &mut self,
         frequency_hz: f64,
         initial: &[f64],
         interrupt: &Interrupt,
         mut tell: impl FnMut(u64),
-    ) -> Result<Option<ExponentRecord>, Failure> {
+    ) -> Result<(Option<ExponentRecord>, bool), Failure> {
         let map = &mut self.map;
         map.set_frequency(frequency_hz);
         map.set_parts(1);
         let mut state = initial.to_vec();
         for period in 0..self.options.transient_periods {
             if interrupt.raised() {
-                return Ok(None);
+                return Ok((None, false));
             }
             state = map.advance(period, &state)?;
             tell(period);
@@ -133,9 +143,11 @@ impl<'a> Motion<'a> {
         };
         let mut average = Lyapunov::new(map, 0, &state, settings)?;
         let mut states = Vec::new();
-        while average.step(map)? {
-            if interrupt.raised() {
-                return Ok(None);
+        let mut whole = false;
+        while !interrupt.raised() {
+            if !average.step(map)? {
+                whole = true;
+                break;
             }
             let sections = average.progress().0;
             if sections > settings.aligning && sections.is_multiple_of(parts) {
@@ -143,16 +155,17 @@ impl<'a> Motion<'a> {
             }
             tell(self.options.transient_periods + sections / parts);
         }
-        let Some(spectrum) = average.spectrum() else { return Ok(None) };
+        let Some(spectrum) = average.spectrum() else { return Ok((None, false)) };
         let series: Vec<f64> = states.iter().map(|state| state[0]).collect();
-        Ok(Some(ExponentRecord {
+        let record = ExponentRecord {
             frequency_hz,
             sections_per_period: parts,
             spectrum,
             divergence: Some(map.divergence()),
             zero_one: zero_one(&series),
             section: states.iter().take(MOST_POINTS).map(|state| self.point(frequency_hz, state)).collect(),
-        }))
+        };
+        Ok((Some(record), whole))
     }
 
     /// Displacement and velocity of the response point at phase 0.
