@@ -78,7 +78,8 @@ impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
         match error {
             ExportError::Store(error) => error.into(),
-            other => Self::Other(other.into()),
+            // Its message has the cause already.
+            other => Self::Other(anyhow::Error::msg(other.to_string())),
         }
     }
 }

@@ -180,6 +180,16 @@ fn export_of_a_folder_without_results() {
 }
 
 #[test]
+fn export_into_a_place_that_is_a_file_says_why_once() {
+    let workshop = with_results();
+    let output = workshop.hammerbeam(&["export", "results", "--format", "csv", "--out", "study.toml"]);
+    assert_eq!(output.status.code(), Some(1));
+    let message = common::stderr(&output);
+    assert!(message.contains("cannot write study.toml"), "{message}");
+    assert_eq!(message.matches("os error").count(), 1, "{message}");
+}
+
+#[test]
 fn new_does_not_overwrite_a_study() {
     let workshop = Workshop::with("mine");
     let before = workshop.listing();

@@ -15,7 +15,7 @@ use crate::{
     continuation_parameter::ContinuationParameter,
     density::{LastRows, Place},
     shooting::ShootingProblem,
-    solve::integrator,
+    solve::{integrator, state_of_rest},
     state_scale::StateScale,
     walk::{hertz_per_norm, path_settings},
 };
@@ -145,6 +145,7 @@ fn read(
     if scale.values().len() != 2 * system.dof() || segments == 0 {
         return None;
     }
+    let scale = scale.about(state_of_rest(system));
     let point_length = segments * scale.values().len() + 1;
     let integrator = match integrator(system, response, settings) {
         Ok(integrator) => integrator,

@@ -120,7 +120,7 @@ impl Search<'_> {
         self.search_motion(vec![0.0; 2 * dof])?;
         let motion = self.passed.motions.last().expect("the motion from rest is there");
         let unit = self.catalogue.scale(&vec![0.0; 2 * dof]);
-        let largest = motion.iter().max_by(|a, b| unit.norm(a).total_cmp(&unit.norm(b))).expect("not empty");
+        let largest = motion.iter().max_by(|a, b| unit.size(a).total_cmp(&unit.size(b))).expect("not empty");
         let scale = self.catalogue.scale(largest);
         let mut noise = Noise::new(2);
         for reach in REACHES {

@@ -164,10 +164,9 @@ impl ShootingProblem {
         self.scale.multiply(factor);
     }
 
-    /// Norm of the orbit at a point relative to the scale: the root of the mean square over the nodes.
+    /// Size of the orbit at a point relative to the scale: the root of the mean square over the nodes.
     pub fn size(&self, point: &[f64]) -> f64 {
-        let unknowns = &point[..self.residual.len()];
-        (unknowns.iter().map(|x| x * x).sum::<f64>() / self.segments as f64).sqrt()
+        self.scale.size_of_scaled(point[..self.residual.len()].iter().copied(), self.segments)
     }
 
     /// Entries of a node, 2n.

@@ -34,9 +34,23 @@ pub(crate) fn integrator(
 pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
     let reference = std::f64::consts::TAU * frequency_hz;
     let frequencies = &system.model().natural_frequencies;
-    let unit = StateScale::new(frequencies, reference, 1.0);
-    let norm = unit.norm(state);
-    StateScale::new(frequencies, reference, if norm > 0.0 { norm } else { 1.0 })
+    let rest = state_of_rest(system);
+    let size = StateScale::new(frequencies, reference, 1.0).about(rest.clone()).size(state);
+    StateScale::new(frequencies, reference, if size > 0.0 { size } else { 1.0 }).about(rest)
+}
+
+/// Where the modes rest under the constant loads, without stops; rigid ones, which rest nowhere, at zero.
+pub(crate) fn state_of_rest(system: &System) -> Vec<f64> {
+    let mut rest = vec![0.0; 2 * system.dof()];
+    if let Some(index) = system.orders().iter().position(|&order| order == 0) {
+        let load = system.modal_load(index, 0.0).amplitude;
+        let modes = load.iter().zip(&system.model().natural_frequencies);
+        rest.iter_mut()
+            .zip(modes)
+            .filter(|(_, (_, w))| **w > 0.0)
+            .for_each(|(z, (b, w))| *z = b.re / (w * w));
+    }
+    rest
 }
 
 /// Newton's method at a fixed frequency from `point`, which ends at the orbit; returns the correction that is still due.
@@ -214,7 +228,7 @@ pub(crate) fn distance_to_shorter_period(
         state = integrator.advance(&stretch, &state)?;
         if multiple.is_multiple_of(cycle) {
             smallest =
-                smallest.min(scale.distance(&state, &solution.nodes[0]) / scale.norm(&state).max(1e-3));
+                smallest.min(scale.distance(&state, &solution.nodes[0]) / scale.size(&state).max(1e-3));
         }
     }
     Ok(smallest)

@@ -1,9 +1,18 @@
 //! In which units states are measured: displacements and velocities differ by orders of magnitude.
+//!
+//! The size of an orbit is that of its motion, not that of a sag: under a weight a state is `z_0 + z` with the place of rest `z_0`, and tolerances
+//! and steps relative to `z_0` would be far too coarse for a small `z`. Where stops carry the weight, `z_0`, which knows nothing of stops, may be further from the orbit
+//! than the origin is; then the origin counts. Rounding is relative to the whole state, so a motion below a thousandth of it is measured by that.
+
+/// Least size of a motion, relative to its state.
+const LEAST_MOTION: f64 = 1e-3;
 
 /// Scales of a state: displacements `V/w_i`, velocities `V`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct StateScale {
     scales: Vec<f64>,
+    /// State of rest under the constant loads.
+    rest: Vec<f64>,
 }
 
 impl StateScale {
@@ -12,12 +21,18 @@ impl StateScale {
     pub fn new(natural_frequencies: &[f64], reference: f64, velocity: f64) -> Self {
         let displacement = natural_frequencies.iter().map(|w| velocity / w.max(reference));
         let velocities = natural_frequencies.iter().map(|_| velocity);
-        Self { scales: displacement.chain(velocities).collect() }
+        let scales: Vec<f64> = displacement.chain(velocities).collect();
+        Self { rest: vec![0.0; scales.len()], scales }
     }
 
     /// The scale with these [`StateScale::values`].
     pub fn from_values(scales: Vec<f64>) -> Self {
-        Self { scales }
+        Self { rest: vec![0.0; scales.len()], scales }
+    }
+
+    /// Sizes are those of the motion about this state of rest, of the same length.
+    pub fn about(self, rest: Vec<f64>) -> Self {
+        Self { rest, ..self }
     }
 
     /// Multiplies the scales.
@@ -35,8 +50,42 @@ impl StateScale {
         a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Norm of a state relative to the scale.
-    pub fn norm(&self, state: &[f64]) -> f64 {
-        state.iter().zip(&self.scales).map(|(z, s)| (z / s).powi(2)).sum::<f64>().sqrt()
+    /// Size of a motion relative to the scale: the norm of a state about the state of rest or about the origin, whichever is less.
+    pub fn size(&self, state: &[f64]) -> f64 {
+        let scaled = state.iter().zip(&self.scales).map(|(z, s)| z / s);
+        self.size_of_scaled(scaled, 1)
+    }
+
+    /// [`StateScale::size`] of the root of the mean square over nodes, given one after the other in scaled states.
+    pub fn size_of_scaled(&self, scaled: impl Iterator<Item = f64>, nodes: usize) -> f64 {
+        let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| z / s).cycle();
+        let squares = scaled.zip(rest).map(|(x, rest)| [x * x, (x - rest).powi(2)]);
+        let [whole, about_rest] =
+            squares.fold([0.0, 0.0], |sum, square| [sum[0] + square[0], sum[1] + square[1]]);
+        let norm = |squares: f64| (squares / nodes as f64).sqrt();
+        norm(about_rest).min(norm(whole)).max(LEAST_MOTION * norm(whole))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scale(rest: f64) -> StateScale {
+        StateScale::new(&[2.0], 1.0, 1.0).about(vec![rest, 0.0])
+    }
+
+    #[test]
+    fn size_is_that_of_the_motion_about_the_sag() {
+        assert_eq!(scale(0.0).size(&[3.0, 8.0]), 10.0);
+        assert_eq!(scale(40.0).size(&[43.0, 8.0]), 10.0);
+        assert_eq!(scale(40.0).size(&[3.0, 8.0]), 10.0, "a stop carries the weight");
+        let nodes = [86.0, 8.0, 74.0, 8.0];
+        assert_eq!(scale(40.0).size_of_scaled(nodes.into_iter(), 2), 10.0);
+    }
+
+    #[test]
+    fn size_is_at_least_what_rounding_leaves_to_be_seen() {
+        assert_eq!(scale(40.0).size(&[40.0, 0.0]), 0.08);
     }
 }

@@ -82,7 +82,9 @@ fn read_name(table: &Table<'_>, index: usize, others: &[Stop]) -> Option<String>
 
 fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<(Place, StopLaw)> {
     let place = read_place(&table, names, excitation);
-    let law = stop_law::read(&table);
+    // Which keys a stop may have, its law says.
+    let kind = stop_law::read_kind(&table)?;
+    let law = stop_law::read(&table, kind);
     table.finish();
     Some((place?, law?))
 }

@@ -186,8 +186,9 @@ impl StopLaw {
     }
 }
 
+/// Which law it is.
 #[derive(Clone, Copy)]
-enum Kind {
+pub(super) enum Kind {
     Hertz,
     Linear,
     TwoSided,
@@ -210,9 +211,12 @@ const KINDS: [(&str, Kind); 11] = [
     ("hu-guo", Kind::Restitution(ImpactModel::HuGuo)),
 ];
 
-pub(super) fn read(table: &Table<'_>) -> Option<StopLaw> {
-    let law = table.required("law").and_then(|value| value.choice(&KINDS));
-    match law? {
+pub(super) fn read_kind(table: &Table<'_>) -> Option<Kind> {
+    table.required("law").and_then(|value| value.choice(&KINDS))
+}
+
+pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<StopLaw> {
+    match kind {
         Kind::Hertz => {
             let stiffness = read_hertz(table);
             let (approach, side) = read_one_sided(table);

@@ -320,6 +320,15 @@ fn laws_that_lose_energy_are_read() {
     }
 }
 
+/// Keys of a law that is missing or misspelt are not called unknown.
+#[test]
+fn a_stop_without_a_law_is_one_fault() {
+    for (law, fault) in [("", "`law` is missing"), ("law = \"herz\"", "did you mean \"hertz\"?")] {
+        let message = law_with(law).unwrap_err();
+        assert!(message.contains(fault) && !message.contains("unknown key"), "{message}");
+    }
+}
+
 #[test]
 fn laws_that_lose_energy_refuse_what_they_cannot_be() {
     let refused = |keys: &str, words: &[&str]| assert_refused(law_with(keys), words);
