@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hammerbeam_study::{
-    Store, StudyFile,
+    Store, StoredBranches, StudyFile,
     store::{DATABASE, RequestKind, StoreError},
 };
 
@@ -75,7 +75,14 @@ pub fn state_words(state: &[f64]) -> impl Iterator<Item = String> {
     state.iter().enumerate().map(|(index, entry)| format!("state[{index}] = {entry:e}"))
 }
 
-/// Folder with branches: the one given, else that of the results if it holds some.
-pub fn branch_folder<'a>(results: Option<&'a Path>, out: Option<&'a Path>) -> Option<&'a Path> {
-    results.or_else(|| out.filter(|folder| folder.join(DATABASE).is_file()))
+/// Branches of the folder given, else those of the results if there are some.
+///
+/// They are read before the work, so that a wrong folder is told at once, and again after it: nobody may read the results while their store is closed.
+pub fn branches(
+    results: Option<&Path>,
+    out: Option<&Path>,
+    file: &StudyFile,
+) -> Result<Option<StoredBranches>, StoreError> {
+    let own = out.filter(|folder| folder.join(DATABASE).is_file());
+    results.or(own).map(|folder| StoredBranches::open(folder, file)).transpose()
 }

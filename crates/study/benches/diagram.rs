@@ -1,29 +1,29 @@
 //! How fast whole diagrams are computed: searches, every branch, its bifurcations, and storage.
 //!
 //! Runs each study once with one thread and once with all cores and prints solutions per second; then, on a sample of the stored solutions, what
-//! one of each kind of work costs: an orbit, its sensitivities, its maxima. With `-- --test` only a small study runs.
+//! one of each kind of work costs (an orbit, its sensitivities, its maxima), and the shares of flight, contact, linear algebra and storage in the time
+//! of a solution. Flight is what the parts of an orbit without contact take on their own, contact the rest of an evaluation. With `-- --test` only a small study runs.
 #![allow(clippy::unwrap_used, reason = "a benchmark ends where its study is wrong")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
-use std::{
-    hint::black_box,
-    path::Path,
-    thread::available_parallelism,
-    time::{Duration, Instant},
-};
+use std::{hint::black_box, path::Path, thread::available_parallelism, time::Instant};
 
 use hammerbeam_motion::{
     Stretch,
     exact::{ExactIntegrator, ExactSettings},
 };
-use hammerbeam_orbit::{PeriodicSolution, Side};
+use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side};
 use hammerbeam_study::{
     Model, OrbitSolver, Store, StudyFile,
     run::{Plan, Quiet, run},
+    store::JobKind,
 };
 
 /// Solutions on which the costs are measured, about.
 const SAMPLE: u64 = 400;
+/// Walks from some of them, and steps of each.
+const WALKS: usize = 20;
+const STEPS: usize = 50;
 
 fn main() {
     let trial = std::env::args().any(|argument| argument == "--test");
@@ -57,7 +57,7 @@ fn measure(name: &str, threads: usize, costs: bool) {
         solutions as f64 / elapsed
     );
     if costs {
-        print_costs(&model, &sample(&store, solutions));
+        print_costs(&model, &file, &sample(&store, solutions));
     }
 }
 
@@ -74,35 +74,140 @@ fn sample(store: &Store, solutions: u64) -> Vec<PeriodicSolution> {
     chosen
 }
 
-fn print_costs(model: &Model, orbits: &[PeriodicSolution]) {
+/// What the parts of a solution cost on average [s].
+struct Costs {
+    state: f64,
+    /// An evaluation: the state with its sensitivities,
+    evaluation: f64,
+    /// and what of it falls to free flight.
+    flight: f64,
+    maxima: f64,
+    /// A solution of a walk, with everything but storage,
+    walked: f64,
+    /// and the evaluations that it takes.
+    evaluations: f64,
+    storage: f64,
+}
+
+impl Costs {
+    /// Shares of a solution's time, in percent: flight, contact, maxima, linear algebra with the checks of the path, storage.
+    fn shares(&self) -> [f64; 5] {
+        let flight = self.evaluations * self.flight;
+        let contact = self.evaluations * (self.evaluation - self.flight);
+        let maxima = self.maxima - self.state;
+        let algebra = self.walked - flight - contact - maxima;
+        let whole = self.walked + self.storage;
+        [flight, contact, maxima, algebra, self.storage].map(|part| 100.0 * part / whole)
+    }
+}
+
+fn print_costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) {
+    let contacts: u32 = orbits.iter().map(|orbit| orbit.maxima.contacts).sum();
+    let costs = costs(model, file, orbits);
+    let microseconds = |seconds: f64| seconds * 1e6;
+    println!(
+        "  one orbit, {:.1} contacts on average: state alone {:.0} us, with sensitivities {:.0} us, of which in flight {:.0} us; with maxima {:.0} us",
+        f64::from(contacts) / orbits.len().max(1) as f64,
+        microseconds(costs.state),
+        microseconds(costs.evaluation),
+        microseconds(costs.flight),
+        microseconds(costs.maxima)
+    );
+    let [flight, contact, maxima, algebra, storage] = costs.shares();
+    println!(
+        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, maxima {maxima:.0} %, linear algebra and path {algebra:.0} %, storage {storage:.0} %",
+        costs.evaluations,
+        microseconds(costs.walked + costs.storage)
+    );
+}
+
+fn costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) -> Costs {
     let watched = Some((model.response.shape.as_slice(), model.response.support_ratio));
     let settings = ExactSettings { tolerance: 1e-11 };
     let mut integrator = ExactIntegrator::watching(model.system.clone(), settings, watched).unwrap();
-    let stretch = |orbit: &PeriodicSolution| Stretch {
-        frequency_hz: orbit.frequency_hz,
-        start: 0.0,
-        end: f64::from(orbit.period_multiple),
-    };
-    let mut time = |work: &mut dyn FnMut(&mut ExactIntegrator, &PeriodicSolution)| -> Duration {
+    let flights: Vec<Vec<(Stretch, Vec<f64>)>> =
+        orbits.iter().map(|orbit| flights(&mut integrator, orbit)).collect();
+    let mut time = |work: &mut dyn FnMut(&mut ExactIntegrator, usize)| -> f64 {
         let begun = Instant::now();
-        orbits.iter().for_each(|orbit| work(&mut integrator, orbit));
-        begun.elapsed() / orbits.len().max(1) as u32
+        (0..orbits.len()).for_each(|index| work(&mut integrator, index));
+        begun.elapsed().as_secs_f64() / orbits.len().max(1) as f64
     };
-    let state = time(&mut |integrator, orbit| {
-        black_box(integrator.advance(&stretch(orbit), &orbit.nodes[0]).unwrap());
+    let state = time(&mut |integrator, index| {
+        black_box(integrator.advance(&stretch(&orbits[index]), &orbits[index].nodes[0]).unwrap());
     });
-    let flow = time(&mut |integrator, orbit| {
-        black_box(integrator.flow(&stretch(orbit), &orbit.nodes[0]).unwrap());
+    let evaluation = time(&mut |integrator, index| {
+        black_box(integrator.flow(&stretch(&orbits[index]), &orbits[index].nodes[0]).unwrap());
     });
-    let maxima = time(&mut |integrator, orbit| {
-        black_box(integrator.observe(&[(stretch(orbit), &orbit.nodes[0])]).unwrap());
+    let flight = time(&mut |integrator, index| {
+        for (stretch, state) in &flights[index] {
+            black_box(integrator.flow(stretch, state).unwrap());
+        }
     });
-    let contacts: u32 = orbits.iter().map(|orbit| orbit.maxima.contacts).sum();
-    println!(
-        "  one orbit, {:.1} contacts on average: state alone {:.0} us, with sensitivities {:.0} us, with maxima {:.0} us",
-        f64::from(contacts) / orbits.len().max(1) as f64,
-        state.as_secs_f64() * 1e6,
-        flow.as_secs_f64() * 1e6,
-        maxima.as_secs_f64() * 1e6
-    );
+    let maxima = time(&mut |integrator, index| {
+        black_box(integrator.observe(&[(stretch(&orbits[index]), &orbits[index].nodes[0])]).unwrap());
+    });
+    let (walked, evaluations) = walk(model, file, orbits);
+    Costs { state, evaluation, flight, maxima, walked, evaluations, storage: store(file, orbits) }
+}
+
+fn stretch(orbit: &PeriodicSolution) -> Stretch {
+    Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: f64::from(orbit.period_multiple) }
+}
+
+/// Stretches of an orbit in which nothing is in contact, and the states at their starts.
+fn flights(integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Vec<(Stretch, Vec<f64>)> {
+    let whole = stretch(orbit);
+    let trace = integrator.trace(&whole, &orbit.nodes[0], &[]).unwrap();
+    let phase = |time: f64| time * orbit.frequency_hz;
+    let mut closed: Vec<(f64, f64)> = trace
+        .contacts
+        .iter()
+        .map(|piece| {
+            (piece.begin.as_ref().map_or(0.0, |begin| phase(begin.time)), piece.end.map_or(whole.end, phase))
+        })
+        .collect();
+    closed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut free, mut from) = (Vec::new(), 0.0);
+    for (begin, end) in closed.into_iter().chain([(whole.end, whole.end)]) {
+        if begin > from {
+            free.push(Stretch { start: from, end: begin, ..whole });
+        }
+        from = f64::max(from, end);
+    }
+    let starts: Vec<f64> = free.iter().map(|stretch| stretch.start).collect();
+    let states = integrator.trace(&whole, &orbit.nodes[0], &starts).unwrap().samples;
+    free.into_iter().zip(states).collect()
+}
+
+/// Time [s] and evaluations of a solution, over short walks from some of the orbits.
+fn walk(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) -> (f64, f64) {
+    let [low, high] = file.study.excitation.frequency_hz;
+    let settings = OrbitSettings::default();
+    let (mut rows, mut evaluations, mut elapsed) = (Vec::new(), 0, 0.0);
+    for orbit in orbits.iter().step_by(orbits.len().div_ceil(WALKS).max(1)) {
+        let begun = BranchWalk::new(&model.system, &model.response, orbit, Side::Up, (low, high), &settings);
+        let Ok(mut walk) = begun else { continue };
+        let begun = Instant::now();
+        for _ in 0..STEPS {
+            match walk.step(&mut rows) {
+                Ok(None) => {}
+                Ok(Some(_)) | Err(_) => break,
+            }
+        }
+        elapsed += begun.elapsed().as_secs_f64();
+        evaluations += walk.evaluations();
+    }
+    let count = rows.len().max(1) as f64;
+    (elapsed / count, evaluations as f64 / count)
+}
+
+/// Time to store a solution [s].
+fn store(file: &StudyFile, orbits: &[PeriodicSolution]) -> f64 {
+    let folder = tempfile::tempdir().unwrap();
+    let mut store = Store::open_for_run(folder.path(), file).unwrap();
+    store.add_jobs(&[(JobKind::Survey, 1.0, None, 0)]).unwrap();
+    let job = store.jobs().unwrap().remove(0);
+    let begun = Instant::now();
+    store.note_starts(&job, orbits, None).unwrap();
+    begun.elapsed().as_secs_f64() / orbits.len().max(1) as f64
 }

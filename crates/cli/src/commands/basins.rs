@@ -9,7 +9,7 @@ use super::{run::threads, simulate::folder};
 use crate::{
     failure::Failure,
     interrupt::Interrupt,
-    kept::{Kept, branch_folder},
+    kept::{Kept, branches},
     motion_args::{AxisOption, BasinsOptions},
     output::Output,
     ticker::Ticker,
@@ -22,12 +22,11 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let effort = Effort::from(&options.effort);
     let mut basins =
         Basins::new(model.system.clone(), options.frequency, grid, effort, ExactSettings::default())?;
-    let branches = branch_folder(options.results.as_deref(), options.out.as_deref())
-        .map(|folder| StoredBranches::open(folder, &file))
-        .transpose()?;
+    let (results, out) = (options.results.as_deref(), options.out.as_deref());
+    branches(results, out, &file)?;
     let total = basins.grid().cells();
     let request = (RequestKind::Basins, request(options));
-    let mut kept = Kept::open(options.out.as_deref(), &file, (request.0, &request.1), total as u64)?;
+    let mut kept = Kept::open(out, &file, (request.0, &request.1), total as u64)?;
     let (mut cells, attractors) = kept.read(Store::basins)?;
     basins.resume(cells.len(), attractors);
     let interrupt = Interrupt::listen()?;
@@ -42,6 +41,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     }
     ticker.clear();
     kept.finish()?;
+    let branches = branches(results, out, &file)?;
     if cells.len() < total {
         let fate = kept.fate();
         return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {fate}", cells.len())));

@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{Kept, branch_folder, state_words},
+    kept::{Kept, branches, state_words},
     motion_args::{EffortOptions, SweepOptions},
     output::Output,
     series::series,
@@ -40,9 +40,8 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let model = Model::build(&file)?;
     let [low, high] = file.study.excitation.frequency_hz;
     let upward = series((options.from.unwrap_or(low), options.to.unwrap_or(high)), options.step, "--from")?;
-    let branches = branch_folder(options.results.as_deref(), options.out.as_deref())
-        .map(|folder| StoredBranches::open(folder, &file))
-        .transpose()?;
+    let (results, out) = (options.results.as_deref(), options.out.as_deref());
+    branches(results, out, &file)?;
     let observable =
         Observable { shape: model.response.shape.clone(), support_ratio: model.response.support_ratio };
     let motion = ExactSettings::default();
@@ -53,7 +52,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let state = initial::state(&options.initial, &mut first, (&file, &model), options.results.as_deref())?;
     let (kind, pieces) = pieces(options, &upward);
     let words = words(options, &upward, &state);
-    let kept = Kept::open(options.out.as_deref(), &file, (kind, &words), pieces.len() as u64)?;
+    let kept = Kept::open(out, &file, (kind, &words), pieces.len() as u64)?;
     let found = kept.read(Store::settled)?;
     let interrupt = Interrupt::listen()?;
     let mut work = Work { options, interrupt: &interrupt, kept, found };
@@ -63,6 +62,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     }
     let Work { found, mut kept, .. } = work;
     kept.finish()?;
+    let branches = branches(results, out, &file)?;
     let on_branches = match &branches {
         Some(branches) => {
             found.iter().map(|motion| branch(branches, &model, &motion.point)).collect::<Result<_, _>>()?
