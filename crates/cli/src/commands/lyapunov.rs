@@ -45,7 +45,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
     let mut ticker = Ticker::new(frequencies.len() as u64 * periods, "periods");
     for piece in kept.done as usize..frequencies.len() {
         let tell = |period: u64| {
-            ticker.at(piece as u64 * periods + period, || format!("{:.4} Hz", frequencies[piece]))
+            ticker.at(piece as u64 * periods + period, || format!("{:.4} Hz", frequencies[piece]));
         };
         let (record, whole) = motion.exponents(frequencies[piece], &states[piece], &interrupt, tell)?;
         if whole && let Some(record) = &record {
