@@ -58,13 +58,11 @@ impl ExactIntegrator {
             match self.try_step(run, touched, aim, remaining) {
                 Tried::Again(next) => aim = next,
                 Tried::ClosesNow(touch) => {
-                    self.close(run, touch);
-                    return Ok(());
+                    return self.close(run, touch);
                 }
                 Tried::Accepted { error, event } => {
                     self.accept(run, end, error);
-                    self.happen(run, event);
-                    return Ok(());
+                    return self.happen(run, event);
                 }
             }
         }
@@ -231,11 +229,11 @@ impl ExactIntegrator {
     }
 
     /// Opens or closes the contact that ended a step.
-    fn happen(&mut self, run: &mut Run, event: Option<Event>) {
+    fn happen(&mut self, run: &mut Run, event: Option<Event>) -> Result<(), MotionError> {
         run.slack = 0.0;
         match event {
             None => {}
-            Some(Event::Touch(touch)) => self.close(run, touch),
+            Some(Event::Touch(touch)) => self.close(run, touch)?,
             Some(Event::Release(element)) => {
                 run.closed[element] = None;
                 run.slack = 1e-7 * self.step.weights.length;
@@ -245,6 +243,7 @@ impl ExactIntegrator {
                 run.slack = 1e-7 * self.step.weights.length;
             }
         }
+        Ok(())
     }
 
     /// Moves the run to the end of the solved step.

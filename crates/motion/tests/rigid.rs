@@ -1,0 +1,153 @@
+//! Rigid stops: bounces in closed form, energy, chatter to its end, and exact sensitivities through all of it.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use common::{beam_with, diagonal, element, integrator, model, settled};
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System, law::RigidStop,
+};
+
+fn rigid(restitution: f64, gap: f64) -> Law {
+    Law::Rigid(RigidStop::with_gap(restitution, gap).unwrap())
+}
+
+/// A free unit mass, pressed on by a constant force g towards a rigid stop at q = gap.
+fn falling_ball(restitution: f64, gap: f64, g: f64) -> System {
+    let weight = Harmonic { order: 0, amplitude: g, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic: weight }] };
+    let model = model(&[0.0], diagonal(&[0.0]));
+    System::new(model, &load, vec![element(&[1.0], 0.0, rigid(restitution, gap))]).unwrap()
+}
+
+/// From the height h under the load g: impacts at `t_0 (1 + 2 e + 2 e^2 + ...)`, `t_0 = sqrt(2 h/g)`, heights `e^2` of the one before.
+#[test]
+fn a_ball_bounces_as_the_closed_form_says() {
+    let (e, h, g) = (0.7, 0.5, 9.81_f64);
+    let system = falling_ball(e, h, g);
+    let mut exact = integrator(&system);
+    let first = (2.0 * h / g).sqrt();
+    let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.99 * first * (1.0 + e) / (1.0 - e) };
+    let trace = exact.trace(&stretch, &[0.0, 0.0], &[]).unwrap();
+    assert!(trace.contacts.len() > 10);
+    let mut speed = g * first;
+    let mut time = first;
+    for (k, contact) in trace.contacts.iter().enumerate() {
+        let begin = contact.begin.as_ref().unwrap();
+        // Times are sums of times, each good to the rounding of the clearance, about 5e-15 m, over the speed.
+        let rounding = 2e-14 / speed;
+        assert!((begin.time - time).abs() < rounding, "{k}: {} {time}", begin.time);
+        assert!((begin.velocity - speed).abs() < g * rounding, "{k}: {} {speed}", begin.velocity);
+        let relative = 2.0 * g * rounding / speed;
+        assert!((contact.impulse / ((1.0 + e) * speed) - 1.0).abs() < relative, "{k}");
+        assert!((contact.energy_lost / (0.5 * (1.0 - e * e) * speed * speed) - 1.0).abs() < relative, "{k}");
+        assert_eq!(contact.end, Some(begin.time));
+        speed *= e;
+        time += 2.0 * speed / g;
+    }
+}
+
+/// The bounces end at `t_0 (1 + e)/(1 - e)`. From then on the ball lies on the stop, which carries its weight, and all its energy is lost.
+#[test]
+fn chatter_ends_and_the_ball_rests() {
+    for e in [0.0, 0.3, 0.8, 0.95] {
+        let (h, g) = (0.5, 9.81_f64);
+        let system = falling_ball(e, h, g);
+        let mut exact = integrator(&system);
+        let end = (2.0 * h / g).sqrt() * (1.0 + e) / (1.0 - e);
+        let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: end + 1.0 };
+        let trace = exact.trace(&stretch, &[0.0, 0.0], &[end + 0.5]).unwrap();
+        assert!((trace.state[0] - h).abs() < 1e-15 && trace.state[1].abs() < 1e-13, "{:?}", trace.state);
+        assert!((trace.forces[0][0] + g).abs() < 1e-13);
+        let stuck = trace.contacts.last().unwrap();
+        assert_eq!(stuck.end, None);
+        assert!((stuck.peak_force - g).abs() < 1e-12);
+        // The last bounces, below 1e3 rounding margins, are left out: with them a time of 2 e v/(g (1 - e)).
+        let begin = stuck.begin.as_ref().unwrap();
+        let rest = 2.0 * e * begin.velocity / (g * (1.0 - e));
+        assert!((begin.time + rest - end).abs() < 1e-8, "{e}: {} {rest} {end}", begin.time);
+        let lost: f64 = trace.contacts.iter().map(|contact| contact.energy_lost).sum();
+        assert!((lost / (g * h) - 1.0).abs() < 1e-12, "{lost}");
+        // All momentum that the weight gave was taken.
+        let impulse: f64 = trace.contacts.iter().map(|contact| contact.impulse).sum();
+        assert!((impulse / (g * stretch.end) - 1.0).abs() < 1e-12, "{impulse}");
+        let flow = exact.flow(&stretch, &[0.0, 0.0]).unwrap();
+        assert!((0..2).all(|i| (0..2).all(|j| flow.by_state[(i, j)] == 0.0)), "{:?}", flow.by_state);
+        assert_eq!(exact.contraction(), f64::NEG_INFINITY);
+    }
+}
+
+/// Differences of fourth order of a motion.
+fn differences(advance: &mut dyn FnMut(f64) -> Vec<f64>, step: f64) -> Vec<f64> {
+    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k: f64| advance(k * step));
+    (0..a.len()).map(|i| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * step)).collect()
+}
+
+/// Largest difference of columns, displacements scaled by the eigenfrequencies, relative to the largest entry.
+fn distance(system: &System, found: &[f64], expected: &[f64]) -> f64 {
+    let n = system.dof();
+    let scale = |i: usize| if i < n { system.model().natural_frequencies[i].max(10.0) } else { 1.0 };
+    let size = (0..2 * n).map(|i| (expected[i] * scale(i)).abs()).fold(f64::MIN_POSITIVE, f64::max);
+    (0..2 * n).map(|i| ((found[i] - expected[i]) * scale(i)).abs()).fold(0.0, f64::max) / size
+}
+
+/// Every column of the flow against differences.
+fn assert_sensitivities(system: &System, stretch: &Stretch, state: &[f64], parameters: &[Parameter], bound: f64) {
+    let mut exact = integrator(system);
+    let flow = exact.flow(stretch, state).unwrap();
+    let n = system.dof();
+    for j in 0..2 * n {
+        let scale = if j < n { 1.0 / system.model().natural_frequencies[j].max(10.0) } else { 1.0 };
+        let mut moved = |step: f64| {
+            let mut state = state.to_vec();
+            state[j] += step * scale;
+            exact.advance(stretch, &state).unwrap()
+        };
+        let expected: Vec<f64> = differences(&mut moved, 1e-6).iter().map(|d| d / scale).collect();
+        let found: Vec<f64> = (0..2 * n).map(|i| flow.by_state[(i, j)]).collect();
+        let error = distance(system, &found, &expected);
+        assert!(error < bound, "column {j}: {error}\n{found:?}\n{expected:?}");
+    }
+    let mut moved = |step: f64| {
+        let stretch = Stretch { frequency_hz: stretch.frequency_hz * (1.0 + step), ..*stretch };
+        exact.advance(&stretch, state).unwrap()
+    };
+    let expected: Vec<f64> = differences(&mut moved, 1e-6).iter().map(|d| d / stretch.frequency_hz).collect();
+    let error = distance(system, &flow.by_frequency, &expected);
+    assert!(error < bound, "frequency: {error}\n{:?}\n{expected:?}", flow.by_frequency);
+    for &parameter in parameters {
+        exact.differentiate_by(Some(parameter)).unwrap();
+        let flow = exact.flow(stretch, state).unwrap();
+        exact.differentiate_by(None).unwrap();
+        let value = system.parameter(parameter).unwrap();
+        let scale = if matches!(parameter, Parameter::Gap { .. }) { 1e-3 } else { 0.1 };
+        let mut moved = |step: f64| {
+            exact.set_parameter(parameter, value + step * scale).unwrap();
+            exact.advance(stretch, state).unwrap()
+        };
+        let expected: Vec<f64> = differences(&mut moved, 1e-6).iter().map(|d| d / scale).collect();
+        exact.set_parameter(parameter, value).unwrap();
+        let error = distance(system, &flow.by_parameter, &expected);
+        assert!(error < bound, "{parameter:?}: {error}\n{:?}\n{expected:?}", flow.by_parameter);
+    }
+}
+
+const PARAMETERS: [Parameter; 4] = [
+    Parameter::ExcitationScale,
+    Parameter::AddedDampingRatio,
+    Parameter::Gap { element: 0 },
+    Parameter::Restitution { element: 0 },
+];
+
+#[test]
+fn sensitivities_through_impacts_are_those_of_differences() {
+    let system = beam_with(0.015, rigid(0.6, 1e-4));
+    for frequency_hz in [22.0, 30.0, 36.0, 47.0, 90.0] {
+        let state = settled(&system, frequency_hz, 20, 0.1);
+        let stretch = Stretch { frequency_hz, start: 0.1, end: 1.1 };
+        let mut exact = integrator(&system);
+        let trace = exact.trace(&stretch, &state, &[]).unwrap();
+        println!("{frequency_hz} {:?}", trace.contacts.iter().map(|c| c.begin.as_ref().map(|b| b.velocity)).collect::<Vec<_>>());
+        assert_sensitivities(&system, &stretch, &state, &PARAMETERS, 1e-6);
+    }
+}
