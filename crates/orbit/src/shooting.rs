@@ -25,7 +25,7 @@
 
 use hammerbeam_motion::{
     Flow, Stretch,
-    exact::{ExactIntegrator, MotionError},
+    exact::{ExactIntegrator, MotionError, complete_touches},
 };
 use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
 
@@ -339,6 +339,7 @@ impl PathProblem for ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
+        complete_touches(&mut self.touches);
         self.accumulate();
         Ok(())
     }

@@ -116,8 +116,7 @@ impl ExactIntegrator {
                     Look::FreeFor(step) => (step, false),
                     Look::MinimumAhead { at, convex } => {
                         let convex = convex.min(horizon - time);
-                        let ahead =
-                            |ahead: f64| self.clearance_ahead(run, time + ahead, (watched, touching));
+                        let ahead = |ahead: f64| self.clearance_ahead(run, time + ahead, (watched, touching));
                         let found = decide_convex(ahead, (at, convex), time, bounds.margin);
                         // The other elements are looked at from here.
                         self.place(run, time);
@@ -231,7 +230,8 @@ impl ExactIntegrator {
         }
         // The pressing forces, after the elements, have no level.
         let law = self.laws.get(element);
-        let level = law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level.abs()).fold(0.0, f64::max);
+        let level =
+            law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level.abs()).fold(0.0, f64::max);
         ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
     }
 }

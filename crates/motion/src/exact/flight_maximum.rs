@@ -71,11 +71,7 @@ struct FlightFunction<'a> {
 }
 
 impl<'a> FlightFunction<'a> {
-    fn new(
-        integrator: &'a ExactIntegrator,
-        flown: &'a Flown,
-        (index, derivative): (usize, usize),
-    ) -> Self {
+    fn new(integrator: &'a ExactIntegrator, flown: &'a Flown, (index, derivative): (usize, usize)) -> Self {
         let (output, blocks, drive) = (&integrator.outputs[index], &integrator.blocks, &integrator.drive);
         let n = blocks.count();
         let until = flown.start + flown.duration;
@@ -96,7 +92,16 @@ impl<'a> FlightFunction<'a> {
             let fourth = energy(&output.fourth_bound) + drive.fourth_bound(index, output, until);
             (fourth, f64::INFINITY, second)
         };
-        Self { integrator, flown, output: index, derivative, rows: [row, slope, curvature], bound, third, largest }
+        Self {
+            integrator,
+            flown,
+            output: index,
+            derivative,
+            rows: [row, slope, curvature],
+            bound,
+            third,
+            largest,
+        }
     }
 
     /// Function and its first two derivatives at `time` after the start of the flight.

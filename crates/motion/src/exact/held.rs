@@ -77,7 +77,8 @@ impl Held {
         let mut read: Vec<Output> =
             outputs.iter().map(|(shape, ratio)| Output::new(&blocks, shape, *ratio)).collect();
         read.extend((0..s).map(|j| pressing_force(system, &blocks, &lift, j)));
-        let inputs: Vec<Vec<f64>> = system.elements().iter().map(|e| held_input(&blocks, &e.shape, s)).collect();
+        let inputs: Vec<Vec<f64>> =
+            system.elements().iter().map(|e| held_input(&blocks, &e.shape, s)).collect();
         let mobility = super::mobility(&read[..outputs.len()], &inputs);
         let reaction = |e: &crate::LocalElement| {
             (0..s).map(|j| -(0..n).map(|i| lift[(i, j)] * e.shape[i]).sum::<f64>()).collect()
@@ -110,7 +111,6 @@ impl Held {
         let drive = structure.drive.change(&structure.blocks, &structure.outputs, &change);
         (change, drive)
     }
-
 
     fn driven(&self, system: &System, stretch: &Stretch, levels: &[f64], levels_alone: bool) -> Drive {
         let Structure { blocks, outputs, .. } = &self.structure;
@@ -223,7 +223,8 @@ fn lift_of(directions: &[Vec<f64>], shapes: &[&[f64]]) -> Mat<f64> {
     use faer::linalg::solvers::DenseSolveCore;
     let (n, s) = (directions.len(), shapes.len());
     // `Phi^T Q` is square: its inverse gives `L = Q (Phi^T Q)^-1`.
-    let along = Mat::from_fn(s, s, |j, k| shapes[j].iter().zip(&directions[k]).map(|(a, b)| a * b).sum::<f64>());
+    let along =
+        Mat::from_fn(s, s, |j, k| shapes[j].iter().zip(&directions[k]).map(|(a, b)| a * b).sum::<f64>());
     let inverse = along.partial_piv_lu().inverse();
     Mat::from_fn(n, s, |i, j| (0..s).map(|k| directions[k][i] * inverse[(k, j)]).sum())
 }

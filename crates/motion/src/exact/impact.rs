@@ -87,7 +87,8 @@ impl ExactIntegrator {
         let start = run.state.clone();
         let mut shift = 0.0;
         for _ in 0..NEWTON_STEPS {
-            let clearance = self.distance(self.output_jet(&run.state, touch.element, run.time + shift), touch);
+            let clearance =
+                self.distance(self.output_jet(&run.state, touch.element, run.time + shift), touch);
             let step = -clearance.value / clearance.slope;
             // Newton's method is trusted where the curvature is a correction.
             let bent = clearance.curvature * step;
@@ -98,7 +99,8 @@ impl ExactIntegrator {
             shift += step;
             run.state.copy_from_slice(&start);
             self.carry(&mut run.state, shift);
-            if step.abs() <= 4.0 * f64::EPSILON * (run.time + shift).abs() || step.abs() <= 1e-9 * shift.abs() {
+            if step.abs() <= 4.0 * f64::EPSILON * (run.time + shift).abs() || step.abs() <= 1e-9 * shift.abs()
+            {
                 break;
             }
         }
@@ -288,7 +290,8 @@ impl ExactIntegrator {
 
     /// Forces that depend on the velocity and act now.
     fn velocity_forces(&self, run: &Run) -> Vec<(usize, f64)> {
-        let damped = (0..self.laws.len()).filter(|&e| self.acts(run, e) && self.laws[e].depends_on_velocity());
+        let damped =
+            (0..self.laws.len()).filter(|&e| self.acts(run, e) && self.laws[e].depends_on_velocity());
         let force = |e: usize| {
             let jet = self.output_jet(&run.state, e, run.time);
             self.laws[e].pressing_force(jet.value, jet.slope).value

@@ -209,7 +209,8 @@ impl ExactIntegrator {
         };
         let Observation { mut maxima, fastest, farthest, hardest, flights, impacts } = observation;
         // An infinite number of impacts, of which some were followed, counts once.
-        maxima.touches -= impacts.iter().filter(|[_, stuck]| *stuck > 0).map(|[all, stuck]| all - stuck).sum::<u32>();
+        maxima.touches -=
+            impacts.iter().filter(|[_, stuck]| *stuck > 0).map(|[all, stuck]| all - stuck).sum::<u32>();
         for peak in hardest.peaks {
             drive_of(self, peak.piece);
             maxima.contact_force = maxima.contact_force.max(self.largest_force(peak));
