@@ -96,7 +96,7 @@ impl BranchWalk {
             problem.watch_stability();
         }
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
+        let mut follower = Follower::resume(&problem, state, range, path_settings(settings, system, length));
         let mut reader = Reader { bytes: journal };
         let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {

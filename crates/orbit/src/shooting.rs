@@ -24,7 +24,7 @@
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
 use hammerbeam_motion::{
-    Flow, Stretch,
+    Flow, Stretch, System,
     exact::{ExactIntegrator, MotionError, complete_touches},
 };
 use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
@@ -186,6 +186,11 @@ impl ShootingProblem {
 
     pub fn scale(&self) -> &StateScale {
         &self.scale
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System {
+        self.integrator.system()
     }
 
     pub fn integrator(&mut self) -> &mut ExactIntegrator {

@@ -1,6 +1,6 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
-use hammerbeam_motion::System;
+use hammerbeam_motion::{Law, System};
 use hammerbeam_orbit::PeriodicSolution;
 
 use super::{
@@ -88,7 +88,9 @@ pub(super) fn compare(
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
     // A force that begins with a jump makes the monodromy matrix jump where its contact grazes: there are two of them then.
-    let jumps = system.elements().iter().any(|element| element.law.onset_damping() > 0.0);
+    // That of an impact on a rigid stop grows without bound towards grazing.
+    let may_jump = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
+    let jumps = system.elements().iter().any(|element| may_jump(&element.law));
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jumps && grazing > 0, ..found }));
     list.extend(leading(row, solution));
@@ -102,7 +104,8 @@ fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> C
 
 fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Comparison>) {
     let (stored, new) = (&row.maxima, &found.maxima);
-    let factor = if new.contact_force > 0.0 { measures.contact_factor(found) } else { 1.0 };
+    let touches = new.contact_force > 0.0 || new.impact_velocity > 0.0;
+    let factor = if touches { measures.contact_factor(found) } else { 1.0 };
     let mut push = |quantity, stored: f64, new: f64, measure: f64| {
         // Without a contact both are zero.
         let difference = if stored == new { 0.0 } else { (stored - new).abs() / (measures.gain * measure) };
