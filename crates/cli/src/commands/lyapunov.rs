@@ -130,6 +130,7 @@ impl Outcome {
             "averaged_periods": (spectrum.time * options.frequency).round(),
             "time_s": spectrum.time,
             "sections_per_period": self.parts,
+            // Minus infinity, of directions that a rigid stop takes for good, is null in JSON.
             "exponents_per_s": spectrum.exponents.iter().map(|exponent| exponent.value).collect::<Vec<_>>(),
             "half_widths_per_s": spectrum.exponents.iter().map(|exponent| exponent.half_width).collect::<Vec<_>>(),
             "confidence": 0.95,
@@ -138,6 +139,7 @@ impl Outcome {
             "blocks_are_independent": !self.correlated(),
             "sum_per_s": spectrum.sum,
             "divergence_per_s": self.divergence,
+            "expected_sum_per_s": spectrum.expected_sum,
             "kaplan_yorke_dimension": spectrum.kaplan_yorke_dimension,
             "zero_one_k": self.zero_one,
             "convergence": convergence.collect::<Vec<_>>(),
@@ -156,6 +158,12 @@ impl Outcome {
         }
         lines.push(format!("  sum            {:.9} 1/s", spectrum.sum));
         lines.push(format!("  -tr(M^-1 C)    {:.9} 1/s", self.divergence));
+        if let Some(expected) = spectrum.expected_sum.filter(|expected| *expected != self.divergence) {
+            lines.push(format!("  with contacts  {expected:.9} 1/s"));
+        }
+        if spectrum.sum == f64::NEG_INFINITY {
+            lines.push("  a rigid stop sticks: what is minus infinity was forgotten there".to_owned());
+        }
         lines.push(format!(
             "  Kaplan-Yorke dimension of the stroboscopic section {:.4}",
             spectrum.kaplan_yorke_dimension

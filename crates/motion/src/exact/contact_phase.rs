@@ -246,12 +246,29 @@ impl ExactIntegrator {
         Ok(())
     }
 
+    /// Integral over the solved step of the divergence `phi^T phi df/dr'` of its forces.
+    fn divergence_in_step(&self) -> f64 {
+        let step = &self.step;
+        let weights = &step.grading().rule().at_end[0];
+        let of_active = |(a, &element): (usize, &usize)| {
+            let at = |k: usize| {
+                let (r, v) = (step.displacement[a * NODES + k], step.velocity[a * NODES + k]);
+                weights[k] * self.laws[element].pressing_force(r, v).damping
+            };
+            self.mobility[element][element] * (0..NODES).map(at).sum::<f64>()
+        };
+        step.weights.length * step.active.iter().enumerate().map(of_active).sum::<f64>()
+    }
+
     /// Moves the run to the end of the solved step.
     fn accept(&mut self, run: &mut Run, end: f64, error: f64) {
         let length = self.step.weights.length;
         self.step.weights.set_propagators(&self.blocks, length);
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
+            if self.step.damped {
+                self.contraction += self.divergence_in_step();
+            }
         }
         self.counts.steps += 1;
         if self.notes_course {

@@ -153,13 +153,13 @@ impl ExactIntegrator {
     pub(super) fn lift(&mut self, run: &mut Run, element: usize) -> Result<(), MotionError> {
         let output = self.watched_output(run, element, Boundary::Lifts);
         let slope = self.output_jet(&run.state, output, run.time).slope;
-        let mobility = self.mobility_in_free(element);
-        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        // The clearance grows like `D |lambda'| t^3/6`: until it is out of the margin rounding would decide.
-        let wait = (6.0 * CHATTER * margin / (mobility * slope.abs())).cbrt();
-        run.lifted = Some((element, run.time + wait.min(1e-3 * self.stretch.duration())));
         let rest = run.stuck.iter().copied().filter(|&stuck| stuck != element).collect();
-        self.hold(run, rest)
+        self.hold(run, rest)?;
+        // The clearance grows like `D |lambda'| t^3/6`: until it is out of the margin rounding would decide.
+        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
+        let wait = (6.0 * CHATTER * margin / (self.mobility_in_free(element) * slope.abs())).cbrt();
+        run.lifted = Some((element, run.time + wait.min(1e-3 * self.stretch.duration())));
+        Ok(())
     }
 
     fn mobility_in_free(&self, element: usize) -> f64 {

@@ -295,8 +295,9 @@ impl ExactIntegrator {
         &self.touches
     }
 
-    /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and the integral
-    /// of the divergence `phi^T phi df/dr'` of forces that depend on the velocity.
+    /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow
+    /// with sensitivities, the integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. Of a law that remembers its impact that is not all: its flow depends on the
+    /// speed of the impact besides.
     #[must_use]
     pub fn contraction(&self) -> f64 {
         self.contraction

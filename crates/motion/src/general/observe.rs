@@ -40,7 +40,8 @@ pub struct Observed {
     pub impacts: Vec<[u32; 2]>,
     /// Elements with a contact that was closed all the time, one bit each (the first 64).
     pub closed_throughout: u64,
-    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero.
+    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero. An impact on a rigid stop gives
+    /// `v^2/(2 |r''|)`, to which the motion would have gone.
     pub extrema: Vec<f64>,
 }
 
@@ -381,6 +382,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             self.impacts[impact.element][1] += u32::from(impact.sticks);
             self.maxima.impact_velocity = self.maxima.impact_velocity.max(impact.speed);
             self.maxima.impulse += impact.impulse;
+            self.extrema.extend(Some(impact.depth).filter(|depth| depth.is_finite()));
         }
         for place in 0..self.contacts.len() {
             let watched = &self.contacts[place];

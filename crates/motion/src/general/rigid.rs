@@ -42,6 +42,8 @@ pub(super) struct Impact {
     pub(super) speed: f64,
     pub(super) impulse: f64,
     pub(super) sticks: bool,
+    /// How far the motion would have gone beyond the stop, as far as its acceleration then tells; infinite where that pressed on [m].
+    pub(super) depth: f64,
 }
 
 impl RigidStops {
@@ -198,7 +200,7 @@ impl SystemField<'_> {
             if press > 0.0 && height <= CHATTER * self.usual_speed(e, state) * self.period {
                 let mobility = dot(&self.system.elements()[e].shape, &self.free_direction(e));
                 let impulse = speed.max(0.0) / mobility;
-                self.rigid.impacts.push(Impact { element: e, speed, impulse, sticks: true });
+                self.rigid.impacts.push(Impact { element: e, speed, impulse, sticks: true, depth: f64::INFINITY });
                 self.stick(e, state, columns, time);
                 inside[switch] = true;
             } else if speed > 0.0 {
@@ -250,7 +252,8 @@ impl SystemField<'_> {
         let factor = -(1.0 + restitution) / dot(&shape, &direction);
         add_scaled(&mut state[n..], factor * speed, &direction);
         self.evaluate(Point { time, state, inside }, &mut after);
-        self.rigid.impacts.push(Impact { element: e, speed, impulse: -factor * speed, sticks: false });
+        let depth = if press < 0.0 { -0.5 * speed * speed / press } else { f64::INFINITY };
+        self.rigid.impacts.push(Impact { element: e, speed, impulse: -factor * speed, sticks: false, depth });
         let last = columns.len() / (2 * n);
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
             let displacement = dot(&shape, &column[..n]);

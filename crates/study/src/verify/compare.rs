@@ -94,7 +94,14 @@ pub(super) fn compare(
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jumps && grazing > 0, ..found }));
     list.extend(leading(row, solution));
-    list.extend(events(row, found, &measures, tolerance * (1.0 + norm(&found.monodromy) + sensitivity)));
+    // Behind grazing on a rigid stop everything varies like the root of the distance from it.
+    let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
+    if grazing > 0 && rigid {
+        list.iter_mut().for_each(|comparison| comparison.grazing = true);
+    }
+    // There multipliers jump from far outside the unit circle to where they are beyond: no multiplier is at the place of such an event.
+    let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
+    list.extend(events(row, found, &measures, (unknown, rigid)));
     list
 }
 
@@ -167,8 +174,13 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
 
 /// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a penetration at zero.
 ///
-/// * `unknown`: how well multipliers are known, for one of condition one.
-fn events(row: &Row, found: &Recomputed, measures: &Measures, unknown: f64) -> Vec<Comparison> {
+/// * `(unknown, rigid)`: how well multipliers are known, for one of condition one, and whether there are rigid stops, at whose grazing they jump.
+fn events(
+    row: &Row,
+    found: &Recomputed,
+    measures: &Measures,
+    (unknown, rigid): (f64, bool),
+) -> Vec<Comparison> {
     let nearest = |distance: &dyn Fn(faer::c64) -> f64| {
         let distances = found
             .multipliers
@@ -176,17 +188,18 @@ fn events(row: &Row, found: &Recomputed, measures: &Measures, unknown: f64) -> V
             .map(|multiplier| (distance(multiplier.value) - unknown * multiplier.condition).max(0.0));
         distances.fold(f64::INFINITY, f64::min)
     };
+    let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
+    let jumps = rigid && touch <= EVENT * measures.contact[0];
     let mut list = Vec::new();
     let mut claim = |claimed: bool, distance: f64| {
         if claimed {
             list.push(plain(Quantity::Events, 0.0, distance, distance));
         }
     };
-    claim(row.events.fold, nearest(&|m| (m - 1.0).norm()));
-    claim(row.events.flip, nearest(&|m| (m + 1.0).norm()));
+    claim(row.events.fold && !jumps, nearest(&|m| (m - 1.0).norm()));
+    claim(row.events.flip && !jumps, nearest(&|m| (m + 1.0).norm()));
     let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
-    claim(row.events.neimark_sacker, nearest(&circle));
-    let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
+    claim(row.events.neimark_sacker && !jumps, nearest(&circle));
     claim(row.events.grazing, touch / measures.contact[0]);
     list
 }
