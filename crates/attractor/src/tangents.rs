@@ -69,10 +69,14 @@ impl Tangents {
     fn forget(&mut self, product: &mut [f64]) {
         let n = self.state.len();
         let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        if largest == 0.0 {
+            self.growth.fill(f64::NEG_INFINITY);
+            return;
+        }
         // What is lost is made up for by directions far below all others, so that the frame stays one of unit vectors.
         for (k, entry) in product.iter_mut().enumerate() {
             if k / n == k % n {
-                *entry += LOST * largest.max(f64::MIN_POSITIVE);
+                *entry += LOST * largest;
             }
         }
         triangularise(product, n, &mut self.frame, &mut self.growth);

@@ -85,6 +85,10 @@ fn exponents_are_minus_infinity_where_a_stop_sticks() {
     let (found, _) = spectrum(system, 0.5 / TAU, 20);
     assert_eq!(found.sum, f64::NEG_INFINITY);
     assert_eq!(found.expected_sum, Some(f64::NEG_INFINITY));
-    assert!(found.exponents.iter().all(|exponent| exponent.value == f64::NEG_INFINITY), "{:?}", found.exponents);
+    assert!(
+        found.exponents.iter().all(|exponent| exponent.value == f64::NEG_INFINITY),
+        "{:?}",
+        found.exponents
+    );
     assert_eq!(found.kaplan_yorke_dimension, 0.0);
 }

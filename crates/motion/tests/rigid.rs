@@ -5,10 +5,10 @@ mod common;
 
 use common::{assert_agreement, beam_with, diagonal, element, integrator, model, settled};
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System,
-    exact::{ExactIntegrator, ExactSettings},
+    Harmonic, HarmonicForce, Law, LawError, Load, LocalElement, Parameter, ParameterError, Stretch, System,
+    exact::{ContactPiece, ExactIntegrator, ExactSettings, MotionError},
     general::{GeneralSettings, observe},
-    law::RigidStop,
+    law::{CubicSpring, RigidStop},
 };
 
 fn rigid(restitution: f64, gap: f64) -> Law {
@@ -261,4 +261,120 @@ fn observed_motions_agree_with_the_general_integrator() {
         let lost: f64 = trace.contacts.iter().map(|contact| contact.energy_lost).sum();
         assert!((lost / found.energy_lost - 1.0).abs() < 1e-12);
     }
+}
+
+/// Two stops that act on the same structure at different places: impacts while the other is held, both held at once, one let go by an impact on the other.
+fn two_stops(restitution: f64, damping: faer::Mat<f64>, second: [f64; 3]) -> System {
+    let mut model = model(&[20.0, 55.0, 130.0], damping);
+    model.support = Some(hammerbeam_structure::SupportInput {
+        inertia: vec![0.5, 0.3, -0.1],
+        damping: vec![0.02, 0.01, 0.03],
+    });
+    let force = |shape: [f64; 3], order, amplitude, phase| HarmonicForce {
+        shape: shape.to_vec(),
+        harmonic: Harmonic { order, amplitude, phase },
+    };
+    let first = [1.0, 0.6, -0.4];
+    let support = vec![Harmonic { order: 1, amplitude: 1e-3, phase: 0.4 }];
+    let forces = vec![
+        force(first, 0, 2.0, 0.0),
+        force(first, 1, 3.0, 0.3),
+        force(second, 0, 2.5, 0.0),
+        force(second, 2, 3.5, 1.1),
+    ];
+    let elements = vec![
+        element(&first, 1.0, rigid(restitution, 1e-3)),
+        LocalElement { name: "second".into(), ..element(&second, 0.0, rigid(restitution, 5e-4)) },
+    ];
+    System::new(model, &Load { support, forces }, elements).unwrap()
+}
+
+#[test]
+fn several_stops_agree_with_the_general_integrator_and_differences() {
+    let coupled = faer::Mat::from_fn(3, 3, |i, j| if i == j { 1.0 + i as f64 } else { 0.4 });
+    let mut seen = [0; 4];
+    // The second stop is pushed towards the first, and away from it.
+    for (restitution, damping, second) in [
+        (0.5, diagonal(&[0.8, 1.5, 3.0]), [0.7, -0.9, 0.5]),
+        (0.3, coupled.clone(), [0.9, 0.4, 0.8]),
+        (0.0, coupled, [-0.5, 0.9, 0.6]),
+    ] {
+        let system = two_stops(restitution, damping, second);
+        for (start, end) in [(0.0, 0.3), (0.2, 0.7), (0.5, 1.1), (0.75, 1.75)] {
+            let state = settled(&system, 1.7, 12, start);
+            let stretch = Stretch { frequency_hz: 1.7, start, end };
+            let what = format!("{restitution} {second:?} {start}");
+            let trace = integrator(&system).trace(&stretch, &state, &[]).unwrap();
+            // Stops that throw one another off chatter in cycles of chatter; each cycle leaves its end out, which the sensitivities feel to about 2e-7.
+            assert_agreement(&system, &stretch, &state, 1e-6, &what);
+            if trace.contacts.iter().all(|contact| contact.begin.is_some()) {
+                let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..3] };
+                // Where chatter is cut a motion repeats to about 1e-13, over steps of 1e-7 in the restitution.
+                assert_sensitivities(&system, &stretch, &state, parameters, 1e-5);
+                seen[3] += 1;
+            }
+            let stuck: Vec<_> = trace.contacts.iter().filter(|contact| contact.peak_force > 0.0).collect();
+            let time = |contact: &ContactPiece| {
+                let begin = contact.begin.as_ref().map_or(0.0, |begin| begin.time);
+                (begin, contact.end.unwrap_or(stretch.duration()))
+            };
+            for a in &stuck {
+                let others = trace.contacts.iter().filter(|other| other.element != a.element);
+                for other in others {
+                    let ((begin, end), (touch, left)) = (time(a), time(other));
+                    let inside = begin < touch && touch < end;
+                    seen[0] += u32::from(inside && other.peak_force == 0.0);
+                    seen[1] += u32::from(inside && other.peak_force > 0.0);
+                    seen[2] += u32::from((end - touch).abs() < 1e-12 && left == touch);
+                }
+            }
+        }
+    }
+    assert!(
+        seen.iter().all(|count| *count > 2),
+        "impacts beside a held stop, both held, thrown off, from free states: {seen:?}"
+    );
+}
+
+/// Stops that cannot move apart, and a stop that sticks beside a spring: refused by name.
+#[test]
+fn what_is_not_followed_is_refused() {
+    let twin = |law| LocalElement { name: "twin".into(), ..element(&[1.0], 0.0, law) };
+    let weight = Harmonic { order: 0, amplitude: 1.0, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic: weight }] };
+    let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 20.0 };
+    let spring = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let system = System::new(
+        model(&[0.0], diagonal(&[0.0])),
+        &load,
+        vec![element(&[1.0], 0.0, rigid(0.5, 0.5)), twin(spring)],
+    )
+    .unwrap();
+    let error = integrator(&system).advance(&stretch, &[0.0, 0.0]).unwrap_err();
+    assert!(
+        matches!(&error, MotionError::SticksUnderForces { element, others, .. } if element == "stop" && others == "twin")
+    );
+    assert!(error.to_string().contains("a stop that sticks is only followed without other forces"));
+    let system = System::new(
+        model(&[0.0], diagonal(&[0.0])),
+        &load,
+        vec![element(&[1.0], 0.0, rigid(0.5, 0.5)), twin(rigid(0.5, 0.5))],
+    )
+    .unwrap();
+    let found = integrator(&system).advance(&stretch, &[0.0, 0.0]);
+    // Both are at the same place: one carries the load, and the other one touches.
+    assert_eq!(found.unwrap(), [0.5, 0.0]);
+    assert!(
+        matches!(RigidStop::with_gap(1.01, 0.0), Err(LawError::RigidRestitution { found }) if found == 1.01)
+    );
+    assert!(matches!(RigidStop::with_gap(-0.1, 0.0), Err(LawError::RigidRestitution { .. })));
+    assert!(matches!(RigidStop::with_gap(f64::NAN, 0.0), Err(LawError::RigidRestitution { .. })));
+    assert!(matches!(RigidStop::with_gap(0.5, -1e-3), Err(LawError::Gap { .. })));
+    let stiffness = Parameter::Stiffness { element: 0 };
+    assert!(matches!(system.parameter(stiffness), Err(ParameterError::NoStiffness { .. })));
+    let other = falling_ball(0.5, 1.0, 1.0).with_parameter(Parameter::Restitution { element: 0 }, 2.0);
+    assert!(matches!(other, Err(ParameterError::Law { .. })));
+    let beam = beam_with(0.015, common::hertz(1e9, 0.0));
+    let error = beam.parameter(Parameter::Restitution { element: 0 });
+    assert!(matches!(error, Err(ParameterError::NoRestitution { .. })));
 }

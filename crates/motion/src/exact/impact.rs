@@ -12,7 +12,7 @@
 //!
 //! `V+ = V - B (1 + e)/D (dr' + r'' dt) - (A B P + sum_e B_e [F_e]) dt`,
 //!
-//! where `[F_e]` are the jumps of forces that depend on the velocity. Seen along the motion, `(dr, dr')` goes to `(-e dr, -e dr' - ...)`: the determinant of the jump is `e^2`, so an
+//! where `[F_e]` are the jumps of forces that depend on the velocity, and those `lambda_j` of held stops that the impact throws off; r'' is that of the motion before, with these held. Seen along the motion, `(dr, dr')` goes to `(-e dr, -e dr' - ...)`: the determinant of the jump is `e^2`, so an
 //! impact contracts volumes by `2 ln e`. By e itself there is the direct part `-B v/D`.
 //!
 //! **Grazing.** For `v -> 0` the sensitivities grow like `1/v`, and v like the root of the depth to which the motion would have gone: this is the singularity of grazing impacts, and it is
@@ -24,6 +24,9 @@
 //! of third order in the speed of the first bounce that is left out. Sensitivities err in second order: that of y' jumps by `-A B dr/D`, as at an impact without restitution. The sum of
 //! impulses is right, since what presses over T is what the bounces would have given. If the acceleration falls by half within 2 T, the chatter does not come to its end, and bounces are followed as long as they rise
 //! above the margin.
+//!
+//! **Several stops.** Stops that touch at one instant strike one after another, in the order of the elements. An impact that would pull at a held stop throws it off; so stops may chatter against one another. Once a
+//! touch beside held stops is itself below the height above, it sticks with them, and those that would have to pull are let go.
 //!
 //! # Source
 //! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009), 85-106 (chatter that ends).
@@ -46,26 +49,37 @@ const NEWTON_STEPS: usize = 20;
 pub(super) const STUCK_TOUCHES: u32 = 1 << 16;
 
 /// An impact about to happen.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Impact {
     touch: Touch,
     restitution: f64,
     /// Relative displacement and its derivatives before it, forces included.
     before: Jet,
+    /// `r''` on the way to it, with all that was held then.
+    approach: f64,
     /// `D`.
     mobility: f64,
+    /// Held stops that it throws off, and what they pressed with [N].
+    thrown_off: Vec<(usize, f64)>,
 }
 
 impl ExactIntegrator {
     /// An impact on a rigid stop, or the end of its chatter.
     pub(super) fn strike_rigid(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
-        self.let_go_of_pulling(run, touch.element)?;
         self.settle_on_the_touch(run, touch);
+        let approach = self.jet_with_forces(run, touch.element).curvature;
+        let pressing = self.pressing_forces(&run.state, run.time);
+        let held = run.stuck.clone();
+        if !self.comes_to_rest_beside_others(run, touch.element) {
+            self.let_go_of_pulling(run, touch.element)?;
+        }
+        let thrown_off = held.into_iter().filter(|stop| !run.stuck.contains(stop));
+        let thrown_off = thrown_off.map(|stop| (stop, pressing[stop])).collect();
         let (element, laws) = (touch.element, &self.laws);
         let restitution = laws[element].rigid().map_or(0.0, crate::law::RigidStop::restitution);
         let mobility = self.mobility[element][element];
         let before = self.jet_with_forces(run, element);
-        let impact = Impact { touch, restitution, before, mobility };
+        let impact = Impact { touch, restitution, before, approach, mobility, thrown_off };
         run.impacts += 1;
         if self.sticks(run, &impact) {
             return self.stick(run, &impact);
@@ -142,11 +156,12 @@ impl ExactIntegrator {
                     return Err(self.sticks_under_forces(run, element));
                 }
                 self.forget_the_approach(run, touch);
+                self.contraction = f64::NEG_INFINITY;
                 let elements = joined(&run.stuck, element);
                 self.hold(run, elements)?;
             }
         }
-        Ok(())
+        self.let_go_of_tension(run)
     }
 
     /// Lets a held stop go whose pressing force has come to its end.
@@ -157,13 +172,26 @@ impl ExactIntegrator {
         self.hold(run, rest)?;
         // The clearance grows like `D |lambda'| t^3/6`: until it is out of the margin rounding would decide.
         let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        let wait = (6.0 * CHATTER * margin / (self.mobility_in_free(element) * slope.abs())).cbrt();
+        let cubic = (6.0 * CHATTER * margin / (self.mobility_in_free(element) * slope.abs())).cbrt();
+        // Where another stop has taken over, it grows like `|r''| t^2/2`.
+        let away = -self.output_jet(&run.state, element, run.time).curvature;
+        let quadratic = (2.0 * CHATTER * margin / away.max(0.0)).sqrt();
+        let wait = cubic.min(quadratic);
         run.lifted = Some((element, run.time + wait.min(1e-3 * self.stretch.duration())));
         Ok(())
     }
 
     fn mobility_in_free(&self, element: usize) -> f64 {
         self.system.elements()[element].shape.iter().map(|phi| phi * phi).sum()
+    }
+
+    /// Whether a touch beside held stops is so slow that the impacts with which they would throw one another off, to and fro, are at their end: then all are held, as far as they press.
+    fn comes_to_rest_beside_others(&self, run: &Run, element: usize) -> bool {
+        let before = self.jet_with_forces(run, element);
+        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
+        !run.stuck.is_empty()
+            && before.curvature > 0.0
+            && before.slope.powi(2) <= 2.0 * before.curvature * CHATTER * margin
     }
 
     /// Lets held stops go that an impact on an element would pull, the strongest first.
@@ -217,11 +245,23 @@ impl ExactIntegrator {
         let energy = 0.5 * speed * speed / impact.mobility;
         self.note_impact(run, impact, (speed / impact.mobility, energy), true);
         let place = self.first_touch(element);
-        self.touches[place] += STUCK_TOUCHES;
+        self.touches[place] = self.touches[place].saturating_add(STUCK_TOUCHES);
         self.contraction = f64::NEG_INFINITY;
         self.forget_the_approach(run, impact.touch);
         let elements = joined(&run.stuck, element);
-        self.hold(run, elements)
+        self.hold(run, elements)?;
+        self.let_go_of_tension(run)
+    }
+
+    /// Lets held stops go that would have to pull, now that another one is held, too; the strongest first.
+    fn let_go_of_tension(&mut self, run: &mut Run) -> Result<(), MotionError> {
+        while run.stuck.len() > 1 {
+            let pressing = self.pressing_forces(&run.state, run.time);
+            let weakest = run.stuck.iter().copied().min_by(|&a, &b| pressing[a].total_cmp(&pressing[b]));
+            let Some(element) = weakest.filter(|&element| pressing[element] < 0.0) else { return Ok(()) };
+            self.lift(run, element)?;
+        }
+        Ok(())
     }
 
     pub(super) fn sticks_under_forces(&self, run: &Run, element: usize) -> MotionError {
@@ -249,7 +289,7 @@ impl ExactIntegrator {
 
     /// Turns the velocity round.
     fn rebound(&mut self, run: &mut Run, impact: &Impact) {
-        let Impact { touch, restitution, before, mobility } = *impact;
+        let &Impact { touch, restitution, before, mobility, .. } = impact;
         let impulse = -(1.0 + restitution) * before.slope / mobility;
         let energy = 0.5 * (1.0 - restitution * restitution) * before.slope.powi(2) / mobility;
         self.note_impact(run, impact, (-impulse, energy), false);
@@ -269,11 +309,11 @@ impl ExactIntegrator {
 
     /// `V+ = V + B dP - A B P dt`.
     fn jump_at_impact(&self, run: &mut Run, impact: &Impact, impulse: f64, displacement: &[f64]) {
-        let Impact { touch, restitution, before, mobility } = *impact;
+        let &Impact { touch, restitution, before, approach, mobility, .. } = impact;
         let mut by_impulse = self.velocity_sensitivity(run, touch.element);
         let delay = -1.0 / before.slope;
         for (v, r) in by_impulse.iter_mut().zip(displacement) {
-            *v = -(1.0 + restitution) / mobility * (*v + before.curvature * delay * r);
+            *v = -(1.0 + restitution) / mobility * (*v + approach * delay * r);
         }
         let input = &self.inputs[touch.element];
         let carried = self.blocks.system_times_column(input);
@@ -286,6 +326,9 @@ impl ExactIntegrator {
         }
         sensitivity.add_outer(input, 1.0, &by_impulse);
         sensitivity.add_outer(&carried, -impulse * delay, displacement);
+        for &(stop, force) in &impact.thrown_off {
+            sensitivity.add_outer(&self.inputs[stop], -force * delay, displacement);
+        }
     }
 
     /// Forces that depend on the velocity and act now.
@@ -302,7 +345,7 @@ impl ExactIntegrator {
     /// Writes an impact down wherever it is wanted.
     fn note_impact(&mut self, run: &Run, impact: &Impact, (impulse, energy): (f64, f64), sticks: bool) {
         let place = self.first_touch(impact.touch.element);
-        self.touches[place] += 1;
+        self.touches[place] = self.touches[place].saturating_add(1);
         if self.notes_course {
             self.course.touch(impact.before.slope);
             self.course.impact(impact.touch.element, (impulse, energy), sticks);

@@ -192,7 +192,14 @@ impl SystemField<'_> {
                 continue;
             }
             inside[switch] = false;
-            self.let_go_of_pulling(e, inside);
+            let mut before_it = vec![0.0; state.len()];
+            self.evaluate(Point { time, state, inside }, &mut before_it);
+            let [_, speed, press] = self.relative(e, Point { time, state, inside });
+            let approach = press;
+            let way = CHATTER * self.usual_speed(e, state) * self.period;
+            if self.rigid.held.is_empty() || press <= 0.0 || speed * speed > 2.0 * press * way {
+                self.let_go_of_pulling(e, inside);
+            }
             let [_, speed, press] = self.relative(e, Point { time, state, inside });
             self.rigid.fastest = self.rigid.fastest.max(speed);
             let restitution = self.laws[e].rigid().map_or(0.0, crate::law::RigidStop::restitution);
@@ -200,11 +207,17 @@ impl SystemField<'_> {
             if press > 0.0 && height <= CHATTER * self.usual_speed(e, state) * self.period {
                 let mobility = dot(&self.system.elements()[e].shape, &self.free_direction(e));
                 let impulse = speed.max(0.0) / mobility;
-                self.rigid.impacts.push(Impact { element: e, speed, impulse, sticks: true, depth: f64::INFINITY });
+                self.rigid.impacts.push(Impact {
+                    element: e,
+                    speed,
+                    impulse,
+                    sticks: true,
+                    depth: f64::INFINITY,
+                });
                 self.stick(e, state, columns, time);
                 inside[switch] = true;
             } else if speed > 0.0 {
-                self.rebound(e, restitution, time, (state, columns), inside);
+                self.rebound((e, restitution, approach), time, (state, columns), (inside, &before_it));
             }
         }
     }
@@ -235,18 +248,17 @@ impl SystemField<'_> {
         }
     }
 
+    /// An impact on an element, with `r''` and the rates of the motion before it.
     fn rebound(
         &mut self,
-        e: usize,
-        restitution: f64,
+        (e, restitution, approach): (usize, f64, f64),
         time: f64,
         (state, columns): (&mut [f64], &mut [f64]),
-        inside: &[bool],
+        (inside, before): (&[bool], &[f64]),
     ) {
         let n = self.system.dof();
-        let (mut before, mut after) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
+        let mut after = vec![0.0; 2 * n];
         let [_, speed, press] = self.relative(e, Point { time, state, inside });
-        self.evaluate(Point { time, state, inside }, &mut before);
         let direction = self.free_direction(e);
         let shape = self.system.elements()[e].shape.clone();
         let factor = -(1.0 + restitution) / dot(&shape, &direction);
@@ -262,7 +274,7 @@ impl SystemField<'_> {
             for i in 0..2 * n {
                 column[i] += (before[i] - after[i]) * delay;
             }
-            let impulse = factor * (velocity + press * self.period * delay);
+            let impulse = factor * (velocity + approach * self.period * delay);
             add_scaled(&mut column[n..], impulse, &direction);
         }
     }
