@@ -129,7 +129,11 @@ fn assert_sensitivities(
         let flow = exact.flow(stretch, state).unwrap();
         exact.differentiate_by(None).unwrap();
         let value = system.parameter(parameter).unwrap();
-        let scale = if matches!(parameter, Parameter::Gap { .. }) { 1e-3 } else { 0.1 };
+        let scale = match parameter {
+            Parameter::Gap { .. } => 1e-3,
+            Parameter::Restitution { .. } => 10.0,
+            _ => 0.1,
+        };
         let mut moved = |step: f64| {
             exact.set_parameter(parameter, value + step * scale).unwrap();
             exact.advance(stretch, state).unwrap()
@@ -309,7 +313,7 @@ fn several_stops_agree_with_the_general_integrator_and_differences() {
             assert_agreement(&system, &stretch, &state, 1e-6, &what);
             if trace.contacts.iter().all(|contact| contact.begin.is_some()) {
                 let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..3] };
-                // Where chatter is cut a motion repeats to about 1e-13, over steps of 1e-7 in the restitution.
+                // Where chatter is cut a motion repeats to about 1e-13, over steps of 1e-7 in the damping.
                 assert_sensitivities(&system, &stretch, &state, parameters, 1e-5);
                 seen[3] += 1;
             }
