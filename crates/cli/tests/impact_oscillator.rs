@@ -138,7 +138,8 @@ fn the_example_is_run_to_its_closed_form_and_verified() {
     }
     // The fold is where both orbits meet, the flip where `1 + sum + product` vanishes.
     let fold = zero(|f| if closed_form(f).is_some() { 1.0 } else { -1.0 }, (0.25, 0.26));
-    let of_positive_speed = |f: f64| closed_form(f).unwrap().into_iter().find(|orbit| orbit[0] > 0.0).unwrap();
+    let of_positive_speed =
+        |f: f64| closed_form(f).unwrap().into_iter().find(|orbit| orbit[0] > 0.0).unwrap();
     let flip = zero(|f| 1.0 + of_positive_speed(f)[1] + product(f), (0.14, 0.17));
     for (event, expected) in [("fold", fold), ("flip", flip)] {
         let found = rows.iter().filter(|row| row.event == event);
