@@ -5,7 +5,9 @@
 //! `lambda_i = 1/(N h) sum_k g_i(k)`, `lambda_1 >= lambda_2 >= ...`.
 //!
 //! **Their sum** is the mean of `ln |det P|/h`. The flow of `z' = g(t, z)` changes volumes at the rate `tr dg/dz`, so for a structure with contacts whose
-//! force depends on the displacement alone it is `-tr(M^-1 C)`, whatever the motion: an invariant, which says how good the fundamental matrices are.
+//! force depends on the displacement alone it is `-tr(M^-1 C)`, whatever the motion: an invariant, which says how good the fundamental matrices are. A contact whose force depends on the velocity adds the mean
+//! of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e` (the determinant of its jump is `e^2`). A law that remembers the speed of its impact has no such rule. Where a rigid stop sticks, what the motion was relative to it is forgotten: two
+//! exponents are minus infinity for each stop that is held at once, and so is the sum. The others are those of the motion that is left.
 //!
 //! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the motion their means are
 //! independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean with 95 per cent, with the standard deviation `s` of the block means and Student's
@@ -75,6 +77,8 @@ pub struct Spectrum {
     pub exponents: Vec<Estimate>,
     /// Their sum.
     pub sum: f64,
+    /// What the sum has to be, where [`SectionMap::growth_of_volume`] tells.
+    pub expected_sum: Option<f64>,
     /// Dimension after Kaplan and Yorke.
     pub kaplan_yorke_dimension: f64,
     /// Correlation of neighbouring blocks of the largest exponent; see the module.
@@ -94,6 +98,8 @@ pub struct Lyapunov {
     sections: u64,
     /// Sums of the growth, of each block.
     blocks: Vec<Vec<f64>>,
+    /// Growth of volumes that is expected, of each block.
+    expected: Vec<Option<f64>>,
     total: Vec<f64>,
     convergence: Vec<Convergence>,
 }
@@ -118,6 +124,7 @@ impl Lyapunov {
             duration: map.duration(),
             sections: 0,
             blocks: Vec::new(),
+            expected: Vec::new(),
             total: vec![0.0; map.dimension()],
             convergence: Vec::new(),
         })
@@ -153,6 +160,10 @@ impl Lyapunov {
         let length = self.settings.averaged / BLOCKS;
         if (averaged - 1).is_multiple_of(length) {
             self.blocks.push(vec![0.0; growth.len()]);
+            self.expected.push(Some(0.0));
+        }
+        if let Some(expected) = self.expected.last_mut() {
+            *expected = expected.zip(map.growth_of_volume()).map(|(sum, growth)| sum + growth);
         }
         let block = self.blocks.last_mut().expect("the first section of a block begins it");
         for ((total, block), growth) in self.total.iter_mut().zip(block).zip(growth) {
@@ -185,12 +196,15 @@ impl Lyapunov {
         let mut exponents: Vec<Estimate> =
             (0..self.total.len()).map(|i| estimate(blocks.iter().map(|block| block[i] / time))).collect();
         let sum = (0..self.total.len()).map(mean_of).sum();
+        let expected: Option<f64> = self.expected[..whole].iter().copied().sum();
+        let expected_sum = expected.map(|growth| growth / (whole as f64 * time));
         let block_correlation = correlation(&blocks.iter().map(|block| block[0]).collect::<Vec<_>>());
         exponents.sort_by(|a, b| b.value.total_cmp(&a.value));
         Some(Spectrum {
             kaplan_yorke_dimension: kaplan_yorke(&exponents),
             exponents,
             sum,
+            expected_sum,
             block_correlation,
             convergence: self.convergence.clone(),
             time: whole as f64 * time,
@@ -218,6 +232,7 @@ pub fn sections_needed(map: &mut SystemMap, state: &[f64]) -> Result<u64, Attrac
             let spread_now = tangents.step(map).map(|growth| {
                 let ends = growth
                     .iter()
+                    .filter(|growth| growth.is_finite())
                     .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), g| (low.min(*g), high.max(*g)));
                 ends.1 - ends.0
             });
@@ -253,6 +268,9 @@ pub fn lyapunov(
 fn estimate(values: impl Iterator<Item = f64> + Clone) -> Estimate {
     let count = values.clone().count() as f64;
     let value = values.clone().sum::<f64>() / count;
+    if value == f64::NEG_INFINITY {
+        return Estimate { value, half_width: 0.0 };
+    }
     let variance = values.map(|x| (x - value).powi(2)).sum::<f64>() / (count - 1.0);
     Estimate { value, half_width: STUDENT * (variance / count).sqrt() }
 }

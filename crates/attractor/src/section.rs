@@ -36,6 +36,11 @@ pub trait SectionMap {
     /// # Errors
     /// The motion cannot be computed.
     fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError>;
+
+    /// What `ln |det P|` of the last [`SectionMap::flow`] has to be, where that is known otherwise; minus infinity where the motion lost directions for good.
+    fn growth_of_volume(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// A system at one excitation frequency, by the exact integrator; a section is a whole part of the excitation period.
@@ -136,6 +141,12 @@ impl SectionMap for SystemMap {
     fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
         let flow = self.integrator.flow(&self.stretch(section), state)?;
         Ok((flow.state, flow.by_state))
+    }
+
+    /// `-tr(M^-1 C)` times the duration, and what contacts contribute. Of laws that remember their impacts it is not known.
+    fn growth_of_volume(&self) -> Option<f64> {
+        let known = !self.integrator.system().remembers_impacts();
+        known.then(|| self.divergence() * self.duration() + self.integrator.contraction())
     }
 }
 

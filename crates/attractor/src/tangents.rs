@@ -12,6 +12,9 @@ use faer::Mat;
 
 use crate::{AttractorError, SectionMap};
 
+/// Size of directions that are lost, relative to the largest.
+const LOST: f64 = 1e-20;
+
 /// A state with its frame of tangent vectors.
 #[derive(Debug, Clone)]
 pub struct Tangents {
@@ -52,10 +55,34 @@ impl Tangents {
         self.section += 1;
         let n = self.state.len();
         let mut product = self.times_frame(&matrix);
+        if map.growth_of_volume() == Some(f64::NEG_INFINITY) {
+            self.forget(&mut product);
+            return Ok(&self.growth);
+        }
         if !triangularise(&mut product, n, &mut self.frame, &mut self.growth) {
             return Err(AttractorError::TangentsLost { section: self.section });
         }
         Ok(&self.growth)
+    }
+
+    /// The same over a section in which directions are lost for good: what is left of them is rounding, so their growth is minus infinity. The frame keeps its size.
+    fn forget(&mut self, product: &mut [f64]) {
+        let n = self.state.len();
+        let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        if largest == 0.0 {
+            self.growth.fill(f64::NEG_INFINITY);
+            return;
+        }
+        // What is lost is made up for by directions far below all others, so that the frame stays one of unit vectors.
+        for (k, entry) in product.iter_mut().enumerate() {
+            if k / n == k % n {
+                *entry += LOST * largest;
+            }
+        }
+        triangularise(product, n, &mut self.frame, &mut self.growth);
+        let most = self.growth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let lost = self.growth.iter_mut().filter(|growth| **growth < most + LOST.ln() + 9.0);
+        lost.for_each(|growth| *growth = f64::NEG_INFINITY);
     }
 
     /// The state.

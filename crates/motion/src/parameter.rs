@@ -5,9 +5,10 @@
 //! | excitation scale `a` | 1 as built | all harmonics of order 1 and above: `b_m = a b_m(1)`, `U_m = a U_m(1)` |
 //! | gap `g` | [m] | the levels of the contacts of one element; of a two-sided stop both, which must be equal |
 //! | stiffness `k` | as the law has it | the force of one element, `f = k f(1)`, at the levels that its contacts have |
+//! | restitution `e` | [-] | the impacts of one rigid stop |
 //! | added damping ratio `z` | 0 as built | the modal damping matrix, `C = C(0) + diag(2 z w_i)` |
 
-use crate::{LawError, System};
+use crate::{Law, LawError, System, law::RigidStop};
 
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -22,6 +23,11 @@ pub enum Parameter {
     /// Constant of the law of an element, in the unit of the law (N/m, N/m^1.5, N/m^3). The levels of its contacts stay, so it is the penetration
     /// at rest of a preloaded stop that is held, not the preload.
     Stiffness {
+        /// Number of the element.
+        element: usize,
+    },
+    /// Coefficient of restitution of a rigid stop [-], 0 to 1.
+    Restitution {
         /// Number of the element.
         element: usize,
     },
@@ -40,6 +46,12 @@ pub enum ParameterError {
     /// A preloaded stop, a spring, or a stop with two different gaps.
     #[error("{name} has no single gap")]
     NoGap { name: String },
+    /// A rigid stop has no stiffness.
+    #[error("{name} is rigid, it has no stiffness")]
+    NoStiffness { name: String },
+    /// Only rigid stops have a coefficient of restitution as a parameter.
+    #[error("{name} is no rigid stop, it has no coefficient of restitution to vary")]
+    NoRestitution { name: String },
     /// The law refuses the value.
     #[error("{name}: {source}")]
     Law { name: String, source: LawError },
@@ -63,7 +75,16 @@ impl System {
         match parameter {
             Parameter::ExcitationScale => Ok(self.excitation_scale()),
             Parameter::AddedDampingRatio => Ok(self.added_damping_ratio()),
-            Parameter::Stiffness { element } => Ok(self.element(element)?.law.stiffness()),
+            Parameter::Stiffness { element } => {
+                let element = self.element(element)?;
+                let stiffness = Some(element.law.stiffness()).filter(|stiffness| stiffness.is_finite());
+                stiffness.ok_or_else(|| ParameterError::NoStiffness { name: element.name.clone() })
+            }
+            Parameter::Restitution { element } => {
+                let element = self.element(element)?;
+                let missing = || ParameterError::NoRestitution { name: element.name.clone() };
+                element.law.rigid().map(RigidStop::restitution).ok_or_else(missing)
+            }
             Parameter::Gap { element } => {
                 let element = self.element(element)?;
                 element.law.gap().ok_or_else(|| ParameterError::NoGap { name: element.name.clone() })
@@ -88,13 +109,19 @@ impl System {
         match parameter {
             Parameter::ExcitationScale => self.set_excitation_scale(value),
             Parameter::AddedDampingRatio => self.set_added_damping_ratio(value),
-            Parameter::Stiffness { element } | Parameter::Gap { element } => {
+            Parameter::Stiffness { element }
+            | Parameter::Gap { element }
+            | Parameter::Restitution { element } => {
                 // Says whether there is such an element, and such a gap.
                 self.parameter(parameter)?;
-                let is_gap = matches!(parameter, Parameter::Gap { .. });
                 let element = &mut self.elements_mut()[element];
-                let law =
-                    if is_gap { element.law.with_gap(value) } else { element.law.with_stiffness(value) };
+                let law = match (parameter, &element.law) {
+                    (Parameter::Gap { .. }, law) => law.with_gap(value),
+                    (Parameter::Restitution { .. }, Law::Rigid(law)) => {
+                        law.with_restitution(value).map(Law::Rigid)
+                    }
+                    (_, law) => law.with_stiffness(value),
+                };
                 let name = element.name.clone();
                 element.law = law.map_err(|source| ParameterError::Law { name, source })?;
                 Ok(())

@@ -96,7 +96,7 @@ impl BranchWalk {
             problem.watch_stability();
         }
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let mut follower = Follower::resume(&problem, state, range, path_settings(settings, length));
+        let mut follower = Follower::resume(&problem, state, range, path_settings(settings, system, length));
         let mut reader = Reader { bytes: journal };
         let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {
@@ -212,6 +212,7 @@ fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationPara
         Some(Parameter::AddedDampingRatio) => (2, 0),
         Some(Parameter::Gap { element }) => (3, element),
         Some(Parameter::Stiffness { element }) => (4, element),
+        Some(Parameter::Restitution { element }) => (5, element),
     };
     out.word(u64::from(period_multiple) | kind << 32 | (element as u64) << 40);
     if let ContinuationParameter::Other { frequency_hz, .. } = varied {
@@ -228,6 +229,7 @@ fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> 
         2 => Parameter::AddedDampingRatio,
         3 => Parameter::Gap { element },
         4 => Parameter::Stiffness { element },
+        5 => Parameter::Restitution { element },
         _ => return None,
     };
     Some((word as u32, ContinuationParameter::Other { parameter, frequency_hz: reader.float()? }))

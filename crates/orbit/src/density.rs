@@ -137,7 +137,7 @@ impl BranchWalk {
         halvings: u32,
         rows: &mut Vec<BranchRow>,
     ) -> Result<(), OrbitError> {
-        let settings = path_settings(&self.settings, hertz_per_norm(self.range_hz));
+        let settings = path_settings(&self.settings, self.problem.system(), hertz_per_norm(self.range_hz));
         let Ok(point) = solve_between(&mut self.problem, [from, to], 0.5, &settings) else { return Ok(()) };
         self.evaluations_between += point.evaluations;
         let row = match self.row_at(&point) {

@@ -24,8 +24,8 @@
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
 use hammerbeam_motion::{
-    Flow, Stretch,
-    exact::{ExactIntegrator, MotionError},
+    Flow, Stretch, System,
+    exact::{ExactIntegrator, MotionError, complete_touches},
 };
 use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
 
@@ -187,6 +187,11 @@ impl ShootingProblem {
         &self.scale
     }
 
+    /// The system.
+    pub fn system(&self) -> &System {
+        self.integrator.system()
+    }
+
     pub fn integrator(&mut self) -> &mut ExactIntegrator {
         &mut self.integrator
     }
@@ -338,6 +343,7 @@ impl PathProblem for ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
+        complete_touches(&mut self.touches);
         self.accumulate();
         Ok(())
     }

@@ -124,7 +124,8 @@ fn leave(
     let away: Vec<f64> = direction.iter().map(|d| d * reach.signum()).collect();
     let range = ParameterRange::new(range_hz.0, range_hz.1)?;
     let along = Direction::Along(&away);
-    let Ok(follower) = Follower::start(&mut problem, &start, along, range, path_settings(settings, length))
+    let Ok(follower) =
+        Follower::start(&mut problem, &start, along, range, path_settings(settings, system, length))
     else {
         return Ok(None);
     };

@@ -158,6 +158,9 @@ fn stop_text(stop: &Stop) -> String {
             stiffness.value(),
             rest(approach)
         ),
+        StopLaw::Rigid { restitution, approach, side } => {
+            format!("rigid {}, coefficient of restitution {restitution}, {}", side_text(side), rest(approach))
+        }
         StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
             "linear springs on both sides, {stiffness_n_m} N/m, gaps {gap_above_m} m above and {gap_below_m} m below ({})",
             word(&gap_measured)

@@ -161,7 +161,7 @@ impl<'a> Motion<'a> {
             frequency_hz,
             sections_per_period: parts,
             spectrum,
-            divergence: Some(map.divergence()),
+            divergence: map.divergence(),
             zero_one: zero_one(&series),
             section: states.iter().take(MOST_POINTS).map(|state| self.point(frequency_hz, state)).collect(),
         };
@@ -216,6 +216,7 @@ impl Outcome<'_> {
             "averaged_periods": (spectrum.time * self.record.frequency_hz).round(),
             "time_s": spectrum.time,
             "sections_per_period": self.record.sections_per_period,
+            // Minus infinity, of directions that a rigid stop takes for good, is null in JSON.
             "exponents_per_s": spectrum.exponents.iter().map(|exponent| exponent.value).collect::<Vec<_>>(),
             "half_widths_per_s": spectrum.exponents.iter().map(|exponent| exponent.half_width).collect::<Vec<_>>(),
             "confidence": 0.95,
@@ -224,6 +225,7 @@ impl Outcome<'_> {
             "blocks_are_independent": !self.correlated(),
             "sum_per_s": spectrum.sum,
             "divergence_per_s": self.record.divergence,
+            "expected_sum_per_s": spectrum.expected_sum,
             "kaplan_yorke_dimension": spectrum.kaplan_yorke_dimension,
             "zero_one_k": self.record.zero_one,
             "convergence": convergence.collect::<Vec<_>>(),
@@ -241,8 +243,12 @@ impl Outcome<'_> {
             lines.push(format!("  {:>14.6} +- {:.6} 1/s", exponent.value, exponent.half_width));
         }
         lines.push(format!("  sum            {:.9} 1/s", spectrum.sum));
-        if let Some(divergence) = self.record.divergence {
-            lines.push(format!("  -tr(M^-1 C)    {divergence:.9} 1/s"));
+        lines.push(format!("  -tr(M^-1 C)    {:.9} 1/s", self.record.divergence));
+        if let Some(expected) = spectrum.expected_sum.filter(|expected| *expected != self.record.divergence) {
+            lines.push(format!("  with contacts  {expected:.9} 1/s"));
+        }
+        if spectrum.sum == f64::NEG_INFINITY {
+            lines.push("  a rigid stop sticks: what is minus infinity was forgotten there".to_owned());
         }
         lines.push(format!(
             "  Kaplan-Yorke dimension of the stroboscopic section {:.4}",

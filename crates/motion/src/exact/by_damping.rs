@@ -66,9 +66,7 @@ impl ByDamping {
 
     /// `dE x`.
     pub fn over_flight(&self, time: f64, state: &[f64]) -> Vec<f64> {
-        let (mut state, mut change) = (state.to_vec(), vec![0.0; state.len()]);
-        self.change.propagate(time, &mut state, &mut change);
-        change
+        self.change.over(time, state)
     }
 
     /// Over a step: `dX x + dW F` at the nodes, `[a * NODES + k]`, into `nodes`, and `dE x + dP F` into `end`.

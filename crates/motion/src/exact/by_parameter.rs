@@ -43,7 +43,7 @@ impl ForceStep {
                     std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * force[j] / stiffness).sum())
                 }
                 Parameter::AddedDampingRatio => std::array::from_fn(|k| self.by_damping.0[a * NODES + k]),
-                Parameter::Gap { .. } => continue,
+                Parameter::Gap { .. } | Parameter::Restitution { .. } => continue,
             };
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
             rows.zip(values).for_each(|(row, value)| row[column] += value);
@@ -133,10 +133,15 @@ impl ExactIntegrator {
 
     /// Adds the derivative of the particular state by the parameter, times `factor`.
     pub(super) fn add_particular(&self, parameter: Parameter, time: f64, factor: f64, column: &mut [f64]) {
-        match (parameter, &self.by_damping) {
-            (Parameter::ExcitationScale, _) => self.drive.add_state_by_scale(time, factor, column),
-            (Parameter::AddedDampingRatio, Some(by_damping)) => {
-                by_damping.drive.add_state(time, factor, column);
+        let held = self.holding.as_deref();
+        let by_damping = match held {
+            Some(holding) => holding.by_damping.as_ref().map(|(_, drive)| drive),
+            None => self.by_damping.as_ref().map(|by_damping| &by_damping.drive),
+        };
+        match (parameter, by_damping, held.and_then(|holding| holding.by_level.as_ref())) {
+            (Parameter::ExcitationScale, ..) => self.drive.add_state_by_scale(time, factor, column),
+            (Parameter::AddedDampingRatio, Some(drive), _) | (Parameter::Gap { .. }, _, Some(drive)) => {
+                drive.add_state(time, factor, column);
             }
             _ => {}
         }
@@ -159,8 +164,11 @@ impl ExactIntegrator {
 
     /// Adds what the damping does over a flight, from the state at its start, to its column.
     pub(super) fn add_damped_flight(&self, time: f64, state: &[f64], sensitivity: &mut Sensitivity) {
-        if let (Some(by_damping), Some(column)) = (&self.by_damping, sensitivity.parameter_column()) {
-            let change = by_damping.over_flight(time, state);
+        let change = match &self.holding {
+            Some(holding) => holding.by_damping.as_ref().map(|(change, _)| change.over(time, state)),
+            None => self.by_damping.as_ref().map(|by_damping| by_damping.over_flight(time, state)),
+        };
+        if let (Some(change), Some(column)) = (change, sensitivity.parameter_column()) {
             change.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
         }
     }

@@ -60,6 +60,11 @@ impl Change {
     ///
     /// * `damping`: diagonal of `dC`, length n.
     pub fn of_damping(blocks: &Blocks, damping: &[f64]) -> Self {
+        Self::of_moving(blocks, damping, blocks.count())
+    }
+
+    /// The same where only the first `moving` blocks obey the equations of motion; the others are prescribed and do not change.
+    pub fn of_moving(blocks: &Blocks, damping: &[f64], moving: usize) -> Self {
         let n = blocks.count();
         let entry = |row: usize, column: usize| match &blocks.transform {
             None if row == column && row >= n => -damping[row - n],
@@ -73,7 +78,7 @@ impl Change {
         let list: Vec<(f64, f64)> =
             blocks.stiffness.iter().copied().zip(blocks.damping.iter().copied()).collect();
         let mut pairs = Vec::new();
-        for to in 0..n {
+        for to in 0..moving {
             for from in 0..n {
                 let coupling =
                     [[entry(to, from), entry(to, n + from)], [entry(n + to, from), entry(n + to, n + from)]];
@@ -119,6 +124,13 @@ impl Change {
             product[n + from] += s;
         }
         product
+    }
+
+    /// `dE x` over a time.
+    pub fn over(&self, time: f64, state: &[f64]) -> Vec<f64> {
+        let (mut state, mut change) = (state.to_vec(), vec![0.0; state.len()]);
+        self.propagate(time, &mut state, &mut change);
+        change
     }
 
     /// Takes a state and its change over a time without inputs: `s -> E s + dE x`, `x -> E x`.

@@ -58,13 +58,11 @@ impl ExactIntegrator {
             match self.try_step(run, touched, aim, remaining) {
                 Tried::Again(next) => aim = next,
                 Tried::ClosesNow(touch) => {
-                    self.close(run, touch);
-                    return Ok(());
+                    return self.close(run, touch);
                 }
                 Tried::Accepted { error, event } => {
                     self.accept(run, end, error);
-                    self.happen(run, event);
-                    return Ok(());
+                    return self.happen(run, event);
                 }
             }
         }
@@ -231,11 +229,11 @@ impl ExactIntegrator {
     }
 
     /// Opens or closes the contact that ended a step.
-    fn happen(&mut self, run: &mut Run, event: Option<Event>) {
+    fn happen(&mut self, run: &mut Run, event: Option<Event>) -> Result<(), MotionError> {
         run.slack = 0.0;
         match event {
             None => {}
-            Some(Event::Touch(touch)) => self.close(run, touch),
+            Some(Event::Touch(touch)) => self.close(run, touch)?,
             Some(Event::Release(element)) => {
                 run.closed[element] = None;
                 run.slack = 1e-7 * self.step.weights.length;
@@ -245,6 +243,21 @@ impl ExactIntegrator {
                 run.slack = 1e-7 * self.step.weights.length;
             }
         }
+        Ok(())
+    }
+
+    /// Integral over the solved step of the divergence `phi^T phi df/dr'` of its forces.
+    fn divergence_in_step(&self) -> f64 {
+        let step = &self.step;
+        let weights = &step.grading().rule().at_end[0];
+        let of_active = |(a, &element): (usize, &usize)| {
+            let at = |k: usize| {
+                let (r, v) = (step.displacement[a * NODES + k], step.velocity[a * NODES + k]);
+                weights[k] * self.laws[element].pressing_force(r, v).damping
+            };
+            self.mobility[element][element] * (0..NODES).map(at).sum::<f64>()
+        };
+        step.weights.length * step.active.iter().enumerate().map(of_active).sum::<f64>()
     }
 
     /// Moves the run to the end of the solved step.
@@ -253,6 +266,9 @@ impl ExactIntegrator {
         self.step.weights.set_propagators(&self.blocks, length);
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
+            if self.step.damped {
+                self.contraction += self.divergence_in_step();
+            }
         }
         self.counts.steps += 1;
         if self.notes_course {

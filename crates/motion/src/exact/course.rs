@@ -16,10 +16,12 @@ type Span = (usize, usize);
 /// Something that happened.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Passage {
-    /// A flight, from a homogeneous block state.
-    Flight { start: f64, duration: f64, state: Span },
+    /// A flight, from a homogeneous block state; with elements held on rigid stops, and the impulses that they got.
+    Flight { start: f64, duration: f64, state: Span, held: Span, impulses: Span },
     /// A contact closed with this relative velocity [m/s].
     Touch { speed: f64 },
+    /// It was an impact on the rigid stop of this element, with that impulse [N s], which took that energy [J], and after which the contact stuck or not.
+    Impact { element: usize, impulse: f64, energy: f64, sticks: bool },
     /// A force step.
     Step(CourseStep),
 }
@@ -62,6 +64,7 @@ pub(super) struct Course {
     numbers: Vec<f64>,
     /// Elements and their laws, with what these remember.
     elements: Vec<(usize, Law)>,
+    held: Vec<usize>,
 }
 
 impl Course {
@@ -70,6 +73,7 @@ impl Course {
         self.passages.clear();
         self.numbers.clear();
         self.elements.clear();
+        self.held.clear();
     }
 
     /// Whether it is the whole course of this motion: the same stretches from the same states.
@@ -101,9 +105,26 @@ impl Course {
         self.stretches.push(CourseStretch { stretch: *stretch, given, closed, first_passage });
     }
 
-    pub fn flight(&mut self, start: f64, duration: f64, state: &[f64]) {
-        let state = self.keep(state);
-        self.passages.push(Passage::Flight { start, duration, state });
+    pub fn flight(
+        &mut self,
+        (start, duration): (f64, f64),
+        state: &[f64],
+        (held, impulses): (&[usize], &[f64]),
+    ) {
+        let (state, impulses) = (self.keep(state), self.keep(impulses));
+        let first = self.held.len();
+        self.held.extend_from_slice(held);
+        let held = (first, self.held.len());
+        self.passages.push(Passage::Flight { start, duration, state, held, impulses });
+    }
+
+    /// Elements that were held.
+    pub fn held(&self, (first, end): Span) -> &[usize] {
+        &self.held[first..end]
+    }
+
+    pub fn impact(&mut self, element: usize, (impulse, energy): (f64, f64), sticks: bool) {
+        self.passages.push(Passage::Impact { element, impulse, energy, sticks });
     }
 
     pub fn touch(&mut self, speed: f64) {

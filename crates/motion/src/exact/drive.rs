@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use faer::c64;
 
 use super::{block::Blocks, change::Change, collocation::NODES, output::Output, secular::SecularLoad};
-use crate::{Stretch, System};
+use crate::{ModalLoad, Stretch, System};
 
 /// Relative distance from resonance below which the steady solution would cost more than four digits.
 const RESONANT: f64 = 1e-4;
@@ -50,25 +50,66 @@ pub(crate) struct Jet {
 impl Drive {
     /// Solves for the particular solution of `system` over `stretch`.
     pub fn new(system: &System, blocks: &Blocks, outputs: &[Output], stretch: &Stretch) -> Self {
-        let circular_frequency = TAU * stretch.frequency_hz;
-        let start_angle = TAU * (stretch.start - stretch.start.floor());
-        let (orders, secular, scale) = (Vec::new(), Vec::new(), system.excitation_scale());
-        let mut drive = Self { circular_frequency, start_angle, orders, secular, scale };
+        let mut drive = Self::silent(system, stretch);
         for (index, &order) in system.orders().iter().enumerate() {
             drive.add_order(system, blocks, outputs, index, f64::from(order));
         }
         drive
     }
 
+    /// Without any load yet.
+    pub fn silent(system: &System, stretch: &Stretch) -> Self {
+        let circular_frequency = TAU * stretch.frequency_hz;
+        let start_angle = TAU * (stretch.start - stretch.start.floor());
+        let (orders, secular, scale) = (Vec::new(), Vec::new(), system.excitation_scale());
+        Self { circular_frequency, start_angle, orders, secular, scale }
+    }
+
     fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
-        let n = blocks.count();
         let load = system.modal_load(index, self.circular_frequency);
+        let (state, state_by_frequency) = self.steady(blocks, blocks.count(), (&load, order));
+        self.push(outputs, (order, system.support_amplitudes()[index]), state, state_by_frequency);
+    }
+
+    /// Adds an order of a held structure (`held.rs`): `load` drives the blocks that move, the others are `prescribed`, and what acts on the pressing forces, the last outputs,
+    /// directly is `forces`, with its derivative by the circular frequency.
+    pub fn add_held(
+        &mut self,
+        blocks: &Blocks,
+        outputs: &[Output],
+        (order, support): (f64, c64),
+        (load, prescribed): (&ModalLoad, &[c64]),
+        forces: &[(c64, c64)],
+    ) {
+        let (n, moving) = (blocks.count(), blocks.count() - prescribed.len());
+        let (mut state, mut state_by_frequency) = self.steady(blocks, moving, (load, order));
+        for (j, value) in prescribed.iter().enumerate() {
+            state[moving + j] = *value;
+            state[n + moving + j] = *value * c64::new(0.0, order * self.circular_frequency);
+            state_by_frequency[n + moving + j] = *value * c64::new(0.0, order * TAU);
+        }
+        self.push(outputs, (order, support), state, state_by_frequency);
+        let last = self.orders.last_mut().into_iter().flat_map(|order| order.outputs.iter_mut().rev());
+        for (output, (force, by_circular_frequency)) in last.zip(forces.iter().rev()) {
+            output.0 += force;
+            output.1 += *by_circular_frequency * TAU;
+        }
+    }
+
+    /// Steady solution of the first `moving` blocks under one order, and its derivative by the frequency; what is resonant becomes secular.
+    fn steady(
+        &mut self,
+        blocks: &Blocks,
+        moving: usize,
+        (load, order): (&ModalLoad, f64),
+    ) -> (Vec<c64>, Vec<c64>) {
+        let n = blocks.count();
         let input = complex_input(blocks, &load.amplitude);
         let input_by_frequency = complex_input(blocks, &load.by_frequency);
         let w = order * self.circular_frequency;
         let mut state = vec![c64::new(0.0, 0.0); 2 * n];
         let mut state_by_frequency = state.clone();
-        for i in 0..n {
+        for i in 0..moving {
             let (k, c) = (blocks.stiffness[i], blocks.damping[i]);
             let (beta, phi) = (input[i], input[n + i]);
             let (beta_w, phi_w) = (input_by_frequency[i] * TAU, input_by_frequency[n + i] * TAU);
@@ -99,7 +140,16 @@ impl Drive {
             state_by_frequency[i] = p_f;
             state_by_frequency[n + i] = iw * p_f + c64::new(0.0, rate) * p - beta_w;
         }
-        let support = system.support_amplitudes()[index];
+        (state, state_by_frequency)
+    }
+
+    fn push(
+        &mut self,
+        outputs: &[Output],
+        (order, support): (f64, c64),
+        state: Vec<c64>,
+        state_by_frequency: Vec<c64>,
+    ) {
         let amplitude = |output: &Output| {
             let read = |values: &[c64]| output.row.iter().zip(values).map(|(r, v)| *v * *r).sum::<c64>();
             (read(&state) + support * output.support_ratio, read(&state_by_frequency))

@@ -25,6 +25,8 @@ pub(crate) enum Boundary {
     Presses,
     /// It had parted and opens.
     Leaves,
+    /// It was held on a rigid stop, and its pressing force ends.
+    Lifts,
 }
 
 /// Looks allowed in one flight; about twenty are usual.
@@ -64,7 +66,8 @@ impl ExactIntegrator {
             self.place(run, time);
         }
         if self.notes_course {
-            self.course.flight(run.time, time, &self.flight_start);
+            let impulses = self.held_impulses(&self.flight_start, run.time, time);
+            self.course.flight((run.time, time), &self.flight_start, (&run.stuck, &impulses));
         }
         self.trace_flight(run, time);
         run.time = if touch.is_none() { end } else { run.time + time };
@@ -96,17 +99,24 @@ impl ExactIntegrator {
             if self.laws[element].contacts().is_empty() {
                 continue;
             }
-            let jet = self.output_jet(&run.state, element, run.time + time);
-            let elastic = self.bounds(&run.state, element, run.time + horizon);
+            if self.has_rigid_stops && self.is_looked_past(run, element, time, &mut free) {
+                continue;
+            }
             let parted = run.parted[element];
+            let held = self.has_rigid_stops && self.held_place(run, element).is_some();
+            let watched = if held { self.watched_output(run, element, Boundary::Lifts) } else { element };
+            let jet = self.output_jet(&run.state, watched, run.time + time);
+            let elastic = self.bounds(&run.state, watched, run.time + horizon);
             for touching in self.watched(element, parted) {
+                let boundary = if held { Boundary::Lifts } else { touching.boundary };
+                let touching = Touch { boundary, ..touching };
                 let bounds = self.boundary_bounds(elastic, &run.state, touching);
                 let (step, hit) = match look(self.distance(jet, touching), bounds) {
                     Look::Contact => return (0.0, Some(touching)),
                     Look::FreeFor(step) => (step, false),
                     Look::MinimumAhead { at, convex } => {
                         let convex = convex.min(horizon - time);
-                        let ahead = |ahead: f64| self.clearance_ahead(run, time + ahead, touching);
+                        let ahead = |ahead: f64| self.clearance_ahead(run, time + ahead, (watched, touching));
                         let found = decide_convex(ahead, (at, convex), time, bounds.margin);
                         // The other elements are looked at from here.
                         self.place(run, time);
@@ -124,10 +134,21 @@ impl ExactIntegrator {
         (free, touch)
     }
 
-    /// Clearance at `time` after the start of the flight; the state of `run` is moved there.
-    fn clearance_ahead(&self, run: &mut Run, time: f64, touch: Touch) -> Jet {
+    /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance; `free` ends with that time.
+    fn is_looked_past(&self, run: &Run, element: usize, time: f64, free: &mut f64) -> bool {
+        match run.lifted {
+            Some((lifted, until)) if lifted == element && until > run.time + time => {
+                *free = free.min(until - run.time - time);
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Clearance at `time` after the start of the flight, from the output that tells it; the state of `run` is moved there.
+    fn clearance_ahead(&self, run: &mut Run, time: f64, (output, touch): (usize, Touch)) -> Jet {
         self.place(run, time);
-        self.distance(self.output_jet(&run.state, touch.element, run.time + time), touch)
+        self.distance(self.output_jet(&run.state, output, run.time + time), touch)
     }
 
     /// The boundaries of an element without force: of its open contacts, or of the one that has parted.
@@ -149,6 +170,9 @@ impl ExactIntegrator {
     /// What falls to zero at a boundary, from the relative displacement: the clearance, the missing pressure (whose second derivative is not
     /// known, only bounded), or the penetration.
     pub(super) fn distance(&self, displacement: Jet, touch: Touch) -> Jet {
+        if touch.boundary == Boundary::Lifts {
+            return displacement;
+        }
         let law = &self.laws[touch.element];
         let c = law.contacts()[touch.contact];
         let clearance = clearance_of(displacement, c.level, c.sign);
@@ -204,7 +228,10 @@ impl ExactIntegrator {
                 magnitude += (output.row[i] * s).abs() * until;
             }
         }
-        let level = self.laws[element].contacts().iter().map(|c| c.level.abs()).fold(0.0, f64::max);
+        // The pressing forces, after the elements, have no level.
+        let law = self.laws.get(element);
+        let level =
+            law.map_or(&[][..], |law| law.contacts()).iter().map(|c| c.level.abs()).fold(0.0, f64::max);
         ClearanceBounds { second, third, margin: 8.0 * f64::EPSILON * (magnitude + level) }
     }
 }

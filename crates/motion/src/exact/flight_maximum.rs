@@ -18,12 +18,19 @@ pub(super) struct Flown {
     pub start: f64,
     pub duration: f64,
     pub state: Vec<f64>,
+    /// Elements that were held on rigid stops.
+    pub held: Vec<usize>,
 }
 
 impl ExactIntegrator {
-    /// Largest magnitude of displacement (0) or acceleration (2) of the response point over a flight, not below `best`.
-    pub(super) fn flight_maximum(&self, flown: &Flown, derivative: usize, best: f64) -> f64 {
-        let flight = FlightFunction::new(self, flown, derivative);
+    /// Largest magnitude of displacement (0) or acceleration (2) of an output over a flight, not below `best`.
+    pub(super) fn flight_maximum(
+        &self,
+        flown: &Flown,
+        (output, derivative): (usize, usize),
+        best: f64,
+    ) -> f64 {
+        let flight = FlightFunction::new(self, flown, (output, derivative));
         let mut best = best;
         if flight.largest <= best {
             return best;
@@ -51,6 +58,7 @@ impl ExactIntegrator {
 struct FlightFunction<'a> {
     integrator: &'a ExactIntegrator,
     flown: &'a Flown,
+    output: usize,
     derivative: usize,
     /// Rows of the function and of its first two derivatives.
     rows: [Vec<f64>; 3],
@@ -63,9 +71,8 @@ struct FlightFunction<'a> {
 }
 
 impl<'a> FlightFunction<'a> {
-    fn new(integrator: &'a ExactIntegrator, flown: &'a Flown, derivative: usize) -> Self {
-        let response = integrator.laws.len();
-        let (output, blocks, drive) = (&integrator.outputs[response], &integrator.blocks, &integrator.drive);
+    fn new(integrator: &'a ExactIntegrator, flown: &'a Flown, (index, derivative): (usize, usize)) -> Self {
+        let (output, blocks, drive) = (&integrator.outputs[index], &integrator.blocks, &integrator.drive);
         let n = blocks.count();
         let until = flown.start + flown.duration;
         let mut row = output.row.clone();
@@ -77,15 +84,24 @@ impl<'a> FlightFunction<'a> {
                 |i: usize| (blocks.stiffness[i] * flown.state[i].powi(2) + flown.state[n + i].powi(2)).sqrt();
             (0..n).map(|i| factors[i] * norm(i)).sum::<f64>()
         };
-        let driven = drive.bounds(response, output, until);
+        let driven = drive.bounds(index, output, until);
         let second = energy(&output.second_bound) + driven.0;
         let (bound, third, largest) = if derivative == 0 {
             (second, energy(&output.third_bound) + driven.1, f64::INFINITY)
         } else {
-            let fourth = energy(&output.fourth_bound) + drive.fourth_bound(response, output, until);
+            let fourth = energy(&output.fourth_bound) + drive.fourth_bound(index, output, until);
             (fourth, f64::INFINITY, second)
         };
-        Self { integrator, flown, derivative, rows: [row, slope, curvature], bound, third, largest }
+        Self {
+            integrator,
+            flown,
+            output: index,
+            derivative,
+            rows: [row, slope, curvature],
+            bound,
+            third,
+            largest,
+        }
     }
 
     /// Function and its first two derivatives at `time` after the start of the flight.
@@ -106,9 +122,8 @@ impl<'a> FlightFunction<'a> {
     /// Particular part of the function and of its first two derivatives (those of the acceleration by differences suffice: they
     /// only steer Newton's method).
     fn driven(&self, time: f64) -> [f64; 3] {
-        let response = self.integrator.laws.len();
-        let output = &self.integrator.outputs[response];
-        let jet = |t: f64| self.integrator.drive.jet(response, output, self.flown.start + t);
+        let output = &self.integrator.outputs[self.output];
+        let jet = |t: f64| self.integrator.drive.jet(self.output, output, self.flown.start + t);
         if self.derivative == 0 {
             let here = jet(time);
             return [here.value, here.slope, here.curvature];
@@ -122,7 +137,7 @@ impl<'a> FlightFunction<'a> {
     /// The function at `count + 1` equal steps over the flight.
     fn on_grid(&self, count: usize) -> Vec<f64> {
         let blocks = &self.integrator.blocks;
-        let (n, response) = (blocks.count(), self.integrator.laws.len());
+        let n = blocks.count();
         let step = self.flown.duration / count as f64;
         let propagators: Vec<Propagator> =
             (0..n).map(|i| Propagator::new(blocks.stiffness[i], blocks.damping[i], step)).collect();
@@ -130,8 +145,8 @@ impl<'a> FlightFunction<'a> {
         let mut values = Vec::with_capacity(count + 1);
         for place in 0..=count {
             let jet = self.integrator.drive.jet(
-                response,
-                &self.integrator.outputs[response],
+                self.output,
+                &self.integrator.outputs[self.output],
                 self.flown.start + place as f64 * step,
             );
             let mut value = if self.derivative == 0 { jet.value } else { jet.curvature };

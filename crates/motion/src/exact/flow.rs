@@ -6,6 +6,7 @@ use super::{
     ExactIntegrator, MOST_STEPS, MotionError,
     drive::{Drive, Jet},
     flight::{Boundary, Touch, clearance_of},
+    impact::MOST_IMPACTS,
     maxima::closed_bits,
     run::Run,
 };
@@ -17,9 +18,10 @@ impl ExactIntegrator {
     /// # Errors
     /// See [`MotionError`].
     pub fn advance(&mut self, stretch: &Stretch, state: &[f64]) -> Result<Vec<f64>, MotionError> {
-        let mut run = self.begin(stretch, state, false);
+        let mut run = self.begin(stretch, state, false)?;
         let result = self.complete(&mut run, stretch);
         let end = self.modal_state(&run, stretch.duration());
+        self.let_go();
         self.run = run;
         self.remember_end(stretch, &end);
         result.map(|()| end)
@@ -27,6 +29,7 @@ impl ExactIntegrator {
 
     /// State of the steady motion without local forces at the start of a stretch (of the motion from rest, where resonant).
     pub fn steady_state(&mut self, stretch: &Stretch) -> Vec<f64> {
+        self.let_go();
         let n = self.blocks.count();
         self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
         let mut block = vec![0.0; 2 * n];
@@ -41,16 +44,25 @@ impl ExactIntegrator {
     /// # Errors
     /// See [`MotionError`].
     pub fn flow(&mut self, stretch: &Stretch, state: &[f64]) -> Result<Flow, MotionError> {
-        let mut run = self.begin(stretch, state, true);
+        let mut run = self.begin(stretch, state, true)?;
         let result = self.complete(&mut run, stretch);
         let flow = result.map(|()| self.flow_of(&mut run, stretch));
+        self.let_go();
         self.run = run;
         let flow = flow?;
         self.remember_end(stretch, &flow.state);
         Ok(flow)
     }
 
-    pub(super) fn begin(&mut self, stretch: &Stretch, state: &[f64], sensitivities: bool) -> Run {
+    pub(super) fn begin(
+        &mut self,
+        stretch: &Stretch,
+        state: &[f64],
+        sensitivities: bool,
+    ) -> Result<Run, MotionError> {
+        self.let_go();
+        self.stretch = *stretch;
+        self.contraction = 0.0;
         let n = self.blocks.count();
         self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
         let mut run = std::mem::take(&mut self.run);
@@ -60,6 +72,9 @@ impl ExactIntegrator {
         run.pressed = None;
         run.slack = 0.0;
         run.release = None;
+        run.stuck.clear();
+        run.lifted = None;
+        run.impacts = 0;
         run.state.resize(2 * n, 0.0);
         self.blocks.of_modal(state, &mut run.state);
         self.drive.add_state(0.0, -1.0, &mut run.state);
@@ -84,12 +99,15 @@ impl ExactIntegrator {
             run.closed.push(contact.filter(|_| presses));
             run.parted.push(contact.filter(|_| !presses));
         }
+        self.touches.fill(0);
+        self.counts.stretches += 1;
+        if self.has_rigid_stops {
+            self.stick_at_start(&mut run)?;
+        }
         if self.notes_course {
             self.course.begin(stretch, state, &run);
         }
-        self.touches.fill(0);
-        self.counts.stretches += 1;
-        run
+        Ok(run)
     }
 
     /// Whether a contact with penetration at the start of a stretch has pressure, as far as its law asks for it.
@@ -103,6 +121,9 @@ impl ExactIntegrator {
     fn contact_at_start(&self, run: &Run, element: usize, duration: f64) -> Option<usize> {
         let jet = self.output_jet(&run.state, element, 0.0);
         let margin = self.bounds(&run.state, element, duration).margin;
+        if self.laws[element].rigid().is_some() {
+            return None;
+        }
         self.laws[element].contacts().iter().position(|c| {
             let clearance = clearance_of(jet, c.level, c.sign);
             clearance.value < -margin
@@ -120,10 +141,13 @@ impl ExactIntegrator {
             if self.counts.steps > most {
                 return Err(MotionError::TooManySteps { time: run.time, steps });
             }
+            if run.impacts > MOST_IMPACTS * (1 + (stretch.end - stretch.start) as u64) {
+                return Err(MotionError::TooManyImpacts { time: run.time, impacts: run.impacts });
+            }
             if self.forces_act(run) {
                 self.contact_phase(run, end)?;
             } else if let Some(touch) = self.fly(run, end)? {
-                self.close(run, touch);
+                self.close(run, touch)?;
             }
             if !run.state.iter().all(|value| value.is_finite()) {
                 return Err(MotionError::NotFinite { time: run.time });
@@ -143,7 +167,7 @@ impl ExactIntegrator {
     }
 
     /// Notes that a contact without force crosses a boundary.
-    pub(super) fn close(&mut self, run: &mut Run, touch: Touch) {
+    pub(super) fn close(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
         run.proposal = 0.0;
         run.release = None;
         run.slack = 0.0;
@@ -153,7 +177,15 @@ impl ExactIntegrator {
                 run.closed[touch.element] = run.parted[touch.element].take();
                 run.pressed = Some(touch.element);
             }
+            Boundary::Lifts => self.lift(run, touch.element)?,
+            Boundary::Closes if self.laws[touch.element].rigid().is_some() => {
+                self.strike_rigid(run, touch)?;
+            }
             Boundary::Closes => self.strike(run, touch),
+        }
+        match run.stuck.first() {
+            Some(&element) if self.forces_act(run) => Err(self.sticks_under_forces(run, element)),
+            _ => Ok(()),
         }
     }
 
@@ -241,6 +273,12 @@ impl ExactIntegrator {
             }
             let force = element.law.pressing_force(jet.value, jet.slope).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
+        }
+        if self.holding.is_some() {
+            let pressing = self.pressing_forces(&run.state, stretch.duration());
+            for (element, force) in self.system.elements().iter().zip(pressing) {
+                (0..n).for_each(|i| rate[n + i] -= element.shape[i] * force);
+            }
         }
         rate
     }

@@ -21,9 +21,9 @@ use crate::{Law, Stretch};
 pub struct Maxima {
     /// Largest absolute displacement of the response point, `max |y|` [m].
     pub displacement: f64,
-    /// Largest absolute acceleration of the response point, `max |y''|` [m/s^2].
+    /// Largest absolute acceleration of the response point, `max |y''|`, apart from the jumps of the velocity at impacts on rigid stops [m/s^2].
     pub acceleration: f64,
-    /// Largest contact force over all elements with a contact [N].
+    /// Largest contact force over all elements with a contact [N]; impacts on rigid stops have none, stops that are stuck to have.
     pub contact_force: f64,
     /// Largest speed with which a contact closes [m/s].
     pub impact_velocity: f64,
@@ -31,7 +31,7 @@ pub struct Maxima {
     pub impulse: f64,
     /// Energy that the structure has lost to all contacts [J], what is stored in them at the end included; 0 for laws that lose none.
     pub energy_lost: f64,
-    /// Number of contacts that closed.
+    /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did.
     pub touches: u32,
     /// Elements that were closed all the time, one bit each (the first 64).
     pub closed_throughout: u64,
@@ -56,6 +56,8 @@ struct Observation {
     farthest: Peaks,
     /// and of the force of elements with a contact.
     hardest: Peaks,
+    /// Impacts on the rigid stop of each element, and how many of them stuck.
+    impacts: Vec<[u32; 2]>,
 }
 
 /// Force steps that may hold the largest value.
@@ -127,7 +129,7 @@ impl ExactIntegrator {
             self.look_through(&course, piece, &mut observation);
         }
         std::mem::swap(&mut self.course, &mut course);
-        Ok(self.exact_maxima(observation, motion))
+        self.exact_maxima(observation, motion)
     }
 
     /// From now on what happens is noted, so that [`ExactIntegrator::observe`] need not go through the same motion again.
@@ -164,10 +166,18 @@ impl ExactIntegrator {
         observation.maxima.closed_throughout &= passed.closed;
         for passage in &course.passages[passed.first_passage..end] {
             match *passage {
-                Passage::Flight { start, duration, state } => {
-                    observation.maxima.closed_throughout = 0;
-                    let state = course.numbers(state).to_vec();
-                    observation.flights.push(Flown { piece, start, duration, state });
+                Passage::Flight { start, duration, state, held, impulses } => {
+                    let (state, held) = (course.numbers(state).to_vec(), course.held(held).to_vec());
+                    observation.maxima.closed_throughout &= bits(held.iter().copied());
+                    observation.maxima.impulse += course.numbers(impulses).iter().sum::<f64>();
+                    observation.flights.push(Flown { piece, start, duration, state, held });
+                }
+                Passage::Impact { element, impulse, energy, sticks } => {
+                    observation.impacts.resize(self.laws.len(), [0; 2]);
+                    observation.impacts[element][0] += 1;
+                    observation.impacts[element][1] += u32::from(sticks);
+                    observation.maxima.impulse += impulse;
+                    observation.maxima.energy_lost += energy;
                 }
                 Passage::Touch { speed } => {
                     let maxima = &mut observation.maxima;
@@ -185,7 +195,11 @@ impl ExactIntegrator {
     }
 
     /// The maxima once more at the places that the polynomials tell, and in the flights that can hold larger ones.
-    fn exact_maxima(&mut self, observation: Observation, motion: &[(Stretch, &[f64])]) -> Maxima {
+    fn exact_maxima(
+        &mut self,
+        observation: Observation,
+        motion: &[(Stretch, &[f64])],
+    ) -> Result<Maxima, MotionError> {
         let mut driven = Some(motion.len().saturating_sub(1));
         let mut drive_of = |integrator: &mut Self, piece: usize| {
             if driven.replace(piece) != Some(piece) {
@@ -193,7 +207,10 @@ impl ExactIntegrator {
                     Drive::new(&integrator.system, &integrator.blocks, &integrator.outputs, &motion[piece].0);
             }
         };
-        let Observation { mut maxima, fastest, farthest, hardest, flights, .. } = observation;
+        let Observation { mut maxima, fastest, farthest, hardest, flights, impacts } = observation;
+        // An infinite number of impacts, of which some were followed, counts once.
+        maxima.touches -=
+            impacts.iter().filter(|[_, stuck]| *stuck > 0).map(|[all, stuck]| all - stuck).sum::<u32>();
         for peak in hardest.peaks {
             drive_of(self, peak.piece);
             maxima.contact_force = maxima.contact_force.max(self.largest_force(peak));
@@ -206,13 +223,24 @@ impl ExactIntegrator {
             drive_of(self, peak.piece);
             maxima.acceleration = maxima.acceleration.max(self.exact_peak(peak));
         }
-        let flights = if self.watches() { flights } else { Vec::new() };
-        for flown in &flights {
-            drive_of(self, flown.piece);
-            maxima.displacement = self.flight_maximum(flown, 0, maxima.displacement);
-            maxima.acceleration = self.flight_maximum(flown, 2, maxima.acceleration);
+        let (response, watches) = (self.laws.len(), self.watches());
+        for flown in flights.iter().filter(|flown| watches || !flown.held.is_empty()) {
+            if flown.held.is_empty() {
+                drive_of(self, flown.piece);
+            } else {
+                self.stretch = motion[flown.piece].0;
+                self.take_hold(&flown.held)?;
+            }
+            if watches {
+                maxima.displacement = self.flight_maximum(flown, (response, 0), maxima.displacement);
+                maxima.acceleration = self.flight_maximum(flown, (response, 2), maxima.acceleration);
+            }
+            for output in self.outputs.len() - flown.held.len()..self.outputs.len() {
+                maxima.contact_force = self.flight_maximum(flown, (output, 0), maxima.contact_force);
+            }
+            self.let_go();
         }
-        maxima
+        Ok(maxima)
     }
 
     fn watches(&self) -> bool {
@@ -404,8 +432,13 @@ impl ExactIntegrator {
 
 /// Closed elements, one bit each.
 pub(crate) fn closed_bits(run: &Run) -> u64 {
-    let closed = run.closed.iter().take(64).enumerate().filter(|(_, contact)| contact.is_some());
-    closed.map(|(element, _)| 1 << element).sum()
+    let closed = run.closed.iter().enumerate().filter(|(_, contact)| contact.is_some());
+    bits(closed.map(|(element, _)| element)) | bits(run.stuck.iter().copied())
+}
+
+/// One bit each of the first 64 elements.
+fn bits(elements: impl Iterator<Item = usize>) -> u64 {
+    elements.filter(|element| *element < 64).fold(0, |bits, element| bits | 1 << element)
 }
 
 /// Place of the maximum of the parabola through three points, if it has one.

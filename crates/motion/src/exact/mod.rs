@@ -14,6 +14,8 @@
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `memory.rs` | laws that remember the speed of an impact |
+//! | `impact.rs` | impacts on rigid stops, chatter |
+//! | `held.rs`, `hold.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
 //! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
@@ -43,6 +45,9 @@ mod flow;
 mod force_bound;
 mod force_step;
 mod forecast;
+mod held;
+mod hold;
+mod impact;
 mod lanes;
 mod lu;
 mod maxima;
@@ -107,6 +112,17 @@ pub enum MotionError {
     /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or forces far beyond those of the system.
     #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
     TooManySteps { time: f64, steps: u64 },
+    /// A rigid stop is hit again and again in ever shorter distance, and the bounces do not end.
+    #[error("more than {impacts} impacts up to {time:.6e} s after the start of the stretch")]
+    TooManyImpacts { time: f64, impacts: u64 },
+    /// A rigid stop sticks while an element with a force acts, which is not computed.
+    #[error(
+        "{element} sticks to its rigid stop while {others} acts, {time:.6e} s after the start of the stretch: a stop that sticks is only followed without other forces"
+    )]
+    SticksUnderForces { element: String, others: String, time: f64 },
+    /// Rigid stops that are held at once do not act independently of one another.
+    #[error("{elements} stick to their rigid stops at once, but the structure cannot move them apart")]
+    DependentStops { elements: String },
     /// The search for the next contact does not get on.
     #[error("flight does not advance at {time:.6e} s after the start of the stretch")]
     FlightStalled { time: f64 },
@@ -162,6 +178,7 @@ pub struct ExactIntegrator {
     /// Part of each block in the mobility of each element, `[e][i]`.
     shares: Vec<Vec<f64>>,
     has_contacts: bool,
+    has_rigid_stops: bool,
     counts: ExactCounts,
     drive: Drive,
     run: Run,
@@ -179,6 +196,12 @@ pub struct ExactIntegrator {
     parameter: Option<Parameter>,
     by_damping: Option<Box<by_damping::ByDamping>>,
     memory: Option<memory::Memory>,
+    /// The present stretch.
+    stretch: Stretch,
+    /// The held structure in use, and others that were.
+    holding: Option<Box<hold::Holding>>,
+    known_held: Vec<held::Held>,
+    contraction: f64,
 }
 
 impl ExactIntegrator {
@@ -204,9 +227,7 @@ impl ExactIntegrator {
         let outputs: Vec<Output> =
             elements.chain(response).map(|(shape, ratio)| Output::new(&blocks, shape, ratio)).collect();
         let inputs: Vec<Vec<f64>> = system.elements().iter().map(|e| blocks.input(&e.shape)).collect();
-        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
-        let mobility =
-            outputs.iter().map(|o| inputs.iter().map(|b| dot(&o.velocity_row, b)).collect()).collect();
+        let mobility = mobility(&outputs, &inputs);
         let n = blocks.count();
         let share =
             |o: &Output, b: &[f64], i: usize| o.velocity_row[i] * b[i] + o.velocity_row[n + i] * b[n + i];
@@ -222,6 +243,7 @@ impl ExactIntegrator {
         Ok(Self {
             drive: Drive::new(&system, &blocks, &outputs, &stretch),
             series: Series::new(&blocks, &outputs, &inputs),
+            has_rigid_stops: laws.iter().any(|law| law.rigid().is_some()),
             has_contacts: laws.iter().any(|law| !law.contacts().is_empty()),
             touches: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
             system,
@@ -247,6 +269,10 @@ impl ExactIntegrator {
             parameter: None,
             by_damping: None,
             memory: None,
+            stretch,
+            holding: None,
+            known_held: Vec::new(),
+            contraction: 0.0,
         })
     }
 
@@ -262,10 +288,19 @@ impl ExactIntegrator {
         self.counts
     }
 
-    /// How often each contact closed in the last stretch, in the order of elements and their contacts.
+    /// How often each contact closed in the last stretch, in the order of elements and their contacts. A chatter that came to its end on a rigid stop counts 65536 besides its
+    /// impacts, whose number says nothing then, see [`complete_touches`].
     #[must_use]
     pub fn touches(&self) -> &[u32] {
         &self.touches
+    }
+
+    /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow
+    /// with sensitivities, the integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. Of a law that remembers its impact that is not all: its flow depends on the
+    /// speed of the impact besides.
+    #[must_use]
+    pub fn contraction(&self) -> f64 {
+        self.contraction
     }
 
     /// Elements that were closed all through the last stretch, one bit each (the first 64).
@@ -273,4 +308,18 @@ impl ExactIntegrator {
     pub fn closed_throughout(&self) -> u64 {
         self.closed_throughout
     }
+}
+
+/// Numbers of touches over an orbit, from the sums over its stretches: where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite
+/// and was cut somewhere.
+pub fn complete_touches(touches: &mut [u32]) {
+    for touches in touches.iter_mut().filter(|touches| **touches >= impact::STUCK_TOUCHES) {
+        *touches -= *touches % impact::STUCK_TOUCHES;
+    }
+}
+
+/// `C A B`: the relative acceleration of each output per force of each element.
+fn mobility(outputs: &[Output], inputs: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
+    outputs.iter().map(|o| inputs.iter().map(|b| dot(&o.velocity_row, b)).collect()).collect()
 }

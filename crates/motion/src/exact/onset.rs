@@ -34,12 +34,7 @@ impl ExactIntegrator {
         if !self.laws[element].remembers_impact() {
             return;
         }
-        let mut jet = self.output_jet(&run.state, element, run.time);
-        for other in (0..self.laws.len()).filter(|&e| self.acts(run, e)) {
-            let at = self.output_jet(&run.state, other, run.time);
-            jet.curvature +=
-                self.mobility[element][other] * self.laws[other].pressing_force(at.value, at.slope).value;
-        }
+        let jet = self.jet_with_forces(run, element);
         // A touch within the rounding margin may have no speed at all.
         let speed = jet.slope.abs().max(f64::MIN_POSITIVE.sqrt());
         self.laws[element] = self.laws[element].struck_at(speed);
@@ -53,21 +48,23 @@ impl ExactIntegrator {
     }
 
     /// Sensitivities of the relative velocity at fixed time, one per column.
-    fn velocity_sensitivity(&self, run: &Run, element: usize) -> Vec<f64> {
+    pub(super) fn velocity_sensitivity(&self, run: &Run, element: usize) -> Vec<f64> {
         let output = &self.outputs[element];
         let Some(sensitivity) = &run.sensitivity else { return Vec::new() };
         let mut row = sensitivity.combined(&output.velocity_row);
         let (span, now) = ((run.time, 0.0), &[0.0; NODES]);
         row[sensitivity.frequency_column()] += self.drive.rates_by_frequency(element, output, span, now)[0];
-        let column = self.parameter.zip(sensitivity.parameter_column());
-        if let Some((Parameter::ExcitationScale, column)) = column {
-            row[column] += self.drive.rates_by_scale(element, output, span, now)[0];
+        if let Some((parameter, column)) = self.parameter.zip(sensitivity.parameter_column()) {
+            row[column] += match parameter {
+                Parameter::ExcitationScale => self.drive.rates_by_scale(element, output, span, now)[0],
+                other => self.read_particular(other, run.time, &output.velocity_row),
+            };
         }
         row
     }
 
     /// Sensitivities of the penetration, with its sign that of the displacement, at fixed time, one per column.
-    fn displacement_sensitivity(&self, run: &Run, touch: Touch) -> Vec<f64> {
+    pub(super) fn displacement_sensitivity(&self, run: &Run, touch: Touch) -> Vec<f64> {
         let (element, output) = (touch.element, &self.outputs[touch.element]);
         let Some(sensitivity) = &run.sensitivity else { return Vec::new() };
         let mut row = sensitivity.combined(&output.row);
@@ -79,9 +76,16 @@ impl ExactIntegrator {
                 Parameter::Gap { element: other } if other == element => {
                     -self.laws[element].contacts()[touch.contact].sign
                 }
-                _ => 0.0,
+                other => self.read_particular(other, run.time, &output.row),
             };
         }
         row
+    }
+
+    /// What a row reads of the derivative of the particular solution by a parameter.
+    fn read_particular(&self, parameter: Parameter, time: f64, row: &[f64]) -> f64 {
+        let mut column = vec![0.0; row.len()];
+        self.add_particular(parameter, time, 1.0, &mut column);
+        row.iter().zip(&column).map(|(r, x)| r * x).sum()
     }
 }

@@ -28,7 +28,11 @@ pub(crate) struct Output {
 impl Output {
     /// Reads `shape . q + support_ratio u`.
     pub fn new(blocks: &Blocks, shape: &[f64], support_ratio: f64) -> Self {
-        let row = blocks.output(shape);
+        Self::of_row(blocks, blocks.output(shape), support_ratio)
+    }
+
+    /// Reads `row . x + support_ratio u` from the block state.
+    pub fn of_row(blocks: &Blocks, row: Vec<f64>, support_ratio: f64) -> Self {
         let velocity_row = blocks.row_times_system(&row);
         let acceleration_row = blocks.row_times_system(&velocity_row);
         let jerk_row = blocks.row_times_system(&acceleration_row);

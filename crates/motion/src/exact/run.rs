@@ -27,6 +27,12 @@ pub(crate) struct Run {
     pub start: Vec<ElementStart>,
     /// End of a contact that is known to come soon, and about when [s].
     pub release: Option<(Event, f64)>,
+    /// Elements that are held on their rigid stops, ascending (`held.rs`).
+    pub stuck: Vec<usize>,
+    /// Rigid stop that was left last, and until when its clearance is not looked at [s].
+    pub lifted: Option<(usize, f64)>,
+    /// Impacts on rigid stops in this stretch.
+    pub impacts: u64,
     /// Time within which contacts that leave count as open, after another was released [s].
     pub slack: f64,
 }

@@ -76,6 +76,17 @@ impl Sensitivity {
         self.rows + 1 + usize::from(self.has_parameter)
     }
 
+    /// One column, length 2n.
+    pub fn column(&self, column: usize) -> Vec<f64> {
+        self.values.chunks_exact(self.columns).map(|row| row[column]).collect()
+    }
+
+    /// Writes one column, length 2n.
+    pub fn set_column(&mut self, column: usize, values: &[f64]) {
+        let rows = self.values.chunks_exact_mut(self.columns);
+        rows.zip(values).for_each(|(row, value)| row[column] = *value);
+    }
+
     fn row_mut(&mut self, i: usize) -> &mut [f64] {
         &mut self.values[i * self.columns..(i + 1) * self.columns]
     }

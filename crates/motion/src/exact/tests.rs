@@ -27,7 +27,7 @@ fn integrator(law: Law) -> ExactIntegrator {
 fn steps(law: Law, state: &[f64], duration: f64, count: usize, grading: Grading) -> Vec<f64> {
     let mut integrator = integrator(law);
     let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: duration };
-    let mut run = integrator.begin(&stretch, state, false);
+    let mut run = integrator.begin(&stretch, state, false).unwrap();
     if grading == Grading::Touch {
         run.closed[0] = Some(0);
     }

@@ -9,7 +9,10 @@
 //! law that depends on the displacement alone is zero over a whole contact; what comes out is the error of the steps. The largest force is that
 //! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
-use super::{ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch, run::Run};
+use super::{
+    ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch,
+    flight_maximum::Flown, run::Run,
+};
 use crate::Stretch;
 
 /// Begin of a contact.
@@ -36,7 +39,7 @@ pub struct ContactPiece {
     pub end: Option<f64>,
     /// Integral of the magnitude of the force [N s].
     pub impulse: f64,
-    /// Largest magnitude of the force [N].
+    /// Largest magnitude of the force [N]; of an impact on a rigid stop 0, of one that sticks that of the pressing force after it.
     pub peak_force: f64,
     /// Energy that the structure gave to the contact and did not get back [J].
     pub energy_lost: f64,
@@ -75,7 +78,7 @@ impl Tracing {
         for (element, open) in self.open.iter_mut().enumerate() {
             let Some(piece) = *open else { continue };
             let contact = &mut self.trace.contacts[piece];
-            if run.closed[element].is_some() {
+            if run.closed[element].is_some() || run.stuck.contains(&element) {
                 contact.end = None;
                 continue;
             }
@@ -108,10 +111,12 @@ impl ExactIntegrator {
     pub fn trace(&mut self, stretch: &Stretch, state: &[f64], phases: &[f64]) -> Result<Trace, MotionError> {
         let times = phases.iter().map(|phase| (phase - stretch.start) / stretch.frequency_hz).collect();
         let mut tracing = Tracing { times, trace: Trace::default(), open: vec![None; self.laws.len()] };
-        let mut run = self.begin(stretch, state, false);
+        let mut run = self.begin(stretch, state, false)?;
         for element in 0..self.laws.len() {
             if let Some(contact) = run.closed[element] {
                 tracing.begin(element, contact, None);
+            } else if run.stuck.contains(&element) {
+                tracing.begin(element, 0, None);
             }
         }
         self.tracing = Some(tracing);
@@ -125,6 +130,7 @@ impl ExactIntegrator {
             tracing.trace.samples.push(end.clone());
             tracing.trace.forces.push(self.forces_of(&run, &run.state, stretch.duration()));
         }
+        self.let_go();
         self.run = run;
         result.map(|()| Trace { state: end, ..tracing.trace })
     }
@@ -141,10 +147,49 @@ impl ExactIntegrator {
                 let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], after);
                 (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
             }
-            tracing.trace.forces.push(vec![0.0; self.laws.len()]);
+            let pressing = self.pressing_forces(&state, time);
+            tracing.trace.forces.push(pressing.into_iter().map(|force| 0.0 - force).collect());
             tracing.trace.samples.push(self.modal_of(state, time));
         }
+        if !run.stuck.is_empty() {
+            self.trace_held(run, duration, &mut tracing);
+        }
         self.tracing = Some(tracing);
+    }
+
+    /// Adds what held stops press with during a flight from the state at its start.
+    fn trace_held(&self, run: &Run, duration: f64, tracing: &mut Tracing) {
+        let impulses = self.held_impulses(&self.flight_start, run.time, duration);
+        let state = self.flight_start.clone();
+        let flown = Flown { piece: 0, start: run.time, duration, state, held: run.stuck.clone() };
+        let first = self.outputs.len() - run.stuck.len();
+        for (j, (&element, impulse)) in run.stuck.iter().zip(impulses).enumerate() {
+            let Some(piece) = tracing.open[element] else { continue };
+            let piece = &mut tracing.trace.contacts[piece];
+            piece.impulse += impulse;
+            piece.peak_force = self.flight_maximum(&flown, (first + j, 0), piece.peak_force);
+        }
+    }
+
+    /// Writes down an impact on a rigid stop, after which the contact sticks or opens.
+    pub(super) fn trace_impact(
+        &mut self,
+        run: &Run,
+        touch: Touch,
+        (impulse, energy): (f64, f64),
+        sticks: bool,
+    ) {
+        if self.tracing.is_none() {
+            return;
+        }
+        self.trace_touch(run, touch);
+        let Some(tracing) = &mut self.tracing else { return };
+        let open = if sticks { tracing.open[touch.element] } else { tracing.open[touch.element].take() };
+        let Some(piece) = open else { return };
+        let piece = &mut tracing.trace.contacts[piece];
+        piece.impulse += impulse;
+        piece.energy_lost += energy;
+        piece.end = (!sticks).then_some(run.time);
     }
 
     /// Writes down a contact that closes now.
@@ -214,8 +259,9 @@ impl ExactIntegrator {
             let jet = self.output_jet(state, element, time);
             self.laws[element].pressing_force(jet.value, jet.slope).value
         };
-        (0..self.laws.len())
-            .map(|element| if self.acts(run, element) { force(element) } else { 0.0 })
+        let pressing = self.pressing_forces(state, time).into_iter().enumerate();
+        pressing
+            .map(|(element, held)| if self.acts(run, element) { force(element) } else { 0.0 - held })
             .collect()
     }
 

@@ -59,6 +59,24 @@ pub trait VectorField {
         let _ = (at, derivative, sum);
     }
 
+    /// Readies the field, its state, its sensitivities and its region at the start of a motion.
+    fn begin(&mut self, time: f64, state: &mut [f64], columns: &mut [f64], inside: &mut [bool]) {
+        let _ = (time, state, columns, inside);
+    }
+
+    /// Lets the state jump where a boundary was crossed, and sensitivities with it; the field may throw the motion back into the region that was left.
+    ///
+    /// * `(state, columns)`: to be changed; columns as in [`VectorField::jump`], which is called next.
+    /// * `(inside, before)`: the new region, to be changed, and the one that was left.
+    fn impact(
+        &mut self,
+        time: f64,
+        (state, columns): (&mut [f64], &mut [f64]),
+        (inside, before): (&mut [bool], &[bool]),
+    ) {
+        let _ = (time, state, columns, inside, before);
+    }
+
     /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous; a field with a memory puts down here what it keeps.
     ///
     /// * `at`: the place, with the new region; `before`: the region that was left.

@@ -49,6 +49,7 @@ impl<'a, F: VectorField> March<'a, F> {
         stepper.start(field, start, &region.inside);
         let step = settings.first_step.unwrap_or_else(|| first_step(field, &stepper, end - start));
         region.locate(field, start, &stepper, 1e-6 * step);
+        stepper.begin(field, start, &mut region.inside);
         stepper.start(field, start, &region.inside);
         let dense = Dense::new(state.len());
         let counts = Counts::default();
@@ -228,6 +229,7 @@ impl<'a, F: VectorField> March<'a, F> {
         let moment = (self.time, self.instant());
         let before = self.region.inside.clone();
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
+        self.stepper.impact(self.field, self.time, (&mut self.region.inside, &before));
         self.stepper.jump(self.field, self.time, (&self.region.inside, &before));
         self.step = first_step.unwrap_or(self.step);
         self.restart = self.time;

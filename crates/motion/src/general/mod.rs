@@ -28,6 +28,7 @@ mod error;
 mod field;
 mod march;
 mod observe;
+mod rigid;
 mod stepper;
 mod switching;
 mod system_field;

@@ -34,11 +34,14 @@ pub struct Observed {
     pub impact_velocity: f64,
     /// Sum of the impulses of all contacts [N s].
     pub impulse: f64,
-    /// Number of contacts that closed.
+    /// Number of contacts that closed, apart from rigid stops.
     pub touches: u32,
+    /// Impacts on the rigid stop of each element, and after how many of them it stuck; empty without rigid stops.
+    pub impacts: Vec<[u32; 2]>,
     /// Elements with a contact that was closed all the time, one bit each (the first 64).
     pub closed_throughout: u64,
-    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero.
+    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero. An impact on a rigid stop gives
+    /// `v^2/(2 |r''|)`, to which the motion would have gone.
     pub extrema: Vec<f64>,
 }
 
@@ -63,7 +66,7 @@ pub fn observe(
     let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
     march.run(&mut observer)?;
     let flow = march.flow();
-    let Observer { maxima, closed, extrema, contacts, .. } = observer;
+    let Observer { maxima, closed, extrema, contacts, impacts, .. } = observer;
     let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed).map(|(watched, _)| watched);
     Ok(Observed {
         flow: Flow {
@@ -80,10 +83,20 @@ pub fn observe(
         impact_velocity: maxima.impact_velocity,
         impulse: maxima.impulse,
         touches: maxima.touches,
+        impacts,
         closed_throughout: closed
             .fold(0, |bits, watched| bits | 1_u64.checked_shl(watched.element as u32).unwrap_or(0)),
         extrema,
     })
+}
+
+impl Observed {
+    /// Number of contacts: those that closed, those that were closed throughout, and impacts on rigid stops, of which those of a stop that sticks count once for every time that it does.
+    #[must_use]
+    pub fn contacts(&self) -> u32 {
+        let of_stop = |[all, stuck]: &[u32; 2]| if *stuck > 0 { *stuck } else { *all };
+        self.touches + self.closed_throughout.count_ones() + self.impacts.iter().map(of_stop).sum::<u32>()
+    }
 }
 
 const SAMPLES: usize = 8;
@@ -153,6 +166,8 @@ struct Observer<'a> {
     closed: Vec<bool>,
     maxima: Maxima,
     extrema: Vec<f64>,
+    /// Impacts on rigid stops, and how many stuck.
+    impacts: Vec<[u32; 2]>,
     /// Takes steps of its own to where something is largest.
     exact: Stepper,
     state: Vec<f64>,
@@ -170,6 +185,10 @@ impl<'a> Observer<'a> {
             contacts,
             maxima: Maxima::default(),
             extrema: Vec::new(),
+            impacts: vec![
+                [0; 2];
+                if field.rigid.stops.is_empty() { 0 } else { field.system.elements().len() }
+            ],
             exact: Stepper::new(field, state, false),
             state: state.to_vec(),
             rates: state.to_vec(),
@@ -209,11 +228,16 @@ impl<'a> Observer<'a> {
     /// Contact forces of the elements.
     fn forces<'b>(&'b self, field: &'b SystemField<'_>, at: Place<'b>) -> impl Iterator<Item = f64> + 'b {
         let mut flags = at.inside;
+        let held = !field.rigid.held.is_empty();
+        let pressing = if held { field.pressing_forces(at.time, at.state) } else { Vec::new() };
         field.system.elements().iter().enumerate().map(move |(e, element)| {
             let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;
             if inside.is_empty() {
                 return 0.0;
+            }
+            if element.law.rigid().is_some() {
+                return pressing.get(e).copied().unwrap_or(0.0).max(0.0);
             }
             let [r, speed] = self.read(field, Output::Element(e), at.time, at.state);
             force_in_region(&field.laws[e], (r, speed), inside).value.abs()
@@ -344,16 +368,26 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             self.add_impulse(field, step);
         }
         for element in 0..field.system.elements().len() {
-            if field.system.elements()[element].law.depends_on_velocity() {
+            let law = &field.system.elements()[element].law;
+            if law.depends_on_velocity() || field.rigid.held.contains(&element) {
                 self.largest_force(field, step, element);
             }
         }
     }
 
     fn crossed(&mut self, field: &mut SystemField<'f>, at: Place<'_>) {
+        let impacts = std::mem::take(&mut field.rigid.impacts);
+        for impact in &impacts {
+            self.impacts[impact.element][0] += 1;
+            self.impacts[impact.element][1] += u32::from(impact.sticks);
+            self.maxima.impact_velocity = self.maxima.impact_velocity.max(impact.speed);
+            self.maxima.impulse += impact.impulse;
+            self.extrema.extend(Some(impact.depth).filter(|depth| depth.is_finite()));
+        }
         for place in 0..self.contacts.len() {
             let watched = &self.contacts[place];
-            if at.inside[watched.penetration] && !self.inside[watched.penetration] {
+            let is_rigid = field.laws[watched.element].rigid().is_some();
+            if !is_rigid && at.inside[watched.penetration] && !self.inside[watched.penetration] {
                 let [_, velocity] = self.read(field, Output::Element(watched.element), at.time, at.state);
                 self.maxima.touches += 1;
                 self.maxima.impact_velocity = self.maxima.impact_velocity.max(velocity.abs());
@@ -361,7 +395,9 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
             self.closed[place] &= watched.presses(at.inside);
         }
         // A force that sets in with a jump may be largest at once.
-        if field.system.elements().iter().any(|element| element.law.onset_damping() > 0.0) {
+        if !impacts.is_empty()
+            || field.system.elements().iter().any(|element| element.law.onset_damping() > 0.0)
+        {
             self.take(field, at);
         }
         self.inside.copy_from_slice(at.inside);

@@ -86,6 +86,18 @@ impl Stepper {
         self.evaluate(field, 0, time, inside, self.value.len());
     }
 
+    /// Lets the field ready state and sensitivities at the start of a motion.
+    pub(super) fn begin(&mut self, field: &mut impl VectorField, time: f64, inside: &mut [bool]) {
+        let (state, columns) = self.value.split_at_mut(self.dimension);
+        field.begin(time, state, columns, inside);
+    }
+
+    /// Lets state and sensitivities jump at a boundary that was crossed.
+    pub(super) fn impact(&mut self, field: &mut impl VectorField, time: f64, region: (&mut [bool], &[bool])) {
+        let (state, columns) = self.value.split_at_mut(self.dimension);
+        field.impact(time, (state, columns), region);
+    }
+
     /// Lets the sensitivities at the start jump at a boundary that was crossed, into one region from another.
     pub(super) fn jump(
         &mut self,

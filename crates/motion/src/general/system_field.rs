@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{Column, GeneralError, Point, VectorField};
+use super::{Column, GeneralError, Point, VectorField, rigid::RigidStops};
 use crate::{Contact, Force, Law, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
@@ -39,6 +39,8 @@ pub(super) struct SystemField<'a> {
     pub(super) laws: Vec<Law>,
     /// `df_e/dv` by the remembered speed v at the last point, and the sensitivities of v.
     impacts: Vec<(f64, Vec<f64>)>,
+    /// The rigid stops.
+    pub(super) rigid: RigidStops,
 }
 
 /// The modal damping matrix `C`.
@@ -64,14 +66,37 @@ impl<'a> SystemField<'a> {
             slopes: vec![(0.0, 0.0); system.elements().len()],
             laws: system.elements().iter().map(|element| element.law).collect(),
             impacts: vec![(0.0, Vec::new()); system.elements().len()],
+            rigid: RigidStops::of(system),
         }
     }
 
     fn rotate(&mut self, phase: f64) {
         for (rotation, order) in self.rotations.iter_mut().zip(self.system.orders()) {
-            let (sin, cos) = (TAU * (f64::from(*order) * phase.fract()).fract()).sin_cos();
-            *rotation = c64::new(cos, sin);
+            *rotation = rotation_at(*order, phase);
         }
+    }
+
+    /// `[v; -C v - diag(w^2) q + load]`: the rates by time without local elements.
+    pub(super) fn linear_acceleration(&self, phase: f64, state: &[f64]) -> Vec<f64> {
+        let n = self.system.dof();
+        let mut rates = vec![0.0; 2 * n];
+        linear_rates(&self.stiffness, &self.damping, 1.0, state, &mut rates);
+        for (load, &order) in self.loads.iter().zip(self.system.orders()) {
+            let rotation = rotation_at(order, phase);
+            for (sum, amplitude) in rates[n..].iter_mut().zip(&load.amplitude) {
+                *sum += amplitude.re * rotation.re - amplitude.im * rotation.im;
+            }
+        }
+        rates
+    }
+
+    /// `C x`.
+    pub(super) fn damped(&self, vector: &[f64]) -> Vec<f64> {
+        let n = vector.len();
+        let state: Vec<f64> = std::iter::repeat_n(0.0, n).chain(vector.iter().copied()).collect();
+        let mut rates = vec![0.0; 2 * n];
+        linear_rates(&self.stiffness, &self.damping, 1.0, &state, &mut rates);
+        rates[n..].iter().map(|rate| -rate).collect()
     }
 
     /// Adds `Re sum_m b_m exp(i 2 pi m x)`, or the same of the derivatives of `b_m`.
@@ -158,6 +183,17 @@ impl SystemField<'_> {
         Ok(())
     }
 
+    /// What the frequency changes in the rates of the velocities at a fixed state and phase, apart from the length of time.
+    fn add_change_of_forces(&self, at: Point<'_>, sum: &mut [f64]) {
+        self.add_load(|load| &load.by_frequency, TAU * self.period, sum);
+        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
+            if damping != 0.0 && element.support_ratio != 0.0 {
+                let by_frequency = element.support_ratio * self.support_motion(at.time)[1] * self.period;
+                add_scaled(sum, self.period * damping * by_frequency, &element.shape);
+            }
+        }
+    }
+
     /// Lets the sensitivities jump with the force of a contact that closes.
     fn jump_at_onset(&self, element: &LocalElement, columns: &mut [f64]) {
         let (n, damping) = (self.system.dof(), element.law.onset_damping());
@@ -221,6 +257,7 @@ impl VectorField for SystemField<'_> {
         let rate = &mut derivative[n..];
         self.add_load(|load| &load.amplitude, self.period, rate);
         self.add_local_forces(at, rate);
+        self.hold_rates(at.time, rate);
     }
 
     fn tangents(&mut self, _: Point<'_>, columns: &[f64], derivatives: &mut [f64]) {
@@ -242,19 +279,28 @@ impl VectorField for SystemField<'_> {
                     add_scaled(&mut derivative[n..], self.period * by_speed * row[index], &element.shape);
                 }
             }
+            self.hold_tangent(&mut derivative[n..]);
         }
     }
 
     fn add_by_parameter(&mut self, at: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
         add_scaled(sum, -self.period, derivative);
         let n = self.system.dof();
-        self.add_load(|load| &load.by_frequency, TAU * self.period, &mut sum[n..]);
-        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
-            if damping != 0.0 && element.support_ratio != 0.0 {
-                let by_frequency = element.support_ratio * self.support_motion(at.time)[1] * self.period;
-                add_scaled(&mut sum[n..], self.period * damping * by_frequency, &element.shape);
-            }
+        if self.rigid.held.is_empty() {
+            return self.add_change_of_forces(at, &mut sum[n..]);
         }
+        let mut change = vec![0.0; n];
+        self.add_change_of_forces(at, &mut change);
+        self.hold_by_frequency(at.time, &mut change);
+        add_scaled(&mut sum[n..], 1.0, &change);
+    }
+
+    fn begin(&mut self, time: f64, state: &mut [f64], columns: &mut [f64], inside: &mut [bool]) {
+        self.begin_rigid(time, state, columns, inside);
+    }
+
+    fn impact(&mut self, time: f64, motion: (&mut [f64], &mut [f64]), region: (&mut [bool], &[bool])) {
+        self.cross_rigid(time, motion, region);
     }
 
     fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
@@ -277,7 +323,14 @@ impl VectorField for SystemField<'_> {
     fn switching(&self, phase: f64, state: &[f64], values: &mut [f64]) {
         let (q, v) = state.split_at(self.system.dof());
         let mut k = 0;
+        let held = &self.rigid.held;
+        let pressing = if held.is_empty() { Vec::new() } else { self.pressing_forces(phase, state) };
         for (e, element) in self.system.elements().iter().enumerate() {
+            if held.contains(&e) {
+                values[k] = pressing[e];
+                k += 1;
+                continue;
+            }
             let contacts = element.law.contacts();
             if contacts.is_empty() {
                 continue;
@@ -387,8 +440,13 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sum
 }
 
+fn rotation_at(order: u32, phase: f64) -> c64 {
+    let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
+    c64::new(cos, sin)
+}
+
 #[inline]
-fn add_scaled(sum: &mut [f64], factor: f64, values: &[f64]) {
+pub(super) fn add_scaled(sum: &mut [f64], factor: f64, values: &[f64]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += factor * value;
     }

@@ -14,6 +14,7 @@ mod hertz;
 mod hunt_crossley;
 mod linear;
 mod restitution;
+mod rigid;
 mod two_sided;
 
 pub use cubic::CubicSpring;
@@ -21,6 +22,7 @@ pub use hertz::HertzStop;
 pub use hunt_crossley::HuntCrossleyStop;
 pub use linear::LinearStop;
 pub use restitution::{RestitutionModel, RestitutionStop};
+pub use rigid::RigidStop;
 pub use two_sided::TwoSidedStop;
 
 /// Why a law cannot be built from its parameters.
@@ -47,6 +49,13 @@ pub enum LawError {
     #[error("coefficient of restitution is {found}, must be more than 0 and at most 1")]
     #[expect(missing_docs, reason = "the message names its fields")]
     Restitution { found: f64 },
+    /// Coefficients of restitution of a rigid stop are from 0 to 1.
+    #[error("coefficient of restitution of a rigid stop is {found}, must be from 0 to 1")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    RigidRestitution { found: f64 },
+    /// A rigid stop has no stiffness.
+    #[error("a rigid stop has no stiffness")]
+    NoStiffness,
     /// A law that remembers how fast its contact began cannot be closed from the outset.
     #[error("the stop presses at rest, but its law needs the speed with which a contact begins")]
     MemoryOfPreload,
@@ -118,6 +127,8 @@ pub enum Law {
     TwoSided(TwoSidedStop),
     /// Cubic spring, always active.
     Cubic(CubicSpring),
+    /// Rigid stop with a coefficient of restitution.
+    Rigid(RigidStop),
 }
 
 impl Law {
@@ -131,7 +142,14 @@ impl Law {
             Self::Linear(law) => law.force(displacement, velocity),
             Self::TwoSided(law) => law.force(displacement),
             Self::Cubic(law) => law.force(displacement),
+            Self::Rigid(_) => RigidStop::force(),
         }
+    }
+
+    /// The stop, if the law is that of a rigid one.
+    #[must_use]
+    pub fn rigid(&self) -> Option<&RigidStop> {
+        if let Self::Rigid(law) = self { Some(law) } else { None }
     }
 
     /// Force of a contact that presses, continued smoothly to where its pressure has vanished: what a step that ends there follows.
@@ -152,7 +170,7 @@ impl Law {
             Self::HuntCrossley(law) => law.pressure(),
             Self::Restitution(law) => Some(law.pressure()),
             Self::Linear(law) => law.pressure(),
-            Self::Hertz(_) | Self::TwoSided(_) | Self::Cubic(_) => None,
+            Self::Hertz(_) | Self::TwoSided(_) | Self::Cubic(_) | Self::Rigid(_) => None,
         }
     }
 
@@ -211,10 +229,11 @@ impl Law {
             Self::Linear(law) => law.contacts(),
             Self::TwoSided(law) => law.contacts(),
             Self::Cubic(_) => &[],
+            Self::Rigid(law) => law.contacts(),
         }
     }
 
-    /// The constant of the law, in its unit.
+    /// The constant of the law, in its unit; infinite for a rigid stop.
     #[must_use]
     pub fn stiffness(&self) -> f64 {
         match self {
@@ -224,6 +243,7 @@ impl Law {
             Self::Linear(law) => law.stiffness(),
             Self::TwoSided(law) => law.stiffness(),
             Self::Cubic(law) => law.stiffness(),
+            Self::Rigid(_) => f64::INFINITY,
         }
     }
 
@@ -238,7 +258,7 @@ impl Law {
     /// The law with another constant and the same levels.
     ///
     /// # Errors
-    /// [`LawError::Stiffness`].
+    /// [`LawError::Stiffness`], [`LawError::NoStiffness`].
     pub fn with_stiffness(&self, stiffness: f64) -> Result<Self, LawError> {
         Ok(match self {
             Self::Hertz(law) => Self::Hertz(law.with_stiffness(stiffness)?),
@@ -249,6 +269,7 @@ impl Law {
             Self::Linear(law) => Self::Linear(law.with_stiffness(stiffness)?),
             Self::TwoSided(law) => Self::TwoSided(law.with_stiffness(stiffness)?),
             Self::Cubic(_) => Self::Cubic(CubicSpring::new(stiffness)?),
+            Self::Rigid(_) => return Err(LawError::NoStiffness),
         })
     }
 
@@ -271,6 +292,7 @@ impl Law {
             }
             Self::TwoSided(law) => Self::TwoSided(TwoSidedStop::new(law.stiffness(), gap, gap)?),
             Self::Cubic(law) => Self::Cubic(*law),
+            Self::Rigid(law) => Self::Rigid(RigidStop::with_gap(law.restitution(), gap)?),
         })
     }
 

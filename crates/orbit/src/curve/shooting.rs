@@ -5,7 +5,7 @@
 
 use hammerbeam_motion::{
     Parameter, Stretch,
-    exact::{ExactIntegrator, MotionError},
+    exact::{ExactIntegrator, MotionError, complete_touches},
 };
 
 use crate::state_scale::StateScale;
@@ -96,6 +96,7 @@ impl Shooting {
             self.products.push(product);
             self.segments.push(segment);
         }
+        complete_touches(&mut self.touches);
         Ok(())
     }
 

@@ -159,6 +159,8 @@ pub(crate) const HERTZ_STIFFNESS: Quantity = Quantity::new("N/m^1.5", Excluding(
 pub(crate) const LOSS: Quantity = Quantity::new("s/m", Including(0.0), Including(1e6));
 /// Coefficient of restitution.
 pub(crate) const RESTITUTION: Quantity = Quantity::new("", Excluding(0.0), Including(1.0));
+/// Coefficient of restitution of a rigid stop.
+pub(crate) const RIGID_RESTITUTION: Quantity = Quantity::new("", Including(0.0), Including(1.0));
 /// Constant of a cubic spring, either sign.
 pub(crate) const CUBIC_STIFFNESS: Quantity = Quantity::new("N/m^3", Including(-1e30), Including(1e30));
 /// Rest distance of a stop.

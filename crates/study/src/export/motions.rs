@@ -105,12 +105,13 @@ pub fn write_exponents(
     Ok(vec![spectra.finish()?, exponents.finish()?, convergence.finish()?, section.finish()?])
 }
 
-const SPECTRUM_COLUMNS: [&str; 10] = [
+const SPECTRUM_COLUMNS: [&str; 11] = [
     "frequency_hz",
     "largest_exponent_per_s",
     "half_width_per_s",
     "sum_per_s",
     "divergence_per_s",
+    "expected_sum_per_s",
     "kaplan_yorke_dimension",
     "block_correlation",
     "zero_one_k",
@@ -118,7 +119,7 @@ const SPECTRUM_COLUMNS: [&str; 10] = [
     "sections_per_period",
 ];
 
-fn spectrum_row(record: &ExponentRecord) -> [String; 10] {
+fn spectrum_row(record: &ExponentRecord) -> [String; 11] {
     let spectrum = &record.spectrum;
     let largest = spectrum.exponents.first();
     [
@@ -127,6 +128,7 @@ fn spectrum_row(record: &ExponentRecord) -> [String; 10] {
         number(largest.map(|exponent| exponent.half_width)),
         number(spectrum.sum),
         number(record.divergence),
+        number(spectrum.expected_sum),
         number(spectrum.kaplan_yorke_dimension),
         number(spectrum.block_correlation),
         number(record.zero_one),

@@ -33,6 +33,11 @@ pub enum ParameterKind {
         /// Number of the stop, from 0.
         stop: usize,
     },
+    /// Coefficient of restitution of a rigid stop.
+    Restitution {
+        /// Number of the stop, from 0.
+        stop: usize,
+    },
     /// Ratio to critical damping of every mode.
     ModalRatio,
 }
@@ -93,8 +98,10 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
             ("stiffness_n_m", quantity::STIFFNESS, gap_above_m == gap_below_m)
         }
         StopLaw::Cubic { .. } => ("stiffness_n_m3", quantity::CUBIC_STIFFNESS, false),
+        StopLaw::Rigid { approach, .. } => ("restitution", quantity::RIGID_RESTITUTION, gap_of(approach)),
     };
-    let mut known = vec![(key, stiffness, quantity)];
+    let first = if key == "restitution" { ParameterKind::Restitution { stop } } else { stiffness };
+    let mut known = vec![(key, first, quantity)];
     if has_gap {
         known.push(("gap_m", gap, quantity::GAP));
     }

@@ -53,6 +53,15 @@ pub enum StopLaw {
         /// On which side the stop is.
         side: Side,
     },
+    /// One-sided and rigid: an impact turns the velocity round.
+    Rigid {
+        /// Coefficient of restitution.
+        restitution: f64,
+        /// The gap.
+        approach: Approach,
+        /// On which side the stop is.
+        side: Side,
+    },
     /// Linear springs on both sides.
     TwoSided {
         /// Stiffness [N/m].
@@ -147,13 +156,13 @@ pub enum Side {
 }
 
 impl StopLaw {
-    /// Whether the force depends on the velocity.
+    /// Whether a force depends on the velocity; a rigid stop has none.
     #[must_use]
     pub fn loses_energy(&self) -> bool {
         match self {
             Self::Linear { damping_n_s_m, .. } => *damping_n_s_m > 0.0,
             Self::HuntCrossley { .. } | Self::Restitution { .. } => true,
-            Self::Hertz { .. } | Self::TwoSided { .. } | Self::Cubic { .. } => false,
+            Self::Hertz { .. } | Self::TwoSided { .. } | Self::Cubic { .. } | Self::Rigid { .. } => false,
         }
     }
 
@@ -164,7 +173,8 @@ impl StopLaw {
             Self::Hertz { approach: Approach::Gap { gap_m, .. }, .. }
             | Self::HuntCrossley { approach: Approach::Gap { gap_m, .. }, .. }
             | Self::Restitution { approach: Approach::Gap { gap_m, .. }, .. }
-            | Self::Linear { approach: Approach::Gap { gap_m, .. }, .. } => Some(*gap_m),
+            | Self::Linear { approach: Approach::Gap { gap_m, .. }, .. }
+            | Self::Rigid { approach: Approach::Gap { gap_m, .. }, .. } => Some(*gap_m),
             Self::TwoSided { gap_above_m, gap_below_m, .. } if gap_above_m == gap_below_m => {
                 Some(*gap_above_m)
             }
@@ -179,7 +189,8 @@ impl StopLaw {
             Self::Hertz { approach: Approach::Gap { measured, .. }, .. }
             | Self::HuntCrossley { approach: Approach::Gap { measured, .. }, .. }
             | Self::Restitution { approach: Approach::Gap { measured, .. }, .. }
-            | Self::Linear { approach: Approach::Gap { measured, .. }, .. } => *measured,
+            | Self::Linear { approach: Approach::Gap { measured, .. }, .. }
+            | Self::Rigid { approach: Approach::Gap { measured, .. }, .. } => *measured,
             Self::TwoSided { gap_measured, .. } => *gap_measured,
             _ => GapMeasured::Undeformed,
         }
@@ -195,13 +206,15 @@ pub(super) enum Kind {
     Cubic,
     HuntCrossley,
     Restitution(ImpactModel),
+    Rigid,
 }
 
-const KINDS: [(&str, Kind); 11] = [
+const KINDS: [(&str, Kind); 12] = [
     ("hertz", Kind::Hertz),
     ("linear", Kind::Linear),
     ("two-sided", Kind::TwoSided),
     ("cubic", Kind::Cubic),
+    ("rigid", Kind::Rigid),
     ("hunt-crossley", Kind::HuntCrossley),
     ("herbert-mcwhannell", Kind::Restitution(ImpactModel::HerbertMcwhannell)),
     ("lee-wang", Kind::Restitution(ImpactModel::LeeWang)),
@@ -236,9 +249,25 @@ pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<StopLaw> {
         }
         Kind::TwoSided => read_two_sided(table),
         Kind::Cubic => read_cubic(table),
+        Kind::Rigid => read_rigid(table),
         Kind::HuntCrossley => read_hunt_crossley(table),
         Kind::Restitution(model) => read_restitution(table, model),
     }
+}
+
+fn read_rigid(table: &Table<'_>) -> Option<StopLaw> {
+    let restitution = required(table, "restitution", &quantity::RIGID_RESTITUTION);
+    let (approach, side) = read_one_sided(table);
+    if let Some(Approach::Preload { .. }) = approach {
+        let help = vec!["allowed: a gap".into()];
+        table.problem(
+            "preload_n",
+            "`preload_n` is given, but a rigid stop has no stiffness to press with".into(),
+            help,
+        );
+        return None;
+    }
+    Some(StopLaw::Rigid { restitution: restitution?, approach: approach?, side: side? })
 }
 
 /// With the loss itself, or with a coefficient of restitution for every impact.

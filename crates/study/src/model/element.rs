@@ -3,7 +3,8 @@
 use hammerbeam_motion::{
     Law, LawError, Load, LocalElement,
     law::{
-        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop,
+        TwoSidedStop,
     },
 };
 use hammerbeam_structure::ReducedModel;
@@ -121,6 +122,12 @@ fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalEle
             let relative = relative.towards(side);
             let law = linear(stiffness_n_m, approach, relative.at(rest))?.with_damping(damping_n_s_m)?;
             element(relative, Law::Linear(law))
+        }
+        StopLaw::Rigid { restitution, approach, side } => {
+            let relative = relative.towards(side);
+            let gap = if let Approach::Gap { gap_m, .. } = approach { gap_m } else { 0.0 };
+            let law = RigidStop::at_level(restitution, gap + relative.at(rest))?;
+            element(relative, Law::Rigid(law))
         }
         StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, .. } => {
             let shift = relative.at(rest);

@@ -52,6 +52,9 @@ impl Model {
             ParameterKind::Stiffness { stop } => {
                 Ok(plain(Parameter::Stiffness { element: self.element_of(study, stop)? }))
             }
+            ParameterKind::Restitution { stop } => {
+                Ok(plain(Parameter::Restitution { element: self.element_of(study, stop)? }))
+            }
             ParameterKind::Gap { stop } => {
                 let parameter = Parameter::Gap { element: self.element_of(study, stop)? };
                 // A gap that is measured from the rest position differs from the level of the element by the sag.

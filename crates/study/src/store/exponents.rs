@@ -14,8 +14,8 @@ pub struct ExponentRecord {
     pub sections_per_period: u64,
     /// Exponents, their sum, and how they came about; times in s, exponents in 1/s.
     pub spectrum: Spectrum,
-    /// What the sum has to be [1/s], where that is known.
-    pub divergence: Option<f64>,
+    /// `-tr(M^-1 C)` [1/s], what the sum is while no contact loses energy.
+    pub divergence: f64,
     /// K of the 0-1 test.
     pub zero_one: Option<f64>,
     /// Displacement [m] and velocity [m/s] of the response point at phase 0 of the periods averaged over, the first ones of very many.
@@ -29,7 +29,7 @@ impl Store {
     /// The database refuses, or something in it is damaged.
     pub fn exponents(&self, request: i64) -> Result<Vec<ExponentRecord>, StoreError> {
         let select = "SELECT frequency_hz, sections_per_period, time_s, sum_per_s, divergence_per_s, kaplan_yorke_dimension,
-            block_correlation, zero_one, exponents, convergence, section FROM exponents WHERE request = ?1 ORDER BY number";
+            block_correlation, zero_one, exponents, convergence, section, expected_sum_per_s FROM exponents WHERE request = ?1 ORDER BY number";
         let mut statement = self.connection.prepare(select)?;
         let mut rows = statement.query([request])?;
         let mut records = Vec::new();
@@ -62,8 +62,8 @@ impl Store {
             .flat_map(|place| std::iter::once(place.time).chain(place.exponents.iter().copied()))
             .collect();
         let insert = "INSERT INTO exponents (request, number, frequency_hz, sections_per_period, time_s, sum_per_s,
-            divergence_per_s, kaplan_yorke_dimension, block_correlation, zero_one, exponents, convergence, section)
-            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)";
+            divergence_per_s, kaplan_yorke_dimension, block_correlation, zero_one, exponents, convergence, section, expected_sum_per_s)
+            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)";
         let values = params![
             request,
             piece as i64,
@@ -78,6 +78,7 @@ impl Store {
             blob::pack(&pairs),
             blob::pack(&curve),
             blob::pack(record.section.iter().flatten()),
+            spectrum.expected_sum,
         ];
         transaction.execute(insert, values)?;
         transaction.commit()?;
@@ -107,11 +108,13 @@ fn record(row: &SqlRow<'_>) -> Result<ExponentRecord, StoreError> {
             exponents,
             sum: row.get(3)?,
             kaplan_yorke_dimension: row.get(5)?,
-            block_correlation: row.get(6)?,
+            // What is not a number is stored as nothing.
+            block_correlation: row.get::<_, Option<f64>>(6)?.unwrap_or(f64::NAN),
             convergence: places
                 .map(|place| Convergence { time: place[0], exponents: place[1..].to_vec() })
                 .collect(),
             time: row.get(2)?,
+            expected_sum: row.get(11)?,
         },
         divergence: row.get(4)?,
         zero_one: row.get(7)?,

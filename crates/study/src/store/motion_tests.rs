@@ -63,7 +63,7 @@ fn motions() -> Vec<SettledMotion> {
     kinds().into_iter().map(of).collect()
 }
 
-fn spectrum(section: Vec<[f64; 2]>, divergence: Option<f64>) -> ExponentRecord {
+fn spectrum(section: Vec<[f64; 2]>, known: Option<f64>) -> ExponentRecord {
     ExponentRecord {
         frequency_hz: 0.2,
         sections_per_period: 3,
@@ -77,9 +77,10 @@ fn spectrum(section: Vec<[f64; 2]>, divergence: Option<f64>) -> ExponentRecord {
                 Convergence { time: 2.0, exponents: vec![0.4, -1.1] },
             ],
             time: 1.0 / 0.3,
+            expected_sum: known,
         },
-        divergence,
-        zero_one: divergence,
+        divergence: -0.7,
+        zero_one: known,
         section,
     }
 }

@@ -1,6 +1,6 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
-use hammerbeam_motion::System;
+use hammerbeam_motion::{Law, System};
 use hammerbeam_orbit::PeriodicSolution;
 
 use super::{
@@ -88,11 +88,20 @@ pub(super) fn compare(
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
     // A force that begins with a jump makes the monodromy matrix jump where its contact grazes: there are two of them then.
-    let jumps = system.elements().iter().any(|element| element.law.onset_damping() > 0.0);
+    // That of an impact on a rigid stop grows without bound towards grazing.
+    let may_jump = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
+    let jumps = system.elements().iter().any(|element| may_jump(&element.law));
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jumps && grazing > 0, ..found }));
     list.extend(leading(row, solution));
-    list.extend(events(row, found, &measures, tolerance * (1.0 + norm(&found.monodromy) + sensitivity)));
+    // Behind grazing on a rigid stop everything varies like the root of the distance from it.
+    let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
+    if grazing > 0 && rigid {
+        list.iter_mut().for_each(|comparison| comparison.grazing = true);
+    }
+    // There multipliers jump from far outside the unit circle to where they are beyond: no multiplier is at the place of such an event.
+    let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
+    list.extend(events(row, found, &measures, (unknown, rigid)));
     list
 }
 
@@ -102,7 +111,8 @@ fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> C
 
 fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Comparison>) {
     let (stored, new) = (&row.maxima, &found.maxima);
-    let factor = if new.contact_force > 0.0 { measures.contact_factor(found) } else { 1.0 };
+    let touches = new.contact_force > 0.0 || new.impact_velocity > 0.0;
+    let factor = if touches { measures.contact_factor(found) } else { 1.0 };
     let mut push = |quantity, stored: f64, new: f64, measure: f64| {
         // Without a contact both are zero.
         let difference = if stored == new { 0.0 } else { (stored - new).abs() / (measures.gain * measure) };
@@ -164,8 +174,13 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
 
 /// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a penetration at zero.
 ///
-/// * `unknown`: how well multipliers are known, for one of condition one.
-fn events(row: &Row, found: &Recomputed, measures: &Measures, unknown: f64) -> Vec<Comparison> {
+/// * `(unknown, rigid)`: how well multipliers are known, for one of condition one, and whether there are rigid stops, at whose grazing they jump.
+fn events(
+    row: &Row,
+    found: &Recomputed,
+    measures: &Measures,
+    (unknown, rigid): (f64, bool),
+) -> Vec<Comparison> {
     let nearest = |distance: &dyn Fn(faer::c64) -> f64| {
         let distances = found
             .multipliers
@@ -173,17 +188,18 @@ fn events(row: &Row, found: &Recomputed, measures: &Measures, unknown: f64) -> V
             .map(|multiplier| (distance(multiplier.value) - unknown * multiplier.condition).max(0.0));
         distances.fold(f64::INFINITY, f64::min)
     };
+    let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
+    let jumps = rigid && touch <= EVENT * measures.contact[0];
     let mut list = Vec::new();
     let mut claim = |claimed: bool, distance: f64| {
         if claimed {
             list.push(plain(Quantity::Events, 0.0, distance, distance));
         }
     };
-    claim(row.events.fold, nearest(&|m| (m - 1.0).norm()));
-    claim(row.events.flip, nearest(&|m| (m + 1.0).norm()));
+    claim(row.events.fold && !jumps, nearest(&|m| (m - 1.0).norm()));
+    claim(row.events.flip && !jumps, nearest(&|m| (m + 1.0).norm()));
     let circle = |m: faer::c64| if m.im == 0.0 { f64::INFINITY } else { (m.norm() - 1.0).abs() };
-    claim(row.events.neimark_sacker, nearest(&circle));
-    let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
+    claim(row.events.neimark_sacker && !jumps, nearest(&circle));
     claim(row.events.grazing, touch / measures.contact[0]);
     list
 }

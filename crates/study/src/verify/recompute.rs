@@ -108,7 +108,7 @@ pub(super) fn recompute(
             contact_force: observed.contact_force,
             impact_velocity: observed.impact_velocity,
             impulse: observed.impulse,
-            contacts: observed.touches + observed.closed_throughout.count_ones(),
+            contacts: observed.contacts(),
         },
         extrema: observed.extrema,
     })
@@ -122,6 +122,12 @@ fn join(earlier: Observed, later: Observed) -> Observed {
         impact_velocity: earlier.impact_velocity.max(later.impact_velocity),
         impulse: earlier.impulse + later.impulse,
         touches: earlier.touches + later.touches,
+        impacts: earlier
+            .impacts
+            .iter()
+            .zip(&later.impacts)
+            .map(|(a, b)| [a[0] + b[0], a[1] + b[1]])
+            .collect(),
         closed_throughout: earlier.closed_throughout & later.closed_throughout,
         extrema: [earlier.extrema, later.extrema].concat(),
         ..later

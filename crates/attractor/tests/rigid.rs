@@ -1,0 +1,94 @@
+//! Exponents beside rigid stops and contacts that lose energy: their sums, and what sticking takes.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{beam_with, element, oscillator};
+use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, lyapunov, sections_needed};
+use hammerbeam_motion::{
+    Law, System,
+    exact::ExactSettings,
+    law::{HertzStop, HuntCrossleyStop, LinearStop, RigidStop},
+};
+
+fn rigid(restitution: f64, gap: f64) -> Law {
+    Law::Rigid(RigidStop::with_gap(restitution, gap).unwrap())
+}
+
+fn settled(system: System, frequency_hz: f64, periods: u64) -> (SystemMap, Vec<f64>) {
+    let mut map = SystemMap::new(system, frequency_hz, 1, ExactSettings::default()).unwrap();
+    let mut state = vec![0.0; map.dimension()];
+    for period in 0..periods {
+        state = map.advance(period, &state).unwrap();
+    }
+    (map, state)
+}
+
+fn spectrum(system: System, frequency_hz: f64, averaged: u64) -> (Spectrum, f64) {
+    let (mut map, state) = settled(system, frequency_hz, 200);
+    let parts = sections_needed(&mut map, &state).unwrap();
+    map.set_parts(parts);
+    let settings = LyapunovSettings { aligning: 20 * parts, averaged: averaged * parts };
+    (lyapunov(&mut map, &state, settings).unwrap(), map.divergence())
+}
+
+/// The impact oscillator with its stop at rest position, chaotic just behind 2.7 (a subharmonic window lies beside): the sum is `-c + 2 ln e` times the impacts per time, which are counted by a trace of
+/// the same motion.
+#[test]
+fn every_impact_takes_two_logarithms_of_its_restitution() {
+    for (e, gap, frequency) in [(0.8, 0.0, 2.76), (0.8, 1.0, 0.79), (0.5, 0.0, 3.3)] {
+        let damping = 0.02;
+        let system = oscillator(1.0, damping, 1.0, vec![element(&[1.0], 0.0, rigid(e, gap))]);
+        let periods = 200;
+        let frequency_hz = frequency / TAU;
+        let (found, divergence) = spectrum(system.clone(), frequency_hz, periods);
+        // The same motion once more, impact by impact.
+        let (mut map, mut state) = settled(system, frequency_hz, 220);
+        let mut impacts = 0;
+        for period in 0..periods {
+            let stretch = hammerbeam_motion::Stretch { frequency_hz, start: 0.0, end: 1.0 };
+            impacts += map.integrator().trace(&stretch, &state, &[]).unwrap().contacts.len();
+            state = map.advance(period, &state).unwrap();
+        }
+        assert!((divergence + damping).abs() < 1e-15);
+        let expected = -damping + 2.0 * e.ln() * impacts as f64 / found.time;
+        assert!(impacts > 20);
+        assert!((found.sum / expected - 1.0).abs() < 1e-6, "{e}: {} against {expected}", found.sum);
+        assert!((found.expected_sum.unwrap() / expected - 1.0).abs() < 1e-12);
+    }
+}
+
+/// The beam in contact with laws that lose energy: `-tr(M^-1 C)` plus the mean divergence of the contact, and with a rigid stop.
+#[test]
+fn sums_are_those_of_the_divergence_for_laws_that_lose_energy() {
+    let hertz = HertzStop::with_gap(4.5e9, 0.0).unwrap();
+    let laws = [
+        ("hunt-crossley", Law::HuntCrossley(HuntCrossleyStop::new(hertz, 0.3).unwrap())),
+        ("damped", Law::Linear(LinearStop::with_gap(1e5, 0.0).unwrap().with_damping(8.0).unwrap())),
+        ("rigid", rigid(0.8, 1e-4)),
+    ];
+    for (name, law) in laws {
+        let (found, divergence) = spectrum(beam_with(0.015, law), 53.0, 60);
+        let expected = found.expected_sum.unwrap();
+        assert!(expected < 1.001 * divergence, "{name}: the contact takes nothing");
+        let error = (found.sum / expected - 1.0).abs();
+        assert!(error < 1e-6, "{name}: {} against {expected}, {error:e}", found.sum);
+    }
+}
+
+/// Pressed on, the mass sticks once in every period: both directions are forgotten, and so is any neighbouring state.
+#[test]
+fn exponents_are_minus_infinity_where_a_stop_sticks() {
+    let system = oscillator(1.0, 0.05, 1.0, vec![element(&[1.0], 0.0, rigid(0.3, 0.0))]);
+    let (found, _) = spectrum(system, 0.5 / TAU, 20);
+    assert_eq!(found.sum, f64::NEG_INFINITY);
+    assert_eq!(found.expected_sum, Some(f64::NEG_INFINITY));
+    assert!(
+        found.exponents.iter().all(|exponent| exponent.value == f64::NEG_INFINITY),
+        "{:?}",
+        found.exponents
+    );
+    assert_eq!(found.kaplan_yorke_dimension, 0.0);
+}

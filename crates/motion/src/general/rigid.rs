@@ -1,0 +1,316 @@
+//! Rigid stops in the vector field of a system: impacts, and the contact that sticks.
+//!
+//! Everything is at a fixed phase x, so `dr = phi . dq`, and `dr' = phi . dv` but for the column of the frequency, where `s u'/f` is added.
+//!
+//! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi` where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r' T)`,
+//!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
+//! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, and from their derivatives. Its switching function is `lambda_j`
+//!   itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
+//! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
+//!
+//! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no flight is known, and impacts are zeros of dense output.
+
+use faer::{Mat, linalg::solvers::Solve};
+
+use super::{
+    Point, VectorField,
+    system_field::{SystemField, add_scaled, dot, switches_of},
+};
+
+/// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
+const CHATTER: f64 = 1e-12;
+/// What a state at the start may be off a stop that it sticks to, relative to the same.
+const AT_START: f64 = 1e-10;
+
+/// What is known of the rigid stops of a system.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RigidStops {
+    /// Element and switching function of each.
+    pub(super) stops: Vec<(usize, usize)>,
+    /// Elements that are held.
+    pub(super) held: Vec<usize>,
+    /// Fastest impact so far [m/s].
+    fastest: f64,
+    /// Impacts since they were asked for last.
+    pub(super) impacts: Vec<Impact>,
+}
+
+/// An impact that happened.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Impact {
+    pub(super) element: usize,
+    pub(super) speed: f64,
+    pub(super) impulse: f64,
+    pub(super) sticks: bool,
+    /// How far the motion would have gone beyond the stop, as far as its acceleration then tells; infinite where that pressed on [m].
+    pub(super) depth: f64,
+}
+
+impl RigidStops {
+    pub(super) fn of(system: &crate::System) -> Self {
+        let (mut first, mut stops) = (0, Vec::new());
+        for (e, element) in system.elements().iter().enumerate() {
+            if element.law.rigid().is_some() {
+                stops.push((e, first));
+            }
+            first += switches_of(element);
+        }
+        Self { stops, ..Self::default() }
+    }
+}
+
+impl SystemField<'_> {
+    /// `D^-1 right` for the held elements.
+    fn solve_held(&self, held: &[usize], right: &[f64]) -> Vec<f64> {
+        let shape = |j: usize| &self.system.elements()[held[j]].shape;
+        let s = held.len();
+        let gram = Mat::from_fn(s, s, |j, k| dot(shape(j), shape(k)));
+        let right = Mat::from_fn(s, 1, |j, _| right[j]);
+        let solved = gram.partial_piv_lu().solve(&right);
+        (0..s).map(|j| solved[(j, 0)]).collect()
+    }
+
+    /// Takes from a vector over the modes what lies along held shapes, so that `phi_j . vector = targets_j`; gives `D^-1 (Phi^T vector - targets)`.
+    fn constrain(&self, held: &[usize], targets: &[f64], vector: &mut [f64]) -> Vec<f64> {
+        let shape = |e: usize| &self.system.elements()[e].shape;
+        let excess: Vec<f64> = held.iter().zip(targets).map(|(&e, t)| dot(shape(e), vector) - t).collect();
+        let forces = self.solve_held(held, &excess);
+        for (&e, force) in held.iter().zip(&forces) {
+            add_scaled(vector, -force, shape(e));
+        }
+        forces
+    }
+
+    /// Holds the rates of the velocities: `phi_j . g = -s_j u''`, with rates by the phase.
+    pub(super) fn hold_rates(&self, phase: f64, rate: &mut [f64]) {
+        let held = &self.rigid.held;
+        if held.is_empty() {
+            return;
+        }
+        let u = self.support_motion(phase);
+        let ratio = |e: usize| self.system.elements()[e].support_ratio;
+        let targets: Vec<f64> = held.iter().map(|&e| -self.period * ratio(e) * u[2]).collect();
+        self.constrain(held, &targets, rate);
+    }
+
+    /// The same for the derivatives by the state.
+    pub(super) fn hold_tangent(&self, rate: &mut [f64]) {
+        let held = &self.rigid.held;
+        if !held.is_empty() {
+            self.constrain(held, &vec![0.0; held.len()], rate);
+        }
+    }
+
+    /// The same for what the frequency changes at a fixed state and phase: `u''` goes with `f^2`.
+    pub(super) fn hold_by_frequency(&self, phase: f64, change: &mut [f64]) {
+        let held = &self.rigid.held;
+        if held.is_empty() {
+            return;
+        }
+        let u = self.support_motion(phase);
+        let ratio = |e: usize| self.system.elements()[e].support_ratio;
+        let rate = 2.0 * self.period * self.period;
+        let targets: Vec<f64> = held.iter().map(|&e| -rate * ratio(e) * u[2]).collect();
+        self.constrain(held, &targets, change);
+    }
+
+    /// Pressing forces of all elements, zero for those that are not held [N].
+    pub(super) fn pressing_forces(&self, phase: f64, state: &[f64]) -> Vec<f64> {
+        let mut pressing = vec![0.0; self.system.elements().len()];
+        let held = &self.rigid.held;
+        if held.is_empty() {
+            return pressing;
+        }
+        let (n, u) = (self.system.dof(), self.support_motion(phase));
+        let rate = self.linear_acceleration(phase, state);
+        let ratio = |e: usize| self.system.elements()[e].support_ratio;
+        let targets: Vec<f64> = held.iter().map(|&e| -ratio(e) * u[2]).collect();
+        let mut moved = rate[n..].to_vec();
+        let forces = self.constrain(held, &targets, &mut moved);
+        held.iter().zip(forces).for_each(|(&e, force)| pressing[e] = force);
+        pressing
+    }
+
+    /// `[r, r', r'']` of an element in the region that is told.
+    fn relative(&mut self, e: usize, at: Point<'_>) -> [f64; 3] {
+        let n = self.system.dof();
+        let mut rates = vec![0.0; 2 * n];
+        self.evaluate(at, &mut rates);
+        let (element, u) = (&self.system.elements()[e], self.support_motion(at.time));
+        let ratio = element.support_ratio;
+        [
+            dot(&element.shape, &at.state[..n]) + ratio * u[0],
+            dot(&element.shape, &at.state[n..]) + ratio * u[1],
+            dot(&element.shape, &rates[n..]) / self.period + ratio * u[2],
+        ]
+    }
+
+    /// Speed against which those of an element are small: of the fastest impact, and of its parts now.
+    fn usual_speed(&self, e: usize, state: &[f64]) -> f64 {
+        let n = self.system.dof();
+        let (shape, w) = (&self.system.elements()[e].shape, &self.system.model().natural_frequencies);
+        let part = |i: usize| shape[i].abs() * (state[n + i].abs() + w[i] * state[i].abs());
+        (0..n).map(part).sum::<f64>().max(self.rigid.fastest)
+    }
+
+    /// At the start of a motion: stops that stick are held, none is behind.
+    pub(super) fn begin_rigid(
+        &mut self,
+        time: f64,
+        state: &mut [f64],
+        columns: &mut [f64],
+        inside: &mut [bool],
+    ) {
+        for &(_, switch) in &self.rigid.stops {
+            inside[switch] = false;
+        }
+        for (e, switch) in self.rigid.stops.clone() {
+            let [r, speed, press] = self.relative(e, Point { time, state, inside });
+            let level = self.laws[e].contacts()[0].level;
+            let way = AT_START * self.usual_speed(e, state) * self.period;
+            if (r - level).abs() <= way && press > 0.0 && speed * speed <= 2.0 * press * way {
+                self.stick(e, state, columns, time);
+                inside[switch] = true;
+            }
+        }
+    }
+
+    /// What happens to rigid stops as boundaries are crossed.
+    pub(super) fn cross_rigid(
+        &mut self,
+        time: f64,
+        (state, columns): (&mut [f64], &mut [f64]),
+        (inside, before): (&mut [bool], &[bool]),
+    ) {
+        for (e, switch) in self.rigid.stops.clone() {
+            if before[switch] && !inside[switch] {
+                self.rigid.held.retain(|&held| held != e);
+            }
+        }
+        for (e, switch) in self.rigid.stops.clone() {
+            if before[switch] || !inside[switch] {
+                continue;
+            }
+            inside[switch] = false;
+            let mut before_it = vec![0.0; state.len()];
+            self.evaluate(Point { time, state, inside }, &mut before_it);
+            let [_, speed, press] = self.relative(e, Point { time, state, inside });
+            let approach = press;
+            let way = CHATTER * self.usual_speed(e, state) * self.period;
+            if self.rigid.held.is_empty() || press <= 0.0 || speed * speed > 2.0 * press * way {
+                self.let_go_of_pulling(e, inside);
+            }
+            let [_, speed, press] = self.relative(e, Point { time, state, inside });
+            self.rigid.fastest = self.rigid.fastest.max(speed);
+            let restitution = self.laws[e].rigid().map_or(0.0, crate::law::RigidStop::restitution);
+            let height = (restitution * speed).powi(2) / (2.0 * press);
+            if press > 0.0 && height <= CHATTER * self.usual_speed(e, state) * self.period {
+                let mobility = dot(&self.system.elements()[e].shape, &self.free_direction(e));
+                let impulse = speed.max(0.0) / mobility;
+                self.rigid.impacts.push(Impact {
+                    element: e,
+                    speed,
+                    impulse,
+                    sticks: true,
+                    depth: f64::INFINITY,
+                });
+                self.stick(e, state, columns, time);
+                inside[switch] = true;
+            } else if speed > 0.0 {
+                self.rebound((e, restitution, approach), time, (state, columns), (inside, &before_it));
+            }
+        }
+    }
+
+    /// `psi`: the shape of an element less what held stops take of it.
+    fn free_direction(&self, e: usize) -> Vec<f64> {
+        let mut direction = self.system.elements()[e].shape.clone();
+        let held = &self.rigid.held;
+        if !held.is_empty() {
+            self.constrain(held, &vec![0.0; held.len()], &mut direction);
+        }
+        direction
+    }
+
+    /// Held stops that an impact on an element would pull are let go.
+    fn let_go_of_pulling(&mut self, e: usize, inside: &mut [bool]) {
+        while !self.rigid.held.is_empty() {
+            let held = self.rigid.held.clone();
+            let mut direction = self.system.elements()[e].shape.clone();
+            let reactions = self.constrain(&held, &vec![0.0; held.len()], &mut direction);
+            // The impulse of the impact is negative; a positive part along a held shape is pushed against it.
+            let strongest = (0..held.len()).max_by(|&j, &k| reactions[j].total_cmp(&reactions[k]));
+            let Some(pulled) = strongest.filter(|&j| reactions[j] > 1e-12) else { return };
+            self.rigid.held.remove(pulled);
+            for &(stop, switch) in &self.rigid.stops {
+                inside[switch] &= stop != held[pulled];
+            }
+        }
+    }
+
+    /// An impact on an element, with `r''` and the rates of the motion before it.
+    fn rebound(
+        &mut self,
+        (e, restitution, approach): (usize, f64, f64),
+        time: f64,
+        (state, columns): (&mut [f64], &mut [f64]),
+        (inside, before): (&[bool], &[f64]),
+    ) {
+        let n = self.system.dof();
+        let mut after = vec![0.0; 2 * n];
+        let [_, speed, press] = self.relative(e, Point { time, state, inside });
+        let direction = self.free_direction(e);
+        let shape = self.system.elements()[e].shape.clone();
+        let factor = -(1.0 + restitution) / dot(&shape, &direction);
+        add_scaled(&mut state[n..], factor * speed, &direction);
+        self.evaluate(Point { time, state, inside }, &mut after);
+        let depth = if press < 0.0 { -0.5 * speed * speed / press } else { f64::INFINITY };
+        self.rigid.impacts.push(Impact { element: e, speed, impulse: -factor * speed, sticks: false, depth });
+        let last = columns.len() / (2 * n);
+        for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
+            let displacement = dot(&shape, &column[..n]);
+            let velocity = dot(&shape, &column[n..]) + self.support_rate(e, time, index + 1 == last);
+            let delay = -displacement / (speed * self.period);
+            for i in 0..2 * n {
+                column[i] += (before[i] - after[i]) * delay;
+            }
+            let impulse = factor * (velocity + approach * self.period * delay);
+            add_scaled(&mut column[n..], impulse, &direction);
+        }
+    }
+
+    /// `s u'/f`, what the column of the frequency has besides in a relative velocity.
+    fn support_rate(&self, e: usize, time: f64, of_frequency: bool) -> f64 {
+        let ratio = self.system.elements()[e].support_ratio;
+        if of_frequency { ratio * self.support_motion(time)[1] * self.period } else { 0.0 }
+    }
+
+    /// Holds an element: `r` is its level and `r'` zero from now on.
+    fn stick(&mut self, e: usize, state: &mut [f64], columns: &mut [f64], time: f64) {
+        let n = self.system.dof();
+        let direction = self.free_direction(e);
+        let shape = self.system.elements()[e].shape.clone();
+        let damped = self.damped(&direction);
+        let mobility = dot(&shape, &direction);
+        self.rigid.held.push(e);
+        self.rigid.held.sort_unstable();
+        let held = self.rigid.held.clone();
+        let u = self.support_motion(time);
+        let ratio = |h: usize| self.system.elements()[h].support_ratio;
+        let levels: Vec<f64> =
+            held.iter().map(|&h| self.laws[h].contacts()[0].level - ratio(h) * u[0]).collect();
+        let speeds: Vec<f64> = held.iter().map(|&h| -ratio(h) * u[1]).collect();
+        self.constrain(&held, &levels, &mut state[..n]);
+        self.constrain(&held, &speeds, &mut state[n..]);
+        let last = columns.len() / (2 * n);
+        for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
+            // The limit of an impact without restitution: the damping acts on what the velocity was for the time of the delay.
+            let displacement = dot(&shape, &column[..n]);
+            add_scaled(&mut column[n..], displacement / mobility, &damped);
+            let of_frequency = index + 1 == last;
+            let targets: Vec<f64> = held.iter().map(|&h| -self.support_rate(h, time, of_frequency)).collect();
+            self.constrain(&held, &vec![0.0; held.len()], &mut column[..n]);
+            self.constrain(&held, &targets, &mut column[n..]);
+        }
+    }
+}
