@@ -6,7 +6,7 @@
 //! `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2 = g^2`.
 //!
 //! Their multipliers have the product `e^2` and the sum `-2 e cos T + (1 + e) (a/V) sin T`, with the acceleration a at the impact (Nordmark, J. Sound Vib. 145
-//! (1991), 279-297, has the `1/V` of grazing orbits in it). There is no rigid stop here: stops of stiffness k take its place, and what differs
+//! (1991), 279-297, has the `1/V` of grazing orbits in it). The rigid stop itself has it to rounding; where stops of stiffness k take its place, what differs
 //! falls with the duration of a contact, like `k^(-2/5)` for a Hertz contact and `k^(-1/2)` for a linear one.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
@@ -17,7 +17,7 @@ use std::f64::consts::{PI, TAU};
 use common::{Rig, element_at, force_at, response_of, single_mass};
 use hammerbeam_motion::{
     Law, Load, System,
-    law::{HertzStop, LinearStop, RestitutionModel, RestitutionStop},
+    law::{HertzStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop},
 };
 use hammerbeam_orbit::{OrbitSettings, find_start};
 
@@ -76,6 +76,15 @@ fn coefficient_for(model: RestitutionModel) -> f64 {
         if loses_more { low = middle } else { high = middle }
     }
     0.5 * (low + high)
+}
+
+/// Shooting accepts orbits that are good to 1e-10.
+#[test]
+fn the_rigid_stop_has_the_closed_form() {
+    let found = compliant(Law::Rigid(RigidStop::with_gap(RESTITUTION, GAP).unwrap()));
+    for (found, expected) in found.iter().zip(rigid()) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn spectrum(system: System, frequency_hz: f64, averaged: u64) -> (Spectrum, f64)
     (lyapunov(&mut map, &state, settings).unwrap(), map.divergence())
 }
 
-/// The impact oscillator with its stop at rest position, chaotic just behind 2.7 (a subharmonic window lies beside): the sum is `-c + 2 ln e` times the impacts per time, which are counted by a trace of
+/// Impact oscillators with stops at the rest position and beyond, whatever their motion: the sum is `-c + 2 ln e` times the impacts per time, which are counted by a trace of
 /// the same motion.
 #[test]
 fn every_impact_takes_two_logarithms_of_its_restitution() {

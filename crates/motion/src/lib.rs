@@ -29,6 +29,9 @@
 //! pressure vanishes (`law`), which is an event of its own; a contact that has parted is watched, with the certified steps of a flight, for its pressure to come
 //! back. Some laws remember the speed v of the impact that began the present contact, with `dv = dr' - r'' dr/r'` at the touch.
 //!
+//! **Rigid stops** have no force. An impact is a jump of the velocities with a saltation matrix of its own; bounces that come to their end leave a structure that is held on the stop, which is a linear structure again, with one mode less, and
+//! flies like the free one until the pressing force ends ([`exact`], `impact.rs` and `held.rs`).
+//!
 //! **Sensitivities** `V` go through the same equations differentiated: `dr = (1 - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. Where the force is continuous,
 //! nothing jumps as a contact opens or closes; where it begins with the jump `-c r'` of a damper, `V+ = (1 - c B C) V`. One further column can be the derivative by a [`Parameter`] `p` of the system. The
 //! particular solution is linear in the scale of the excitation; a gap shifts the argument of its law, `dr -> dr - 1`; a stiffness has the direct part
@@ -69,7 +72,7 @@
 //! ```
 //!
 //! # Limits
-//! No friction and no rigid stop. A stretch cannot start in a contact whose law remembers its impact, since a state `[q; q']` does not tell how the
+//! No friction. A rigid stop is not held while another element has a force. A stretch cannot start in a contact whose law remembers its impact, since a state `[q; q']` does not tell how the
 //! contact began; states alone go on from the stretch before (`exact`), flows with sensitivities do not. Such laws say nothing of a contact that is pressed on without
 //! an impact. Where such a contact closes in the very instant in which one with a damper does, the speed that it remembers has no derivative; that for
 //! one order of the two is given.

@@ -370,3 +370,32 @@ fn a_linear_stop_without_a_damper_is_the_study_it_was() {
     assert_eq!(linear(""), linear("damping_n_s_m = 0.0"));
     assert!(!linear("").contains("damping"));
 }
+
+#[test]
+fn a_rigid_stop_is_read_and_refuses_what_it_cannot_be() {
+    let rigid =
+        |keys: &str| parse(&PAPER.replace("law = \"hertz\"\n", "").replace("stiffness_n_m15 = 4.5e9", keys));
+    for e in [0.0, 0.8, 1.0] {
+        let study = rigid(&format!("law = \"rigid\"\nrestitution = {e:.1}")).unwrap();
+        let StopLaw::Rigid { restitution, .. } = study.stops[0].law else { panic!("not rigid") };
+        assert_eq!(restitution, e);
+    }
+    let refused = |keys: &str, words: &[&str]| assert_refused(rigid(keys), words);
+    refused("law = \"rigid\"", &["`restitution` is missing"]);
+    for e in ["-0.1", "1.01", "80"] {
+        refused(&format!("law = \"rigid\"\nrestitution = {e}"), &["`restitution`", "allowed: 0 to 1"]);
+    }
+    refused("law = \"rigid\"\nrestitution = \"high\"", &["`restitution`"]);
+    refused(
+        "law = \"rigid\"\nrestitution = 0.8\nstiffness_n_m15 = 4.5e9",
+        &["unknown key `stiffness_n_m15`"],
+    );
+    let preloaded = PAPER
+        .replace("law = \"hertz\"", "law = \"rigid\"\nrestitution = 0.9")
+        .replace("stiffness_n_m15 = 4.5e9", "")
+        .replace("gap_m = 0.0", "preload_n = 2.0");
+    assert_refused(
+        parse(&preloaded),
+        &["`preload_n` is given, but a rigid stop has no stiffness to press with"],
+    );
+}
