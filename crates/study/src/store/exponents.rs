@@ -107,7 +107,6 @@ fn record(row: &SqlRow<'_>) -> Result<ExponentRecord, StoreError> {
         spectrum: Spectrum {
             exponents,
             sum: row.get(3)?,
-            expected_sum: row.get(4)?,
             kaplan_yorke_dimension: row.get(5)?,
             // What is not a number is stored as nothing.
             block_correlation: row.get::<_, Option<f64>>(6)?.unwrap_or(f64::NAN),

@@ -70,7 +70,6 @@ fn spectrum(section: Vec<[f64; 2]>, known: Option<f64>) -> ExponentRecord {
         spectrum: Spectrum {
             exponents: vec![ESTIMATE, Estimate { value: -1.0, half_width: 0.25 }],
             sum: -2.0 / 3.0,
-            expected_sum: divergence,
             kaplan_yorke_dimension: 4.0 / 3.0,
             block_correlation: -0.1,
             convergence: vec![
