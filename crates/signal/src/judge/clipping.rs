@@ -1,0 +1,62 @@
+//! Flat tops: does a channel stand at the end of its range because the instrument could not follow?
+//!
+//! With `q` the smallest step between successive samples that differ (the resolution), a smooth maximum
+//! `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a step of about `c n/2 = 4 q/n`,
+//! at most `4/3 q` for three samples. So a run of three or more equal samples at the largest or smallest value that is entered or left with a
+//! step of more than `2 q` is no smooth maximum: it is counted as clipped.
+
+use crate::{finding::Finding, raw::RawChannel};
+
+/// Fewest equal samples that count.
+const RUN: usize = 3;
+/// Steps into a flat top, in units of the resolution, from which on it is no smooth maximum.
+const STEEP: f64 = 2.0;
+
+pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
+    let samples = &channel.samples;
+    let (low, high) = samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
+        (low.min(value), high.max(value))
+    });
+    if low >= high {
+        findings.push(Finding::Constant { channel: channel.name.clone() });
+        return;
+    }
+    let resolution = samples
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .filter(|step| *step > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    for level in [high, low] {
+        let runs = flat_tops(samples, level, resolution);
+        let Some(&(first, _)) = runs.first() else { continue };
+        findings.push(Finding::Clipped {
+            channel: channel.name.clone(),
+            samples: runs.iter().map(|run| run.1).sum(),
+            places: runs.len(),
+            level,
+            first,
+        });
+    }
+}
+
+/// Start and length of each flat top at a level.
+fn flat_tops(samples: &[f64], level: f64, resolution: f64) -> Vec<(usize, usize)> {
+    let mut runs = Vec::new();
+    let mut at = 0;
+    while at < samples.len() {
+        if samples[at] != level {
+            at += 1;
+            continue;
+        }
+        let length = samples[at..].iter().take_while(|value| **value == level).count();
+        let step = |index: Option<usize>| {
+            index.and_then(|index| samples.get(index)).map_or(0.0, |value| (value - level).abs())
+        };
+        let steepest = step(at.checked_sub(1)).max(step(Some(at + length)));
+        if length >= RUN && steepest > STEEP * resolution {
+            runs.push((at, length));
+        }
+        at += length;
+    }
+    runs
+}

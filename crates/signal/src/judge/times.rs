@@ -1,0 +1,231 @@
+//! The times of samples: order, repetitions, gaps, jitter; and the even grid that is taken or made of them.
+//!
+//! The step is the median of the differences, made more accurate by the whole length where there are no gaps. A difference of more than
+//! 1.5 steps is a gap. Without gaps, with `e` the largest distance of a time from its place on the even grid: up to
+//! 1 % of a step it is rounding and not told, up to 10 % it is told and taken as even, beyond that it is refused.
+
+use crate::{
+    finding::Finding,
+    judge::{RecordError, Terms},
+    raw::{Axis, RawChannel},
+};
+
+/// Differences of more steps than this are gaps.
+const GAP: f64 = 1.5;
+/// Parts of a step up to which straying is rounding, and up to which it is only told.
+const ROUNDING: f64 = 0.01;
+const JITTER: f64 = 0.1;
+
+/// Even times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Grid {
+    pub start_s: f64,
+    pub step_s: f64,
+}
+
+pub(super) fn even(
+    axis: Axis,
+    mut channels: Vec<RawChannel>,
+    terms: &Terms,
+    findings: &mut Vec<Finding>,
+) -> Result<(Grid, Vec<RawChannel>), RecordError> {
+    if let Some(rate) = terms.sampling_rate_hz {
+        return Ok((given(rate, &axis, findings)?, channels));
+    }
+    let mut times = match axis {
+        Axis::Unknown => return Err(RecordError::NoSamplingRate),
+        Axis::Even { step_s, start_s } => {
+            ensure_step(step_s)?;
+            return Ok((Grid { start_s, step_s }, channels));
+        }
+        Axis::Times(times) => times,
+    };
+    ensure_numbers(&times)?;
+    in_order(&mut times, &mut channels, terms, findings)?;
+    without_duplicates(&mut times, &mut channels, terms, findings)?;
+    if times.len() < 2 {
+        return Err(RecordError::Empty);
+    }
+    let step = without_gaps(&mut times, &mut channels, terms, findings)?;
+    on_grid(&times, step, channels, terms, findings)
+}
+
+fn ensure_step(step_s: f64) -> Result<(), RecordError> {
+    if step_s.is_finite() && step_s > 0.0 { Ok(()) } else { Err(RecordError::Step { step_s }) }
+}
+
+/// The rate the user gives; told if the file says another.
+fn given(rate: f64, axis: &Axis, findings: &mut Vec<Finding>) -> Result<Grid, RecordError> {
+    ensure_step(1.0 / rate)?;
+    let (start_s, found) = match axis {
+        Axis::Unknown => (0.0, None),
+        Axis::Even { step_s, start_s } => (*start_s, Some(1.0 / step_s)),
+        Axis::Times(times) => match (times.first(), times.last()) {
+            (Some(first), Some(last)) if last > first => {
+                (*first, Some((times.len() - 1) as f64 / (last - first)))
+            }
+            (Some(first), _) if first.is_finite() => (*first, None),
+            _ => (0.0, None),
+        },
+    };
+    if let Some(found_hz) = found.filter(|found| (found / rate - 1.0).abs() > 1e-3) {
+        findings.push(Finding::RateDisagrees { given_hz: rate, found_hz });
+    }
+    Ok(Grid { start_s, step_s: 1.0 / rate })
+}
+
+fn ensure_numbers(times: &[f64]) -> Result<(), RecordError> {
+    let count = times.iter().filter(|time| !time.is_finite()).count();
+    match times.iter().position(|time| !time.is_finite()) {
+        Some(first) => Err(RecordError::TimeMissing { count, first }),
+        None => Ok(()),
+    }
+}
+
+fn in_order(
+    times: &mut Vec<f64>,
+    channels: &mut [RawChannel],
+    terms: &Terms,
+    findings: &mut Vec<Finding>,
+) -> Result<(), RecordError> {
+    let count = times.windows(2).filter(|pair| pair[1] < pair[0]).count();
+    let Some(before) = times.windows(2).position(|pair| pair[1] < pair[0]) else { return Ok(()) };
+    if !terms.repairs.order {
+        return Err(RecordError::TimeDecreases { count, first: before + 1, time_s: times[before + 1] });
+    }
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    *times = order.iter().map(|&index| times[index]).collect();
+    for channel in channels {
+        channel.samples = order.iter().map(|&index| channel.samples[index]).collect();
+    }
+    findings.push(Finding::Sorted { count });
+    Ok(())
+}
+
+fn without_duplicates(
+    times: &mut Vec<f64>,
+    channels: &mut [RawChannel],
+    terms: &Terms,
+    findings: &mut Vec<Finding>,
+) -> Result<(), RecordError> {
+    let keep: Vec<bool> = (0..times.len()).map(|k| k == 0 || times[k] > times[k - 1]).collect();
+    let count = keep.iter().filter(|keep| !**keep).count();
+    let Some(first) = keep.iter().position(|keep| !keep) else { return Ok(()) };
+    if !terms.repairs.duplicates {
+        return Err(RecordError::DuplicateTimes { count, first, time_s: times[first] });
+    }
+    let kept = |values: &[f64]| values.iter().zip(&keep).filter(|(_, keep)| **keep).map(|(v, _)| *v).collect();
+    *times = kept(times);
+    for channel in channels {
+        channel.samples = kept(&channel.samples);
+    }
+    findings.push(Finding::DuplicatesDropped { count });
+    Ok(())
+}
+
+/// Fills gaps with times and interpolated samples.
+///
+/// # Returns
+/// The step [s].
+fn without_gaps(
+    times: &mut Vec<f64>,
+    channels: &mut [RawChannel],
+    terms: &Terms,
+    findings: &mut Vec<Finding>,
+) -> Result<f64, RecordError> {
+    let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let middle = steps.len() / 2;
+    let step = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let gaps: Vec<usize> = (1..times.len()).filter(|&k| times[k] - times[k - 1] > GAP * step).collect();
+    if gaps.is_empty() {
+        return Ok(step);
+    }
+    let longest_s = gaps.iter().map(|&k| times[k] - times[k - 1]).fold(0.0, f64::max);
+    let time_s = times[gaps[0] - 1];
+    // Steps that jump about everywhere are not gaps in an even record.
+    if gaps.len() > times.len() / 10 {
+        let percent = 100.0 * (longest_s / step - 1.0);
+        return if terms.repairs.uneven { Ok(step) } else { Err(RecordError::Uneven { percent, step_s: step }) };
+    }
+    if !terms.repairs.gaps {
+        return Err(RecordError::Gaps { count: gaps.len(), time_s, longest_s, step_s: step });
+    }
+    let old = std::mem::take(times);
+    *times = filled(&old, &gaps, |a, b, part| a + (b - a) * part, &old, step);
+    for channel in channels {
+        let samples = std::mem::take(&mut channel.samples);
+        channel.samples = filled(&samples, &gaps, |a, b, part| a + (b - a) * part, &old, step);
+    }
+    findings.push(Finding::GapsFilled { count: gaps.len(), longest_s });
+    Ok(step)
+}
+
+/// Values with those in the gaps put in between.
+fn filled(
+    values: &[f64],
+    gaps: &[usize],
+    between: impl Fn(f64, f64, f64) -> f64,
+    times: &[f64],
+    step: f64,
+) -> Vec<f64> {
+    let mut all = Vec::with_capacity(values.len());
+    let mut from = 0;
+    for &gap in gaps {
+        all.extend_from_slice(&values[from..gap]);
+        let parts = ((times[gap] - times[gap - 1]) / step).round();
+        all.extend((1..parts as usize).map(|k| between(values[gap - 1], values[gap], k as f64 / parts)));
+        from = gap;
+    }
+    all.extend_from_slice(&values[from..]);
+    all
+}
+
+fn on_grid(
+    times: &[f64],
+    rough: f64,
+    channels: Vec<RawChannel>,
+    terms: &Terms,
+    findings: &mut Vec<Finding>,
+) -> Result<(Grid, Vec<RawChannel>), RecordError> {
+    let (start, end) = (times[0], times[times.len() - 1]);
+    let step = (end - start) / (times.len() - 1) as f64;
+    let grid = Grid { start_s: start, step_s: step };
+    let place = |(k, time): (usize, &f64)| (time - (start + k as f64 * step)).abs();
+    let straying = times.iter().enumerate().map(place).fold(0.0, f64::max) / step;
+    if straying <= ROUNDING {
+        return Ok((grid, channels));
+    }
+    if straying <= JITTER && !terms.repairs.uneven {
+        findings.push(Finding::Jitter { percent: 100.0 * straying });
+        return Ok((grid, channels));
+    }
+    if !terms.repairs.uneven {
+        return Err(RecordError::Uneven { percent: 100.0 * straying, step_s: rough });
+    }
+    let even = |channel: RawChannel| RawChannel {
+        samples: interpolated(times, &channel.samples, grid),
+        ..channel
+    };
+    findings.push(Finding::Evened { percent: 100.0 * straying, rate_hz: 1.0 / step });
+    Ok((grid, channels.into_iter().map(even).collect()))
+}
+
+/// Cubic interpolation (Lagrange, four neighbouring samples) to as many even samples.
+fn interpolated(times: &[f64], samples: &[f64], grid: Grid) -> Vec<f64> {
+    let last = times.len() - 1;
+    let mut at = 0;
+    let value = |k: usize| {
+        let time = (grid.start_s + k as f64 * grid.step_s).min(times[last]);
+        while at + 1 < last && times[at + 1] <= time {
+            at += 1;
+        }
+        let from = at.saturating_sub(1).min(last.saturating_sub(3));
+        let to = (from + 3).min(last);
+        let weight = |i: usize| {
+            (from..=to).filter(|&j| j != i).map(|j| (time - times[j]) / (times[i] - times[j])).product::<f64>()
+        };
+        (from..=to).map(|i| samples[i] * weight(i)).sum()
+    };
+    (0..times.len()).map(value).collect()
+}

@@ -1,0 +1,15 @@
+//! Measured and computed time series.
+mod error;
+mod finding;
+pub mod judge;
+pub mod raw;
+pub mod read;
+mod record;
+pub mod unit;
+
+pub use error::SignalError;
+pub use finding::{Finding, Repairs};
+pub use judge::{RecordError, Terms};
+pub use read::{Format, ReadError};
+pub use record::{Channel, Record};
+pub use unit::Quantity;

@@ -1,0 +1,177 @@
+//! Separated values with a header.
+//!
+//! Nothing about the dialect has to be said: separator and decimal sign are those with which the most lines are rows of numbers
+//! (`dialect.rs`). What stands before the first row is the header (`header.rs`): titles with units, a row of units, comments, a
+//! sampling rate. Lines that begin with `#`, `%` or `//` are comments anywhere. Empty fields and words like `NaN` are missing samples.
+//! A field that ends rows of a file from some row on is the end of a shorter channel.
+
+mod dialect;
+mod header;
+mod number;
+
+use dialect::Dialect;
+
+use crate::{
+    finding::Finding,
+    raw::{Axis, RawChannel, RawRecord},
+    read::ReadError,
+    unit::{Quantity, names_time, unit},
+};
+
+/// A line of text with its number, from 1 on.
+pub(crate) type Line<'a> = (usize, &'a str);
+
+/// A column as it was read.
+struct Column {
+    name: String,
+    unit: Option<String>,
+    values: Vec<f64>,
+}
+
+/// Reads separated values.
+///
+/// # Errors
+/// See [`ReadError`].
+pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
+    let mut findings = Vec::new();
+    let text = decode(bytes, &mut findings)?;
+    let lines: Vec<Line> = text.lines().enumerate().map(|(k, line)| (k + 1, line)).collect();
+    let rows: Vec<Line> =
+        lines.iter().copied().filter(|(_, line)| !line.trim().is_empty() && !is_comment(line)).collect();
+    let (dialect, first) = dialect::detect(&rows).ok_or(ReadError::NoNumbers)?;
+    let first_line = rows[first].0;
+    let width = dialect.split(rows[first].1).len();
+    let before: Vec<Line> = lines.iter().copied().filter(|(line, text)| *line < first_line && !text.trim().is_empty()).collect();
+    let header = header::read(&before, dialect, width);
+    let values = columns(&rows[first..], dialect, width)?;
+    let titled = header.titled;
+    let columns = values.into_iter().zip(header.titles).map(|(values, (name, unit))| Column { name, unit, values });
+    // A separator at the end of each line makes a column of nothing.
+    let columns: Vec<Column> = columns.filter(|column| !column.values.is_empty()).collect();
+    arrange(columns, titled, header.rate_hz, findings)
+}
+
+/// Text of the file: UTF-8, UTF-16 with its mark, or else Latin-1.
+fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, ReadError> {
+    let wide = |order: fn([u8; 2]) -> u16| {
+        let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| order([pair[0], pair[1]])).collect();
+        String::from_utf16_lossy(&units)
+    };
+    if bytes.starts_with(&[0xff, 0xfe]) {
+        return Ok(wide(u16::from_le_bytes));
+    }
+    if bytes.starts_with(&[0xfe, 0xff]) {
+        return Ok(wide(u16::from_be_bytes));
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if bytes.contains(&0) {
+        return Err(ReadError::UnknownFormat);
+    }
+    Ok(str::from_utf8(bytes).map(str::to_owned).unwrap_or_else(|_| {
+        findings.push(Finding::Latin1);
+        bytes.iter().map(|&byte| char::from(byte)).collect()
+    }))
+}
+
+fn is_comment(line: &str) -> bool {
+    let line = line.trim_start();
+    line.starts_with(['#', '%', '!']) || line.starts_with("//")
+}
+
+/// Values by columns. Empty ends of columns are cut off.
+fn columns(rows: &[Line], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>>, ReadError> {
+    let mut columns = vec![Vec::with_capacity(rows.len()); width];
+    for &(line, text) in rows {
+        let mut found = 0;
+        for (index, field) in dialect.split(text).iter().enumerate() {
+            let value = number::parse(field, dialect.decimal_comma).ok_or_else(|| ReadError::NotANumber {
+                line,
+                column: index + 1,
+                text: field.to_string(),
+            })?;
+            if let Some(column) = columns.get_mut(index) {
+                column.push(value);
+                found = index + 1;
+            } else if !value.is_nan() {
+                return Err(ReadError::RaggedRow { line, found: index + 1, expected: width });
+            }
+        }
+        if found < width {
+            return Err(ReadError::RaggedRow { line, found, expected: width });
+        }
+    }
+    for column in &mut columns {
+        let end = column.iter().rposition(|value| !value.is_nan()).map_or(0, |last| last + 1);
+        column.truncate(end);
+    }
+    Ok(columns)
+}
+
+/// Which column is the time, and the others.
+fn arrange(
+    mut columns: Vec<Column>,
+    titled: bool,
+    rate_hz: Option<f64>,
+    mut findings: Vec<Finding>,
+) -> Result<RawRecord, ReadError> {
+    let axis = match time_column(&columns, titled, &mut findings) {
+        Some(index) => {
+            let column = columns.remove(index);
+            let known = column.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
+            if known.is_none() && titled {
+                findings.push(Finding::TimeUnitAssumed { name: column.name });
+            }
+            let factor = known.map_or(1.0, |unit| unit.factor);
+            Axis::Times(column.values.iter().map(|value| value * factor).collect())
+        }
+        None => rate_hz.map_or(Axis::Unknown, |rate| Axis::Even { step_s: 1.0 / rate, start_s: 0.0 }),
+    };
+    let mut channels: Vec<RawChannel> = columns
+        .into_iter()
+        .map(|Column { name, unit, values }| RawChannel { name, unit, samples: values })
+        .collect();
+    if channels.is_empty() {
+        return Err(ReadError::NoNumbers);
+    }
+    unique(&mut channels);
+    Ok(RawRecord::single(axis, channels, findings))
+}
+
+fn time_column(columns: &[Column], titled: bool, findings: &mut Vec<Finding>) -> Option<usize> {
+    let measures_time = |column: &Column| {
+        column.unit.as_deref().and_then(unit).is_some_and(|unit| unit.quantity == Quantity::Time)
+    };
+    let named = |column: &Column| names_time(&column.name);
+    let found = columns
+        .iter()
+        .position(|column| named(column) && measures_time(column))
+        .or_else(|| columns.iter().position(measures_time))
+        .or_else(|| columns.iter().position(named));
+    if found.is_some() || titled || columns.len() < 2 || !rises_evenly(&columns[0].values) {
+        return found;
+    }
+    findings.push(Finding::TimeAssumed);
+    Some(0)
+}
+
+pub(crate) fn rises_evenly(values: &[f64]) -> bool {
+    let Some(([first, ..], last)) = values.split_last().map(|(last, rest)| (rest, last)) else { return false };
+    let step = (last - first) / (values.len() - 1) as f64;
+    step > 0.0 && values.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 0.1 * step)
+}
+
+/// Names that stand twice get a number.
+pub(crate) fn unique(channels: &mut [RawChannel]) {
+    for index in 1..channels.len() {
+        let (before, rest) = channels.split_at_mut(index);
+        let name = rest[0].name.clone();
+        let mut number = 2;
+        while before.iter().any(|channel| channel.name == rest[0].name) {
+            rest[0].name = format!("{name} ({number})");
+            number += 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,127 @@
+//! MATLAB files of level 5 (`save -v6` and `-v7`, also what SciPy writes).
+//!
+//! Numeric arrays are read, compressed or not, also as fields of structures (`data.acc`). Cells, texts, sparse matrices and objects are
+//! left out and told. Files of version 7.3 are HDF5 and are refused.
+//!
+//! # Source
+//! The MathWorks, "MAT-File Format", chapter 1, "Level 5 MAT-File Format".
+
+mod element;
+
+use super::{
+    ReadError,
+    arrays::{Array, arrange},
+    bytes::{Bytes, Stored},
+};
+use crate::{finding::Finding, raw::RawRecord};
+use element::{Element, Kind, next, numbers};
+
+const STRUCTURE: u32 = 2;
+const NUMERIC: std::ops::RangeInclusive<u32> = 6..=15;
+const COMPLEX: u32 = 0x0800;
+
+pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
+    if bytes.starts_with(b"MATLAB 7.3") || bytes.starts_with(b"\x89HDF") {
+        return Err(ReadError::Unsupported {
+            what: "MATLAB 7.3 (HDF5)".to_owned(),
+            instead: "save with save(name, ..., '-v7') in MATLAB",
+        });
+    }
+    let header = bytes.get(..128).ok_or_else(|| ReadError::Truncated { what: "the header".to_owned() })?;
+    let big_endian = match &header[126..128] {
+        b"IM" => false,
+        b"MI" => true,
+        _ => return Err(ReadError::Malformed { what: "the header names no byte order".to_owned() }),
+    };
+    let mut rest = Bytes::new(&bytes[128..], big_endian);
+    let mut content = Content::default();
+    while rest.len() >= 8 {
+        match next(&mut rest)? {
+            Element { kind: Kind::Compressed, data } => {
+                let inflated = element::inflate(data)?;
+                let inner = next(&mut Bytes::new(&inflated, big_endian))?;
+                content.take(&inner, big_endian, "")?;
+            }
+            plain => content.take(&plain, big_endian, "")?,
+        }
+    }
+    arrange(content.arrays, content.findings)
+}
+
+/// What was found.
+#[derive(Default)]
+struct Content {
+    arrays: Vec<Array>,
+    findings: Vec<Finding>,
+}
+
+impl Content {
+    /// Takes a variable; `within` is the name of the structure it is a field of, with a point.
+    fn take(&mut self, element: &Element, big_endian: bool, within: &str) -> Result<(), ReadError> {
+        if element.kind != Kind::Matrix || element.data.is_empty() {
+            return Ok(());
+        }
+        let mut bytes = Bytes::new(element.data, big_endian);
+        let flags = numbers(&next(&mut bytes)?, big_endian)?.first().map_or(0, |flags| *flags as u32);
+        let shape: Vec<usize> = numbers(&next(&mut bytes)?, big_endian)?.iter().map(|side| *side as usize).collect();
+        let own = String::from_utf8_lossy(next(&mut bytes)?.data).into_owned();
+        let name = format!("{within}{own}");
+        match flags & 0xff {
+            STRUCTURE if shape.iter().product::<usize>() == 1 => self.fields(&mut bytes, &name),
+            class if NUMERIC.contains(&class) => self.numeric(&mut bytes, name, shape, flags & COMPLEX != 0),
+            class => {
+                // Texts and empty helpers of MATLAB's own have no name.
+                if !own.is_empty() || !within.is_empty() {
+                    self.findings.push(Finding::LeftOut { name, reason: reason(class).to_owned() });
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn numeric(
+        &mut self,
+        bytes: &mut Bytes,
+        name: String,
+        shape: Vec<usize>,
+        complex: bool,
+    ) -> Result<(), ReadError> {
+        let big_endian = bytes.is_big_endian();
+        let count = shape.iter().product::<usize>();
+        let mut part = || {
+            let values = numbers(&next(bytes)?, big_endian)?;
+            if values.len() == count {
+                return Ok(values);
+            }
+            Err(ReadError::Malformed { what: format!("{name} has {} values, its shape says {count}", values.len()) })
+        };
+        let real = part()?;
+        let imaginary = if complex { Some(part()?) } else { None };
+        if count > 0 {
+            self.arrays.push(Array { name, shape, real, imaginary });
+        }
+        Ok(())
+    }
+
+    /// Fields of a single structure. Their names stand before them; their own are empty.
+    fn fields(&mut self, bytes: &mut Bytes, name: &str) -> Result<(), ReadError> {
+        let big_endian = bytes.is_big_endian();
+        let length = numbers(&next(bytes)?, big_endian)?.first().map_or(32, |length| *length as usize).max(1);
+        let names = next(bytes)?.data;
+        for field in names.chunks(length) {
+            let field = String::from_utf8_lossy(field.split(|byte| *byte == 0).next().unwrap_or_default()).into_owned();
+            self.take(&next(bytes)?, big_endian, &format!("{name}.{field}"))?;
+        }
+        Ok(())
+    }
+}
+
+const fn reason(class: u32) -> &'static str {
+    match class {
+        1 => "a cell array",
+        STRUCTURE => "an array of structures",
+        4 => "a text",
+        5 => "a sparse matrix",
+        _ => "no array of numbers",
+    }
+}
