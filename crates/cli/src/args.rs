@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hammerbeam_study::verify::TOLERANCE;
 
-use crate::motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions};
+use crate::{
+    motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
+    signal_args::SignalCommand,
+};
 
 const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify found disagreements, 130 interrupted (what is finished is kept).";
 
@@ -44,6 +47,9 @@ pub enum Command {
     Lyapunov(LyapunovOptions),
     /// Compute which attractor each of a grid of initial states leads to; started again, it goes on where it was
     Basins(BasinsOptions),
+    /// Measured or exported time series: filter, spectrum, damping, kind of motion, exponent
+    #[command(subcommand)]
+    Signal(SignalCommand),
     /// Write stored results for other programs
     Export(ExportOptions),
     /// Compute stored solutions again with the independent integrator, and report every disagreement

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use hammerbeam_signal::SignalError;
 use hammerbeam_study::{Report, StoreError, StudyError, export::ExportError, run::RunError};
 
 /// Why a command does not end well.
@@ -80,6 +81,16 @@ impl From<ExportError> for Failure {
             ExportError::Store(error) => error.into(),
             // Its message has the cause already.
             other => Self::Other(anyhow::Error::msg(other.to_string())),
+        }
+    }
+}
+
+impl From<SignalError> for Failure {
+    fn from(error: SignalError) -> Self {
+        if error.is_bad_input() {
+            Self::BadInput(error.to_string())
+        } else {
+            Self::NoResult(error.to_string())
         }
     }
 }

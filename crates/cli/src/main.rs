@@ -11,6 +11,7 @@ mod motion_args;
 mod output;
 mod progress;
 mod series;
+mod signal_args;
 mod ticker;
 
 use std::process::ExitCode;
@@ -33,6 +34,7 @@ fn main() -> ExitCode {
         Command::Sweep(options) => commands::sweep::run(options, output),
         Command::Lyapunov(options) => commands::lyapunov::run(options, output),
         Command::Basins(options) => commands::basins::run(options, output),
+        Command::Signal(command) => commands::signal::run(command, output),
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),
     };

@@ -25,7 +25,9 @@ pub enum SignalError {
     #[error("there is no channel \"{name}\"; there are: {names}")]
     NoSuchChannel { name: String, names: String },
     /// A stretch of time with nothing in it.
-    #[error("there are fewer than two samples between {from_s} s and {to_s} s; the record runs from {start_s} s to {end_s} s")]
+    #[error(
+        "there are fewer than two samples between {from_s} s and {to_s} s; the record runs from {start_s} s to {end_s} s"
+    )]
     EmptyPart { from_s: f64, to_s: f64, start_s: f64, end_s: f64 },
     /// Too few samples for what was asked.
     #[error("{what} needs at least {needed} samples, there are {found}")]
@@ -46,7 +48,9 @@ pub enum SignalError {
     #[error("the mean logarithmic distance has no straight part: {reason}")]
     NoScaling { reason: &'static str },
     /// Neighbours are too rare.
-    #[error("only {found} of {asked} states have a neighbour within reach: the record is too short or the dimension too high")]
+    #[error(
+        "only {found} of {asked} states have a neighbour within reach: the record is too short or the dimension too high"
+    )]
     TooFewNeighbours { found: usize, asked: usize },
     /// The reference channel has no frequency.
     #[error("the reference channel has no clear line: the largest holds {percent:.1} % of its power")]
@@ -74,5 +78,19 @@ pub(crate) fn ensure_series(what: &'static str, series: &[f64], needed: usize) -
     match series.iter().position(|value| !value.is_finite()) {
         Some(index) => Err(SignalError::NotFinite { index }),
         None => Ok(()),
+    }
+}
+
+impl SignalError {
+    /// Whether the input is at fault, not that there is nothing to find in it.
+    #[must_use]
+    pub const fn is_bad_input(&self) -> bool {
+        !matches!(
+            self,
+            Self::NoDecay
+                | Self::FitNotConverged { .. }
+                | Self::NoScaling { .. }
+                | Self::TooFewNeighbours { .. }
+        )
     }
 }

@@ -6,7 +6,9 @@
 #[non_exhaustive]
 pub enum Finding {
     /// Successive samples stand at the very end of the range, reached with a steep step.
-    #[error("channel \"{channel}\" is clipped: {samples} samples in {places} places stand at {level:e} (from sample {first} on)")]
+    #[error(
+        "channel \"{channel}\" is clipped: {samples} samples in {places} places stand at {level:e} (from sample {first} on)"
+    )]
     Clipped { channel: String, samples: usize, places: usize, level: f64, first: usize },
     /// All samples are the same.
     #[error("channel \"{channel}\" is constant")]

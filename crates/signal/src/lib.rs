@@ -1,10 +1,15 @@
 //! Measured and computed time series.
+pub mod envelope;
 mod error;
+pub mod filter;
 mod finding;
+mod fourier;
 pub mod judge;
 pub mod raw;
 pub mod read;
 mod record;
+pub mod resample;
+pub mod spectrum;
 pub mod unit;
 
 pub use error::SignalError;

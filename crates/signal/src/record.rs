@@ -1,10 +1,6 @@
 //! A record: channels with one sampling rate, in SI units, nothing missing.
 
-use crate::{
-    error::SignalError,
-    finding::Finding,
-    unit::Quantity,
-};
+use crate::{error::SignalError, finding::Finding, unit::Quantity};
 
 /// One measured or computed quantity over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,9 +70,15 @@ impl Record {
         let first = (index(from_s) - 1e-6).ceil() as usize;
         let last = ((index(to_s) + 1e-6).floor() as usize + 1).min(self.len());
         if last < first + 2 {
-            return Err(SignalError::EmptyPart { from_s, to_s, start_s: self.start_s, end_s: self.start_s + self.duration_s() });
+            return Err(SignalError::EmptyPart {
+                from_s,
+                to_s,
+                start_s: self.start_s,
+                end_s: self.start_s + self.duration_s(),
+            });
         }
-        let cut = |channel: &Channel| Channel { samples: channel.samples[first..last].to_vec(), ..channel.clone() };
+        let cut =
+            |channel: &Channel| Channel { samples: channel.samples[first..last].to_vec(), ..channel.clone() };
         Ok(Self {
             sampling_rate_hz: self.sampling_rate_hz,
             start_s: self.start_s + first as f64 / self.sampling_rate_hz,

@@ -241,7 +241,8 @@ mod tests {
 
     #[test]
     fn acceleration_has_many_spellings() {
-        for text in ["m/s^2", "m/s²", "m/s2", "m/s/s", "[m/s^2]", "m s^-2", "m·s⁻²", "m/s**2", " m / s^2 "] {
+        for text in ["m/s^2", "m/s²", "m/s2", "m/s/s", "[m/s^2]", "m s^-2", "m·s⁻²", "m/s**2", " m / s^2 "]
+        {
             let found = unit(text).unwrap_or_else(|| panic!("{text} is not known"));
             assert_eq!((found.quantity, found.factor), (Acceleration, 1.0), "{text}");
         }

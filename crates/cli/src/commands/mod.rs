@@ -8,6 +8,7 @@ pub mod modes;
 pub mod new;
 pub mod orbit;
 pub mod run;
+pub mod signal;
 pub mod simulate;
 pub mod sweep;
 pub mod verify;

@@ -14,9 +14,9 @@ const STEEP: f64 = 2.0;
 
 pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
     let samples = &channel.samples;
-    let (low, high) = samples.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
-        (low.min(value), high.max(value))
-    });
+    let (low, high) = samples
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)));
     if low >= high {
         findings.push(Finding::Constant { channel: channel.name.clone() });
         return;

@@ -29,34 +29,36 @@ pub enum RecordError {
     #[error("there is no channel with samples in it")]
     Empty,
     /// Neither the file nor the user says how fast it was sampled.
-    #[error("the file does not say the sampling rate: give it with --rate")]
+    #[error("the file does not say the sampling rate")]
     NoSamplingRate,
     /// A step or rate that is none.
     #[error("the step between samples is {step_s} s, must be a finite number more than 0")]
     Step { step_s: f64 },
     /// Channels were sampled at different times.
-    #[error("the channels were not sampled together: {groups}; choose those of one group with --channel")]
+    #[error("the channels were not sampled together: {groups}")]
     DifferentSampling { groups: String },
     /// Channels do not have the same length.
-    #[error("channels have unequal lengths: {lengths}; --repair lengths cuts them to the shortest")]
+    #[error("channels have unequal lengths: {lengths}")]
     UnequalLengths { lengths: String },
     /// Samples that are no numbers.
-    #[error("channel \"{channel}\" misses {count} of {of} samples, the first is sample {first}; --repair missing interpolates them")]
+    #[error("channel \"{channel}\" misses {count} of {of} samples, the first is sample {first}")]
     Missing { channel: String, count: usize, of: usize, first: usize },
     /// Times that are no numbers.
-    #[error("{count} times are missing, the first is that of sample {first}; with --rate the times in the file are not used")]
+    #[error("{count} times are missing, the first is that of sample {first}")]
     TimeMissing { count: usize, first: usize },
     /// Time runs back.
-    #[error("time runs back {count} times, first at sample {first} ({time_s} s); --repair order sorts by time")]
+    #[error("time runs back {count} times, first at sample {first} ({time_s} s)")]
     TimeDecreases { count: usize, first: usize, time_s: f64 },
     /// The same time twice.
-    #[error("{count} samples have the time of the one before, first sample {first} ({time_s} s); if the times are rounded, give the rate with --rate; --repair duplicates drops them")]
+    #[error("{count} samples have the time of the one before, first sample {first} ({time_s} s)")]
     DuplicateTimes { count: usize, first: usize, time_s: f64 },
     /// Samples are left out.
-    #[error("there are {count} gaps, the first after {time_s} s, the longest {longest_s} s at a step of {step_s} s; --repair gaps fills them by interpolation")]
+    #[error(
+        "there are {count} gaps, the first after {time_s} s, the longest {longest_s} s at a step of {step_s} s"
+    )]
     Gaps { count: usize, time_s: f64, longest_s: f64, step_s: f64 },
     /// The step changes.
-    #[error("sampling is uneven: times stray by up to {percent:.0} % of a step of {step_s} s; --repair uneven interpolates to an even grid")]
+    #[error("sampling is uneven: times stray by up to {percent:.0} % of a step of {step_s} s")]
     Uneven { percent: f64, step_s: f64 },
 }
 
@@ -147,7 +149,8 @@ fn equal_lengths(
     }
     if !terms.repairs.lengths {
         let text = |channel: &RawChannel| format!("{} {}", channel.name, channel.samples.len());
-        let all = times.map(|length| format!("time {length}")).into_iter().chain(group.channels.iter().map(text));
+        let all =
+            times.map(|length| format!("time {length}")).into_iter().chain(group.channels.iter().map(text));
         return Err(RecordError::UnequalLengths { lengths: all.collect::<Vec<_>>().join(", ") });
     }
     if let Axis::Times(times) = &mut group.axis {

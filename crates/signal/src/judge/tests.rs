@@ -37,12 +37,15 @@ fn rounded_times_are_even_and_coarser_ones_are_told() {
     let findings = |times| raw(times, sine(100)).judge(&Terms::default()).unwrap().findings;
     assert_eq!(findings(rounded(1e3)), []);
     assert_eq!(findings(times(1e6)), []);
-    assert!(matches!(findings(times(1e4))[..], [Finding::Jitter { percent }] if (1.0..10.0).contains(&percent)));
+    assert!(
+        matches!(findings(times(1e4))[..], [Finding::Jitter { percent }] if (1.0..10.0).contains(&percent))
+    );
 }
 
 #[test]
 fn uneven_sampling_is_refused_or_evened() {
-    let times: Vec<f64> = even_times(400).iter().enumerate().map(|(k, t)| t + 3e-4 * (k as f64).sin()).collect();
+    let times: Vec<f64> =
+        even_times(400).iter().enumerate().map(|(k, t)| t + 3e-4 * (k as f64).sin()).collect();
     let signal = |t: f64| (2.0 * std::f64::consts::PI * 12.0 * t).sin();
     let samples: Vec<f64> = times.iter().map(|t| signal(*t)).collect();
     let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
@@ -110,7 +113,9 @@ fn missing_samples_are_refused_or_interpolated() {
     let terms = allowing(Repairs { missing: true, ..Repairs::default() });
     let record = raw(even_times(50), samples).judge(&terms).unwrap();
     let value = |k: usize| record.channels[0].samples[k] / 9.80665;
-    assert!((value(0) - 1.0).abs() < 1e-12 && (value(7) - 7.0).abs() < 1e-12 && (value(8) - 8.0).abs() < 1e-12);
+    assert!(
+        (value(0) - 1.0).abs() < 1e-12 && (value(7) - 7.0).abs() < 1e-12 && (value(8) - 8.0).abs() < 1e-12
+    );
     assert!(matches!(record.findings[..], [Finding::MissingInterpolated { count: 3, .. }, ..]));
 }
 
@@ -179,6 +184,9 @@ fn record_without_rate_or_samples_is_refused() {
     let record = RawRecord::single(Axis::Unknown, vec![channel], Vec::new());
     assert_eq!(record.clone().judge(&Terms::default()).unwrap_err(), RecordError::NoSamplingRate);
     assert_eq!(RawRecord::default().judge(&Terms::default()).unwrap_err(), RecordError::Empty);
-    let zero = RawRecord { groups: vec![RawGroup { axis: Axis::Even { step_s: 0.0, start_s: 0.0 }, ..record.groups[0].clone() }], ..record };
+    let zero = RawRecord {
+        groups: vec![RawGroup { axis: Axis::Even { step_s: 0.0, start_s: 0.0 }, ..record.groups[0].clone() }],
+        ..record
+    };
     assert_eq!(zero.judge(&Terms::default()).unwrap_err(), RecordError::Step { step_s: 0.0 });
 }

@@ -115,7 +115,8 @@ fn without_duplicates(
     if !terms.repairs.duplicates {
         return Err(RecordError::DuplicateTimes { count, first, time_s: times[first] });
     }
-    let kept = |values: &[f64]| values.iter().zip(&keep).filter(|(_, keep)| **keep).map(|(v, _)| *v).collect();
+    let kept =
+        |values: &[f64]| values.iter().zip(&keep).filter(|(_, keep)| **keep).map(|(v, _)| *v).collect();
     *times = kept(times);
     for channel in channels {
         channel.samples = kept(&channel.samples);
@@ -146,7 +147,11 @@ fn without_gaps(
     // Steps that jump about everywhere are not gaps in an even record.
     if gaps.len() > times.len() / 10 {
         let percent = 100.0 * (longest_s / step - 1.0);
-        return if terms.repairs.uneven { Ok(step) } else { Err(RecordError::Uneven { percent, step_s: step }) };
+        return if terms.repairs.uneven {
+            Ok(step)
+        } else {
+            Err(RecordError::Uneven { percent, step_s: step })
+        };
     }
     if !terms.repairs.gaps {
         return Err(RecordError::Gaps { count: gaps.len(), time_s, longest_s, step_s: step });
@@ -203,10 +208,8 @@ fn on_grid(
     if !terms.repairs.uneven {
         return Err(RecordError::Uneven { percent: 100.0 * straying, step_s: rough });
     }
-    let even = |channel: RawChannel| RawChannel {
-        samples: interpolated(times, &channel.samples, grid),
-        ..channel
-    };
+    let even =
+        |channel: RawChannel| RawChannel { samples: interpolated(times, &channel.samples, grid), ..channel };
     findings.push(Finding::Evened { percent: 100.0 * straying, rate_hz: 1.0 / step });
     Ok((grid, channels.into_iter().map(even).collect()))
 }
@@ -223,7 +226,10 @@ fn interpolated(times: &[f64], samples: &[f64], grid: Grid) -> Vec<f64> {
         let from = at.saturating_sub(1).min(last.saturating_sub(3));
         let to = (from + 3).min(last);
         let weight = |i: usize| {
-            (from..=to).filter(|&j| j != i).map(|j| (time - times[j]) / (times[i] - times[j])).product::<f64>()
+            (from..=to)
+                .filter(|&j| j != i)
+                .map(|j| (time - times[j]) / (times[i] - times[j]))
+                .product::<f64>()
         };
         (from..=to).map(|i| samples[i] * weight(i)).sum()
     };

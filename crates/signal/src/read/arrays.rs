@@ -26,7 +26,8 @@ pub(super) struct Array {
 }
 
 pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<RawRecord, ReadError> {
-    let (numbers, arrays): (Vec<Array>, Vec<Array>) = arrays.into_iter().partition(|array| array.real.len() == 1);
+    let (numbers, arrays): (Vec<Array>, Vec<Array>) =
+        arrays.into_iter().partition(|array| array.real.len() == 1);
     let step = step_of(&numbers, &mut findings)?;
     let mut channels: Vec<RawChannel> = arrays.iter().flat_map(|array| split(array, &mut findings)).collect();
     unique(&mut channels);

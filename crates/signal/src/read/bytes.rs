@@ -68,10 +68,6 @@ impl<'a> Bytes<'a> {
         self.big_endian
     }
 
-    pub(super) const fn is_empty(&self) -> bool {
-        self.rest.is_empty()
-    }
-
     pub(super) const fn len(&self) -> usize {
         self.rest.len()
     }

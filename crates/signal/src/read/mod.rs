@@ -23,12 +23,7 @@ mod wav;
 
 use std::path::Path;
 
-use crate::{
-    error::SignalError,
-    judge::Terms,
-    raw::RawRecord,
-    record::Record,
-};
+use crate::{error::SignalError, judge::Terms, raw::RawRecord, record::Record};
 
 /// A format of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +59,8 @@ impl Format {
     /// Told by the first bytes; whatever is no other format is taken for separated values.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
-        let first_line = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty());
+        let first_line =
+            bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty());
         if bytes.starts_with(b"\x93NUMPY") {
             Self::Npy
         } else if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
@@ -90,7 +86,9 @@ pub enum ReadError {
     #[error("the file is empty")]
     Empty,
     /// Bytes that no text has.
-    #[error("the file is in no known format: it is binary, but neither WAV, NumPy, MATLAB nor universal file")]
+    #[error(
+        "the file is in no known format: it is binary, but neither WAV, NumPy, MATLAB nor universal file"
+    )]
     UnknownFormat,
     /// No rows of numbers.
     #[error("there are no rows of numbers in it")]

@@ -37,7 +37,8 @@ pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> 
     if !magic.starts_with(b"\x93NUMPY") {
         return Err(malformed(format!("{name} is no array")));
     }
-    let length = if magic[6] == 1 { usize::from(bytes.u16("the header")?) } else { bytes.u32("the header")? as usize };
+    let length =
+        if magic[6] == 1 { usize::from(bytes.u16("the header")?) } else { bytes.u32("the header")? as usize };
     let header = String::from_utf8_lossy(bytes.take(length, "the header")?).into_owned();
     let fortran = value_of(&header, "fortran_order")?.starts_with("True");
     let shape = shape(value_of(&header, "shape")?)?;
@@ -77,9 +78,15 @@ fn value_of<'a>(header: &'a str, key: &str) -> Result<&'a str, ReadError> {
 
 fn shape(text: &str) -> Result<Vec<usize>, ReadError> {
     let inside = text.strip_prefix('(').and_then(|text| text.split_once(')')).map(|(inside, _)| inside);
-    let sides = inside.into_iter().flat_map(|inside| inside.split(',')).map(str::trim).filter(|side| !side.is_empty());
+    let sides = inside
+        .into_iter()
+        .flat_map(|inside| inside.split(','))
+        .map(str::trim)
+        .filter(|side| !side.is_empty());
     sides
-        .map(|side| side.trim_end_matches('L').parse().map_err(|_| malformed(format!("the shape has a side {side}"))))
+        .map(|side| {
+            side.trim_end_matches('L').parse().map_err(|_| malformed(format!("the shape has a side {side}")))
+        })
         .collect()
 }
 
@@ -98,7 +105,9 @@ fn columns(text: &str, name: &str) -> Result<Vec<(String, Entry)>, ReadError> {
 
 /// The n-th text in quotation marks.
 fn quoted(text: &str, n: usize) -> Result<&str, ReadError> {
-    text.split('\'').nth(2 * n + 1).ok_or_else(|| malformed("the type of the entries cannot be read".to_owned()))
+    text.split('\'')
+        .nth(2 * n + 1)
+        .ok_or_else(|| malformed("the type of the entries cannot be read".to_owned()))
 }
 
 fn entry(text: &str) -> Result<Entry, ReadError> {
@@ -130,9 +139,10 @@ fn entry(text: &str) -> Result<Entry, ReadError> {
 fn in_order(values: Vec<f64>, shape: &[usize], fortran: bool) -> Vec<f64> {
     let sides: Vec<usize> = shape.iter().copied().filter(|side| *side != 1).collect();
     match sides[..] {
-        [rows, columns] if !fortran => {
-            (0..columns).flat_map(|c| (0..rows).map(move |r| r * columns + c)).map(|index| values[index]).collect()
-        }
+        [rows, columns] if !fortran => (0..columns)
+            .flat_map(|c| (0..rows).map(move |r| r * columns + c))
+            .map(|index| values[index])
+            .collect(),
         _ => values,
     }
 }

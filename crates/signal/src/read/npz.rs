@@ -85,7 +85,10 @@ impl Entry {
             0 => data.to_vec(),
             8 => {
                 let mut content = Vec::with_capacity(self.size.min(1 << 24));
-                DeflateDecoder::new(data).take(self.size as u64 + 1).read_to_end(&mut content).map_err(|_| truncated())?;
+                DeflateDecoder::new(data)
+                    .take(self.size as u64 + 1)
+                    .read_to_end(&mut content)
+                    .map_err(|_| truncated())?;
                 content
             }
             method => {
@@ -98,7 +101,9 @@ impl Entry {
         let mut crc = Crc::new();
         crc.update(&content);
         if content.len() != self.size || crc.sum() != self.crc {
-            return Err(ReadError::Malformed { what: format!("{} is damaged: its checksum is wrong", self.name) });
+            return Err(ReadError::Malformed {
+                what: format!("{} is damaged: its checksum is wrong", self.name),
+            });
         }
         Ok(content)
     }

@@ -30,12 +30,14 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
 
 fn reason(error: hound::Error) -> ReadError {
     match error {
-        hound::Error::Unsupported | hound::Error::InvalidSampleFormat | hound::Error::TooWide => {
-            ReadError::Unsupported {
-                what: "this kind of WAV samples".to_owned(),
-                instead: "save as PCM of 16, 24 or 32 bits or as 32-bit floating point",
-            }
-        }
+        // The library's word for floating-point numbers of 64 bits.
+        hound::Error::FormatError("bits per sample is not 32")
+        | hound::Error::Unsupported
+        | hound::Error::InvalidSampleFormat
+        | hound::Error::TooWide => ReadError::Unsupported {
+            what: "this kind of WAV samples".to_owned(),
+            instead: "save as PCM of 16, 24 or 32 bits or as 32-bit floating point",
+        },
         hound::Error::FormatError(what) => ReadError::Malformed { what: what.to_owned() },
         other => ReadError::Truncated { what: other.to_string() },
     }

@@ -81,7 +81,8 @@ pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize)> {
         let Some((first, length, width)) = stretch(looked_at, dialect) else { continue };
         let titles = first.checked_sub(1).is_some_and(|before| {
             let title = looked_at[before].1;
-            dialect.split(title).len() == width && !(width == 1 && dialect.decimal_comma && title.contains(','))
+            dialect.split(title).len() == width
+                && !(width == 1 && dialect.decimal_comma && title.contains(','))
         });
         let score = (titles, length, width);
         if best.as_ref().is_none_or(|(other, ..)| score > *other) {

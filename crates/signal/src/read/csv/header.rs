@@ -42,7 +42,8 @@ type Fields = Vec<String>;
 
 /// Titles and the row of units, if they are there.
 fn title_fields(before: &[Line], dialect: Dialect, width: usize) -> Option<(Fields, Option<Fields>)> {
-    let split = |line: &str| -> Fields { dialect.split(line).iter().map(|field| field.to_string()).collect() };
+    let split =
+        |line: &str| -> Fields { dialect.split(line).iter().map(|field| field.to_string()).collect() };
     let mut rows = before
         .iter()
         .rev()
@@ -50,7 +51,8 @@ fn title_fields(before: &[Line], dialect: Dialect, width: usize) -> Option<(Fiel
         .map(|(_, line)| split(line))
         .take_while(|fields| fields.len() == width && !fields.iter().all(String::is_empty));
     if let Some(last) = rows.next() {
-        let units = last.iter().all(|field| field.is_empty() || unit(field).is_some() || bare(field) != *field);
+        let units =
+            last.iter().all(|field| field.is_empty() || unit(field).is_some() || bare(field) != *field);
         return match rows.next() {
             Some(titles) if units => Some((titles, Some(last))),
             _ => Some((last, None)),
@@ -75,13 +77,25 @@ fn bare(text: &str) -> String {
 /// The rate in lines like `Sampling rate: 10 kHz`, `# fs = 2048`, `Sample frequency [Hz];1000`.
 fn sampling_rate(line: &str) -> Option<f64> {
     let lower = line.to_lowercase().replace(['_', '-'], " ");
-    let words = ["sampling rate", "sample rate", "sampling frequency", "sample frequency", "samplerate", "abtastrate", "fs"];
+    let words = [
+        "sampling rate",
+        "sample rate",
+        "sampling frequency",
+        "sample frequency",
+        "samplerate",
+        "abtastrate",
+        "fs",
+    ];
     let (word, at) = words.iter().find_map(|word| lower.find(word).map(|at| (word, at)))?;
     let alone = *word != "fs" || lower.trim_start_matches(['#', '%', '/', '"', ' ']).starts_with("fs");
     let rest = lower.get(at + word.len()..)?;
     let start = rest.find(|character: char| character.is_ascii_digit())?;
     let filler = &rest[..start];
-    if !alone || !filler.chars().all(|c| " :=;,\t\"'[](){}".contains(c) || "khz/".contains(c) || "sample".contains(c)) {
+    if !alone
+        || !filler
+            .chars()
+            .all(|c| " :=;,\t\"'[](){}".contains(c) || "khz/".contains(c) || "sample".contains(c))
+    {
         return None;
     }
     let number: String =

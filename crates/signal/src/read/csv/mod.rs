@@ -41,11 +41,13 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let (dialect, first) = dialect::detect(&rows).ok_or(ReadError::NoNumbers)?;
     let first_line = rows[first].0;
     let width = dialect.split(rows[first].1).len();
-    let before: Vec<Line> = lines.iter().copied().filter(|(line, text)| *line < first_line && !text.trim().is_empty()).collect();
+    let before: Vec<Line> =
+        lines.iter().copied().filter(|(line, text)| *line < first_line && !text.trim().is_empty()).collect();
     let header = header::read(&before, dialect, width);
     let values = columns(&rows[first..], dialect, width)?;
     let titled = header.titled;
-    let columns = values.into_iter().zip(header.titles).map(|(values, (name, unit))| Column { name, unit, values });
+    let columns =
+        values.into_iter().zip(header.titles).map(|(values, (name, unit))| Column { name, unit, values });
     // A separator at the end of each line makes a column of nothing.
     let columns: Vec<Column> = columns.filter(|column| !column.values.is_empty()).collect();
     arrange(columns, titled, header.rate_hz, findings)
@@ -155,7 +157,9 @@ fn time_column(columns: &[Column], titled: bool, findings: &mut Vec<Finding>) ->
 }
 
 pub(crate) fn rises_evenly(values: &[f64]) -> bool {
-    let Some(([first, ..], last)) = values.split_last().map(|(last, rest)| (rest, last)) else { return false };
+    let Some(([first, ..], last)) = values.split_last().map(|(last, rest)| (rest, last)) else {
+        return false;
+    };
     let step = (last - first) / (values.len() - 1) as f64;
     step > 0.0 && values.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 0.1 * step)
 }

@@ -19,9 +19,12 @@ pub(super) fn parse(field: &str, decimal_comma: bool) -> Option<f64> {
 
 /// Words that measuring programs and spreadsheets write for a missing value.
 fn is_nothing(field: &str) -> bool {
-    ["nan", "-", "--", "n/a", "na", "#n/a", "#nv", "null", "none", "#div/0!", "#value!", "1.#qnan", "-nan", "missing"]
-        .iter()
-        .any(|word| word.eq_ignore_ascii_case(field))
+    [
+        "nan", "-", "--", "n/a", "na", "#n/a", "#nv", "null", "none", "#div/0!", "#value!", "1.#qnan",
+        "-nan", "missing",
+    ]
+    .iter()
+    .any(|word| word.eq_ignore_ascii_case(field))
 }
 
 /// Seconds of `12:34:56.789`, counted from 1970 if a date `2024-05-17` stands before it.

@@ -77,7 +77,10 @@ fn sampling_rate_in_the_header_is_the_rate() {
 fn missing_values_are_nan_and_missing_ends_are_the_end() {
     let raw = read_text("time [s],a,b\n0,1,2\n1,,3\n2,NaN,4\n3,7,\n4,8,\n");
     let channels = &raw.groups[0].channels;
-    assert_eq!(channels[0].samples.iter().map(|value| value.is_nan()).collect::<Vec<_>>(), [false, true, true, false, false]);
+    assert_eq!(
+        channels[0].samples.iter().map(|value| value.is_nan()).collect::<Vec<_>>(),
+        [false, true, true, false, false]
+    );
     assert_eq!(channels[1].samples, [2.0, 3.0, 4.0]);
 }
 

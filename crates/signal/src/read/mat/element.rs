@@ -29,9 +29,9 @@ pub(super) fn next<'a>(bytes: &mut Bytes<'a>) -> Result<Element<'a>, ReadError> 
     let (small, kind) = (first >> 16, first & 0xffff);
     if small > 0 {
         let data = bytes.take(4, "a small element")?;
-        let data = data.get(..small as usize).ok_or_else(|| ReadError::Malformed {
-            what: format!("a small element of {small} bytes"),
-        })?;
+        let data = data
+            .get(..small as usize)
+            .ok_or_else(|| ReadError::Malformed { what: format!("a small element of {small} bytes") })?;
         return Ok(Element { kind: kind_of(kind), data });
     }
     let size = bytes.u32("the size of an element")? as usize;
@@ -66,7 +66,9 @@ const fn kind_of(number: u32) -> Kind {
 pub(super) fn numbers(element: &Element, big_endian: bool) -> Result<Vec<f64>, ReadError> {
     match element.kind {
         Kind::Numbers(stored) => Ok(stored.values(element.data, big_endian)),
-        _ => Err(ReadError::Malformed { what: "numbers are missing where an array should have them".to_owned() }),
+        _ => Err(ReadError::Malformed {
+            what: "numbers are missing where an array should have them".to_owned(),
+        }),
     }
 }
 

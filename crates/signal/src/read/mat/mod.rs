@@ -63,7 +63,8 @@ impl Content {
         }
         let mut bytes = Bytes::new(element.data, big_endian);
         let flags = numbers(&next(&mut bytes)?, big_endian)?.first().map_or(0, |flags| *flags as u32);
-        let shape: Vec<usize> = numbers(&next(&mut bytes)?, big_endian)?.iter().map(|side| *side as usize).collect();
+        let shape: Vec<usize> =
+            numbers(&next(&mut bytes)?, big_endian)?.iter().map(|side| *side as usize).collect();
         let own = String::from_utf8_lossy(next(&mut bytes)?.data).into_owned();
         let name = format!("{within}{own}");
         match flags & 0xff {
@@ -93,7 +94,9 @@ impl Content {
             if values.len() == count {
                 return Ok(values);
             }
-            Err(ReadError::Malformed { what: format!("{name} has {} values, its shape says {count}", values.len()) })
+            Err(ReadError::Malformed {
+                what: format!("{name} has {} values, its shape says {count}", values.len()),
+            })
         };
         let real = part()?;
         let imaginary = if complex { Some(part()?) } else { None };
@@ -109,7 +112,8 @@ impl Content {
         let length = numbers(&next(bytes)?, big_endian)?.first().map_or(32, |length| *length as usize).max(1);
         let names = next(bytes)?.data;
         for field in names.chunks(length) {
-            let field = String::from_utf8_lossy(field.split(|byte| *byte == 0).next().unwrap_or_default()).into_owned();
+            let field = String::from_utf8_lossy(field.split(|byte| *byte == 0).next().unwrap_or_default())
+                .into_owned();
             self.take(&next(bytes)?, big_endian, &format!("{name}.{field}"))?;
         }
         Ok(())

@@ -13,12 +13,15 @@ pub(super) struct Binary {
 impl Binary {
     /// From the line with the type; `None` if the values are text.
     pub(super) fn of(kind: &str, number: usize) -> Result<Option<Self>, ReadError> {
-        let Some(rest) = kind.trim_start().strip_prefix("58").and_then(|rest| rest.strip_prefix(['b', 'B'])) else {
+        let Some(rest) = kind.trim_start().strip_prefix("58").and_then(|rest| rest.strip_prefix(['b', 'B']))
+        else {
             return Ok(None);
         };
         let fields: Vec<usize> = rest.split_whitespace().map_while(|field| field.parse().ok()).collect();
         let &[order, float, lines, declared, ..] = &fields[..] else {
-            return Err(ReadError::Malformed { what: format!("function {number} is binary but does not say how") });
+            return Err(ReadError::Malformed {
+                what: format!("function {number} is binary but does not say how"),
+            });
         };
         if float != 2 {
             return Err(ReadError::Unsupported {
@@ -27,7 +30,9 @@ impl Binary {
             });
         }
         if lines != super::HEADER_LINES {
-            return Err(ReadError::Malformed { what: format!("function {number} has {lines} header lines, not 11") });
+            return Err(ReadError::Malformed {
+                what: format!("function {number} has {lines} header lines, not 11"),
+            });
         }
         Ok(Some(Self { big_endian: order == 2, declared }))
     }
@@ -68,7 +73,8 @@ impl Header {
                 what: format!("function {number} has ordinates of type {kind} and {points} points"),
             });
         }
-        let real = |start: usize| columns(form, start, 13).trim().replace(['D', 'd'], "e").parse().unwrap_or(0.0);
+        let real =
+            |start: usize| columns(form, start, 13).trim().replace(['D', 'd'], "e").parse().unwrap_or(0.0);
         Ok(Self {
             name: name(&lines[0], function, number),
             number,

@@ -33,7 +33,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
             continue;
         }
         let Some(kind) = file.next() else { break };
-        if kind.trim() == "58" || kind.trim_start().starts_with("58b") || kind.trim_start().starts_with("58B") {
+        if kind.trim() == "58" || kind.trim_start().starts_with("58b") || kind.trim_start().starts_with("58B")
+        {
             functions += 1;
             function(&mut file, &kind, functions, &mut raw)?;
         } else {
@@ -64,8 +65,12 @@ impl<'a> Lines<'a> {
         Some(line)
     }
 
-    fn skip_dataset(&mut self) {
-        while self.next().is_some_and(|line| line.trim() != "-1") {}
+    /// Goes behind the line that ends a dataset.
+    ///
+    /// # Returns
+    /// Whether there is one.
+    fn skip_dataset(&mut self) -> bool {
+        std::iter::from_fn(|| self.next()).any(|line| line.trim() == "-1")
     }
 
     fn take(&mut self, count: usize) -> Option<&'a [u8]> {
@@ -95,6 +100,9 @@ fn function(file: &mut Lines, kind: &str, number: usize, raw: &mut RawRecord) ->
         }
         None => data::of_text(file, &header, number)?,
     };
+    if !file.skip_dataset() {
+        return Err(ReadError::Truncated { what: format!("function {number} has no end") });
+    }
     if !header.is_over_time() {
         let reason = format!("its abscissa is {}, not time", header.abscissa_word());
         raw.findings.push(Finding::LeftOut { name: header.name, reason });
@@ -103,4 +111,3 @@ fn function(file: &mut Lines, kind: &str, number: usize, raw: &mut RawRecord) ->
     data::add(values, header, raw);
     Ok(())
 }
-

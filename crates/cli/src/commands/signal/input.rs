@@ -1,0 +1,169 @@
+//! The record that a command works on, and what is said about it.
+
+use hammerbeam_signal::{
+    Channel, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
+    filter::{Band, Sections, butterworth},
+    read::read,
+};
+use serde_json::{Value, json};
+
+use crate::{
+    failure::Failure,
+    signal_args::{BandOptions, InputOptions, Repair},
+    table::word,
+};
+
+/// A record with where it is from.
+pub struct Input {
+    pub record: Record,
+    format: Format,
+    file: String,
+}
+
+/// Reads and judges a file.
+///
+/// * `others`: channels that are wanted besides those the user names, such as a reference.
+pub fn open(options: &InputOptions, others: &[&str]) -> Result<Input, Failure> {
+    let allows = |repair: Repair| options.repair.contains(&repair);
+    let named = options.channel.iter().cloned();
+    let channels = if options.channel.is_empty() {
+        Vec::new()
+    } else {
+        named.chain(others.iter().map(|name| (*name).to_owned())).collect()
+    };
+    let terms = Terms {
+        sampling_rate_hz: options.rate,
+        repairs: Repairs {
+            missing: allows(Repair::Missing),
+            gaps: allows(Repair::Gaps),
+            uneven: allows(Repair::Uneven),
+            duplicates: allows(Repair::Duplicates),
+            order: allows(Repair::Order),
+            lengths: allows(Repair::Lengths),
+        },
+        channels,
+    };
+    let (record, format) = read(&options.file, &terms).map_err(with_hint)?;
+    let record = if options.from.is_some() || options.to.is_some() {
+        record.part(options.from.unwrap_or(f64::NEG_INFINITY), options.to.unwrap_or(f64::INFINITY))?
+    } else {
+        record
+    };
+    Ok(Input { record, format, file: options.file.display().to_string() })
+}
+
+/// A refusal, with the option that helps.
+fn with_hint(error: SignalError) -> Failure {
+    let hint = match &error {
+        SignalError::Record(RecordError::NoSamplingRate) => "give it with --rate",
+        SignalError::Record(RecordError::DifferentSampling { .. }) => {
+            "choose channels of one group with --channel"
+        }
+        SignalError::Record(RecordError::UnequalLengths { .. }) => {
+            "--repair lengths cuts them to the shortest"
+        }
+        SignalError::Record(RecordError::Missing { .. }) => "--repair missing interpolates them",
+        SignalError::Record(RecordError::TimeMissing { .. }) => {
+            "with --rate the times in the file are not used"
+        }
+        SignalError::Record(RecordError::TimeDecreases { .. }) => "--repair order sorts by time",
+        SignalError::Record(RecordError::DuplicateTimes { .. }) => {
+            "if the times are rounded, give the sampling rate with --rate; --repair duplicates drops the samples"
+        }
+        SignalError::Record(RecordError::Gaps { .. }) => "--repair gaps fills them by interpolation",
+        SignalError::Record(RecordError::Uneven { .. }) => "--repair uneven interpolates to an even grid",
+        _ => return error.into(),
+    };
+    Failure::BadInput(format!("{error}\nhelp: {hint}"))
+}
+
+impl Input {
+    /// The channel a command works on: the first.
+    pub fn channel(&self) -> &Channel {
+        &self.record.channels[0]
+    }
+
+    /// What is said of the record in every document.
+    pub fn document(&self) -> Value {
+        let channel = |channel: &Channel| {
+            json!({
+                "name": channel.name,
+                "quantity": channel.quantity.word(),
+                "unit": unit(channel),
+                "unit_in_file": channel.unit,
+            })
+        };
+        let finding = |finding: &hammerbeam_signal::Finding| json!({ "kind": finding.kind(), "channel": finding.channel(), "message": finding.to_string() });
+        json!({
+            "file": self.file,
+            "format": self.format.word(),
+            "sampling_rate_hz": self.record.sampling_rate_hz,
+            "start_s": self.record.start_s,
+            "samples": self.record.len(),
+            "duration_s": self.record.duration_s(),
+            "channels": self.record.channels.iter().map(channel).collect::<Vec<_>>(),
+            "findings": self.record.findings.iter().map(finding).collect::<Vec<_>>(),
+        })
+    }
+
+    /// What is said of the record before the result.
+    pub fn heading(&self) -> String {
+        let record = &self.record;
+        format!(
+            "{} ({}): {} samples at {} Hz, {} s from {} s on",
+            self.file,
+            self.format.word(),
+            record.len(),
+            rounded(record.sampling_rate_hz),
+            rounded(record.duration_s()),
+            rounded(record.start_s),
+        )
+    }
+
+    /// Findings, behind the result.
+    pub fn notes(&self) -> Vec<String> {
+        self.record.findings.iter().map(|finding| format!("note: {finding}")).collect()
+    }
+}
+
+/// A number without the digits that rounding leaves.
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.9e}").parse().unwrap_or(value)
+}
+
+/// Unit in which a channel's samples are.
+pub fn unit(channel: &Channel) -> Option<&str> {
+    match channel.quantity {
+        Quantity::Other => channel.unit.as_deref(),
+        quantity => Some(quantity.symbol()),
+    }
+}
+
+/// A channel with its unit, for people.
+pub fn named(channel: &Channel) -> String {
+    unit(channel).map_or_else(|| channel.name.clone(), |unit| format!("{} [{unit}]", channel.name))
+}
+
+/// Title of a channel's column: its name with the unit as its ending, as all tables have it.
+pub fn title(channel: &Channel) -> String {
+    match channel.quantity.key() {
+        "" => word(&channel.name),
+        key => format!("{}_{key}", word(&channel.name)),
+    }
+}
+
+/// The filter that is asked for, if any.
+pub fn filter(options: &BandOptions, sampling_rate_hz: f64) -> Result<Option<(Band, Sections)>, Failure> {
+    let band = match (options.low_pass, options.high_pass) {
+        (None, None) => return Ok(None),
+        (Some(cut_off_hz), None) => Band::LowPass { cut_off_hz },
+        (None, Some(cut_off_hz)) => Band::HighPass { cut_off_hz },
+        (Some(high_hz), Some(low_hz)) => Band::BandPass { low_hz, high_hz },
+    };
+    Ok(Some((band, butterworth(options.order as usize, band, sampling_rate_hz)?)))
+}
+
+/// Largest absolute value.
+pub fn largest(samples: &[f64]) -> f64 {
+    samples.iter().fold(0.0, |largest, value| largest.max(value.abs()))
+}

@@ -1,0 +1,200 @@
+//! The modes of a free decay.
+
+use std::f64::consts::PI;
+
+use super::{
+    fit::{Fit, fit},
+    model::Oscillation,
+    search::strongest,
+};
+use crate::{
+    error::{SignalError, ensure, ensure_series},
+    spectrum::{WelchSettings, welch},
+};
+
+/// Fewest samples of a decay.
+const FEWEST: usize = 32;
+
+/// What to look for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DecaySettings {
+    /// Number of modes; `None` for all that stand out of the noise, up to `most`.
+    pub modes: Option<usize>,
+    /// Most modes that are looked for.
+    pub most: usize,
+    /// Frequencies between which to look [Hz].
+    pub band_hz: (f64, f64),
+}
+
+impl Default for DecaySettings {
+    fn default() -> Self {
+        Self { modes: None, most: 6, band_hz: (0.0, f64::INFINITY) }
+    }
+}
+
+/// A value with its interval of 95 %.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Half of the interval.
+    pub half_width: f64,
+}
+
+impl Estimate {
+    /// Whether a value lies in the interval.
+    #[must_use]
+    pub fn contains(&self, value: f64) -> bool {
+        (self.value - value).abs() <= self.half_width
+    }
+}
+
+/// One mode of a decay.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DecayMode {
+    /// Eigenfrequency, without damping [Hz].
+    pub frequency_hz: Estimate,
+    /// Damping ratio.
+    pub damping_ratio: Estimate,
+    /// Logarithmic decrement.
+    pub decrement: Estimate,
+    /// Amplitude at the first sample, in the unit of the series.
+    pub amplitude: f64,
+    /// Phase at the first sample, of a cosine [rad].
+    pub phase: f64,
+}
+
+/// A free decay.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decay {
+    /// Modes, the lowest frequency first.
+    pub modes: Vec<DecayMode>,
+    /// What the decay ends at.
+    pub offset: f64,
+    /// Root mean square of what is not explained.
+    pub residual: f64,
+    /// Correlation of neighbouring residuals; beyond 3 / sqrt(N) they are not white, and intervals allow for that.
+    pub residual_correlation: f64,
+    /// Whether residuals are taken as white.
+    pub white: bool,
+    pub(super) oscillations: Vec<Oscillation>,
+}
+
+/// Finds modes of a free decay and fits them.
+///
+/// Modes are added one after the other, each where it takes most off the residual, and all are fitted again.
+///
+/// # Errors
+/// [`SignalError::NoDecay`] if nothing stands out of the noise; [`SignalError::FitNotConverged`] if a number of modes is given and cannot be
+/// fitted; [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`], [`SignalError::Input`].
+pub fn free_decay(series: &[f64], sampling_rate_hz: f64, settings: &DecaySettings) -> Result<Decay, SignalError> {
+    ensure_series("a decay", series, FEWEST)?;
+    let (low, high) = settings.band_hz;
+    ensure("the upper end of the band", high, format!("more than its lower end, {low} Hz"), high > low)?;
+    if series.iter().all(|value| *value == series[0]) {
+        return Err(SignalError::Constant);
+    }
+    let step = 1.0 / sampling_rate_hz;
+    let band = (2.0 * PI * low, 2.0 * PI * high);
+    let mut fitted: Option<Fit> = None;
+    for _ in 0..settings.modes.unwrap_or(settings.most) {
+        let (rest, mut start) = match &fitted {
+            Some(fit) => (fit.residual.clone(), fit.oscillations.clone()),
+            None => {
+                let mean = series.iter().sum::<f64>() / series.len() as f64;
+                (series.iter().map(|value| value - mean).collect(), Vec::new())
+            }
+        };
+        let Some(next) = strongest(&rest, step, band, settings.modes.is_none()) else { break };
+        start.push(next);
+        match fit(series, step, &start) {
+            Ok(better) if settings.modes.is_some() || is_sound(&better, step, series.len()) => fitted = Some(better),
+            Err(error) if settings.modes.is_some() => return Err(error),
+            // One more is not in the data.
+            _ => break,
+        }
+    }
+    let fit = fitted.ok_or(SignalError::NoDecay)?;
+    Ok(describe(&fit, sampling_rate_hz))
+}
+
+/// Whether all oscillations are modes of their own: none outside of what can be sampled, none growing beyond doubt, none on another.
+fn is_sound(fit: &Fit, step: f64, length: usize) -> bool {
+    let duration = length as f64 * step;
+    let inside = |o: &Oscillation| {
+        o.frequency > 0.0 && o.frequency < PI / step && o.rate > -2.0 / duration && o.amplitude().is_finite()
+    };
+    let apart = |one: &Oscillation, other: &Oscillation| {
+        (one.frequency - other.frequency).abs() > (PI / duration).min(0.2 * one.rate.abs().max(other.rate.abs()))
+    };
+    let all = &fit.oscillations;
+    all.iter().enumerate().all(|(k, one)| inside(one) && all[..k].iter().all(|other| apart(one, other)))
+}
+
+fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
+    let residual = &fit.residual;
+    let count = residual.len();
+    let free = (count - 1 - 4 * fit.oscillations.len()) as f64;
+    let variance = residual.iter().map(|value| value * value).sum::<f64>() / free;
+    let neighbours: f64 = residual.windows(2).map(|pair| pair[0] * pair[1]).sum();
+    let residual_correlation = if variance > 0.0 { neighbours / (free * variance) } else { 0.0 };
+    let white = residual_correlation.abs() < 3.0 / (count as f64).sqrt();
+    let quantile = student(free);
+    let mut order: Vec<usize> = (0..fit.oscillations.len()).collect();
+    order.sort_by(|&a, &b| fit.oscillations[a].frequency.total_cmp(&fit.oscillations[b].frequency));
+    let mode = |&m: &usize| {
+        let local = if white { variance } else { local_variance(fit, m, sampling_rate_hz).unwrap_or(variance) };
+        describe_mode(fit, m, local, quantile)
+    };
+    Decay {
+        modes: order.iter().map(mode).collect(),
+        offset: fit.offset,
+        residual: variance.sqrt(),
+        residual_correlation,
+        white,
+        oscillations: order.iter().map(|&m| fit.oscillations[m]).collect(),
+    }
+}
+
+/// Variance of white noise that has the residual's density about a mode's frequency.
+///
+/// The density is averaged over segments and over the band in which the mode's line lies, at least five values of the spectrum to each side.
+fn local_variance(fit: &Fit, m: usize, sampling_rate_hz: f64) -> Option<f64> {
+    let oscillation = &fit.oscillations[m];
+    let segment = (fit.residual.len() / 4).max(16);
+    let density = welch(&fit.residual, sampling_rate_hz, &WelchSettings::with_segment(segment)).ok()?;
+    let centre = oscillation.frequency / (2.0 * PI * density.step_hz);
+    let reach = (oscillation.rate.abs() / (PI * density.step_hz)).max(5.0);
+    let low = (centre - reach).max(1.0) as usize;
+    let high = ((centre + reach) as usize).min(density.values.len() - 1);
+    let values = density.values.get(low..=high)?;
+    Some(values.iter().sum::<f64>() / values.len() as f64 * sampling_rate_hz / 2.0)
+}
+
+/// Figures of a mode; their uncertainty follows from that of `s` and `w` by the derivatives.
+fn describe_mode(fit: &Fit, m: usize, variance: f64, quantile: f64) -> DecayMode {
+    let o = &fit.oscillations[m];
+    let (s, w) = (o.rate, o.frequency);
+    let covariance = |i: usize, j: usize| variance * fit.inverse[(1 + 4 * m + i, 1 + 4 * m + j)];
+    let estimate = |value: f64, by_s: f64, by_w: f64| {
+        let square = by_s * by_s * covariance(0, 0) + 2.0 * by_s * by_w * covariance(0, 1) + by_w * by_w * covariance(1, 1);
+        Estimate { value, half_width: quantile * square.max(0.0).sqrt() }
+    };
+    let natural = s.hypot(w);
+    let cube = natural.powi(3);
+    DecayMode {
+        frequency_hz: estimate(natural / (2.0 * PI), s / natural / (2.0 * PI), w / natural / (2.0 * PI)),
+        damping_ratio: estimate(s / natural, w * w / cube, -s * w / cube),
+        decrement: estimate(2.0 * PI * s / w, 2.0 * PI / w, -2.0 * PI * s / (w * w)),
+        amplitude: o.amplitude(),
+        phase: (-o.sine).atan2(o.cosine),
+    }
+}
+
+/// Student's two-sided quantile of 95 %, by the first terms of its expansion in the degrees of freedom `n` (Abramowitz and Stegun 26.7.5): good to 0.1 % from 10 on.
+pub(super) fn student(n: f64) -> f64 {
+    let x: f64 = 1.959_963_985;
+    let first = (x.powi(3) + x) / 4.0;
+    let second = (5.0 * x.powi(5) + 16.0 * x.powi(3) + 3.0 * x) / 96.0;
+    x + first / n + second / (n * n)
+}

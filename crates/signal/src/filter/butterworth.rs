@@ -1,0 +1,177 @@
+//! Design of Butterworth filters.
+//!
+//! Poles of the analogue low-pass filter of cut-off 1: `p_k = exp(i pi (2k + n + 1) / (2n))`, `k = 0 .. n-1`. With `c = tan(pi f_c / f_s)`:
+//!
+//! | band | poles in s | zeros in z |
+//! |---|---|---|
+//! | low-pass | `c p` | `n` at -1 |
+//! | high-pass | `c / p` | `n` at 1 |
+//! | band-pass | both roots of `s² - (c₂ - c₁) p s + c₁ c₂ = 0` | `n` at -1, `n` at 1 |
+//!
+//! then `z = (1 + s)/(1 - s)`. The gain is one at zero, at half the sampling rate, or in the middle of the band, `s = i sqrt(c₁ c₂)`.
+
+use std::f64::consts::PI;
+
+use realfft::num_complex::Complex;
+
+use super::sections::{Section, Sections};
+use crate::error::{SignalError, ensure};
+
+/// Highest order: beyond it no one can say what the filter is for.
+const HIGHEST_ORDER: usize = 32;
+
+/// What passes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Band {
+    /// Below a frequency.
+    LowPass {
+        /// Cut-off, at half the power [Hz].
+        cut_off_hz: f64,
+    },
+    /// Above a frequency.
+    HighPass {
+        /// Cut-off, at half the power [Hz].
+        cut_off_hz: f64,
+    },
+    /// Between two frequencies.
+    BandPass {
+        /// Lower cut-off [Hz].
+        low_hz: f64,
+        /// Upper cut-off [Hz].
+        high_hz: f64,
+    },
+}
+
+/// Designs a filter.
+///
+/// * `order`: that of the low-pass filter it is made of, 1 to 32; a band-pass filter has twice as many poles.
+/// * `sampling_rate_hz`: of the series it is for [Hz].
+///
+/// # Errors
+/// [`SignalError::Input`]: the order, or a cut-off that is not between 0 and half the sampling rate.
+pub fn butterworth(order: usize, band: Band, sampling_rate_hz: f64) -> Result<Sections, SignalError> {
+    let orders = format!("a whole number from 1 to {HIGHEST_ORDER}");
+    ensure("the order of the filter", order as f64, orders, (1..=HIGHEST_ORDER).contains(&order))?;
+    let half = sampling_rate_hz / 2.0;
+    let warped = |what: &'static str, frequency: f64| {
+        let allowed = format!("more than 0 and less than half the sampling rate, {half} Hz");
+        ensure(what, frequency, allowed, frequency > 0.0 && frequency < half)?;
+        Ok::<f64, SignalError>((PI * frequency / sampling_rate_hz).tan())
+    };
+    let prototype =
+        (0..order).map(|k| Complex::from_polar(1.0, PI * (2 * k + order + 1) as f64 / (2 * order) as f64));
+    let one = Complex::new(1.0, 0.0);
+    let (poles, zeros, reference) = match band {
+        Band::LowPass { cut_off_hz } => {
+            let c = warped("the cut-off of the low-pass filter", cut_off_hz)?;
+            (prototype.map(|p| p * c).collect::<Vec<_>>(), Zeros::Low, one)
+        }
+        Band::HighPass { cut_off_hz } => {
+            let c = warped("the cut-off of the high-pass filter", cut_off_hz)?;
+            (prototype.map(|p| c / p).collect(), Zeros::High, -one)
+        }
+        Band::BandPass { low_hz, high_hz } => {
+            let low = warped("the lower cut-off of the band-pass filter", low_hz)?;
+            let high = warped("the upper cut-off of the band-pass filter", high_hz)?;
+            ensure(
+                "the upper cut-off",
+                high_hz,
+                format!("more than the lower one, {low_hz} Hz"),
+                high > low,
+            )?;
+            let roots = prototype.flat_map(|p| {
+                let half = p * (high - low) / 2.0;
+                let root = (half * half - low * high).sqrt();
+                [half + root, half - root]
+            });
+            let centre = Complex::new(0.0, (low * high).sqrt());
+            (roots.collect(), Zeros::Both, (one + centre) / (one - centre))
+        }
+    };
+    let poles: Vec<Complex<f64>> = poles.into_iter().map(|s| (one + s) / (one - s)).collect();
+    Ok(chain(&poles, zeros, reference))
+}
+
+/// Where the zeros of a filter lie: -1, 1, or half of them at each.
+#[derive(Clone, Copy)]
+enum Zeros {
+    Low,
+    High,
+    Both,
+}
+
+/// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance sees what the others have damped.
+fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Sections {
+    // Poles of exact conjugate pairs; what is left of the imaginary part of a real one is rounding.
+    let is_real = |pole: &Complex<f64>| pole.im.abs() < 1e-12 * pole.norm().max(1e-300);
+    let mut pairs: Vec<(f64, f64, bool)> = poles
+        .iter()
+        .filter(|pole| !is_real(pole) && pole.im > 0.0)
+        .map(|pole| (-2.0 * pole.re, pole.norm_sqr(), false))
+        .collect();
+    let mut real: Vec<f64> = poles.iter().filter(|pole| is_real(pole)).map(|pole| pole.re).collect();
+    real.sort_by(f64::total_cmp);
+    for pair in real.chunks(2) {
+        match *pair {
+            [one, other] => pairs.push((-(one + other), one * other, false)),
+            [single] => pairs.push((-single, 0.0, true)),
+            _ => {}
+        }
+    }
+    // A pole of a first-order section is real, its distance to the circle its own; that of a pair the root of the product.
+    let modulus = |&(a1, a2, first): &(f64, f64, bool)| if first { a1.abs() } else { a2.sqrt() };
+    pairs.sort_by(|one, other| modulus(one).total_cmp(&modulus(other)));
+    let numerator = |first: bool| match (zeros, first) {
+        (Zeros::Low, false) => [1.0, 2.0, 1.0],
+        (Zeros::Low, true) => [1.0, 1.0, 0.0],
+        (Zeros::High, false) => [1.0, -2.0, 1.0],
+        (Zeros::High, true) => [1.0, -1.0, 0.0],
+        (Zeros::Both, _) => [1.0, 0.0, -1.0],
+    };
+    let mut sections: Vec<Section> =
+        pairs.into_iter().map(|(a1, a2, first)| Section { b: numerator(first), a: [a1, a2] }).collect();
+    let gain: f64 = sections.iter().map(|section| section.response(reference).norm()).product();
+    sections[0].b.iter_mut().for_each(|value| *value /= gain);
+    Sections::new(sections)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_the_power_is_left_at_the_cut_off_and_the_slope_is_that_of_the_order() {
+        for order in [1, 2, 3, 4, 7, 10] {
+            let filter = butterworth(order, Band::LowPass { cut_off_hz: 850.0 }, 1e5).unwrap();
+            assert!((filter.gain(850.0, 1e5) - 0.5_f64.sqrt()).abs() < 1e-9, "order {order}");
+            // The bilinear formula, |H|² = 1 / (1 + (tan/tan_c)^2n), is exact.
+            let ratio = (PI * 0.02).tan() / (PI * 0.0085).tan();
+            let expected = (1.0 + ratio.powi(2 * order as i32)).sqrt().recip();
+            assert!((filter.gain(2000.0, 1e5) / expected - 1.0).abs() < 1e-7, "order {order}");
+        }
+    }
+
+    #[test]
+    fn high_pass_and_band_pass_have_their_cut_offs() {
+        let filter = butterworth(3, Band::HighPass { cut_off_hz: 40.0 }, 1000.0).unwrap();
+        assert!((filter.gain(40.0, 1000.0) - 0.5_f64.sqrt()).abs() < 1e-12);
+        assert!((filter.gain(500.0, 1000.0) - 1.0).abs() < 1e-12 && filter.gain(0.0, 1000.0) < 1e-12);
+        for (low_hz, high_hz) in [(40.0, 60.0), (5.0, 400.0)] {
+            let filter = butterworth(3, Band::BandPass { low_hz, high_hz }, 1000.0).unwrap();
+            for frequency in [low_hz, high_hz] {
+                assert!((filter.gain(frequency, 1000.0) - 0.5_f64.sqrt()).abs() < 1e-12, "{frequency} Hz");
+            }
+        }
+    }
+
+    #[test]
+    fn cut_off_beyond_half_the_sampling_rate_is_refused() {
+        let refused = butterworth(4, Band::LowPass { cut_off_hz: 850.0 }, 1600.0).unwrap_err().to_string();
+        assert!(
+            refused.contains("850") && refused.contains("less than half the sampling rate, 800 Hz"),
+            "{refused}"
+        );
+        assert!(butterworth(0, Band::LowPass { cut_off_hz: 1.0 }, 10.0).is_err());
+        assert!(butterworth(2, Band::BandPass { low_hz: 3.0, high_hz: 2.0 }, 10.0).is_err());
+    }
+}
