@@ -1,10 +1,13 @@
 //! Measured and computed time series.
+pub mod classify;
+pub mod decay;
 pub mod envelope;
 mod error;
 pub mod filter;
 mod finding;
 mod fourier;
 pub mod judge;
+pub mod random;
 pub mod raw;
 pub mod read;
 mod record;
