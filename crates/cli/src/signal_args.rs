@@ -12,6 +12,14 @@ pub enum SignalCommand {
     Filter(FilterOptions),
     /// Compute the spectrum of a channel, and its lines
     Spectrum(SpectrumOptions),
+    /// Find eigenfrequencies and damping of a free decay, with intervals of 95 %
+    Decrement(DecrementOptions),
+    /// Tell whether a motion is periodic, and in which multiple of the excitation period
+    Classify(ClassifyOptions),
+    /// Compute the largest Lyapunov exponent of a channel
+    Lyapunov(ExponentOptions),
+    /// Put a computed motion through a measuring chain: sensor, filter, sampling, noise
+    Chain(ChainOptions),
 }
 
 /// What to read, and how.
@@ -128,6 +136,152 @@ pub struct SpectrumOptions {
     pub out: Option<PathBuf>,
 }
 
+#[derive(Debug, Args)]
+pub struct DecrementOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+
+    /// Number of modes to fit [default: all that stand out of the noise, up to 6]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub modes: Option<u32>,
+
+    /// Lowest frequency to look at
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub above: Option<f64>,
+
+    /// Highest frequency to look at
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub below: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct ClassifyOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+
+    /// Excitation frequency
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, required_unless_present = "reference", conflicts_with = "reference")]
+    pub frequency: Option<f64>,
+
+    /// Channel that shows the excitation; its strongest line is the excitation frequency
+    #[arg(long, value_name = "NAME")]
+    pub reference: Option<String>,
+
+    /// Largest period multiple that is looked at
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=64))]
+    pub multiples: u32,
+
+    /// Deviation up to which a motion is periodic; docs/signals.md has the formula
+    #[arg(long, value_name = "D", default_value_t = 0.05, value_parser = part, allow_negative_numbers = true)]
+    pub periodic_below: f64,
+
+    /// Deviation from which on a motion is aperiodic
+    #[arg(long, value_name = "D", default_value_t = 0.2, value_parser = part, allow_negative_numbers = true)]
+    pub aperiodic_above: f64,
+}
+
+#[derive(Debug, Args)]
+pub struct ExponentOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+
+    /// Method
+    #[arg(long, value_enum, default_value_t = Method::All)]
+    pub method: Method,
+
+    /// Delay between coordinates, in samples [default: from mutual information and autocorrelation]
+    #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(1..))]
+    pub delay: Option<u32>,
+
+    /// Number of coordinates [default: by false nearest neighbours]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    pub dimension: Option<u32>,
+
+    /// Neighbours have to be further apart in time than this, in samples [default: the mean period]
+    #[arg(long, value_name = "SAMPLES")]
+    pub theiler_window: Option<u32>,
+
+    /// Samples for which neighbours are followed [default: seven mean periods]
+    #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(4..))]
+    pub steps: Option<u32>,
+
+    /// First and last sample of the straight part, as in 40:150 [default: it is looked for]
+    #[arg(long, value_name = "FROM:TO", value_parser = range)]
+    pub fit: Option<(usize, usize)>,
+
+    /// Evolution time of Wolf's method, in samples [default: a part of the mean period]
+    #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(1..))]
+    pub evolution: Option<u32>,
+
+    /// Folder; divergence.csv is written into it
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Method {
+    /// All three
+    All,
+    /// Wolf et al. 1985, fixed evolution time
+    Wolf,
+    /// Rosenstein et al. 1993
+    Rosenstein,
+    /// Kantz 1994
+    Kantz,
+}
+
+#[derive(Debug, Args)]
+pub struct ChainOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+
+    /// What the sensor measures
+    #[arg(long, value_enum, default_value_t = Sensor::Acceleration)]
+    pub sensor: Sensor,
+
+    /// The file holds whole periods of a motion that repeats, as an orbit does
+    #[arg(long)]
+    pub periodic: bool,
+
+    #[command(flatten)]
+    pub band: BandOptions,
+
+    /// Filter forwards and backwards, without phase [default: causal, as an instrument does]
+    #[arg(long)]
+    pub zero_phase: bool,
+
+    /// Sampling rate of the measurement [default: that of the file]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub sampling: Option<f64>,
+
+    /// Standard deviation of the noise, in the sensor's SI unit
+    #[arg(long, value_name = "RMS", default_value_t = 0.0, value_parser = not_negative, allow_negative_numbers = true)]
+    pub noise: f64,
+
+    /// Another seed is other noise
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+
+    /// Range of the converter, in the sensor's SI unit; what is beyond is clipped
+    #[arg(long, value_name = "MAX", value_parser = not_negative, allow_negative_numbers = true, requires = "bits")]
+    pub range: Option<f64>,
+
+    /// Bits of the converter
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=32), requires = "range")]
+    pub bits: Option<u32>,
+
+    /// Folder; measured.csv is written into it
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Sensor {
+    Displacement,
+    Velocity,
+    Acceleration,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum SpectrumKind {
     /// Amplitudes of lines, of the whole record
@@ -166,4 +320,23 @@ fn overlap(text: &str) -> Result<f64, String> {
         Ok(number) if (0.0..=0.95).contains(&number) => Ok(number),
         _ => Err("must be a number from 0 to 0.95".to_owned()),
     }
+}
+
+fn part(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number <= 1.0 => Ok(number),
+        _ => Err("must be a number of more than 0, at most 1".to_owned()),
+    }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
+        _ => Err("must be a finite number, at least 0".to_owned()),
+    }
+}
+
+fn range(text: &str) -> Result<(usize, usize), String> {
+    let numbers = text.split_once(':').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    numbers.filter(|(from, to)| from < to).ok_or_else(|| "must be two numbers of samples, as in 40:150".to_owned())
 }

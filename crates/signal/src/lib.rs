@@ -1,8 +1,10 @@
 //! Measured and computed time series.
+pub mod chain;
 pub mod classify;
 pub mod decay;
 pub mod envelope;
 mod error;
+pub mod exponent;
 pub mod filter;
 mod finding;
 mod fourier;

@@ -122,10 +122,10 @@ pub fn classify(
     let given = excitation_hz / sampling_rate_hz;
     let needed = (PIECES as f64 / given).ceil() as usize + 1;
     ensure_series("telling whether a motion repeats", series, needed)?;
-    let (folded, frequency) = on_frequency(series, given);
-    if folded.variance <= 1e-300 {
+    if series.iter().all(|value| *value == series[0]) {
         return Err(SignalError::Constant);
     }
+    let (folded, frequency) = on_frequency(series, given);
     let most = settings.most.min(folded.periods() / PIECES).max(1);
     let scatters: Vec<(f64, usize, usize)> = (1..=most).map(|n| folded.scatter(n)).collect();
     let variance = |n: usize| scatters[n - 1].0 / scatters[n - 1].2 as f64;
@@ -167,13 +167,19 @@ fn on_frequency(series: &[f64], given: f64) -> (Folded, f64) {
 }
 
 /// Largest variance that white noise can have in a series: the smallest density in any band, over all frequencies.
+///
+/// An average over `a` segments of `w` neighbouring values has the relative standard error `sqrt(1.5 / (a w))` (neighbours overlap by the window); three of them
+/// are added, since the smallest of many is too small by chance.
 fn white_noise(rest: &[f64], period: usize) -> Result<f64, SignalError> {
     let segment = (8 * period).max(256).min(rest.len());
     let density = welch(rest, 1.0, &WelchSettings::with_segment(segment))?;
     let end = (BAND_END * density.values.len() as f64) as usize;
     let width = (end / BANDS).max(1);
     let mean = |band: &[f64]| band.iter().sum::<f64>() / band.len() as f64;
-    Ok(0.5 * density.values[..end].chunks(width).map(mean).fold(f64::INFINITY, f64::min))
+    let smallest = density.values[..end].chunks_exact(width).map(mean).fold(f64::INFINITY, f64::min);
+    let segments = (2 * rest.len() / segment).saturating_sub(1).max(1);
+    let error = (1.5 / (segments * width) as f64).sqrt();
+    Ok(0.5 * smallest * (1.0 + 3.0 * error))
 }
 
 fn verdict(

@@ -4,7 +4,7 @@
 //! `n` periods. Their mean is the waveform that repeats after `n` periods; the pieces scatter about it with the variance `v_n` (unbiased: `K - 1` in
 //! the denominator), which contains everything that is not a harmonic of `f/n`. The total variance is `v`. Measuring noise is part of
 //! `v_n`; what of it may be white noise has at most the smallest density that the scatter has anywhere: the record of the scatter is
-//! averaged over segments, and the quietest of 16 bands of equal width, times half the sampling rate, is the variance `v_w`. The *deviation* is
+//! averaged over segments, and the quietest of 16 bands of equal width (and three standard errors), times half the sampling rate, is the variance `v_w`. The *deviation* is
 //!
 //! `d_n = sqrt((v_n - v_w) / (v - v_w))`, an amplitude ratio.
 //!

@@ -2,7 +2,7 @@
 //!
 //! The strongest mode is looked at; other modes that were fitted and the offset are taken off first. Each maximum is that of the parabola which is
 //! fitted to the samples within an eighth of a period about it. With maxima `y_k` of noise `e`, `ln y_k` has the standard error `e / y_k`; so the
-//! regression `ln y_k = c - k L` is weighted by `y_k²`, and it ends where `y_k` falls below [`LOWEST`] times the noise.
+//! regression `ln y_k = c - k L` is weighted by `y_k²` (that of the fitted mode: weights from the maxima themselves would favour those which noise has raised), and it ends where `y_k` falls below [`LOWEST`] times the noise.
 
 use std::f64::consts::PI;
 
@@ -66,7 +66,8 @@ pub fn decrement(series: &[f64], sampling_rate_hz: f64, decay: &Decay) -> Result
     if logarithms.len() < FEWEST {
         return Err(SignalError::NoDecay);
     }
-    let decrement = slope(&logarithms);
+    let expected = 2.0 * PI * oscillation.rate / oscillation.frequency;
+    let decrement = slope(&logarithms, expected);
     let halves = logarithms.split_at(logarithms.len() / 2);
     let chain = 4.0 * PI * PI / (4.0 * PI * PI + decrement.value.powi(2)).powf(1.5);
     Ok(Decrement {
@@ -77,7 +78,7 @@ pub fn decrement(series: &[f64], sampling_rate_hz: f64, decay: &Decay) -> Result
             half_width: decrement.half_width * chain,
         },
         maxima: logarithms.len(),
-        halves: [slope(halves.0), slope(halves.1)],
+        halves: [slope(halves.0, expected), slope(halves.1, expected)],
     })
 }
 
@@ -124,10 +125,10 @@ fn parabola(series: &[f64], place: f64, reach: f64) -> Option<f64> {
     (bend < 0.0).then(|| level - tilt * tilt / (4.0 * bend))
 }
 
-/// Weighted regression; the slope's sign turned.
-fn slope(points: &[(f64, f64)]) -> Estimate {
-    let largest = points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max);
-    let weights: Vec<f64> = points.iter().map(|point| (2.0 * (point.1 - largest)).exp()).collect();
+/// Regression, weighted for an expected decrement; the slope's sign turned.
+fn slope(points: &[(f64, f64)], expected: f64) -> Estimate {
+    let first = points.first().map_or(0.0, |point| point.0);
+    let weights: Vec<f64> = points.iter().map(|point| (-2.0 * expected * (point.0 - first)).exp()).collect();
     let all = || points.iter().zip(&weights);
     let total: f64 = weights.iter().sum();
     let x = all().map(|((x, _), w)| w * x).sum::<f64>() / total;

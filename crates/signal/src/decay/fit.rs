@@ -2,7 +2,7 @@
 //!
 //! Parameters `p = (y0; s_m, w_m, a_m, b_m)`. Gauss-Newton with Levenberg's and Marquardt's damping: `(A + mu diag A) dp = J^T r`, `A = J^T J`, `r` the residual; `mu` falls
 //! tenfold where a step lessens the sum of squares, and grows tenfold where not. It ends where a step changes no parameter by more than 1e-9 of its
-//! standard error's scale, `dp^T A dp < 1e-16 r^T r`, or where no step lessens the sum any more.
+//! standard error's scale, `dp^T A dp < 1e-16 r^T r`, or moves no sample beyond rounding, or where no step lessens the sum any more.
 
 use faer::{
     Mat, Side,
@@ -33,12 +33,13 @@ pub(crate) struct Fit {
 pub(crate) fn fit(series: &[f64], step: f64, start: &[Oscillation]) -> Result<Fit, SignalError> {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     let not_converged = || SignalError::FitNotConverged { modes: start.len(), iterations: MOST_ITERATIONS };
+    let rounding = 1e-26 * series.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
     let mut parameters = (mean, start.to_vec());
     let mut normal = Normal::at(series, step, &parameters);
     let mut damping = 1e-3;
     for _ in 0..MOST_ITERATIONS {
         let change = normal.step(damping).ok_or_else(not_converged)?;
-        if normal.predicted(&change) < 1e-16 * normal.sum {
+        if normal.predicted(&change) < 1e-16 * normal.sum + rounding {
             return normal.finish(series, step, parameters).ok_or_else(not_converged);
         }
         let trial = moved(&parameters, &change);

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     error::{SignalError, ensure, ensure_series},
-    spectrum::{WelchSettings, welch},
+    fourier,
 };
 
 /// Fewest samples of a decay.
@@ -139,12 +139,11 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
     let neighbours: f64 = residual.windows(2).map(|pair| pair[0] * pair[1]).sum();
     let residual_correlation = if variance > 0.0 { neighbours / (free * variance) } else { 0.0 };
     let white = residual_correlation.abs() < 3.0 / (count as f64).sqrt();
-    let quantile = student(free);
     let mut order: Vec<usize> = (0..fit.oscillations.len()).collect();
     order.sort_by(|&a, &b| fit.oscillations[a].frequency.total_cmp(&fit.oscillations[b].frequency));
     let mode = |&m: &usize| {
-        let local = if white { variance } else { local_variance(fit, m, sampling_rate_hz).unwrap_or(variance) };
-        describe_mode(fit, m, local, quantile)
+        let (local, freedoms) = if white { (variance, free) } else { local_variance(fit, m, 1.0 / sampling_rate_hz) };
+        describe_mode(fit, m, local, student(freedoms))
     };
     Decay {
         modes: order.iter().map(mode).collect(),
@@ -156,19 +155,23 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
     }
 }
 
-/// Variance of white noise that has the residual's density about a mode's frequency.
+/// Values of the spectrum to each side of a mode's frequency over which the density is averaged.
+const NEIGHBOURS: usize = 30;
+
+/// Variance of white noise that has the residual's density about a mode's frequency, and its degrees of freedom.
 ///
-/// The density is averaged over segments and over the band in which the mode's line lies, at least five values of the spectrum to each side.
-fn local_variance(fit: &Fit, m: usize, sampling_rate_hz: f64) -> Option<f64> {
-    let oscillation = &fit.oscillations[m];
-    let segment = (fit.residual.len() / 4).max(16);
-    let density = welch(&fit.residual, sampling_rate_hz, &WelchSettings::with_segment(segment)).ok()?;
-    let centre = oscillation.frequency / (2.0 * PI * density.step_hz);
-    let reach = (oscillation.rate.abs() / (PI * density.step_hz)).max(5.0);
-    let low = (centre - reach).max(1.0) as usize;
-    let high = ((centre + reach) as usize).min(density.values.len() - 1);
-    let values = density.values.get(low..=high)?;
-    Some(values.iter().sum::<f64>() / values.len() as f64 * sampling_rate_hz / 2.0)
+/// The average is over [`NEIGHBOURS`] values to each side, or all within the line's width if that is more. The fit has taken two of them away: four parameters.
+fn local_variance(fit: &Fit, m: usize, step: f64) -> (f64, f64) {
+    let length = fit.residual.len();
+    let spectrum = fourier::forward(fit.residual.clone());
+    let resolution = 2.0 * PI / (length as f64 * step);
+    let centre = (fit.oscillations[m].frequency / resolution).round() as usize;
+    let reach = NEIGHBOURS.max((fit.oscillations[m].rate.abs() / resolution) as usize);
+    let low = centre.saturating_sub(reach).max(1);
+    let high = (centre + reach).min(spectrum.len() - 1);
+    let sum: f64 = spectrum[low.min(high)..=high].iter().map(|x| x.norm_sqr()).sum();
+    let free = (high - low.min(high) + 1).saturating_sub(2).max(1) as f64;
+    (sum / (free * length as f64), 2.0 * free)
 }
 
 /// Figures of a mode; their uncertainty follows from that of `s` and `w` by the derivatives.

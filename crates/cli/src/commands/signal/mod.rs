@@ -1,7 +1,11 @@
 //! `hammerbeam signal`: measured or exported time series.
 
+mod chain;
+mod classify;
+mod decrement;
 mod filter;
 mod input;
+mod lyapunov;
 mod spectrum;
 
 use crate::{failure::Failure, output::Output, signal_args::SignalCommand};
@@ -10,5 +14,9 @@ pub fn run(command: &SignalCommand, output: Output) -> Result<(), Failure> {
     match command {
         SignalCommand::Filter(options) => filter::run(options, output),
         SignalCommand::Spectrum(options) => spectrum::run(options, output),
+        SignalCommand::Decrement(options) => decrement::run(options, output),
+        SignalCommand::Classify(options) => classify::run(options, output),
+        SignalCommand::Lyapunov(options) => lyapunov::run(options, output),
+        SignalCommand::Chain(options) => chain::run(options, output),
     }
 }

@@ -1,0 +1,170 @@
+//! `hammerbeam signal lyapunov`: the largest exponent of a series.
+
+use hammerbeam_signal::{
+    SignalError,
+    exponent::{
+        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, WolfExponent, WolfSettings, embedding, kantz,
+        rosenstein, wolf,
+    },
+};
+use serde_json::{Value, json};
+
+use super::input::{self, Input, named};
+use crate::{
+    failure::Failure,
+    output::Output,
+    signal_args::{ExponentOptions, Method},
+    table::{Table, header, number},
+};
+
+pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {
+    let input = input::open(&options.input, &[])?;
+    let whole = |number: Option<u32>| number.map(|number| number as usize);
+    let choice = EmbeddingChoice {
+        delay: whole(options.delay),
+        dimension: whole(options.dimension),
+        theiler_window: whole(options.theiler_window),
+    };
+    let (samples, rate) = (&input.channel().samples, input.record.sampling_rate_hz);
+    let embedding = embedding(samples, &choice)?;
+    let follow = DivergenceSettings { steps: whole(options.steps), fit: options.fit };
+    let pair = WolfSettings { evolution: whole(options.evolution), ..WolfSettings::default() };
+    let wanted = |method: Method| options.method == method || options.method == Method::All;
+    let found = Found {
+        wolf: wanted(Method::Wolf).then(|| wolf(samples, rate, &embedding, &pair)),
+        rosenstein: wanted(Method::Rosenstein).then(|| rosenstein(samples, rate, &embedding, &follow)),
+        kantz: wanted(Method::Kantz).then(|| kantz(samples, rate, &embedding, &follow)),
+    };
+    let found = found.checked()?;
+    let path = write(&found, options, rate)?;
+    let document = found.document(&input, &embedding, path.as_deref());
+    output.give(&document, || found.text(&input, &embedding, path.as_deref()));
+    Ok(())
+}
+
+type Tried<T> = Option<Result<T, SignalError>>;
+
+struct Found {
+    wolf: Tried<WolfExponent>,
+    rosenstein: Tried<Divergence>,
+    kantz: Tried<Divergence>,
+}
+
+impl Found {
+    /// One method that finds nothing does not hide the others; if none finds anything, or the input is at fault, it is a failure.
+    fn checked(self) -> Result<Self, Failure> {
+        let given = |failed: Option<bool>| failed == Some(false);
+        let any = given(self.wolf.as_ref().map(Result::is_err))
+            || given(self.rosenstein.as_ref().map(Result::is_err))
+            || given(self.kantz.as_ref().map(Result::is_err));
+        let bad = |error: &&SignalError| error.is_bad_input();
+        let errors = || {
+            let wolf = self.wolf.as_ref().and_then(|tried| tried.as_ref().err());
+            let others = [&self.rosenstein, &self.kantz].map(|tried| tried.as_ref().and_then(|tried| tried.as_ref().err()));
+            wolf.into_iter().chain(others.into_iter().flatten())
+        };
+        if let Some(error) = errors().find(bad) {
+            return Err(Failure::BadInput(error.to_string()));
+        }
+        if !any {
+            let reasons: Vec<String> = errors().map(SignalError::to_string).collect();
+            return Err(Failure::NoResult(reasons.join("; ")));
+        }
+        Ok(self)
+    }
+
+    /// Methods by their names, with the exponent or the reason.
+    fn exponents(&self) -> Vec<(&'static str, Result<(f64, f64), String>)> {
+        let of = |tried: &Tried<Divergence>| {
+            tried.as_ref().map(|tried| match tried {
+                Ok(found) => Ok((found.exponent.value, found.exponent.half_width)),
+                Err(error) => Err(error.to_string()),
+            })
+        };
+        let wolf = self.wolf.as_ref().map(|tried| match tried {
+            Ok(found) => Ok((found.exponent.value, found.exponent.half_width)),
+            Err(error) => Err(error.to_string()),
+        });
+        [("wolf", wolf), ("rosenstein", of(&self.rosenstein)), ("kantz", of(&self.kantz))]
+            .into_iter()
+            .filter_map(|(name, tried)| Some((name, tried?)))
+            .collect()
+    }
+
+    fn document(&self, input: &Input, embedding: &Embedding, path: Option<&str>) -> Value {
+        let divergence = |tried: &Tried<Divergence>| {
+            let found = tried.as_ref()?.as_ref().ok()?;
+            Some(json!({
+                "exponent_per_s": found.exponent.value,
+                "half_width_per_s": found.exponent.half_width,
+                "fit_samples": [found.fit.0, found.fit.1],
+                "states": found.states,
+                "radius": found.radius,
+                "curve": found.curve,
+            }))
+        };
+        let wolf = self.wolf.as_ref().and_then(|tried| tried.as_ref().ok()).map(|found| {
+            json!({
+                "exponent_per_s": found.exponent.value,
+                "half_width_per_s": found.exponent.half_width,
+                "evolution_samples": found.evolution,
+                "stretches": found.stretches,
+                "kept": found.kept,
+            })
+        });
+        let reasons = self.exponents().into_iter().filter_map(|(name, tried)| Some((name.to_owned(), json!(tried.err()?))));
+        let mut document = input.document();
+        document["channel"] = json!(input.channel().name);
+        document["confidence"] = json!(0.95);
+        document["delay_samples"] = json!(embedding.delay);
+        document["dimension"] = json!(embedding.dimension);
+        document["theiler_window_samples"] = json!(embedding.theiler_window);
+        document["mean_period_samples"] = json!(embedding.mean_period);
+        document["wolf"] = json!(wolf);
+        document["rosenstein"] = json!(divergence(&self.rosenstein));
+        document["kantz"] = json!(divergence(&self.kantz));
+        document["no_result"] = Value::Object(reasons.collect());
+        document["results"] = json!(path);
+        document
+    }
+
+    fn text(&self, input: &Input, embedding: &Embedding, path: Option<&str>) -> String {
+        let mut lines = vec![input.heading()];
+        lines.push(format!(
+            "{}: delay {} samples, dimension {}, Theiler window {} samples",
+            named(input.channel()),
+            embedding.delay,
+            embedding.dimension,
+            embedding.theiler_window
+        ));
+        for (name, tried) in self.exponents() {
+            lines.push(match tried {
+                Ok((value, half_width)) => format!("  {name:<10} {value:>12.5} +- {half_width:.5} 1/s"),
+                Err(reason) => format!("  {name:<10} no result: {reason}"),
+            });
+        }
+        for (name, tried) in [("rosenstein", &self.rosenstein), ("kantz", &self.kantz)] {
+            if let Some(Ok(found)) = tried {
+                lines.push(format!("  {name} fitted from sample {} to {}", found.fit.0, found.fit.1));
+            }
+        }
+        lines.extend(path.map(|path| format!("{path}: mean logarithms of the distances")));
+        lines.extend(input.notes());
+        lines.join("\n")
+    }
+}
+
+fn write(found: &Found, options: &ExponentOptions, rate: f64) -> Result<Option<String>, Failure> {
+    let Some(folder) = &options.out else { return Ok(None) };
+    let curve = |tried: &Tried<Divergence>| match tried {
+        Some(Ok(found)) => found.curve.clone(),
+        _ => Vec::new(),
+    };
+    let (nearest, within) = (curve(&found.rosenstein), curve(&found.kantz));
+    let mut table = Table::begin(folder, "divergence.csv", &header(&["time_s", "rosenstein", "kantz"]))?;
+    for k in 0..nearest.len().max(within.len()) {
+        let entry = |curve: &[f64]| number(curve.get(k).copied());
+        table.row(&[number(k as f64 / rate), entry(&nearest), entry(&within)])?;
+    }
+    Ok(Some(table.finish()?.display().to_string()))
+}

@@ -1,0 +1,272 @@
+//! A measuring chain for computed signals: what an instrument would have shown.
+//!
+//! A computed motion becomes comparable with a measured one when it goes through the same chain:
+//!
+//! 1. **Sensor**: displacement, velocity or acceleration of a point. If the record holds only another of the three, it is differentiated or integrated by
+//!    the spectrum, `X_k (i w_k)^n`, which takes the record as whole periods ([`Motion::Periodic`]); integration leaves the mean at zero. A record that is not
+//!    periodic has to hold the quantity itself.
+//! 2. **Filter**: Butterworth, causal as in an instrument, or without phase as afterwards in software. A periodic record is filtered as if it had
+//!    run for ever: its end goes before its beginning until the filter has settled.
+//! 3. **Sampling**: the filtered signal is read at the new rate by interpolation. Nothing is filtered besides: what the filter lets
+//!    pass above half the new rate is folded down, as in a converter.
+//! 4. **Noise**: normal, white, with a standard deviation and a seed.
+//! 5. **Converter**: range and bits. What is beyond the range is clipped.
+
+use std::f64::consts::PI;
+
+use realfft::num_complex::Complex;
+
+use crate::{
+    error::{SignalError, ensure, ensure_series},
+    filter::Sections,
+    fourier::{backward, forward},
+    random::Random,
+    record::{Channel, Record},
+    resample::Interpolation,
+    unit::Quantity,
+};
+
+/// Whether a record is cut out of a motion or repeats.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// A stretch of a motion.
+    Stretch,
+    /// Whole periods: the sample after the last is the first.
+    Periodic,
+}
+
+/// Range and resolution of a converter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Converter {
+    /// Largest absolute value, in the sensor's SI unit.
+    pub range: f64,
+    /// Bits; the step is `2 range / 2^bits`.
+    pub bits: u32,
+}
+
+/// A measuring chain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuringChain {
+    /// What the sensor measures.
+    pub sensor: Quantity,
+    /// The filter, designed for the sampling rate of the record, and whether it acts forwards and backwards.
+    pub filter: Option<(Sections, bool)>,
+    /// Sampling rate afterwards [Hz]; `None` for that of the record.
+    pub sampling_rate_hz: Option<f64>,
+    /// Standard deviation of the noise, in the sensor's SI unit.
+    pub noise: f64,
+    /// Seed of the noise.
+    pub seed: u64,
+    /// The converter.
+    pub converter: Option<Converter>,
+}
+
+impl MeasuringChain {
+    /// What the chain shows of a record.
+    ///
+    /// # Returns
+    /// A record with one channel.
+    /// # Errors
+    /// [`SignalError::NoSuchQuantity`] if the record holds neither the quantity nor, being periodic, one it follows from; [`SignalError::Input`],
+    /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
+    pub fn measure(&self, record: &Record, motion: Motion) -> Result<Record, SignalError> {
+        ensure("the noise", self.noise, "a finite number, at least 0", self.noise >= 0.0 && self.noise.is_finite())?;
+        if let Some(Converter { range, bits }) = self.converter {
+            ensure("the range of the converter", range, "more than 0", range > 0.0)?;
+            ensure("the bits of the converter", f64::from(bits), "from 2 to 32", (2..=32).contains(&bits))?;
+        }
+        let (source, mut samples) = self.sense(record, motion)?;
+        ensure_series("a measuring chain", &samples, 2)?;
+        if let Some((filter, zero_phase)) = &self.filter {
+            samples = filtered(&samples, filter, *zero_phase, motion)?;
+        }
+        let rate = self.sampling_rate_hz.unwrap_or(record.sampling_rate_hz);
+        if rate != record.sampling_rate_hz {
+            samples = sampled(&samples, record.sampling_rate_hz / rate, motion)?;
+        }
+        let mut random = Random::new(self.seed);
+        if self.noise > 0.0 {
+            samples.iter_mut().for_each(|value| *value += self.noise * random.normal());
+        }
+        if let Some(converter) = self.converter {
+            samples.iter_mut().for_each(|value| *value = converter.convert(*value));
+        }
+        let channel = Channel { name: source, unit: None, quantity: self.sensor, samples };
+        Ok(Record { sampling_rate_hz: rate, start_s: record.start_s, channels: vec![channel], findings: Vec::new() })
+    }
+
+    /// Name of the channel that is measured, and what the sensor feels of it.
+    fn sense(&self, record: &Record, motion: Motion) -> Result<(String, Vec<f64>), SignalError> {
+        if let Some(channel) = record.channels.iter().find(|channel| channel.quantity == self.sensor) {
+            return Ok((channel.name.clone(), channel.samples.clone()));
+        }
+        let order = |quantity| match quantity {
+            Quantity::Displacement => Some(0),
+            Quantity::Velocity => Some(1),
+            Quantity::Acceleration => Some(2),
+            _ => None,
+        };
+        let other = record.channels.iter().find_map(|channel| Some((channel, order(channel.quantity)?)));
+        match (order(self.sensor), other, motion) {
+            (Some(wanted), Some((channel, found)), Motion::Periodic) => {
+                let rate = record.sampling_rate_hz;
+                Ok((channel.name.clone(), differentiated(&channel.samples, rate, wanted - found)))
+            }
+            _ => Err(SignalError::NoSuchQuantity {
+                wanted: self.sensor.word(),
+                found: record.channels.iter().map(|c| c.quantity.word()).collect::<Vec<_>>().join(", "),
+            }),
+        }
+    }
+}
+
+impl Converter {
+    fn convert(self, value: f64) -> f64 {
+        let step = 2.0 * self.range / 2.0_f64.powi(self.bits as i32);
+        // One step less above zero than below, as with two's complement.
+        ((value / step).round() * step).clamp(-self.range, self.range - step)
+    }
+}
+
+/// Derivative of an order, or integral for a negative one, of a periodic series.
+///
+/// The value at half the sampling rate has no derivative of odd order and is left out there.
+#[must_use]
+pub fn differentiated(series: &[f64], sampling_rate_hz: f64, order: i32) -> Vec<f64> {
+    let length = series.len();
+    let mut spectrum = forward(series.to_vec());
+    for (k, value) in spectrum.iter_mut().enumerate() {
+        let w = 2.0 * PI * k as f64 * sampling_rate_hz / length as f64;
+        let alone = 2 * k == length && order % 2 != 0;
+        let no_mean = k == 0 && order != 0;
+        *value *= if alone || no_mean { Complex::new(0.0, 0.0) } else { Complex::new(0.0, w).powi(order) };
+    }
+    backward(spectrum, length)
+}
+
+/// Periods that go before and behind a periodic record: at least so many samples, since a filter with poles of modulus `r` forgets like `r^n`.
+const SETTLING: usize = 20_000;
+
+fn filtered(samples: &[f64], filter: &Sections, zero_phase: bool, motion: Motion) -> Result<Vec<f64>, SignalError> {
+    let run = |samples: &[f64]| if zero_phase { filter.zero_phase(samples) } else { Ok(filter.causal(samples)) };
+    if motion == Motion::Stretch {
+        return run(samples);
+    }
+    let copies = SETTLING.div_ceil(samples.len());
+    let long = samples.repeat(2 * copies + 1);
+    Ok(run(&long)?[copies * samples.len()..(copies + 1) * samples.len()].to_vec())
+}
+
+/// Values at multiples of `step` samples.
+fn sampled(samples: &[f64], step: f64, motion: Motion) -> Result<Vec<f64>, SignalError> {
+    ensure("the sampling rate of the chain", 1.0 / step, "more than 0 times that of the record", step.is_finite() && step > 0.0)?;
+    let interpolation = Interpolation::new();
+    let length = samples.len() as f64;
+    // A little is allowed for rounding: a rate that divides the record evenly gives all its samples.
+    if motion == Motion::Periodic {
+        let count = (length / step - 1e-6).ceil() as usize;
+        let margin = 64_usize.div_ceil(samples.len());
+        let long = samples.repeat(2 * margin + 1);
+        let shift = (margin * samples.len()) as f64;
+        return Ok((0..count).map(|k| interpolation.at(&long, shift + k as f64 * step)).collect());
+    }
+    let count = ((length - 1.0) / step + 1e-6).floor() as usize + 1;
+    Ok((0..count).map(|k| interpolation.at(samples, (k as f64 * step).min(length - 1.0))).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::filter::{Band, butterworth};
+
+    const RATE: f64 = 20_000.0;
+
+    /// Two periods of 50 Hz with a third harmonic: displacement.
+    fn record() -> Record {
+        let value = |k: usize| {
+            let t = 2.0 * PI * 50.0 * k as f64 / RATE;
+            1e-3 * t.cos() + 2e-4 * (3.0 * t + 0.5).sin()
+        };
+        let samples = (0..800).map(value).collect();
+        let channel = Channel { name: "x".to_owned(), unit: None, quantity: Quantity::Displacement, samples };
+        Record { sampling_rate_hz: RATE, start_s: 0.0, channels: vec![channel], findings: Vec::new() }
+    }
+
+    fn acceleration(t: f64) -> f64 {
+        let w = 2.0 * PI * 50.0;
+        -1e-3 * w * w * (w * t).cos() - 2e-4 * 9.0 * w * w * (3.0 * w * t + 0.5).sin()
+    }
+
+    fn chain() -> MeasuringChain {
+        MeasuringChain {
+            sensor: Quantity::Acceleration,
+            filter: None,
+            sampling_rate_hz: None,
+            noise: 0.0,
+            seed: 1,
+            converter: None,
+        }
+    }
+
+    #[test]
+    fn acceleration_follows_from_displacement_over_whole_periods() {
+        let measured = chain().measure(&record(), Motion::Periodic).unwrap();
+        for (k, value) in measured.channels[0].samples.iter().enumerate() {
+            // Differences of rounding times (w_max)^2: 1e-19 m * (6e4 1/s)^2 is 4e-10.
+            assert!((value - acceleration(k as f64 / RATE)).abs() < 1e-8, "sample {k}");
+        }
+        let refused = chain().measure(&record(), Motion::Stretch).unwrap_err();
+        assert!(matches!(refused, SignalError::NoSuchQuantity { .. }), "{refused}");
+        let back = differentiated(&differentiated(&record().channels[0].samples, RATE, 2), RATE, -2);
+        assert!(back.iter().zip(&record().channels[0].samples).all(|(a, b)| (a - b).abs() < 1e-15));
+    }
+
+    /// In the settled state a harmonic is weakened by the gain of the filter and turned by its phase.
+    #[test]
+    fn causal_filter_acts_on_a_periodic_record_as_if_it_had_run_for_ever() {
+        let filter = butterworth(4, Band::LowPass { cut_off_hz: 100.0 }, RATE).unwrap();
+        let mut chain = MeasuringChain { sensor: Quantity::Displacement, ..chain() };
+        chain.filter = Some((filter.clone(), false));
+        let measured = chain.measure(&record(), Motion::Periodic).unwrap();
+        let before = forward(record().channels[0].samples.clone());
+        let after = forward(measured.channels[0].samples.clone());
+        for (bin, frequency) in [(2, 50.0), (6, 150.0)] {
+            assert!((after[bin].norm() / before[bin].norm() / filter.gain(frequency, RATE) - 1.0).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn sampling_reads_the_signal_where_it_says() {
+        let chain = MeasuringChain { sampling_rate_hz: Some(3_000.0), ..chain() };
+        let measured = chain.measure(&record(), Motion::Periodic).unwrap();
+        assert_eq!((measured.len(), measured.sampling_rate_hz), (120, 3_000.0));
+        for (k, value) in measured.channels[0].samples.iter().enumerate() {
+            // The interpolation's own error is 2e-5 of the amplitude, about 280 m/s².
+            assert!((value - acceleration(k as f64 / 3_000.0)).abs() < 6e-3, "sample {k}");
+        }
+    }
+
+    #[test]
+    fn noise_has_its_size_and_follows_from_the_seed() {
+        let noisy = |seed| MeasuringChain { noise: 2.0, seed, ..chain() }.measure(&record(), Motion::Periodic).unwrap();
+        let clean = chain().measure(&record(), Motion::Periodic).unwrap();
+        assert_eq!(noisy(7), noisy(7));
+        assert_ne!(noisy(7), noisy(8));
+        let difference = noisy(7).channels[0].samples.iter().zip(&clean.channels[0].samples).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+        // 800 samples: the standard error of the variance is 5 %.
+        assert!((difference / 800.0 / 4.0 - 1.0).abs() < 0.2);
+    }
+
+    #[test]
+    fn converter_rounds_to_its_steps_and_clips() {
+        let converter = Converter { range: 100.0, bits: 8 };
+        let measured = MeasuringChain { converter: Some(converter), ..chain() }.measure(&record(), Motion::Periodic).unwrap();
+        let step = 200.0 / 256.0;
+        for (k, value) in measured.channels[0].samples.iter().enumerate() {
+            let expected = acceleration(k as f64 / RATE).clamp(-100.0, 100.0 - step);
+            assert!((value - expected).abs() <= step / 2.0 + 1e-9 && (value / step).fract().abs() < 1e-9, "sample {k}");
+        }
+        let wrong = Converter { range: 0.0, bits: 8 };
+        assert!(MeasuringChain { converter: Some(wrong), ..chain() }.measure(&record(), Motion::Periodic).is_err());
+    }
+}

@@ -1,0 +1,202 @@
+//! Mean logarithmic distance of neighbours over time: Rosenstein's and Kantz's methods.
+
+use super::{
+    FLOW, GROUPS, Embedding,
+    embedding::States,
+    of_groups,
+    slope::{slope, straight_part},
+    tree::Tree,
+};
+use crate::{
+    decay::Estimate,
+    error::{SignalError, ensure},
+};
+
+/// Most states whose neighbours are followed; of more, every n-th is taken.
+const STATES: usize = 5000;
+/// Fewest neighbours of a state for Kantz's method, and the part of states that has to have them.
+const NEIGHBOURS: usize = 5;
+const ENOUGH: f64 = 0.8;
+/// Fewest states.
+const FEWEST: usize = 50;
+
+/// How neighbours are followed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct DivergenceSettings {
+    /// Steps for which they are followed; `None`: about seven mean periods of a flow, 25 steps of a map.
+    pub steps: Option<usize>,
+    /// First and last step of the straight part; `None`: it is looked for.
+    pub fit: Option<(usize, usize)>,
+}
+
+/// What came out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Divergence {
+    /// The exponent [1/s].
+    pub exponent: Estimate,
+    /// Mean logarithm of the distance after 0, 1, 2, .. samples.
+    pub curve: Vec<f64>,
+    /// First and last step that were fitted.
+    pub fit: (usize, usize),
+    /// States that have a neighbour.
+    pub states: usize,
+    /// Radius within which neighbours were taken (Kantz), in the unit of the series.
+    pub radius: Option<f64>,
+}
+
+/// By nearest neighbours.
+///
+/// # Errors
+/// [`SignalError::NoScaling`] if there is no straight part, [`SignalError::TooFewNeighbours`], [`SignalError::Input`].
+pub fn rosenstein(
+    series: &[f64],
+    sampling_rate_hz: f64,
+    embedding: &Embedding,
+    settings: &DivergenceSettings,
+) -> Result<Divergence, SignalError> {
+    let work = Work::new(series, embedding, settings)?;
+    let follow = |state: usize| {
+        let Some((neighbour, _)) = work.tree.nearest(&work.states, state, embedding.theiler_window) else {
+            return Vec::new();
+        };
+        let last = work.states.len() - state.max(neighbour);
+        (0..work.steps.min(last)).map(|k| 0.5 * work.states.square(state + k, neighbour + k).ln()).collect()
+    };
+    work.average(follow, sampling_rate_hz, settings, None)
+}
+
+/// By all neighbours within a radius: the smallest of those doubling from 1/1000 of the range of the series with which four states in five have five neighbours.
+///
+/// # Errors
+/// As [`rosenstein`].
+pub fn kantz(
+    series: &[f64],
+    sampling_rate_hz: f64,
+    embedding: &Embedding,
+    settings: &DivergenceSettings,
+) -> Result<Divergence, SignalError> {
+    let work = Work::new(series, embedding, settings)?;
+    let ends = series.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+    let radius = work.radius(1e-3 * (ends.1 - ends.0), embedding.theiler_window)?;
+    let last = (embedding.dimension - 1) * embedding.delay;
+    let follow = |state: usize| {
+        let mut neighbours = work.tree.within(&work.states, state, embedding.theiler_window, radius);
+        neighbours.retain(|other| other + work.steps <= work.states.len());
+        if neighbours.len() < NEIGHBOURS || state + work.steps > work.states.len() {
+            return Vec::new();
+        }
+        let distance = |k: usize| {
+            let sum: f64 =
+                neighbours.iter().map(|other| (series[state + last + k] - series[other + last + k]).abs()).sum();
+            (sum / neighbours.len() as f64).ln()
+        };
+        (0..work.steps).map(distance).collect()
+    };
+    work.average(follow, sampling_rate_hz, settings, Some(radius))
+}
+
+/// What both methods share.
+struct Work<'a> {
+    states: States<'a>,
+    tree: Tree,
+    steps: usize,
+    flow: bool,
+    /// States that are followed.
+    followed: Vec<usize>,
+}
+
+impl<'a> Work<'a> {
+    fn new(series: &'a [f64], embedding: &Embedding, settings: &DivergenceSettings) -> Result<Self, SignalError> {
+        let flow = embedding.mean_period > FLOW;
+        let states = States::new(series, embedding.delay, embedding.dimension);
+        let usual = if flow { (7.0 * embedding.mean_period) as usize } else { 25 };
+        let steps = settings.steps.unwrap_or(usual.min(states.len() / 4));
+        let holds = steps >= 4 && steps < states.len();
+        ensure("the number of steps", steps as f64, format!("from 4 to less than the {} states", states.len()), holds)?;
+        if let Some((from, to)) = settings.fit {
+            let allowed = format!("after the first one, {from}, and before the last step, {}", steps - 1);
+            ensure("the last step of the fit", to as f64, allowed, to > from && to < steps)?;
+        }
+        let tree = Tree::new(&states, states.len());
+        let followed = (0..states.len()).step_by(states.len().div_ceil(STATES)).collect();
+        Ok(Self { states, tree, steps, flow, followed })
+    }
+
+    fn radius(&self, smallest: f64, window: usize) -> Result<f64, SignalError> {
+        let some: Vec<usize> = self.followed.iter().copied().step_by((self.followed.len() / 200).max(1)).collect();
+        for doublings in 0..8 {
+            let radius = smallest * f64::from(1 << doublings);
+            let has_enough = |state: &&usize| {
+                self.tree.within(&self.states, **state, window, radius).len() >= NEIGHBOURS
+            };
+            if some.iter().filter(has_enough).count() as f64 >= ENOUGH * some.len() as f64 {
+                return Ok(radius);
+            }
+        }
+        Err(SignalError::TooFewNeighbours { found: 0, asked: some.len() })
+    }
+
+    /// Averages the logarithms of distances, and fits.
+    fn average(
+        &self,
+        follow: impl Fn(usize) -> Vec<f64>,
+        sampling_rate_hz: f64,
+        settings: &DivergenceSettings,
+        radius: Option<f64>,
+    ) -> Result<Divergence, SignalError> {
+        let mut groups = vec![Sums::new(self.steps); GROUPS];
+        let mut found = 0;
+        for (index, &state) in self.followed.iter().enumerate() {
+            let logarithms = follow(state);
+            found += usize::from(!logarithms.is_empty());
+            groups[index * GROUPS / self.followed.len()].add(&logarithms);
+        }
+        if found < FEWEST {
+            return Err(SignalError::TooFewNeighbours { found, asked: self.followed.len() });
+        }
+        let mut all = Sums::new(self.steps);
+        groups.iter().for_each(|group| all.join(group));
+        let curve = all.mean();
+        let fit = match settings.fit {
+            Some(fit) => fit,
+            None => straight_part(&curve, self.flow)?,
+        };
+        let slopes: Vec<f64> =
+            groups.iter().map(|group| slope(&group.mean(), fit)).filter(|slope| slope.is_finite()).collect();
+        let value = sampling_rate_hz * slope(&curve, fit);
+        let half_width = sampling_rate_hz * of_groups(&slopes).half_width;
+        Ok(Divergence { exponent: Estimate { value, half_width }, curve, fit, states: found, radius })
+    }
+}
+
+/// Sums of logarithms by steps.
+#[derive(Clone)]
+struct Sums {
+    sum: Vec<f64>,
+    count: Vec<f64>,
+}
+
+impl Sums {
+    fn new(steps: usize) -> Self {
+        Self { sum: vec![0.0; steps], count: vec![0.0; steps] }
+    }
+
+    /// Distances of zero do not count.
+    fn add(&mut self, logarithms: &[f64]) {
+        for (k, value) in logarithms.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+            self.sum[k] += value;
+            self.count[k] += 1.0;
+        }
+    }
+
+    fn join(&mut self, other: &Self) {
+        for k in 0..self.sum.len() {
+            self.sum[k] += other.sum[k];
+            self.count[k] += other.count[k];
+        }
+    }
+
+    fn mean(&self) -> Vec<f64> {
+        self.sum.iter().zip(&self.count).map(|(sum, count)| sum / count).collect()
+    }
+}
