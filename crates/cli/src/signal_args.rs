@@ -338,5 +338,7 @@ fn not_negative(text: &str) -> Result<f64, String> {
 
 fn range(text: &str) -> Result<(usize, usize), String> {
     let numbers = text.split_once(':').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
-    numbers.filter(|(from, to)| from < to).ok_or_else(|| "must be two numbers of samples, as in 40:150".to_owned())
+    numbers
+        .filter(|(from, to)| from < to)
+        .ok_or_else(|| "must be two numbers of samples, as in 40:150".to_owned())
 }

@@ -36,10 +36,15 @@ fn series() -> Vec<f64> {
 fn hour(criterion: &mut Criterion) {
     let series = series();
     let mut group = criterion.benchmark_group("hour");
-    group.sample_size(10).warm_up_time(Duration::from_millis(100)).throughput(Throughput::Elements(series.len() as u64));
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(100))
+        .throughput(Throughput::Elements(series.len() as u64));
     let filter = butterworth(4, Band::LowPass { cut_off_hz: 850.0 }, RATE).unwrap();
     group.bench_function("filter, causal", |bencher| bencher.iter(|| filter.causal(black_box(&series))));
-    group.bench_function("filter, zero phase", |bencher| bencher.iter(|| filter.zero_phase(black_box(&series)).unwrap()));
+    group.bench_function("filter, zero phase", |bencher| {
+        bencher.iter(|| filter.zero_phase(black_box(&series)).unwrap())
+    });
     group.bench_function("spectrum, whole", |bencher| {
         bencher.iter(|| amplitude_spectrum(black_box(&series), RATE, Window::Hann).unwrap());
     });
@@ -48,7 +53,8 @@ fn hour(criterion: &mut Criterion) {
         bencher.iter(|| welch(black_box(&series), RATE, &settings).unwrap());
     });
     group.bench_function("classification", |bencher| {
-        bencher.iter(|| classify(black_box(&series), RATE, EXCITATION, &ClassifySettings::default()).unwrap());
+        bencher
+            .iter(|| classify(black_box(&series), RATE, EXCITATION, &ClassifySettings::default()).unwrap());
     });
     group.finish();
 }

@@ -70,7 +70,12 @@ impl MeasuringChain {
     /// [`SignalError::NoSuchQuantity`] if the record holds neither the quantity nor, being periodic, one it follows from; [`SignalError::Input`],
     /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
     pub fn measure(&self, record: &Record, motion: Motion) -> Result<Record, SignalError> {
-        ensure("the noise", self.noise, "a finite number, at least 0", self.noise >= 0.0 && self.noise.is_finite())?;
+        ensure(
+            "the noise",
+            self.noise,
+            "a finite number, at least 0",
+            self.noise >= 0.0 && self.noise.is_finite(),
+        )?;
         if let Some(Converter { range, bits }) = self.converter {
             ensure("the range of the converter", range, "more than 0", range > 0.0)?;
             ensure("the bits of the converter", f64::from(bits), "from 2 to 32", (2..=32).contains(&bits))?;
@@ -92,7 +97,12 @@ impl MeasuringChain {
             samples.iter_mut().for_each(|value| *value = converter.convert(*value));
         }
         let channel = Channel { name: source, unit: None, quantity: self.sensor, samples };
-        Ok(Record { sampling_rate_hz: rate, start_s: record.start_s, channels: vec![channel], findings: Vec::new() })
+        Ok(Record {
+            sampling_rate_hz: rate,
+            start_s: record.start_s,
+            channels: vec![channel],
+            findings: Vec::new(),
+        })
     }
 
     /// Name of the channel that is measured, and what the sensor feels of it.
@@ -147,8 +157,14 @@ pub fn differentiated(series: &[f64], sampling_rate_hz: f64, order: i32) -> Vec<
 /// Periods that go before and behind a periodic record: at least so many samples, since a filter with poles of modulus `r` forgets like `r^n`.
 const SETTLING: usize = 20_000;
 
-fn filtered(samples: &[f64], filter: &Sections, zero_phase: bool, motion: Motion) -> Result<Vec<f64>, SignalError> {
-    let run = |samples: &[f64]| if zero_phase { filter.zero_phase(samples) } else { Ok(filter.causal(samples)) };
+fn filtered(
+    samples: &[f64],
+    filter: &Sections,
+    zero_phase: bool,
+    motion: Motion,
+) -> Result<Vec<f64>, SignalError> {
+    let run =
+        |samples: &[f64]| if zero_phase { filter.zero_phase(samples) } else { Ok(filter.causal(samples)) };
     if motion == Motion::Stretch {
         return run(samples);
     }
@@ -159,7 +175,12 @@ fn filtered(samples: &[f64], filter: &Sections, zero_phase: bool, motion: Motion
 
 /// Values at multiples of `step` samples.
 fn sampled(samples: &[f64], step: f64, motion: Motion) -> Result<Vec<f64>, SignalError> {
-    ensure("the sampling rate of the chain", 1.0 / step, "more than 0 times that of the record", step.is_finite() && step > 0.0)?;
+    ensure(
+        "the sampling rate of the chain",
+        1.0 / step,
+        "more than 0 times that of the record",
+        step.is_finite() && step > 0.0,
+    )?;
     let interpolation = Interpolation::new();
     let length = samples.len() as f64;
     // A little is allowed for rounding: a rate that divides the record evenly gives all its samples.
@@ -231,7 +252,9 @@ mod tests {
         let before = forward(record().channels[0].samples.clone());
         let after = forward(measured.channels[0].samples.clone());
         for (bin, frequency) in [(2, 50.0), (6, 150.0)] {
-            assert!((after[bin].norm() / before[bin].norm() / filter.gain(frequency, RATE) - 1.0).abs() < 1e-10);
+            assert!(
+                (after[bin].norm() / before[bin].norm() / filter.gain(frequency, RATE) - 1.0).abs() < 1e-10
+            );
         }
     }
 
@@ -248,11 +271,18 @@ mod tests {
 
     #[test]
     fn noise_has_its_size_and_follows_from_the_seed() {
-        let noisy = |seed| MeasuringChain { noise: 2.0, seed, ..chain() }.measure(&record(), Motion::Periodic).unwrap();
+        let noisy = |seed| {
+            MeasuringChain { noise: 2.0, seed, ..chain() }.measure(&record(), Motion::Periodic).unwrap()
+        };
         let clean = chain().measure(&record(), Motion::Periodic).unwrap();
         assert_eq!(noisy(7), noisy(7));
         assert_ne!(noisy(7), noisy(8));
-        let difference = noisy(7).channels[0].samples.iter().zip(&clean.channels[0].samples).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
+        let difference = noisy(7).channels[0]
+            .samples
+            .iter()
+            .zip(&clean.channels[0].samples)
+            .map(|(a, b)| (a - b).powi(2))
+            .sum::<f64>();
         // 800 samples: the standard error of the variance is 5 %.
         assert!((difference / 800.0 / 4.0 - 1.0).abs() < 0.2);
     }
@@ -260,13 +290,22 @@ mod tests {
     #[test]
     fn converter_rounds_to_its_steps_and_clips() {
         let converter = Converter { range: 100.0, bits: 8 };
-        let measured = MeasuringChain { converter: Some(converter), ..chain() }.measure(&record(), Motion::Periodic).unwrap();
+        let measured = MeasuringChain { converter: Some(converter), ..chain() }
+            .measure(&record(), Motion::Periodic)
+            .unwrap();
         let step = 200.0 / 256.0;
         for (k, value) in measured.channels[0].samples.iter().enumerate() {
             let expected = acceleration(k as f64 / RATE).clamp(-100.0, 100.0 - step);
-            assert!((value - expected).abs() <= step / 2.0 + 1e-9 && (value / step).fract().abs() < 1e-9, "sample {k}");
+            assert!(
+                (value - expected).abs() <= step / 2.0 + 1e-9 && (value / step).fract().abs() < 1e-9,
+                "sample {k}"
+            );
         }
         let wrong = Converter { range: 0.0, bits: 8 };
-        assert!(MeasuringChain { converter: Some(wrong), ..chain() }.measure(&record(), Motion::Periodic).is_err());
+        assert!(
+            MeasuringChain { converter: Some(wrong), ..chain() }
+                .measure(&record(), Motion::Periodic)
+                .is_err()
+        );
     }
 }

@@ -50,7 +50,10 @@ fn weak_subharmonic_counts_from_its_limit_on() {
     assert_periodic(&motion(&[(1.0, 1.0, 0.3), (0.5, 0.03, 1.0)], 0.01, 20.0), 2);
     assert_periodic(&motion(&[(1.0, 1.0, 0.3), (0.5, 0.002, 1.0)], 0.01, 20.0), 1);
     let between = of(&motion(&[(1.0, 1.0, 0.3), (0.5, 0.01, 1.0)], 0.01, 20.0)).motion;
-    assert!(matches!(between, Motion::Doubtful { reason: Doubt::WeakSubharmonic { period_multiple: 2, .. } }), "{between:?}");
+    assert!(
+        matches!(between, Motion::Doubtful { reason: Doubt::WeakSubharmonic { period_multiple: 2, .. } }),
+        "{between:?}"
+    );
 }
 
 #[test]
@@ -100,7 +103,10 @@ fn frequency_that_is_a_little_off_is_corrected_and_told() {
     let found = classify(&series, RATE, EXCITATION + 0.01, &ClassifySettings::default()).unwrap();
     assert_eq!(found.motion, Motion::Periodic { period_multiple: 2 });
     // Noise of 0.01 over 40 000 samples leaves 1e-6 cycles a part.
-    assert!((found.correction_hz + 0.01).abs() < 1e-4 && (found.frequency_hz - EXCITATION).abs() < 1e-4, "{found:?}");
+    assert!(
+        (found.correction_hz + 0.01).abs() < 1e-4 && (found.frequency_hz - EXCITATION).abs() < 1e-4,
+        "{found:?}"
+    );
 }
 
 #[test]

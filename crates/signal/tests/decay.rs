@@ -29,7 +29,12 @@ fn decay(modes: &[Mode], samples: usize, noise: f64, seed: u64) -> Vec<f64> {
 }
 
 /// Counts in how many of 100 decays the true values lie in the intervals.
-fn coverage(modes: &[Mode], samples: usize, noise: f64, prepare: impl Fn(Vec<f64>) -> Vec<f64>) -> Vec<(u32, u32)> {
+fn coverage(
+    modes: &[Mode],
+    samples: usize,
+    noise: f64,
+    prepare: impl Fn(Vec<f64>) -> Vec<f64>,
+) -> Vec<(u32, u32)> {
     let mut counts = vec![(0, 0); modes.len()];
     for seed in 0..100 {
         let series = prepare(decay(modes, samples, noise, 1000 + seed));
@@ -46,7 +51,10 @@ fn coverage(modes: &[Mode], samples: usize, noise: f64, prepare: impl Fn(Vec<f64
 /// With a chance of 95 % each, 90 of 100 are reached but for 1 in 35 sets of seeds; these are fixed.
 #[track_caller]
 fn assert_covered(counts: &[(u32, u32)]) {
-    assert!(counts.iter().all(|(damping, frequency)| *damping >= 90 && *frequency >= 90), "{counts:?} of 100");
+    assert!(
+        counts.iter().all(|(damping, frequency)| *damping >= 90 && *frequency >= 90),
+        "{counts:?} of 100"
+    );
 }
 
 #[test]
@@ -66,15 +74,20 @@ fn several_modes_in_one_decay_lie_in_their_intervals() {
 
 #[test]
 fn close_modes_lie_in_their_intervals() {
-    assert_covered(&coverage(&[(40.0, 0.003, 1.0, 0.0), (41.0, 0.003, 0.7, 1.5)], 8000, 0.05, |series| series));
+    assert_covered(&coverage(&[(40.0, 0.003, 1.0, 0.0), (41.0, 0.003, 0.7, 1.5)], 8000, 0.05, |series| {
+        series
+    }));
 }
 
 /// Behind a low-pass filter the noise is coloured: an interval from the variance alone would be too small by three.
+/// The first 0.1 s are left out: there the filter still settles, and that is no decay of the structure.
 #[test]
 fn intervals_hold_behind_a_filter() {
     let filter = butterworth(4, Band::LowPass { cut_off_hz: 60.0 }, RATE).unwrap();
     for damping in [0.003, 0.015] {
-        assert_covered(&coverage(&[(17.2, damping, 1.0, 0.4)], 8000, 0.3, |series| filter.causal(&series)));
+        assert_covered(&coverage(&[(17.2, damping, 1.0, 0.4)], 8000, 0.3, |series| {
+            filter.causal(&series)[100..].to_vec()
+        }));
     }
 }
 
@@ -84,7 +97,8 @@ fn classical_decrement_lies_in_its_interval() {
     for damping in [0.003, 0.015] {
         let mut covered = 0;
         for seed in 0..100 {
-            let series = decay(&[(17.2, damping, 1.0, 0.4), (128.9, 0.01, 0.3, 0.0)], 8000, 0.02, 5000 + seed);
+            let series =
+                decay(&[(17.2, damping, 1.0, 0.4), (128.9, 0.01, 0.3, 0.0)], 8000, 0.02, 5000 + seed);
             let modes = free_decay(&series, RATE, &DecaySettings::default()).unwrap();
             let found = decrement(&series, RATE, &modes).unwrap();
             covered += u32::from(found.damping_ratio.contains(damping));
@@ -101,7 +115,10 @@ fn exact_decay_is_recovered_to_rounding() {
     let found = free_decay(&series, RATE, &settings).unwrap();
     assert!((found.offset - 3.0).abs() < 1e-9);
     for (mode, (f, d, amplitude, phase)) in found.modes.iter().zip(modes) {
-        assert!((mode.frequency_hz.value / f - 1.0).abs() < 1e-9 && (mode.damping_ratio.value / d - 1.0).abs() < 1e-7);
+        assert!(
+            (mode.frequency_hz.value / f - 1.0).abs() < 1e-9
+                && (mode.damping_ratio.value / d - 1.0).abs() < 1e-7
+        );
         assert!((mode.amplitude / amplitude - 1.0).abs() < 1e-7 && (mode.phase - phase).abs() < 1e-7);
         let expected = 2.0 * PI * d / (1.0 - d * d).sqrt();
         assert!((mode.decrement.value / expected - 1.0).abs() < 1e-7);
@@ -132,7 +149,8 @@ fn damping_that_grows_with_time_is_told() {
             (1.0 - 0.22 * t) * (2.0 * PI * 20.0 * t).cos()
         })
         .collect();
-    let modes = free_decay(&series, RATE, &DecaySettings { modes: Some(1), ..DecaySettings::default() }).unwrap();
+    let modes =
+        free_decay(&series, RATE, &DecaySettings { modes: Some(1), ..DecaySettings::default() }).unwrap();
     let found = decrement(&series, RATE, &modes).unwrap();
     assert!(found.changes() && found.halves[1].value > found.halves[0].value, "{found:?}");
 }
@@ -143,7 +161,10 @@ fn noise_alone_and_bad_input_are_refused() {
     assert!(matches!(free_decay(&noise, RATE, &DecaySettings::default()), Err(SignalError::NoDecay)));
     let constant = [2.0; 100];
     assert!(matches!(free_decay(&constant, RATE, &DecaySettings::default()), Err(SignalError::Constant)));
-    assert!(matches!(free_decay(&noise[..10], RATE, &DecaySettings::default()), Err(SignalError::TooShort { .. })));
+    assert!(matches!(
+        free_decay(&noise[..10], RATE, &DecaySettings::default()),
+        Err(SignalError::TooShort { .. })
+    ));
     let band = DecaySettings { band_hz: (9.0, 3.0), ..DecaySettings::default() };
     assert!(matches!(free_decay(&noise, RATE, &band), Err(SignalError::Input { .. })));
 }

@@ -1,7 +1,20 @@
-//! Largest exponents of series of systems whose exponents their authors give.
+//! Largest exponents from series of the systems on which the methods' authors tried them.
+//!
+//! | system | parameters | sampling | largest exponent |
+//! |---|---|---|---|
+//! | logistic map | 4 | 1 | 0.693 (ln 2, exact) |
+//! | Hénon | 1.4, 0.3 | 1 | 0.418 (0.603 bits) |
+//! | Lorenz | 16, 45.92, 4 | 0.01 s | 1.50 1/s (2.16 bits/s) |
+//! | Rössler | 0.15, 0.2, 10 | 0.1 s | 0.090 1/s (0.13 bits/s) |
+//!
+//! Exponents by Wolf et al. 1985, table 1; delays, dimensions and lengths by Rosenstein et al. 1993. A single record of these lengths scatters by
+//! several per cent with its beginning, so each case is run from five beginnings.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use hammerbeam_signal::exponent::*;
+use hammerbeam_signal::{
+    SignalError,
+    exponent::{DivergenceSettings, EmbeddingChoice, WolfSettings, embedding, kantz, rosenstein, wolf},
+};
 
 type State = [f64; 3];
 
@@ -27,7 +40,13 @@ fn flow(field: impl Fn(State) -> State, start: State, step: f64, skipped: usize,
 }
 
 fn lorenz(start: f64, count: usize) -> Vec<f64> {
-    flow(|[x, y, z]| [16.0 * (y - x), x * (45.92 - z) - y, x * y - 4.0 * z], [1.0 + start, 1.0, 20.0], 0.01, 5000, count)
+    flow(
+        |[x, y, z]| [16.0 * (y - x), x * (45.92 - z) - y, x * y - 4.0 * z],
+        [1.0 + start, 1.0, 20.0],
+        0.01,
+        5000,
+        count,
+    )
 }
 
 fn roessler(start: f64, count: usize) -> Vec<f64> {
@@ -36,47 +55,148 @@ fn roessler(start: f64, count: usize) -> Vec<f64> {
 
 fn henon(start: f64, count: usize) -> Vec<f64> {
     let (mut x, mut y) = (0.1 * start, 0.1);
-    (0..count + 200).map(|_| { (x, y) = (1.0 - 1.4 * x * x + y, 0.3 * x); x }).skip(200).collect()
+    (0..count + 200)
+        .map(|_| {
+            (x, y) = (1.0 - 1.4 * x * x + y, 0.3 * x);
+            x
+        })
+        .skip(200)
+        .collect()
 }
 
 fn logistic(start: f64, count: usize) -> Vec<f64> {
     let mut x = 0.2 + 0.1 * start;
-    (0..count + 200).map(|_| { x = 4.0 * x * (1.0 - x); x }).skip(200).collect()
+    (0..count + 200)
+        .map(|_| {
+            x = 4.0 * x * (1.0 - x);
+            x
+        })
+        .skip(200)
+        .collect()
+}
+
+/// A system: series, sampling rate, delay and dimension, exponent.
+type System = (fn(f64, usize) -> Vec<f64>, f64, (usize, usize), f64);
+
+const LOGISTIC: System = (logistic, 1.0, (1, 2), 0.693);
+const HENON: System = (henon, 1.0, (1, 2), 0.418);
+const LORENZ: System = (lorenz, 100.0, (11, 3), 1.50);
+const ROESSLER: System = (roessler, 10.0, (8, 3), 0.090);
+
+#[derive(Clone, Copy)]
+enum Method {
+    Wolf,
+    Rosenstein,
+    Kantz,
+}
+
+/// Relative errors from five beginnings, the smallest first.
+fn errors(
+    (series, rate, (delay, dimension), exponent): System,
+    length: usize,
+    method: Method,
+    fit: Option<(usize, usize)>,
+) -> Vec<f64> {
+    let choice = EmbeddingChoice { delay: Some(delay), dimension: Some(dimension), theiler_window: None };
+    let settings = DivergenceSettings { fit, ..DivergenceSettings::default() };
+    let error = |start: u32| {
+        let series = series(0.137 * f64::from(start), length);
+        let embedding = embedding(&series, &choice).unwrap();
+        let found = match method {
+            Method::Wolf => wolf(&series, rate, &embedding, &WolfSettings::default()).unwrap().exponent,
+            Method::Rosenstein => rosenstein(&series, rate, &embedding, &settings).unwrap().exponent,
+            Method::Kantz => kantz(&series, rate, &embedding, &settings).unwrap().exponent,
+        };
+        found.value / exponent - 1.0
+    };
+    let mut errors: Vec<f64> = (0..5).map(error).collect();
+    errors.sort_by(f64::total_cmp);
+    errors
+}
+
+/// The middle one within one bound, all within another.
+#[track_caller]
+fn assert_within(errors: &[f64], middle: f64, all: f64) {
+    println!("{errors:.3?}");
+    assert!(errors[2].abs() <= middle && errors.iter().all(|error| error.abs() <= all), "{errors:.3?}");
 }
 
 #[test]
-fn explore() {
-    for (name, series, rate, dim, delay, expected) in [
-        ("lorenz", lorenz as fn(f64, usize) -> Vec<f64>, 100.0, 3, 11, 1.50),
-        ("roessler", roessler, 10.0, 3, 8, 0.090),
-        ("henon", henon, 1.0, 2, 1, 0.418),
-        ("logistic", logistic, 1.0, 2, 1, 0.693),
-    ] {
-        for count in [500, 2000, 5000, 20000] {
-            if count < 2000 && rate > 1.0 { continue; }
-            let mut lines = vec![Vec::new(); 3];
-            let mut text = String::new();
-            for s in 0..5 {
-                let x = series(f64::from(s) * 0.137, count);
-                let auto = embedding(&x, &EmbeddingChoice::default()).unwrap();
-                let e = embedding(&x, &EmbeddingChoice { delay: Some(delay), dimension: Some(dim), theiler_window: None }).unwrap();
-                let p = |v: f64| format!("{:+.0}", 100.0 * (v / expected - 1.0));
-                let d = DivergenceSettings::default();
-                lines[0].push(rosenstein(&x, rate, &e, &d).map_or_else(|e| e.to_string(), |r| format!("{}(±{:.0})[{}-{}]", p(r.exponent.value), 100.0*r.exponent.half_width/expected, r.fit.0, r.fit.1)));
-                lines[1].push(kantz(&x, rate, &e, &d).map_or_else(|e| e.to_string(), |r| format!("{}(±{:.0})[{}-{}]", p(r.exponent.value), 100.0*r.exponent.half_width/expected, r.fit.0, r.fit.1)));
-                for div in [1.0, 2.0, 3.0, 5.0, 8.0] {
-                  for large in [0.03, 0.1] {
-                    let range = 1.0;
-                    let _ = range;
-                    let ev = if rate > 1.0 { (e.mean_period / div) as usize } else { div as usize };
-                    let r = x.iter().fold(0.0_f64, |a, b| a.max(b.abs())) * if name == "logistic" {1.0} else {2.0};
-                    let w = wolf(&x, rate, &e, &WolfSettings { evolution: Some(ev), largest: Some(large * r), smallest: None });
-                    lines[2].push(w.map_or_else(|_| "x".into(), |w| format!("{ev}/{large}:{}", p(w.exponent.value))));
-                  }
-                }
-                text += &format!(" d{} m{} T{:.0}", auto.delay, auto.dimension, auto.mean_period);
-            }
-            println!("{name} {count}: {text}\n  ros {}\n  kan {}\n  wolf {}", lines[0].join(" "), lines[1].join(" "), lines[2].join(" "));
-        }
-    }
+fn rosenstein_1993_maps() {
+    assert_within(&errors(LOGISTIC, 500, Method::Rosenstein, None), 0.02, 0.05);
+    assert_within(&errors(HENON, 500, Method::Rosenstein, None), 0.08, 0.16);
+    assert_within(&errors(HENON, 5000, Method::Rosenstein, None), 0.03, 0.06);
+}
+
+#[test]
+fn rosenstein_1993_lorenz() {
+    assert_within(&errors(LORENZ, 5000, Method::Rosenstein, None), 0.05, 0.10);
+}
+
+/// Missed: the curve of Rössler's system bends all the way, and the part that is found gives about a fifth too little.
+#[test]
+fn rosenstein_1993_roessler_comes_out_a_fifth_too_small() {
+    let errors = errors(ROESSLER, 20_000, Method::Rosenstein, None);
+    println!("{errors:.3?}");
+    assert!((-0.25..-0.10).contains(&errors[2]), "{errors:.3?}");
+}
+
+#[test]
+fn wolf_1985_henon() {
+    assert_within(&errors(HENON, 5000, Method::Wolf, None), 0.03, 0.05);
+    assert_within(&errors(LOGISTIC, 5000, Method::Wolf, None), 0.03, 0.05);
+}
+
+#[test]
+fn wolf_1985_lorenz_and_roessler() {
+    assert_within(&errors(LORENZ, 20_000, Method::Wolf, None), 0.05, 0.15);
+    assert_within(&errors(ROESSLER, 20_000, Method::Wolf, None), 0.05, 0.10);
+}
+
+/// The straight part of Lorenz' curve is given, as the authors choose it by eye; what is found by itself gives up to 15 % too much.
+#[test]
+fn kantz_1994() {
+    assert_within(&errors(LOGISTIC, 5000, Method::Kantz, None), 0.04, 0.06);
+    assert_within(&errors(HENON, 5000, Method::Kantz, None), 0.05, 0.08);
+    assert_within(&errors(LORENZ, 5000, Method::Kantz, Some((40, 120))), 0.05, 0.15);
+}
+
+/// Rosenstein et al. use 11 and 3 for Lorenz, 1 and 2 for Hénon. Of the logistic map one coordinate is the state.
+#[test]
+fn delay_and_dimension_are_those_of_the_authors() {
+    let chosen = |series: Vec<f64>| {
+        let found = embedding(&series, &EmbeddingChoice::default()).unwrap();
+        (found.delay, found.dimension)
+    };
+    assert!(matches!(chosen(lorenz(0.0, 5000)), (10 | 11, 3)));
+    assert!(matches!(chosen(roessler(0.0, 5000)), (8 | 9, 3)));
+    assert_eq!(chosen(henon(0.0, 2000)), (1, 2));
+    assert_eq!(chosen(logistic(0.0, 2000)), (1, 1));
+}
+
+#[test]
+fn periodic_motion_has_no_positive_exponent() {
+    // Two incommensurate frequencies: neighbours stay neighbours.
+    let series: Vec<f64> =
+        (0..5000).map(|k| (0.1 * f64::from(k)).sin() + 0.5 * (0.0618 * f64::from(k)).cos()).collect();
+    let choice = EmbeddingChoice { delay: Some(12), dimension: Some(4), theiler_window: None };
+    let embedding = embedding(&series, &choice).unwrap();
+    let refused = rosenstein(&series, 1.0, &embedding, &DivergenceSettings::default());
+    assert!(matches!(refused, Err(SignalError::NoScaling { .. })), "{refused:?}");
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let short = henon(0.0, 50);
+    let default = EmbeddingChoice::default();
+    assert!(matches!(embedding(&short, &default), Err(SignalError::TooShort { .. })));
+    assert!(matches!(embedding(&[1.0; 500], &default), Err(SignalError::Constant)));
+    let series = henon(0.0, 500);
+    let wide = EmbeddingChoice { dimension: Some(30), ..default };
+    assert!(matches!(embedding(&series, &wide), Err(SignalError::Input { .. })));
+    let found = embedding(&series, &default).unwrap();
+    let fit = DivergenceSettings { fit: Some((3, 500)), ..DivergenceSettings::default() };
+    assert!(matches!(rosenstein(&series, 1.0, &found, &fit), Err(SignalError::Input { .. })));
+    let never = WolfSettings { evolution: Some(400), ..WolfSettings::default() };
+    assert!(matches!(wolf(&series, 1.0, &found, &never), Err(SignalError::TooFewNeighbours { .. })));
 }

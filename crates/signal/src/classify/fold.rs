@@ -72,7 +72,10 @@ impl Folded {
     /// What is left of the record without the waveform.
     pub(super) fn rest(&self, n: usize) -> Vec<f64> {
         let (mean, _) = self.waveform(n);
-        self.samples.chunks_exact(mean.len()).flat_map(|piece| piece.iter().zip(&mean).map(|(value, mean)| value - mean)).collect()
+        self.samples
+            .chunks_exact(mean.len())
+            .flat_map(|piece| piece.iter().zip(&mean).map(|(value, mean)| value - mean))
+            .collect()
     }
 
     /// Relative error of the frequency, if the phase of the fundamental runs straight over the record.
@@ -85,11 +88,14 @@ impl Folded {
         if parts < 4 {
             return None;
         }
-        let turns: Vec<Complex<f64>> =
-            (0..self.period).map(|k| Complex::from_polar(1.0, -2.0 * PI * k as f64 / self.period as f64)).collect();
+        let turns: Vec<Complex<f64>> = (0..self.period)
+            .map(|k| Complex::from_polar(1.0, -2.0 * PI * k as f64 / self.period as f64))
+            .collect();
         let length = periods / parts * self.period;
         let phasor = |part: &[f64]| -> Complex<f64> {
-            part.chunks_exact(self.period).flat_map(|piece| piece.iter().zip(&turns).map(|(value, turn)| turn * *value)).sum()
+            part.chunks_exact(self.period)
+                .flat_map(|piece| piece.iter().zip(&turns).map(|(value, turn)| turn * *value))
+                .sum()
         };
         let phasors: Vec<Complex<f64>> = self.samples.chunks_exact(length).take(parts).map(phasor).collect();
         let level = phasors.iter().map(|z| z.norm()).sum::<f64>() / parts as f64;

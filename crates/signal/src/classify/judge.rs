@@ -59,13 +59,19 @@ pub enum Motion {
 #[non_exhaustive]
 pub enum Doubt {
     /// The deviation is too large for periodic and too small for aperiodic.
-    #[error("the smallest deviation, {deviation:.3} at period multiple {period_multiple}, is between the limits")]
+    #[error(
+        "the smallest deviation, {deviation:.3} at period multiple {period_multiple}, is between the limits"
+    )]
     BetweenLimits { deviation: f64, period_multiple: usize },
     /// A subharmonic is there, but weak.
-    #[error("a subharmonic of period multiple {period_multiple} holds {part:.4} of the amplitude, too much for none and too little to count")]
+    #[error(
+        "a subharmonic of period multiple {period_multiple} holds {part:.4} of the amplitude, too much for none and too little to count"
+    )]
     WeakSubharmonic { period_multiple: usize, part: f64 },
     /// The motion grows or falls.
-    #[error("the motion is not settled: its root mean square changes by the factor {factor:.2} from one half of the record to the other")]
+    #[error(
+        "the motion is not settled: its root mean square changes by the factor {factor:.2} from one half of the record to the other"
+    )]
     NotSettled { factor: f64 },
     /// Noise hides the motion.
     #[error("white noise may be {part:.2} of the root mean square: it hides whether the motion repeats")]
@@ -115,7 +121,8 @@ pub fn classify(
     excitation_hz: f64,
     settings: &ClassifySettings,
 ) -> Result<Classification, SignalError> {
-    let allowed = format!("more than 0 and at most an eighth of the sampling rate, {} Hz", sampling_rate_hz / 8.0);
+    let allowed =
+        format!("more than 0 and at most an eighth of the sampling rate, {} Hz", sampling_rate_hz / 8.0);
     let holds = excitation_hz > 0.0 && excitation_hz <= sampling_rate_hz / 8.0;
     ensure("the excitation frequency", excitation_hz, allowed, holds)?;
     ensure("the largest period multiple", settings.most as f64, "at least 1", settings.most >= 1)?;
@@ -229,7 +236,10 @@ fn subharmonic(folded: &Folded, n: usize, m: usize) -> f64 {
     let short = n * folded.period;
     let mut shorter = vec![0.0; short];
     for piece in mean.chunks_exact(short) {
-        shorter.iter_mut().zip(piece).for_each(|(sum, value)| *sum += value * short as f64 / mean.len() as f64);
+        shorter
+            .iter_mut()
+            .zip(piece)
+            .for_each(|(sum, value)| *sum += value * short as f64 / mean.len() as f64);
     }
     let between: f64 = mean.iter().enumerate().map(|(k, value)| (value - shorter[k % short]).powi(2)).sum();
     let (sum, _, freedoms) = folded.scatter(m);

@@ -30,7 +30,8 @@ pub fn excitation_frequency(series: &[f64], sampling_rate_hz: f64) -> Result<f64
     let size = |k: usize| spectrum.get(k).map_or(0.0, |value| value.norm());
     let line = (1..spectrum.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(1);
     // For a Hann window the two largest values of a line have the ratio (1 + d)/(2 - d), d bins from the larger one.
-    let (neighbour, sign) = if size(line + 1) > size(line - 1) { (size(line + 1), 1.0) } else { (size(line - 1), -1.0) };
+    let (neighbour, sign) =
+        if size(line + 1) > size(line - 1) { (size(line + 1), 1.0) } else { (size(line - 1), -1.0) };
     let ratio = neighbour / size(line);
     let place = line as f64 + sign * (2.0 * ratio - 1.0) / (1.0 + ratio);
     let step = 1.0 / sampling_rate_hz;

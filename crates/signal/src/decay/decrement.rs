@@ -6,10 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::{
-    Decay, Estimate,
-    modes::student,
-};
+use super::{Decay, Estimate, modes::student};
 use crate::error::SignalError;
 
 /// Maxima below so many times the noise do not count: below that the logarithm is biased by the noise.
@@ -49,8 +46,11 @@ impl Decrement {
 /// [`SignalError::NoDecay`] if fewer than four maxima stand out of the noise.
 pub fn decrement(series: &[f64], sampling_rate_hz: f64, decay: &Decay) -> Result<Decrement, SignalError> {
     let step = 1.0 / sampling_rate_hz;
-    let strength = |m: usize| decay.modes[m].amplitude.powi(2) / decay.modes[m].damping_ratio.value.abs().max(1e-9);
-    let strongest = (0..decay.modes.len()).max_by(|&a, &b| strength(a).total_cmp(&strength(b))).ok_or(SignalError::NoDecay)?;
+    let strength =
+        |m: usize| decay.modes[m].amplitude.powi(2) / decay.modes[m].damping_ratio.value.abs().max(1e-9);
+    let strongest = (0..decay.modes.len())
+        .max_by(|&a, &b| strength(a).total_cmp(&strength(b)))
+        .ok_or(SignalError::NoDecay)?;
     let mut rest: Vec<f64> = series.iter().map(|value| value - decay.offset).collect();
     for (m, oscillation) in decay.oscillations.iter().enumerate() {
         if m != strongest {

@@ -95,7 +95,12 @@ impl Normal {
                 let power = powers.next().unwrap_or_default();
                 let turned = Complex::new(oscillations[m].cosine, -oscillations[m].sine) * power;
                 residual -= turned.re;
-                row[1 + 4 * m..5 + 4 * m].copy_from_slice(&[-time * turned.re, -time * turned.im, power.re, power.im]);
+                row[1 + 4 * m..5 + 4 * m].copy_from_slice(&[
+                    -time * turned.re,
+                    -time * turned.im,
+                    power.re,
+                    power.im,
+                ]);
             }
             sum += residual * residual;
             let mut at = 0;
@@ -154,6 +159,8 @@ impl Scaled {
 
     fn inverse(&self) -> Mat<f64> {
         let inverse = self.decomposed.inverse();
-        Mat::from_fn(self.scale.len(), self.scale.len(), |i, j| inverse[(i, j)] * self.scale[i] * self.scale[j])
+        Mat::from_fn(self.scale.len(), self.scale.len(), |i, j| {
+            inverse[(i, j)] * self.scale[i] * self.scale[j]
+        })
     }
 }

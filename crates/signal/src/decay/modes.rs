@@ -87,7 +87,11 @@ pub struct Decay {
 /// # Errors
 /// [`SignalError::NoDecay`] if nothing stands out of the noise; [`SignalError::FitNotConverged`] if a number of modes is given and cannot be
 /// fitted; [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`], [`SignalError::Input`].
-pub fn free_decay(series: &[f64], sampling_rate_hz: f64, settings: &DecaySettings) -> Result<Decay, SignalError> {
+pub fn free_decay(
+    series: &[f64],
+    sampling_rate_hz: f64,
+    settings: &DecaySettings,
+) -> Result<Decay, SignalError> {
     ensure_series("a decay", series, FEWEST)?;
     let (low, high) = settings.band_hz;
     ensure("the upper end of the band", high, format!("more than its lower end, {low} Hz"), high > low)?;
@@ -108,7 +112,9 @@ pub fn free_decay(series: &[f64], sampling_rate_hz: f64, settings: &DecaySetting
         let Some(next) = strongest(&rest, step, band, settings.modes.is_none()) else { break };
         start.push(next);
         match fit(series, step, &start) {
-            Ok(better) if settings.modes.is_some() || is_sound(&better, step, series.len()) => fitted = Some(better),
+            Ok(better) if settings.modes.is_some() || is_sound(&better, step, series.len()) => {
+                fitted = Some(better)
+            }
             Err(error) if settings.modes.is_some() => return Err(error),
             // One more is not in the data.
             _ => break,
@@ -125,7 +131,8 @@ fn is_sound(fit: &Fit, step: f64, length: usize) -> bool {
         o.frequency > 0.0 && o.frequency < PI / step && o.rate > -2.0 / duration && o.amplitude().is_finite()
     };
     let apart = |one: &Oscillation, other: &Oscillation| {
-        (one.frequency - other.frequency).abs() > (PI / duration).min(0.2 * one.rate.abs().max(other.rate.abs()))
+        (one.frequency - other.frequency).abs()
+            > (PI / duration).min(0.2 * one.rate.abs().max(other.rate.abs()))
     };
     let all = &fit.oscillations;
     all.iter().enumerate().all(|(k, one)| inside(one) && all[..k].iter().all(|other| apart(one, other)))
@@ -142,7 +149,8 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
     let mut order: Vec<usize> = (0..fit.oscillations.len()).collect();
     order.sort_by(|&a, &b| fit.oscillations[a].frequency.total_cmp(&fit.oscillations[b].frequency));
     let mode = |&m: &usize| {
-        let (local, freedoms) = if white { (variance, free) } else { local_variance(fit, m, 1.0 / sampling_rate_hz) };
+        let (local, freedoms) =
+            if white { (variance, free) } else { local_variance(fit, m, 1.0 / sampling_rate_hz) };
         describe_mode(fit, m, local, student(freedoms))
     };
     Decay {
@@ -180,7 +188,9 @@ fn describe_mode(fit: &Fit, m: usize, variance: f64, quantile: f64) -> DecayMode
     let (s, w) = (o.rate, o.frequency);
     let covariance = |i: usize, j: usize| variance * fit.inverse[(1 + 4 * m + i, 1 + 4 * m + j)];
     let estimate = |value: f64, by_s: f64, by_w: f64| {
-        let square = by_s * by_s * covariance(0, 0) + 2.0 * by_s * by_w * covariance(0, 1) + by_w * by_w * covariance(1, 1);
+        let square = by_s * by_s * covariance(0, 0)
+            + 2.0 * by_s * by_w * covariance(0, 1)
+            + by_w * by_w * covariance(1, 1);
         Estimate { value, half_width: quantile * square.max(0.0).sqrt() }
     };
     let natural = s.hypot(w);

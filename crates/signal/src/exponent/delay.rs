@@ -56,7 +56,9 @@ impl Bins {
             first[a] += 1.0 / total;
             second[b] += 1.0 / total;
         }
-        let term = |(at, p): (usize, &f64)| if *p > 0.0 { p * (p / (first[at / n] * second[at % n])).ln() } else { 0.0 };
+        let term = |(at, p): (usize, &f64)| {
+            if *p > 0.0 { p * (p / (first[at / n] * second[at % n])).ln() } else { 0.0 }
+        };
         joint.iter().enumerate().map(term).sum()
     }
 }

@@ -14,7 +14,8 @@ const STATES: usize = 2000;
 
 pub(super) fn choose(series: &[f64], delay: usize, window: usize) -> usize {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
-    let deviation = (series.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / series.len() as f64).sqrt();
+    let deviation =
+        (series.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / series.len() as f64).sqrt();
     for dimension in 1..LARGEST {
         let states = States::new(series, delay, dimension);
         // The next coordinate has to be there too.

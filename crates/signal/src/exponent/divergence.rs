@@ -1,7 +1,7 @@
 //! Mean logarithmic distance of neighbours over time: Rosenstein's and Kantz's methods.
 
 use super::{
-    FLOW, GROUPS, Embedding,
+    Embedding, FLOW, GROUPS,
     embedding::States,
     of_groups,
     slope::{slope, straight_part},
@@ -86,8 +86,10 @@ pub fn kantz(
             return Vec::new();
         }
         let distance = |k: usize| {
-            let sum: f64 =
-                neighbours.iter().map(|other| (series[state + last + k] - series[other + last + k]).abs()).sum();
+            let sum: f64 = neighbours
+                .iter()
+                .map(|other| (series[state + last + k] - series[other + last + k]).abs())
+                .sum();
             (sum / neighbours.len() as f64).ln()
         };
         (0..work.steps).map(distance).collect()
@@ -106,13 +108,22 @@ struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    fn new(series: &'a [f64], embedding: &Embedding, settings: &DivergenceSettings) -> Result<Self, SignalError> {
+    fn new(
+        series: &'a [f64],
+        embedding: &Embedding,
+        settings: &DivergenceSettings,
+    ) -> Result<Self, SignalError> {
         let flow = embedding.mean_period > FLOW;
         let states = States::new(series, embedding.delay, embedding.dimension);
         let usual = if flow { (7.0 * embedding.mean_period) as usize } else { 25 };
         let steps = settings.steps.unwrap_or(usual.min(states.len() / 4));
         let holds = steps >= 4 && steps < states.len();
-        ensure("the number of steps", steps as f64, format!("from 4 to less than the {} states", states.len()), holds)?;
+        ensure(
+            "the number of steps",
+            steps as f64,
+            format!("from 4 to less than the {} states", states.len()),
+            holds,
+        )?;
         if let Some((from, to)) = settings.fit {
             let allowed = format!("after the first one, {from}, and before the last step, {}", steps - 1);
             ensure("the last step of the fit", to as f64, allowed, to > from && to < steps)?;
@@ -123,12 +134,12 @@ impl<'a> Work<'a> {
     }
 
     fn radius(&self, smallest: f64, window: usize) -> Result<f64, SignalError> {
-        let some: Vec<usize> = self.followed.iter().copied().step_by((self.followed.len() / 200).max(1)).collect();
+        let some: Vec<usize> =
+            self.followed.iter().copied().step_by((self.followed.len() / 200).max(1)).collect();
         for doublings in 0..8 {
             let radius = smallest * f64::from(1 << doublings);
-            let has_enough = |state: &&usize| {
-                self.tree.within(&self.states, **state, window, radius).len() >= NEIGHBOURS
-            };
+            let has_enough =
+                |state: &&usize| self.tree.within(&self.states, **state, window, radius).len() >= NEIGHBOURS;
             if some.iter().filter(has_enough).count() as f64 >= ENOUGH * some.len() as f64 {
                 return Ok(radius);
             }

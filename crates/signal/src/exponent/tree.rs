@@ -41,7 +41,8 @@ impl Tree {
         }
         let width = |coordinate: usize| {
             let values = self.order[from..to].iter().map(|&state| states.coordinate(state, coordinate));
-            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
+            let (low, high) =
+                values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
             high - low
         };
         let widths: Vec<f64> = (0..states.dimension).map(width).collect();
@@ -74,7 +75,8 @@ impl Tree {
                 if other.abs_diff(search.state) > search.window {
                     let square = search.states.square(search.state, other);
                     // Ties go to the earlier state, whatever the order of the tree.
-                    let closer = best.is_none_or(|(at, least)| square < least || (square == least && other < at));
+                    let closer =
+                        best.is_none_or(|(at, least)| square < least || (square == least && other < at));
                     if square > 0.0 && closer {
                         *best = Some((other, square));
                     }

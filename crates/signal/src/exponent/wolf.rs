@@ -7,7 +7,7 @@
 //!
 //! Distances below `smallest` do not count: there noise decides on the direction.
 
-use super::{Embedding, FLOW, GROUPS, embedding::States, of_groups};
+use super::{Embedding, FLOW, GROUPS, embedding::States, of_groups, tree::Tree};
 use crate::{
     decay::Estimate,
     error::{SignalError, ensure},
@@ -23,9 +23,9 @@ const DOUBLINGS: u32 = 3;
 /// How the pair is followed.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WolfSettings {
-    /// Samples of a stretch; `None`: a third of the mean period of a flow, 1 for a map.
+    /// Samples of a stretch; `None`: an eighth of the mean period of a flow, 1 for a map.
     pub evolution: Option<usize>,
-    /// Largest distance of a new neighbour; `None`: 5 % of the range of the series.
+    /// Largest distance of a new neighbour; `None`: 3 % of the range of the series.
     pub largest: Option<f64>,
     /// Smallest distance; `None`: 1/1000 of that range.
     pub smallest: Option<f64>,
@@ -57,13 +57,19 @@ pub fn wolf(
     let states = States::new(series, embedding.delay, embedding.dimension);
     let ends = series.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
     let range = ends.1 - ends.0;
-    let usual = if embedding.mean_period > FLOW { (embedding.mean_period / 3.0).round() as usize } else { 1 };
+    let usual = if embedding.mean_period > FLOW { (embedding.mean_period / 8.0).round() as usize } else { 1 };
     let evolution = settings.evolution.unwrap_or(usual.max(1));
-    let largest = settings.largest.unwrap_or(0.05 * range);
+    let largest = settings.largest.unwrap_or(0.03 * range);
     let smallest = settings.smallest.unwrap_or(1e-3 * range);
     ensure("the evolution time", evolution as f64, "at least 1 sample", evolution >= 1)?;
-    ensure("the largest distance", largest, format!("more than the smallest, {smallest}"), largest > smallest)?;
-    let pair = Pair { states, window: embedding.theiler_window, evolution, largest, smallest };
+    ensure(
+        "the largest distance",
+        largest,
+        format!("more than the smallest, {smallest}"),
+        largest > smallest,
+    )?;
+    let tree = Tree::new(&states, states.len().saturating_sub(evolution));
+    let pair = Pair { states, tree, window: embedding.theiler_window, evolution, largest, smallest };
     let (rates, kept) = pair.follow();
     if rates.len() < FEWEST {
         return Err(SignalError::TooFewNeighbours { found: rates.len(), asked: series.len() / evolution });
@@ -79,6 +85,8 @@ pub fn wolf(
 
 struct Pair<'a> {
     states: States<'a>,
+    /// Those that can be followed for a stretch.
+    tree: Tree,
     window: usize,
     evolution: usize,
     largest: f64,
@@ -113,29 +121,33 @@ impl Pair<'_> {
         (rates, kept)
     }
 
-    fn candidates(&self, state: usize) -> impl Iterator<Item = (usize, f64)> {
-        let end = self.states.len().saturating_sub(self.evolution);
-        let low = self.smallest * self.smallest;
-        (0..end)
-            .filter(move |other| other.abs_diff(state) > self.window)
-            .map(move |other| (other, self.states.square(state, other)))
-            .filter(move |(_, square)| *square >= low)
+    /// The nearest state that is not too near: within a radius that grows until there is one.
+    fn nearest(&self, state: usize) -> Option<usize> {
+        (1..=MULTIPLES).find_map(|multiple| {
+            let near = self.candidates(state, self.largest * f64::from(multiple));
+            near.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
+        })
     }
 
-    fn nearest(&self, state: usize) -> Option<usize> {
-        self.candidates(state).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(other, _)| other)
+    /// States within a radius, and their squared distances.
+    fn candidates(&self, state: usize, radius: f64) -> Vec<(usize, f64)> {
+        let found = self.tree.within(&self.states, state, self.window, radius);
+        let distances = found.into_iter().map(|other| (other, self.states.square(state, other)));
+        distances.filter(|(_, square)| *square >= self.smallest * self.smallest).collect()
     }
 
     /// The state whose direction differs least from that of the old neighbour, within the smallest bounds that leave any.
     fn replacement(&self, state: usize, old: usize) -> Option<usize> {
-        let difference = |other: usize, c: usize| self.states.coordinate(other, c) - self.states.coordinate(state, c);
+        let difference =
+            |other: usize, c: usize| self.states.coordinate(other, c) - self.states.coordinate(state, c);
         let old_length = self.states.square(state, old).sqrt();
-        let far = (self.largest * f64::from(MULTIPLES)).powi(2);
+        let far = self.largest * f64::from(MULTIPLES);
         let near: Vec<(usize, f64, f64)> = self
-            .candidates(state)
-            .filter(|(_, square)| *square <= far)
+            .candidates(state, far)
+            .into_iter()
             .map(|(other, square)| {
-                let product: f64 = (0..self.states.dimension).map(|c| difference(other, c) * difference(old, c)).sum();
+                let product: f64 =
+                    (0..self.states.dimension).map(|c| difference(other, c) * difference(old, c)).sum();
                 (other, square.sqrt(), (product / (square.sqrt() * old_length)).clamp(-1.0, 1.0).acos())
             })
             .collect();

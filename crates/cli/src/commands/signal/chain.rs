@@ -33,7 +33,8 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
     };
     let motion = if options.periodic { Motion::Periodic } else { Motion::Stretch };
     let measured = chain.measure(&input.record, motion)?;
-    let path = options.out.as_ref().map(|folder| write_record(&measured, folder, "measured.csv")).transpose()?;
+    let path =
+        options.out.as_ref().map(|folder| write_record(&measured, folder, "measured.csv")).transpose()?;
     let mut document = input.document();
     document["sensor"] = json!(chain.sensor.word());
     document["source"] = json!(measured.channels[0].name);

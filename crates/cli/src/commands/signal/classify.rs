@@ -102,7 +102,9 @@ fn text(input: &Input, channel: usize, found: &Classification) -> String {
     lines.extend(input.notes());
     lines.push(match found.motion {
         Motion::Periodic { period_multiple: 1 } => "periodic, with the period of the excitation".to_owned(),
-        Motion::Periodic { period_multiple } => format!("periodic, with {period_multiple} excitation periods"),
+        Motion::Periodic { period_multiple } => {
+            format!("periodic, with {period_multiple} excitation periods")
+        }
         Motion::Aperiodic => "aperiodic".to_owned(),
         Motion::Doubtful { reason } => format!("doubtful: {reason}"),
     });

@@ -34,7 +34,8 @@ fn document(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> Valu
             "phase_rad": mode.phase,
         })
     };
-    let estimate = |estimate: &Estimate| json!({ "value": estimate.value, "half_width": estimate.half_width });
+    let estimate =
+        |estimate: &Estimate| json!({ "value": estimate.value, "half_width": estimate.half_width });
     let classical = classical.map(|classical| {
         json!({
             "frequency_hz": classical.frequency_hz,
@@ -92,7 +93,9 @@ fn text(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> String {
         }
     }
     if !decay.white {
-        lines.push("note: the residual is not white; intervals allow for its density about each mode".to_owned());
+        lines.push(
+            "note: the residual is not white; intervals allow for its density about each mode".to_owned(),
+        );
     }
     lines.extend(input.notes());
     lines.join("\n")

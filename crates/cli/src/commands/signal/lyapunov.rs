@@ -3,8 +3,8 @@
 use hammerbeam_signal::{
     SignalError,
     exponent::{
-        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, WolfExponent, WolfSettings, embedding, kantz,
-        rosenstein, wolf,
+        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, WolfExponent, WolfSettings, embedding,
+        kantz, rosenstein, wolf,
     },
 };
 use serde_json::{Value, json};
@@ -60,7 +60,8 @@ impl Found {
         let bad = |error: &&SignalError| error.is_bad_input();
         let errors = || {
             let wolf = self.wolf.as_ref().and_then(|tried| tried.as_ref().err());
-            let others = [&self.rosenstein, &self.kantz].map(|tried| tried.as_ref().and_then(|tried| tried.as_ref().err()));
+            let others = [&self.rosenstein, &self.kantz]
+                .map(|tried| tried.as_ref().and_then(|tried| tried.as_ref().err()));
             wolf.into_iter().chain(others.into_iter().flatten())
         };
         if let Some(error) = errors().find(bad) {
@@ -112,7 +113,10 @@ impl Found {
                 "kept": found.kept,
             })
         });
-        let reasons = self.exponents().into_iter().filter_map(|(name, tried)| Some((name.to_owned(), json!(tried.err()?))));
+        let reasons = self
+            .exponents()
+            .into_iter()
+            .filter_map(|(name, tried)| Some((name.to_owned(), json!(tried.err()?))));
         let mut document = input.document();
         document["channel"] = json!(input.channel().name);
         document["confidence"] = json!(0.95);
