@@ -43,7 +43,7 @@ fn hour(criterion: &mut Criterion) {
     let filter = butterworth(4, Band::LowPass { cut_off_hz: 850.0 }, RATE).unwrap();
     group.bench_function("filter, causal", |bencher| bencher.iter(|| filter.causal(black_box(&series))));
     group.bench_function("filter, zero phase", |bencher| {
-        bencher.iter(|| filter.zero_phase(black_box(&series)).unwrap())
+        bencher.iter(|| filter.zero_phase(black_box(&series)).unwrap());
     });
     group.bench_function("spectrum, whole", |bencher| {
         bencher.iter(|| amplitude_spectrum(black_box(&series), RATE, Window::Hann).unwrap());

@@ -117,7 +117,6 @@ fn errors(
 /// The middle one within one bound, all within another.
 #[track_caller]
 fn assert_within(errors: &[f64], middle: f64, all: f64) {
-    println!("{errors:.3?}");
     assert!(errors[2].abs() <= middle && errors.iter().all(|error| error.abs() <= all), "{errors:.3?}");
 }
 
@@ -137,7 +136,6 @@ fn rosenstein_1993_lorenz() {
 #[test]
 fn rosenstein_1993_roessler_comes_out_a_fifth_too_small() {
     let errors = errors(ROESSLER, 20_000, Method::Rosenstein, None);
-    println!("{errors:.3?}");
     assert!((-0.25..-0.10).contains(&errors[2]), "{errors:.3?}");
 }
 

@@ -113,7 +113,7 @@ pub fn free_decay(
         start.push(next);
         match fit(series, step, &start) {
             Ok(better) if settings.modes.is_some() || is_sound(&better, step, series.len()) => {
-                fitted = Some(better)
+                fitted = Some(better);
             }
             Err(error) if settings.modes.is_some() => return Err(error),
             // One more is not in the data.

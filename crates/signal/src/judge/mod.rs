@@ -28,6 +28,9 @@ pub enum RecordError {
     /// Nothing in the file is a series.
     #[error("there is no channel with samples in it")]
     Empty,
+    /// A channel that is asked for is not there.
+    #[error("there is no channel \"{name}\"; there are: {names}")]
+    NoSuchChannel { name: String, names: String },
     /// Neither the file nor the user says how fast it was sampled.
     #[error("the file does not say the sampling rate")]
     NoSamplingRate,
@@ -94,12 +97,18 @@ impl RawRecord {
 
 /// The channels that are wanted; they have to belong together.
 fn one_group(groups: Vec<RawGroup>, terms: &Terms) -> Result<RawGroup, RecordError> {
-    let mut number = 0;
-    let mut wanted = |name: &str| {
-        number += 1;
-        let is_meant = |text: &String| text == name || text.parse() == Ok(number);
-        terms.channels.is_empty() || terms.channels.iter().any(is_meant)
-    };
+    let names: Vec<String> =
+        groups.iter().flat_map(|group| &group.channels).map(|channel| channel.name.clone()).collect();
+    let number =
+        |text: &String| text.parse::<usize>().ok().and_then(|number| names.get(number.checked_sub(1)?));
+    // A name comes before a number.
+    let name_of = |text: &String| names.iter().find(|name| *name == text).or_else(|| number(text));
+    let mut wanted = Vec::new();
+    for text in &terms.channels {
+        let missing = || RecordError::NoSuchChannel { name: text.clone(), names: names.join(", ") };
+        wanted.push(name_of(text).ok_or_else(missing)?);
+    }
+    let wanted = |name: &String| wanted.is_empty() || wanted.contains(&name);
     let mut kept: Vec<RawGroup> = Vec::new();
     for RawGroup { axis, mut channels } in groups {
         channels.retain(|channel| wanted(&channel.name) && !channel.samples.is_empty());

@@ -179,6 +179,15 @@ fn channels_of_different_rates_are_refused_unless_one_is_chosen() {
 }
 
 #[test]
+fn channel_that_is_not_there_is_refused_and_numbers_count_from_one() {
+    let refused =
+        raw(even_times(50), sine(50)).judge(&Terms { channels: vec!["b".to_owned()], ..Terms::default() });
+    assert_eq!(refused, Err(RecordError::NoSuchChannel { name: "b".to_owned(), names: "a".to_owned() }));
+    let first = Terms { channels: vec!["1".to_owned()], ..Terms::default() };
+    assert_eq!(raw(even_times(50), sine(50)).judge(&first).unwrap().channels[0].name, "a");
+}
+
+#[test]
 fn record_without_rate_or_samples_is_refused() {
     let channel = RawChannel { name: "a".to_owned(), unit: None, samples: sine(5) };
     let record = RawRecord::single(Axis::Unknown, vec![channel], Vec::new());

@@ -44,8 +44,10 @@ pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> 
     let shape = shape(value_of(&header, "shape")?)?;
     let columns = columns(value_of(&header, "descr")?, name)?;
     let size: usize = columns.iter().map(|(_, entry)| entry.size()).sum();
-    let count = shape.iter().product::<usize>();
-    let expected = count.checked_mul(size).ok_or_else(|| malformed("the array is too large".to_owned()))?;
+    let expected = shape.iter().try_fold(size, |product, side| product.checked_mul(*side));
+    let expected = expected
+        .filter(|_| size > 0)
+        .ok_or_else(|| malformed(format!("{name} has a shape that cannot be")))?;
     let data = bytes.take(expected, "the array")?;
     let mut offset = 0;
     let mut arrays = Vec::new();

@@ -13,7 +13,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let values: Result<Vec<f64>, hound::Error> = match spec.sample_format {
         SampleFormat::Float => reader.samples::<f32>().map(|sample| sample.map(f64::from)).collect(),
         SampleFormat::Int => {
-            let full_scale = f64::from(1_u32 << (spec.bits_per_sample - 1));
+            let full_scale = 2.0_f64.powi(i32::from(spec.bits_per_sample) - 1);
             reader.samples::<i32>().map(|sample| sample.map(|value| f64::from(value) / full_scale)).collect()
         }
     };

@@ -140,7 +140,7 @@ mod tests {
         assert_eq!(Ratio::of_rates(10_000.0, 12_800.0).unwrap(), Ratio { up: 25, down: 32 });
         assert_eq!(Ratio::of_rates(48_000.0, 44_100.0).unwrap(), Ratio { up: 160, down: 147 });
         assert_eq!(Ratio::of_rates(100.0, 1000.0).unwrap(), Ratio { up: 1, down: 10 });
-        assert!(Ratio::of_rates(std::f64::consts::PI * 1000.0, 1000.0).is_err());
+        assert!(Ratio::of_rates(PI * 1000.0, 1000.0).is_err());
         assert!(Ratio::of_rates(-1.0, 1000.0).is_err());
     }
 }

@@ -68,7 +68,7 @@ impl Content {
         let own = String::from_utf8_lossy(next(&mut bytes)?.data).into_owned();
         let name = format!("{within}{own}");
         match flags & 0xff {
-            STRUCTURE if shape.iter().product::<usize>() == 1 => self.fields(&mut bytes, &name),
+            STRUCTURE if shape.iter().all(|side| *side == 1) => self.fields(&mut bytes, &name),
             class if NUMERIC.contains(&class) => self.numeric(&mut bytes, name, shape, flags & COMPLEX != 0),
             class => {
                 // Texts and empty helpers of MATLAB's own have no name.
@@ -88,7 +88,7 @@ impl Content {
         complex: bool,
     ) -> Result<(), ReadError> {
         let big_endian = bytes.is_big_endian();
-        let count = shape.iter().product::<usize>();
+        let count = shape.iter().fold(1, |count: usize, side| count.saturating_mul(*side));
         let mut part = || {
             let values = numbers(&next(bytes)?, big_endian)?;
             if values.len() == count {

@@ -1,0 +1,217 @@
+//! The `signal` commands: results, documents, refusals.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use std::{f64::consts::PI, fmt::Write, fs};
+
+use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use serde_json::Value;
+
+const RATE: f64 = 1000.0;
+
+/// A folder with `signal.csv`: a time column and two channels, [m/s²] and [mm].
+fn workshop(samples: usize, channels: impl Fn(f64) -> [f64; 2]) -> Workshop {
+    let workshop = Workshop::with("");
+    let mut text = "time [s],a [m/s^2],x / mm\n".to_owned();
+    for k in 0..samples {
+        let time = k as f64 / RATE;
+        let [a, x] = channels(time);
+        writeln!(text, "{time},{a},{x}").unwrap();
+    }
+    fs::write(workshop.path("signal.csv"), text).unwrap();
+    workshop
+}
+
+fn harmonic(time: f64) -> [f64; 2] {
+    let turn = 2.0 * PI * time;
+    [3.0 * (20.0 * turn).sin() + 0.5 * (200.0 * turn).sin(), 2.0 * (20.0 * turn).cos()]
+}
+
+#[track_caller]
+fn document(workshop: &Workshop, arguments: &[&str]) -> Value {
+    let output = workshop.hammerbeam(&[&["signal"], arguments, &["--json"]].concat());
+    assert_success(&output);
+    assert_eq!(stderr(&output), "", "quiet where no one looks");
+    serde_json::from_str(&stdout(&output)).expect("one JSON document")
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+#[test]
+fn filter_takes_the_upper_line_away_and_writes_what_can_be_read_again() {
+    let workshop = workshop(2000, harmonic);
+    let found = document(&workshop, &["filter", "signal.csv", "--low-pass", "60", "--out", "out"]);
+    assert_eq!(found["sampling_rate_hz"], 1000.0);
+    assert_eq!((&found["channels"][1]["quantity"], &found["channels"][1]["unit"]), (&"displacement".into(), &"m".into()));
+    // The upper line is weakened by (60/200)^8 and more, the lower one by 1e-4.
+    let largest = number(&found["filtered"][0]["max_abs_after"]);
+    assert!((largest - 3.0).abs() < 0.01, "{largest}");
+    assert!((number(&found["filtered"][1]["max_abs_before"]) - 2e-3).abs() < 1e-12);
+    let again = document(&workshop, &["spectrum", "out/filtered.csv", "--channel", "a"]);
+    assert_eq!(again["value_unit"], "m/s^2");
+    assert!((number(&again["lines"][0]["frequency_hz"]) - 20.0).abs() < 1e-6);
+    assert!((number(&again["lines"][0]["value"]) - 3.0).abs() < 0.01);
+}
+
+#[test]
+fn filter_resamples() {
+    let workshop = workshop(2000, harmonic);
+    let arguments = ["filter", "signal.csv", "--low-pass", "60", "--causal", "--resample", "400", "--channel", "x"];
+    let found = document(&workshop, &arguments);
+    assert!((number(&found["filtered_sampling_rate_hz"]) - 400.0).abs() < 1e-9);
+    assert_eq!(found["filtered"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn density_integrates_to_the_mean_square() {
+    let workshop = workshop(4000, harmonic);
+    let arguments = ["spectrum", "signal.csv", "--kind", "density", "--segment", "1000", "--out", "out"];
+    let found = document(&workshop, &arguments);
+    let table = fs::read_to_string(workshop.path("out/spectrum.csv")).unwrap();
+    let sum: f64 = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap()).sum();
+    let integral = sum * number(&found["frequency_step_hz"]);
+    // (3² + 0.5²)/2; both lines lie on values of the spectrum.
+    assert!((integral - 4.625).abs() < 1e-6, "{integral}");
+    assert!((number(&found["root_mean_square"]).powi(2) - 4.625).abs() < 1e-6);
+}
+
+#[test]
+fn decrement_gives_frequency_and_damping_with_intervals() {
+    let (w, d) = (2.0 * PI * 17.2, 0.015);
+    let workshop = workshop(4000, |t| [(-d * w * t).exp() * (w * t).cos() + 1e-3 * (1e4 * t).sin().sin(), 0.0]);
+    let found = document(&workshop, &["decrement", "signal.csv", "--modes", "1"]);
+    let mode = &found["modes"][0];
+    assert!((number(&mode["damping_ratio"]) / d - 1.0).abs() < 0.01, "{mode}");
+    assert!(number(&mode["damping_ratio_half_width"]) > 0.0);
+    assert!((number(&mode["logarithmic_decrement"]) / (2.0 * PI * d) - 1.0).abs() < 0.01);
+    assert!(number(&found["maxima"]["maxima"]) > 10.0);
+    assert_eq!(found["maxima"]["changes_over_the_decay"], false);
+}
+
+#[test]
+fn classification_with_frequency_and_with_reference() {
+    let workshop = workshop(8000, |t| {
+        let turn = 2.0 * PI * 31.0 * t;
+        [turn.cos() + 0.5 * (0.5 * turn).cos(), turn.sin()]
+    });
+    for source in [["--frequency", "31"], ["--reference", "x"]] {
+        let found = document(&workshop, &["classify", "signal.csv", source[0], source[1]]);
+        assert_eq!((&found["motion"], &found["period_multiple"]), (&"periodic".into(), &2.into()));
+        assert!((number(&found["excitation_frequency_hz"]) - 31.0).abs() < 1e-6);
+    }
+    let other = document(&workshop, &["classify", "signal.csv", "--frequency", "27"]);
+    assert_eq!((&other["motion"], &other["period_multiple"]), (&"aperiodic".into(), &Value::Null));
+}
+
+#[test]
+fn exponent_of_a_map_by_all_methods() {
+    let workshop = Workshop::with("");
+    let mut state = (0.1, 0.1);
+    let mut text = "x\n".to_owned();
+    for k in 0..2200 {
+        state = (1.0 - 1.4 * state.0 * state.0 + state.1, 0.3 * state.0);
+        if k >= 200 {
+            writeln!(text, "{}", state.0).unwrap();
+        }
+    }
+    fs::write(workshop.path("henon.csv"), text).unwrap();
+    let found = document(&workshop, &["lyapunov", "henon.csv", "--rate", "1", "--out", "out"]);
+    assert_eq!((&found["delay_samples"], &found["dimension"]), (&1.into(), &2.into()));
+    for method in ["wolf", "rosenstein", "kantz"] {
+        // The exponent is 0.418; a record of 2000 scatters by up to 8 %.
+        let exponent = number(&found[method]["exponent_per_s"]);
+        assert!((exponent / 0.418 - 1.0).abs() < 0.10, "{method}: {exponent}");
+    }
+    let table = fs::read_to_string(workshop.path("out/divergence.csv")).unwrap();
+    assert!(table.starts_with("time_s,rosenstein,kantz\n"));
+}
+
+/// From a study to what an instrument would have shown: simulate writes, chain reads.
+#[test]
+fn chain_takes_what_simulate_writes() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let simulate = [
+        "simulate", "study.toml", "--frequency", "13.8", "--periods", "20", "--transient-periods", "200",
+        "--samples-per-period", "400", "--out", "motion",
+    ];
+    assert_success(&workshop.hammerbeam(&simulate));
+    let arguments = [
+        "chain", "motion/samples.csv", "--periodic", "--low-pass", "850", "--sampling", "2000", "--noise", "0.01", "--seed", "3", "--out", "out",
+    ];
+    let found = document(&workshop, &arguments);
+    assert_eq!((&found["sensor"], &found["source"]), (&"acceleration".into(), &"acceleration".into()));
+    assert!((number(&found["sampling_rate_hz"]) - 13.8 * 400.0).abs() < 1e-6);
+    assert!(number(&found["max_abs_measured"]) < 1.05 * number(&found["max_abs_before"]));
+    let table = fs::read_to_string(workshop.path("out/measured.csv")).unwrap();
+    assert!(table.starts_with("time_s,acceleration_m_s2\n"));
+    assert_eq!(document(&workshop, &arguments), found, "the same seed is the same noise");
+    // What was computed has the period that the measurement shows.
+    let classified = document(&workshop, &["classify", "out/measured.csv", "--frequency", "13.8", "--multiples", "4"]);
+    assert_eq!(classified["motion"], "periodic");
+}
+
+/// Each refusal says what is wrong and which option helps.
+#[test]
+fn bad_files_are_refused_with_help() {
+    let workshop = Workshop::with("");
+    for (name, text, parts) in [
+        ("gap.csv", "t [s],a\n0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n6,1\n7,2\n8,1\n9,2\n20,1\n", ["there are 1 gaps", "--repair gaps"]),
+        ("missing.csv", "t [s],a\n0,1\n1,\n2,1\n3,2\n", ["\"a\" misses 1 of 4", "--repair missing"]),
+        ("back.csv", "t [s],a\n0,1\n2,2\n1,1\n3,2\n", ["time runs back 1 times", "--repair order"]),
+        ("twice.csv", "t [s],a\n0,1\n1,2\n1,1\n2,2\n", ["the time of the one before", "--repair duplicates"]),
+        ("uneven.csv", "t [s],a\n0,1\n1,2\n2.3,1\n3,2\n", ["sampling is uneven", "--repair uneven"]),
+        ("lengths.csv", "t [s],a,b\n0,1,1\n1,2,\n2,3,\n", ["unequal lengths", "--repair lengths"]),
+        ("norate.csv", "a\n1\n2\n3\n", ["does not say the sampling rate", "--rate"]),
+        ("notime.csv", "t [s],a\n0,1\n,2\n2,3\n", ["1 times are missing", "--rate"]),
+        ("text.csv", "t [s],a\n0,1\n1,2\n2,over\n", ["text.csv: line 4, column 2", "\"over\" is not a number"]),
+        ("ragged.csv", "t [s],a\n0,1\n1,2\n2\n", ["line 4 has 1 values", "have 2"]),
+        ("words.csv", "nothing to see\n", ["words.csv", "no rows of numbers"]),
+        ("empty.csv", "", ["empty.csv", "the file is empty"]),
+    ] {
+        fs::write(workshop.path(name), text).unwrap();
+        assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", name]), &parts);
+    }
+    fs::write(workshop.path("hdf.mat"), "MATLAB 7.3 MAT-file").unwrap();
+    assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "hdf.mat"]), &["MATLAB 7.3 (HDF5) is not read", "-v7"]);
+    assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "nowhere.csv"]), &["cannot read nowhere.csv"]);
+}
+
+#[test]
+fn repairs_are_made_and_told() {
+    let workshop = Workshop::with("");
+    fs::write(workshop.path("m.csv"), "t [s],a\n0,1\n1,\n2,3\n3,2\n4,5\n").unwrap();
+    let found = document(&workshop, &["spectrum", "m.csv", "--repair", "missing"]);
+    assert_eq!((&found["findings"][0]["kind"], &found["findings"][0]["channel"]), (&"missing-interpolated".into(), &"a".into()));
+    let text = workshop.hammerbeam(&["signal", "spectrum", "m.csv", "--repair", "missing"]);
+    assert!(stdout(&text).contains("note: channel \"a\": 1 missing samples were interpolated"));
+}
+
+#[test]
+fn options_that_make_no_sense_are_refused() {
+    let workshop = workshop(500, harmonic);
+    for (arguments, parts) in [
+        (&["filter", "signal.csv"][..], ["there is nothing to do", "--low-pass"]),
+        (&["filter", "signal.csv", "--low-pass", "850"], ["850", "half the sampling rate, 500 Hz"]),
+        (&["filter", "signal.csv", "--low-pass", "20", "--high-pass", "30"], ["upper cut-off", "30"]),
+        (&["spectrum", "signal.csv", "--channel", "b"], ["no channel", "channel"]),
+        (&["spectrum", "signal.csv", "--from", "3"], ["fewer than two samples", "3"]),
+        (&["spectrum", "signal.csv", "--kind", "power", "--segment", "9999"], ["at least 9999 samples", "there are 500"]),
+        (&["classify", "signal.csv", "--frequency", "400"], ["excitation frequency", "an eighth"]),
+        (&["classify", "signal.csv"], ["--frequency", "--reference"]),
+        (&["chain", "signal.csv", "--sensor", "velocity"], ["no velocity", "acceleration"]),
+    ] {
+        assert_bad_input(&workshop.hammerbeam(&[&["signal"], arguments].concat()), &parts);
+    }
+}
+
+#[test]
+fn nothing_found_is_exit_code_1() {
+    let workshop = workshop(500, |t| [(1e5 * t).sin().powi(3) * (7.7e6 * t * t).cos(), 0.0]);
+    let output = workshop.hammerbeam(&["signal", "decrement", "signal.csv", "--json"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stdout(&output));
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["error"]["exit_code"], 1);
+}
