@@ -160,7 +160,7 @@ pub struct ClassifyOptions {
     pub input: InputOptions,
 
     /// Excitation frequency
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, required_unless_present = "reference", conflicts_with = "reference")]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, conflicts_with = "reference")]
     pub frequency: Option<f64>,
 
     /// Channel that shows the excitation; its strongest line is the excitation frequency

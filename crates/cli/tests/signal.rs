@@ -45,7 +45,10 @@ fn filter_takes_the_upper_line_away_and_writes_what_can_be_read_again() {
     let workshop = workshop(2000, harmonic);
     let found = document(&workshop, &["filter", "signal.csv", "--low-pass", "60", "--out", "out"]);
     assert_eq!(found["sampling_rate_hz"], 1000.0);
-    assert_eq!((&found["channels"][1]["quantity"], &found["channels"][1]["unit"]), (&"displacement".into(), &"m".into()));
+    assert_eq!(
+        (&found["channels"][1]["quantity"], &found["channels"][1]["unit"]),
+        (&"displacement".into(), &"m".into())
+    );
     // The upper line is weakened by (60/200)^8 and more, the lower one by 1e-4.
     let largest = number(&found["filtered"][0]["max_abs_after"]);
     assert!((largest - 3.0).abs() < 0.01, "{largest}");
@@ -59,7 +62,8 @@ fn filter_takes_the_upper_line_away_and_writes_what_can_be_read_again() {
 #[test]
 fn filter_resamples() {
     let workshop = workshop(2000, harmonic);
-    let arguments = ["filter", "signal.csv", "--low-pass", "60", "--causal", "--resample", "400", "--channel", "x"];
+    let arguments =
+        ["filter", "signal.csv", "--low-pass", "60", "--causal", "--resample", "400", "--channel", "x"];
     let found = document(&workshop, &arguments);
     assert!((number(&found["filtered_sampling_rate_hz"]) - 400.0).abs() < 1e-9);
     assert_eq!(found["filtered"].as_array().unwrap().len(), 1);
@@ -71,7 +75,8 @@ fn density_integrates_to_the_mean_square() {
     let arguments = ["spectrum", "signal.csv", "--kind", "density", "--segment", "1000", "--out", "out"];
     let found = document(&workshop, &arguments);
     let table = fs::read_to_string(workshop.path("out/spectrum.csv")).unwrap();
-    let sum: f64 = table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap()).sum();
+    let sum: f64 =
+        table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse::<f64>().unwrap()).sum();
     let integral = sum * number(&found["frequency_step_hz"]);
     // (3² + 0.5²)/2; both lines lie on values of the spectrum.
     assert!((integral - 4.625).abs() < 1e-6, "{integral}");
@@ -81,7 +86,8 @@ fn density_integrates_to_the_mean_square() {
 #[test]
 fn decrement_gives_frequency_and_damping_with_intervals() {
     let (w, d) = (2.0 * PI * 17.2, 0.015);
-    let workshop = workshop(4000, |t| [(-d * w * t).exp() * (w * t).cos() + 1e-3 * (1e4 * t).sin().sin(), 0.0]);
+    let workshop =
+        workshop(4000, |t| [(-d * w * t).exp() * (w * t).cos() + 1e-3 * (1e4 * t).sin().sin(), 0.0]);
     let found = document(&workshop, &["decrement", "signal.csv", "--modes", "1"]);
     let mode = &found["modes"][0];
     assert!((number(&mode["damping_ratio"]) / d - 1.0).abs() < 0.01, "{mode}");
@@ -97,8 +103,10 @@ fn classification_with_frequency_and_with_reference() {
         let turn = 2.0 * PI * 31.0 * t;
         [turn.cos() + 0.5 * (0.5 * turn).cos(), turn.sin()]
     });
-    for source in [["--frequency", "31"], ["--reference", "x"]] {
-        let found = document(&workshop, &["classify", "signal.csv", source[0], source[1]]);
+    for source in [&["--frequency", "31"][..], &["--reference", "x"], &["--reference", "2", "--channel", "1"]]
+    {
+        let found = document(&workshop, &[&["classify", "signal.csv"], source].concat());
+        assert_eq!(found["channel"], "a");
         assert_eq!((&found["motion"], &found["period_multiple"]), (&"periodic".into(), &2.into()));
         assert!((number(&found["excitation_frequency_hz"]) - 31.0).abs() < 1e-6);
     }
@@ -134,12 +142,34 @@ fn exponent_of_a_map_by_all_methods() {
 fn chain_takes_what_simulate_writes() {
     let workshop = Workshop::with(TWO_MASSES);
     let simulate = [
-        "simulate", "study.toml", "--frequency", "13.8", "--periods", "20", "--transient-periods", "200",
-        "--samples-per-period", "400", "--out", "motion",
+        "simulate",
+        "study.toml",
+        "--frequency",
+        "13.8",
+        "--periods",
+        "20",
+        "--transient-periods",
+        "200",
+        "--samples-per-period",
+        "400",
+        "--out",
+        "motion",
     ];
     assert_success(&workshop.hammerbeam(&simulate));
     let arguments = [
-        "chain", "motion/samples.csv", "--periodic", "--low-pass", "850", "--sampling", "2000", "--noise", "0.01", "--seed", "3", "--out", "out",
+        "chain",
+        "motion/samples.csv",
+        "--periodic",
+        "--low-pass",
+        "850",
+        "--sampling",
+        "2000",
+        "--noise",
+        "0.01",
+        "--seed",
+        "3",
+        "--out",
+        "out",
     ];
     let found = document(&workshop, &arguments);
     assert_eq!((&found["sensor"], &found["source"]), (&"acceleration".into(), &"acceleration".into()));
@@ -149,7 +179,8 @@ fn chain_takes_what_simulate_writes() {
     assert!(table.starts_with("time_s,acceleration_m_s2\n"));
     assert_eq!(document(&workshop, &arguments), found, "the same seed is the same noise");
     // What was computed has the period that the measurement shows.
-    let classified = document(&workshop, &["classify", "out/measured.csv", "--frequency", "13.8", "--multiples", "4"]);
+    let classified =
+        document(&workshop, &["classify", "out/measured.csv", "--frequency", "13.8", "--multiples", "4"]);
     assert_eq!(classified["motion"], "periodic");
 }
 
@@ -158,7 +189,11 @@ fn chain_takes_what_simulate_writes() {
 fn bad_files_are_refused_with_help() {
     let workshop = Workshop::with("");
     for (name, text, parts) in [
-        ("gap.csv", "t [s],a\n0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n6,1\n7,2\n8,1\n9,2\n20,1\n", ["there are 1 gaps", "--repair gaps"]),
+        (
+            "gap.csv",
+            "t [s],a\n0,1\n1,2\n2,1\n3,2\n4,1\n5,2\n6,1\n7,2\n8,1\n9,2\n20,1\n",
+            ["there are 1 gaps", "--repair gaps"],
+        ),
         ("missing.csv", "t [s],a\n0,1\n1,\n2,1\n3,2\n", ["\"a\" misses 1 of 4", "--repair missing"]),
         ("back.csv", "t [s],a\n0,1\n2,2\n1,1\n3,2\n", ["time runs back 1 times", "--repair order"]),
         ("twice.csv", "t [s],a\n0,1\n1,2\n1,1\n2,2\n", ["the time of the one before", "--repair duplicates"]),
@@ -166,7 +201,11 @@ fn bad_files_are_refused_with_help() {
         ("lengths.csv", "t [s],a,b\n0,1,1\n1,2,\n2,3,\n", ["unequal lengths", "--repair lengths"]),
         ("norate.csv", "a\n1\n2\n3\n", ["does not say the sampling rate", "--rate"]),
         ("notime.csv", "t [s],a\n0,1\n,2\n2,3\n", ["1 times are missing", "--rate"]),
-        ("text.csv", "t [s],a\n0,1\n1,2\n2,over\n", ["text.csv: line 4, column 2", "\"over\" is not a number"]),
+        (
+            "text.csv",
+            "t [s],a\n0,1\n1,2\n2,over\n",
+            ["text.csv: line 4, column 2", "\"over\" is not a number"],
+        ),
         ("ragged.csv", "t [s],a\n0,1\n1,2\n2\n", ["line 4 has 1 values", "have 2"]),
         ("words.csv", "nothing to see\n", ["words.csv", "no rows of numbers"]),
         ("empty.csv", "", ["empty.csv", "the file is empty"]),
@@ -175,8 +214,14 @@ fn bad_files_are_refused_with_help() {
         assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", name]), &parts);
     }
     fs::write(workshop.path("hdf.mat"), "MATLAB 7.3 MAT-file").unwrap();
-    assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "hdf.mat"]), &["MATLAB 7.3 (HDF5) is not read", "-v7"]);
-    assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "nowhere.csv"]), &["cannot read nowhere.csv"]);
+    assert_bad_input(
+        &workshop.hammerbeam(&["signal", "spectrum", "hdf.mat"]),
+        &["MATLAB 7.3 (HDF5) is not read", "-v7"],
+    );
+    assert_bad_input(
+        &workshop.hammerbeam(&["signal", "spectrum", "nowhere.csv"]),
+        &["cannot read nowhere.csv"],
+    );
 }
 
 #[test]
@@ -184,7 +229,10 @@ fn repairs_are_made_and_told() {
     let workshop = Workshop::with("");
     fs::write(workshop.path("m.csv"), "t [s],a\n0,1\n1,\n2,3\n3,2\n4,5\n").unwrap();
     let found = document(&workshop, &["spectrum", "m.csv", "--repair", "missing"]);
-    assert_eq!((&found["findings"][0]["kind"], &found["findings"][0]["channel"]), (&"missing-interpolated".into(), &"a".into()));
+    assert_eq!(
+        (&found["findings"][0]["kind"], &found["findings"][0]["channel"]),
+        (&"missing-interpolated".into(), &"a".into())
+    );
     let text = workshop.hammerbeam(&["signal", "spectrum", "m.csv", "--repair", "missing"]);
     assert!(stdout(&text).contains("note: channel \"a\": 1 missing samples were interpolated"));
 }
@@ -198,7 +246,10 @@ fn options_that_make_no_sense_are_refused() {
         (&["filter", "signal.csv", "--low-pass", "20", "--high-pass", "30"], ["upper cut-off", "30"]),
         (&["spectrum", "signal.csv", "--channel", "b"], ["no channel", "channel"]),
         (&["spectrum", "signal.csv", "--from", "3"], ["fewer than two samples", "3"]),
-        (&["spectrum", "signal.csv", "--kind", "power", "--segment", "9999"], ["at least 9999 samples", "there are 500"]),
+        (
+            &["spectrum", "signal.csv", "--kind", "power", "--segment", "9999"],
+            ["at least 9999 samples", "there are 500"],
+        ),
         (&["classify", "signal.csv", "--frequency", "400"], ["excitation frequency", "an eighth"]),
         (&["classify", "signal.csv"], ["--frequency", "--reference"]),
         (&["chain", "signal.csv", "--sensor", "velocity"], ["no velocity", "acceleration"]),

@@ -21,9 +21,6 @@ pub enum SignalError {
     /// A number that was asked for makes no sense.
     #[error("{what} is {found}, must be {allowed}")]
     Input { what: &'static str, found: f64, allowed: String },
-    /// A channel that is not there.
-    #[error("there is no channel \"{name}\"; there are: {names}")]
-    NoSuchChannel { name: String, names: String },
     /// A stretch of time with nothing in it.
     #[error(
         "there are fewer than two samples between {from_s} s and {to_s} s; the record runs from {start_s} s to {end_s} s"

@@ -1,6 +1,6 @@
 //! What a file says, before it is judged.
 
-use crate::finding::Finding;
+use crate::{finding::Finding, judge::RecordError};
 
 /// The times of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +52,26 @@ impl RawRecord {
     #[must_use]
     pub fn single(axis: Axis, channels: Vec<RawChannel>, findings: Vec<Finding>) -> Self {
         Self { groups: vec![RawGroup { axis, channels }], findings }
+    }
+
+    /// Name of a channel that is meant by its name or its number, from 1 on in the order of the file. A name comes before a number.
+    ///
+    /// # Errors
+    /// [`RecordError::NoSuchChannel`] with the names there are.
+    pub fn channel_name(&self, text: &str) -> Result<&str, RecordError> {
+        let names: Vec<&str> = self
+            .groups
+            .iter()
+            .flat_map(|group| &group.channels)
+            .map(|channel| channel.name.as_str())
+            .collect();
+        let number = || text.parse::<usize>().ok().and_then(|number| names.get(number.checked_sub(1)?));
+        names
+            .iter()
+            .find(|name| **name == text)
+            .or_else(number)
+            .copied()
+            .ok_or_else(|| RecordError::NoSuchChannel { name: text.to_owned(), names: names.join(", ") })
     }
 
     /// Adds a channel to the group with the same times, which is made if it is not there.

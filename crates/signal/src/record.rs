@@ -1,6 +1,6 @@
 //! A record: channels with one sampling rate, in SI units, nothing missing.
 
-use crate::{error::SignalError, finding::Finding, unit::Quantity};
+use crate::{error::SignalError, finding::Finding, judge::RecordError, unit::Quantity};
 
 /// One measured or computed quantity over time.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,16 +47,21 @@ impl Record {
         self.len() as f64 / self.sampling_rate_hz
     }
 
-    /// Index of a channel by its name, or by its number from 1 on.
+    /// Index of a channel by its name.
     ///
     /// # Errors
-    /// [`SignalError::NoSuchChannel`] with the names there are.
-    pub fn find(&self, name: &str) -> Result<usize, SignalError> {
-        let by_name = self.channels.iter().position(|channel| channel.name == name);
-        let by_number = || name.parse::<usize>().ok()?.checked_sub(1).filter(|&n| n < self.channels.len());
-        by_name.or_else(by_number).ok_or_else(|| SignalError::NoSuchChannel {
-            name: name.to_owned(),
-            names: self.channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>().join(", "),
+    /// [`RecordError::NoSuchChannel`] with the names there are.
+    pub fn find(&self, name: &str) -> Result<usize, RecordError> {
+        self.channels.iter().position(|channel| channel.name == name).ok_or_else(|| {
+            RecordError::NoSuchChannel {
+                name: name.to_owned(),
+                names: self
+                    .channels
+                    .iter()
+                    .map(|channel| channel.name.clone())
+                    .collect::<Vec<_>>()
+                    .join(", "),
+            }
         })
     }
 

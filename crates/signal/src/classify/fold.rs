@@ -8,7 +8,7 @@ use crate::resample::Interpolation;
 
 /// Fewest samples of a period after interpolation.
 const FEWEST: f64 = 16.0;
-/// Parts of the record in which the phase is looked at.
+/// Parts of the record, at least, in which the phase is looked at.
 const PARTS: usize = 16;
 
 /// A record with a whole number of samples a period.
@@ -91,20 +91,23 @@ impl Folded {
         let turns: Vec<Complex<f64>> = (0..self.period)
             .map(|k| Complex::from_polar(1.0, -2.0 * PI * k as f64 / self.period as f64))
             .collect();
-        let length = periods / parts * self.period;
+        // Subharmonics of order two, three, four and six have whole periods in a part of twelve: they do not turn the phase.
+        let part = periods / parts;
+        let part = [12, 6, 2, 1].into_iter().map(|n| part / n * n).find(|part| *part > 0).unwrap_or(1);
+        let length = part * self.period;
         let phasor = |part: &[f64]| -> Complex<f64> {
             part.chunks_exact(self.period)
                 .flat_map(|piece| piece.iter().zip(&turns).map(|(value, turn)| turn * *value))
                 .sum()
         };
-        let phasors: Vec<Complex<f64>> = self.samples.chunks_exact(length).take(parts).map(phasor).collect();
-        let level = phasors.iter().map(|z| z.norm()).sum::<f64>() / parts as f64;
+        let phasors: Vec<Complex<f64>> = self.samples.chunks_exact(length).map(phasor).collect();
+        let level = phasors.iter().map(|z| z.norm()).sum::<f64>() / phasors.len() as f64;
         // A fundamental of a tenth of the motion at least: half of its squared amplitude against the variance.
-        let part = 2.0 * (level / length as f64).powi(2) / self.variance;
-        if part < 0.01 || phasors.iter().any(|z| z.norm() < 0.5 * level) {
+        let power = 2.0 * (level / length as f64).powi(2) / self.variance;
+        if power < 0.01 || phasors.iter().any(|z| z.norm() < 0.5 * level) {
             return None;
         }
-        straight(&phasors).map(|cycles| cycles / (periods / parts) as f64)
+        straight(&phasors).map(|cycles| cycles / part as f64)
     }
 }
 

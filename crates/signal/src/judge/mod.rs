@@ -82,8 +82,10 @@ impl RawRecord {
     /// # Errors
     /// Each way in which it is unusable and not allowed to be repaired: [`RecordError`].
     pub fn judge(self, terms: &Terms) -> Result<Record, RecordError> {
+        let name = |text: &String| self.channel_name(text).map(str::to_owned);
+        let wanted = terms.channels.iter().map(name).collect::<Result<Vec<String>, RecordError>>()?;
         let mut findings = self.findings;
-        let group = one_group(self.groups, terms)?;
+        let group = one_group(self.groups, &wanted, terms)?;
         let (axis, channels) = equal_lengths(group, terms, &mut findings)?;
         let (grid, mut channels) = times::even(axis, channels, terms, &mut findings)?;
         for channel in &mut channels {
@@ -95,20 +97,9 @@ impl RawRecord {
     }
 }
 
-/// The channels that are wanted; they have to belong together.
-fn one_group(groups: Vec<RawGroup>, terms: &Terms) -> Result<RawGroup, RecordError> {
-    let names: Vec<String> =
-        groups.iter().flat_map(|group| &group.channels).map(|channel| channel.name.clone()).collect();
-    let number =
-        |text: &String| text.parse::<usize>().ok().and_then(|number| names.get(number.checked_sub(1)?));
-    // A name comes before a number.
-    let name_of = |text: &String| names.iter().find(|name| *name == text).or_else(|| number(text));
-    let mut wanted = Vec::new();
-    for text in &terms.channels {
-        let missing = || RecordError::NoSuchChannel { name: text.clone(), names: names.join(", ") };
-        wanted.push(name_of(text).ok_or_else(missing)?);
-    }
-    let wanted = |name: &String| wanted.is_empty() || wanted.contains(&name);
+/// The channels that are wanted (all if none is named); they have to belong together.
+fn one_group(groups: Vec<RawGroup>, wanted: &[String], terms: &Terms) -> Result<RawGroup, RecordError> {
+    let wanted = |name: &String| wanted.is_empty() || wanted.contains(name);
     let mut kept: Vec<RawGroup> = Vec::new();
     for RawGroup { axis, mut channels } in groups {
         channels.retain(|channel| wanted(&channel.name) && !channel.samples.is_empty());

@@ -113,7 +113,7 @@ pub enum ReadError {
     TwoRates { first: f64, second: f64 },
 }
 
-/// Reads what a file says.
+/// Reads what bytes say.
 ///
 /// # Errors
 /// See [`ReadError`].
@@ -131,6 +131,18 @@ pub fn parse(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     }
 }
 
+/// Reads what a file says.
+///
+/// # Returns
+/// That, and the format of the file.
+/// # Errors
+/// [`SignalError::File`], [`SignalError::Read`].
+pub fn read_raw(path: &Path) -> Result<(RawRecord, Format), SignalError> {
+    let bytes = std::fs::read(path).map_err(|source| SignalError::File { path: path.to_owned(), source })?;
+    let raw = parse(&bytes).map_err(|source| SignalError::Read { path: path.to_owned(), source })?;
+    Ok((raw, Format::of(&bytes)))
+}
+
 /// Reads a file and judges it.
 ///
 /// # Returns
@@ -138,7 +150,6 @@ pub fn parse(bytes: &[u8]) -> Result<RawRecord, ReadError> {
 /// # Errors
 /// [`SignalError::File`], [`SignalError::Read`], [`SignalError::Record`].
 pub fn read(path: &Path, terms: &Terms) -> Result<(Record, Format), SignalError> {
-    let bytes = std::fs::read(path).map_err(|source| SignalError::File { path: path.to_owned(), source })?;
-    let raw = parse(&bytes).map_err(|source| SignalError::Read { path: path.to_owned(), source })?;
-    Ok((raw.judge(terms)?, Format::of(&bytes)))
+    let (raw, format) = read_raw(path)?;
+    Ok((raw.judge(terms)?, format))
 }

@@ -17,7 +17,7 @@ use crate::{
 };
 
 pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
-    let input = input::open(&options.input, &[])?;
+    let input = input::open(&options.input, None)?;
     let filter = input::filter(&options.band, input.record.sampling_rate_hz)?;
     let chain = MeasuringChain {
         sensor: match options.sensor {

@@ -1,9 +1,6 @@
 //! `hammerbeam signal classify`: periodic or not, and in which multiple of the excitation period.
 
-use hammerbeam_signal::{
-    SignalError,
-    classify::{Classification, ClassifySettings, Motion, classify, excitation_frequency},
-};
+use hammerbeam_signal::classify::{Classification, ClassifySettings, Motion, classify, excitation_frequency};
 use serde_json::{Value, json};
 
 use super::input::{self, Input, named};
@@ -14,20 +11,15 @@ pub fn run(options: &ClassifyOptions, output: Output) -> Result<(), Failure> {
         let message = "--aperiodic-above must not be less than --periodic-below";
         return Err(Failure::BadInput(message.to_owned()));
     }
-    let reference = options.reference.as_deref();
-    let input = input::open(&options.input, &reference.into_iter().collect::<Vec<_>>())?;
-    let record = &input.record;
-    let (channel, frequency) = match (reference, options.frequency) {
-        (Some(name), _) => {
-            let at = record.find(name)?;
-            let found = excitation_frequency(&record.channels[at].samples, record.sampling_rate_hz)?;
-            // Without a choice of the user's: the first channel that is not the reference.
-            let other = (0..record.channels.len()).find(|index| *index != at).unwrap_or(at);
-            let chosen = options.input.channel.first().map(|name| record.find(name)).transpose()?;
-            (chosen.unwrap_or(other), found)
+    let input = input::open(&options.input, options.reference.as_deref())?;
+    let rate = input.record.sampling_rate_hz;
+    let frequency = match (input.reference(), options.frequency) {
+        (Some(reference), _) => excitation_frequency(&reference.samples, rate)?,
+        (None, Some(frequency)) => frequency,
+        (None, None) => {
+            let message = "give --frequency or --reference";
+            return Err(Failure::BadInput(message.to_owned()));
         }
-        (None, Some(frequency)) => (0, frequency),
-        (None, None) => return Err(SignalError::NoReferenceLine { percent: 0.0 }.into()),
     };
     let settings = ClassifySettings {
         most: options.multiples as usize,
@@ -35,8 +27,8 @@ pub fn run(options: &ClassifyOptions, output: Output) -> Result<(), Failure> {
         aperiodic_above: options.aperiodic_above,
         ..ClassifySettings::default()
     };
-    let found = classify(&record.channels[channel].samples, record.sampling_rate_hz, frequency, &settings)?;
-    output.give(&document(&input, channel, &found), || text(&input, channel, &found));
+    let found = classify(&input.channel().samples, rate, frequency, &settings)?;
+    output.give(&document(&input, &found), || text(&input, &found));
     Ok(())
 }
 
@@ -55,7 +47,7 @@ fn reason(motion: Motion) -> Option<String> {
     }
 }
 
-fn document(input: &Input, channel: usize, found: &Classification) -> Value {
+fn document(input: &Input, found: &Classification) -> Value {
     let multiple = match found.motion {
         Motion::Periodic { period_multiple } => Some(period_multiple),
         _ => None,
@@ -68,7 +60,7 @@ fn document(input: &Input, channel: usize, found: &Classification) -> Value {
         })
     });
     let mut document = input.document();
-    document["channel"] = json!(input.record.channels[channel].name);
+    document["channel"] = json!(input.channel().name);
     document["motion"] = json!(word(found.motion));
     document["period_multiple"] = json!(multiple);
     document["reason"] = json!(reason(found.motion));
@@ -81,11 +73,11 @@ fn document(input: &Input, channel: usize, found: &Classification) -> Value {
     document
 }
 
-fn text(input: &Input, channel: usize, found: &Classification) -> String {
+fn text(input: &Input, found: &Classification) -> String {
     let mut lines = vec![input.heading()];
     lines.push(format!(
         "{} over {} excitation periods at {:.6} Hz",
-        named(&input.record.channels[channel]),
+        named(input.channel()),
         found.periods,
         found.frequency_hz
     ));

@@ -7,7 +7,7 @@ use super::input::{self, Input, named};
 use crate::{failure::Failure, output::Output, signal_args::DecrementOptions};
 
 pub fn run(options: &DecrementOptions, output: Output) -> Result<(), Failure> {
-    let input = input::open(&options.input, &[])?;
+    let input = input::open(&options.input, None)?;
     let (samples, rate) = (&input.channel().samples, input.record.sampling_rate_hz);
     let settings = DecaySettings {
         modes: options.modes.map(|modes| modes as usize),

@@ -16,7 +16,7 @@ use crate::{
 };
 
 pub fn run(options: &FilterOptions, output: Output) -> Result<(), Failure> {
-    let input = input::open(&options.input, &[])?;
+    let input = input::open(&options.input, None)?;
     let record = &input.record;
     let filter = input::filter(&options.band, record.sampling_rate_hz)?;
     if filter.is_none() && options.resample.is_none() {

@@ -3,7 +3,7 @@
 use hammerbeam_signal::{
     Channel, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
     filter::{Band, Sections, butterworth},
-    read::read,
+    read::read_raw,
 };
 use serde_json::{Value, json};
 
@@ -16,71 +16,79 @@ use crate::{
 /// A record with where it is from.
 pub struct Input {
     pub record: Record,
+    channel: usize,
+    reference: Option<usize>,
     format: Format,
     file: String,
 }
 
 /// Reads and judges a file.
 ///
-/// * `others`: channels that are wanted besides those the user names, such as a reference.
-pub fn open(options: &InputOptions, others: &[&str]) -> Result<Input, Failure> {
-    let allows = |repair: Repair| options.repair.contains(&repair);
-    let named = options.channel.iter().cloned();
-    let channels = if options.channel.is_empty() {
-        Vec::new()
-    } else {
-        named.chain(others.iter().map(|name| (*name).to_owned())).collect()
-    };
-    let terms = Terms {
-        sampling_rate_hz: options.rate,
-        repairs: Repairs {
-            missing: allows(Repair::Missing),
-            gaps: allows(Repair::Gaps),
-            uneven: allows(Repair::Uneven),
-            duplicates: allows(Repair::Duplicates),
-            order: allows(Repair::Order),
-            lengths: allows(Repair::Lengths),
-        },
-        channels,
-    };
-    let (record, format) = read(&options.file, &terms).map_err(with_hint)?;
+/// * `reference`: a channel that is wanted besides those the user names.
+pub fn open(options: &InputOptions, reference: Option<&str>) -> Result<Input, Failure> {
+    let (raw, format) = read_raw(&options.file)?;
+    let name = |text: &str| raw.channel_name(text).map(str::to_owned).map_err(SignalError::from);
+    let chosen = options.channel.iter().map(|text| name(text)).collect::<Result<Vec<_>, _>>()?;
+    let reference = reference.map(name).transpose()?;
+    let channels =
+        if chosen.is_empty() { Vec::new() } else { chosen.iter().chain(&reference).cloned().collect() };
+    let terms = Terms { sampling_rate_hz: options.rate, repairs: repairs(&options.repair), channels };
+    let record = raw.judge(&terms).map_err(with_hint)?;
     let record = if options.from.is_some() || options.to.is_some() {
         record.part(options.from.unwrap_or(f64::NEG_INFINITY), options.to.unwrap_or(f64::INFINITY))?
     } else {
         record
     };
-    Ok(Input { record, format, file: options.file.display().to_string() })
+    let index = |name: &String| record.find(name).map_err(SignalError::from);
+    let reference = reference.as_ref().map(index).transpose()?;
+    let channel = match chosen.first() {
+        Some(name) => index(name)?,
+        // The first that is not the reference.
+        None => (0..record.channels.len()).find(|index| Some(*index) != reference).unwrap_or(0),
+    };
+    Ok(Input { record, channel, reference, format, file: options.file.display().to_string() })
+}
+
+fn repairs(allowed: &[Repair]) -> Repairs {
+    let allows = |repair: Repair| allowed.contains(&repair);
+    Repairs {
+        missing: allows(Repair::Missing),
+        gaps: allows(Repair::Gaps),
+        uneven: allows(Repair::Uneven),
+        duplicates: allows(Repair::Duplicates),
+        order: allows(Repair::Order),
+        lengths: allows(Repair::Lengths),
+    }
 }
 
 /// A refusal, with the option that helps.
-fn with_hint(error: SignalError) -> Failure {
+fn with_hint(error: RecordError) -> Failure {
     let hint = match &error {
-        SignalError::Record(RecordError::NoSamplingRate) => "give it with --rate",
-        SignalError::Record(RecordError::DifferentSampling { .. }) => {
-            "choose channels of one group with --channel"
-        }
-        SignalError::Record(RecordError::UnequalLengths { .. }) => {
-            "--repair lengths cuts them to the shortest"
-        }
-        SignalError::Record(RecordError::Missing { .. }) => "--repair missing interpolates them",
-        SignalError::Record(RecordError::TimeMissing { .. }) => {
-            "with --rate the times in the file are not used"
-        }
-        SignalError::Record(RecordError::TimeDecreases { .. }) => "--repair order sorts by time",
-        SignalError::Record(RecordError::DuplicateTimes { .. }) => {
+        RecordError::NoSamplingRate => "give it with --rate",
+        RecordError::DifferentSampling { .. } => "choose channels of one group with --channel",
+        RecordError::UnequalLengths { .. } => "--repair lengths cuts them to the shortest",
+        RecordError::Missing { .. } => "--repair missing interpolates them",
+        RecordError::TimeMissing { .. } => "with --rate the times in the file are not used",
+        RecordError::TimeDecreases { .. } => "--repair order sorts by time",
+        RecordError::DuplicateTimes { .. } => {
             "if the times are rounded, give the sampling rate with --rate; --repair duplicates drops the samples"
         }
-        SignalError::Record(RecordError::Gaps { .. }) => "--repair gaps fills them by interpolation",
-        SignalError::Record(RecordError::Uneven { .. }) => "--repair uneven interpolates to an even grid",
-        _ => return error.into(),
+        RecordError::Gaps { .. } => "--repair gaps fills them by interpolation",
+        RecordError::Uneven { .. } => "--repair uneven interpolates to an even grid",
+        _ => return SignalError::from(error).into(),
     };
     Failure::BadInput(format!("{error}\nhelp: {hint}"))
 }
 
 impl Input {
-    /// The channel a command works on: the first.
+    /// The channel a command works on.
     pub fn channel(&self) -> &Channel {
-        &self.record.channels[0]
+        &self.record.channels[self.channel]
+    }
+
+    /// The reference, if one was named.
+    pub fn reference(&self) -> Option<&Channel> {
+        self.reference.map(|index| &self.record.channels[index])
     }
 
     /// What is said of the record in every document.

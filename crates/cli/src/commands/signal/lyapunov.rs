@@ -18,7 +18,7 @@ use crate::{
 };
 
 pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {
-    let input = input::open(&options.input, &[])?;
+    let input = input::open(&options.input, None)?;
     let whole = |number: Option<u32>| number.map(|number| number as usize);
     let choice = EmbeddingChoice {
         delay: whole(options.delay),

@@ -18,7 +18,7 @@ use crate::{
 const APART: usize = 3;
 
 pub fn run(options: &SpectrumOptions, output: Output) -> Result<(), Failure> {
-    let input = input::open(&options.input, &[])?;
+    let input = input::open(&options.input, None)?;
     let channel = input.channel();
     let spectrum = spectrum(&input.record, channel, options)?;
     let lines = spectrum.lines(options.lines, APART);
