@@ -2,6 +2,7 @@
 
 use hammerbeam_signal::{
     SignalError,
+    decay::Estimate,
     exponent::{
         Divergence, DivergenceSettings, Embedding, EmbeddingChoice, WolfExponent, WolfSettings, embedding,
         kantz, rosenstein, wolf,
@@ -44,6 +45,12 @@ pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {
 
 type Tried<T> = Option<Result<T, SignalError>>;
 
+/// What a method gave: the exponent, or why there is none.
+struct Outcome {
+    name: &'static str,
+    exponent: Result<Estimate, String>,
+}
+
 struct Found {
     wolf: Tried<WolfExponent>,
     rosenstein: Tried<Divergence>,
@@ -74,21 +81,20 @@ impl Found {
         Ok(self)
     }
 
-    /// Methods by their names, with the exponent or the reason.
-    fn exponents(&self) -> Vec<(&'static str, Result<(f64, f64), String>)> {
-        let of = |tried: &Tried<Divergence>| {
-            tried.as_ref().map(|tried| match tried {
-                Ok(found) => Ok((found.exponent.value, found.exponent.half_width)),
-                Err(error) => Err(error.to_string()),
-            })
+    /// What each method that was tried gave.
+    fn outcomes(&self) -> Vec<Outcome> {
+        let outcome = |name, exponent: Result<Estimate, &SignalError>| Outcome {
+            name,
+            exponent: exponent.map_err(SignalError::to_string),
         };
-        let wolf = self.wolf.as_ref().map(|tried| match tried {
-            Ok(found) => Ok((found.exponent.value, found.exponent.half_width)),
-            Err(error) => Err(error.to_string()),
-        });
-        [("wolf", wolf), ("rosenstein", of(&self.rosenstein)), ("kantz", of(&self.kantz))]
+        let divergence = |name, tried: &Tried<Divergence>| {
+            tried.as_ref().map(|tried| outcome(name, tried.as_ref().map(|found| found.exponent)))
+        };
+        let wolf =
+            self.wolf.as_ref().map(|tried| outcome("wolf", tried.as_ref().map(|found| found.exponent)));
+        [wolf, divergence("rosenstein", &self.rosenstein), divergence("kantz", &self.kantz)]
             .into_iter()
-            .filter_map(|(name, tried)| Some((name, tried?)))
+            .flatten()
             .collect()
     }
 
@@ -113,10 +119,8 @@ impl Found {
                 "kept": found.kept,
             })
         });
-        let reasons = self
-            .exponents()
-            .into_iter()
-            .filter_map(|(name, tried)| Some((name.to_owned(), json!(tried.err()?))));
+        let reason = |outcome: Outcome| Some((outcome.name.to_owned(), json!(outcome.exponent.err()?)));
+        let reasons = self.outcomes().into_iter().filter_map(reason);
         let mut document = input.document();
         document["channel"] = json!(input.channel().name);
         document["confidence"] = json!(0.95);
@@ -141,9 +145,11 @@ impl Found {
             embedding.dimension,
             embedding.theiler_window
         ));
-        for (name, tried) in self.exponents() {
-            lines.push(match tried {
-                Ok((value, half_width)) => format!("  {name:<10} {value:>12.5} +- {half_width:.5} 1/s"),
+        for Outcome { name, exponent } in self.outcomes() {
+            lines.push(match exponent {
+                Ok(Estimate { value, half_width }) => {
+                    format!("  {name:<10} {value:>12.5} +- {half_width:.5} 1/s")
+                }
                 Err(reason) => format!("  {name:<10} no result: {reason}"),
             });
         }
