@@ -3,7 +3,7 @@
 //! With `q` the smallest step between successive samples that differ (the resolution), a smooth maximum
 //! `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a step of about `c n/2 = 4 q/n`,
 //! at most `4/3 q` for three samples. So a run of three or more equal samples at the largest or smallest value that is entered or left with a
-//! step of more than `2 q` is no smooth maximum: it is counted as clipped.
+//! step of more than `2 q` is no smooth maximum: it is counted as clipped. Standing at exactly zero does not count: a contact force does.
 
 use crate::{finding::Finding, raw::RawChannel};
 
@@ -26,7 +26,7 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
         .map(|pair| (pair[1] - pair[0]).abs())
         .filter(|step| *step > 0.0)
         .fold(f64::INFINITY, f64::min);
-    for level in [high, low] {
+    for level in [high, low].into_iter().filter(|level| *level != 0.0) {
         let runs = flat_tops(samples, level, resolution);
         let Some(&(first, _)) = runs.first() else { continue };
         findings.push(Finding::Clipped {

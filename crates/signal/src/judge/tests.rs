@@ -148,6 +148,12 @@ fn clipped_channel_is_told_and_a_quantised_sine_is_not() {
 }
 
 #[test]
+fn contact_force_is_not_clipped_at_zero() {
+    let force: Vec<f64> = sine(200).iter().map(|value| value.max(0.0)).collect();
+    assert_eq!(raw(even_times(200), force).judge(&Terms::default()).unwrap().findings, []);
+}
+
+#[test]
 fn constant_channel_is_told() {
     let findings = raw(even_times(20), vec![1.5; 20]).judge(&Terms::default()).unwrap().findings;
     assert_eq!(findings, [Finding::Constant { channel: "a".to_owned() }]);
