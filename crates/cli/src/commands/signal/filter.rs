@@ -5,15 +5,11 @@ use hammerbeam_signal::{
     filter::Sections,
     resample::{Ratio, resample},
 };
+use hammerbeam_study::export::{Table, number};
 use serde_json::json;
 
 use super::input::{self, Input, largest, named, rounded, title};
-use crate::{
-    failure::Failure,
-    output::Output,
-    signal_args::FilterOptions,
-    table::{Table, number},
-};
+use crate::{failure::Failure, output::Output, signal_args::FilterOptions};
 
 pub fn run(options: &FilterOptions, output: Output) -> Result<(), Failure> {
     let input = input::open(&options.input, None)?;

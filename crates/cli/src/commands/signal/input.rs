@@ -5,12 +5,12 @@ use hammerbeam_signal::{
     filter::{Band, Sections, butterworth},
     read::read_raw,
 };
+use hammerbeam_study::export::word;
 use serde_json::{Value, json};
 
 use crate::{
     failure::Failure,
     signal_args::{BandOptions, InputOptions, Repair},
-    table::word,
 };
 
 /// A record with where it is from.

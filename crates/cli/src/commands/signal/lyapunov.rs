@@ -8,6 +8,7 @@ use hammerbeam_signal::{
         kantz, rosenstein, wolf,
     },
 };
+use hammerbeam_study::export::{Table, header, number};
 use serde_json::{Value, json};
 
 use super::input::{self, Input, named};
@@ -15,7 +16,6 @@ use crate::{
     failure::Failure,
     output::Output,
     signal_args::{ExponentOptions, Method},
-    table::{Table, header, number},
 };
 
 pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {

@@ -4,6 +4,7 @@ use hammerbeam_signal::{
     Channel, Record,
     spectrum::{Detrend, Line, Scaling, Spectrum, WelchSettings, Window, amplitude_spectrum, welch},
 };
+use hammerbeam_study::export::{Table, header, number};
 use serde_json::json;
 
 use super::input::{self, Input, named, unit};
@@ -11,7 +12,6 @@ use crate::{
     failure::Failure,
     output::Output,
     signal_args::{DetrendName, SpectrumKind, SpectrumOptions, WindowName},
-    table::{Table, header, number},
 };
 
 /// Bins within which only the highest line counts: half the width of the widest main lobe but one.
