@@ -25,6 +25,7 @@
 //! - `‖z₁ − z₀ − h (t₀ + t₁)/2‖ > sheet_distance + h θ/10`: chord and tangents are not those of one arc,
 //! - the signature of the solution changes and `h > signature_step`,
 //! - the Hermite polynomial of `λ` turns twice,
+//! - the point lies on a simpler path, which the problem knows and which is met at branch points only,
 //! - the point lies on a stretch that was already walked.
 //!
 //! The second look at a step in doubt is the step to about its middle, and from there on: what short steps find is

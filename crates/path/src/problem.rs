@@ -84,6 +84,16 @@ pub trait PathProblem {
         values.clear();
     }
 
+    /// Distance of a point from the nearest solution that this path can meet at branch points only, in the norm of the weights; infinite if there is
+    /// none, or if nothing is known.
+    ///
+    /// An orbit of N periods solves the same equations as one of a divisor of N that is gone through several times, a solution without a symmetry the
+    /// same as one with it. Such a path is tangent to nothing: a point that comes that close is a jump. Answered without an evaluation.
+    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+        let _ = point;
+        f64::INFINITY
+    }
+
     /// What kind of solution the last evaluated point is: equal along one smooth arc, different where `R` may
     /// lose derivatives (for an impact problem: a hash of the sequence of contacts, which changes at grazing).
     fn signature(&self) -> u64 {

@@ -11,6 +11,7 @@ mod leap;
 mod range_end;
 mod recut;
 mod rescale;
+mod simpler;
 mod start;
 mod step_control;
 mod transfer;
@@ -185,7 +186,8 @@ impl Follower {
         let mut step = self.first_step();
         loop {
             let attempt = self.attempt(problem, step, attempts.most_earlier);
-            let doubt = match attempt.and_then(|arrival| self.heed_zeros(problem, step, arrival)) {
+            let checked = attempt.and_then(|arrival| self.heed_simpler(problem, arrival));
+            let doubt = match checked.and_then(|arrival| self.heed_zeros(problem, step, arrival)) {
                 Ok(arrival) => {
                     self.accept(arrival, step, attempts);
                     return Ok(());
@@ -213,6 +215,7 @@ impl Follower {
         step: f64,
     ) -> Option<(Arrival, f64)> {
         self.turn_corner(problem, step)
+            .and_then(|(arrival, length)| Ok((self.heed_simpler(problem, arrival)?, length)))
             .or_else(|_| self.pass_recut(problem, step))
             .or_else(|_| self.leap(problem))
             .ok()
