@@ -27,7 +27,9 @@ use hammerbeam_motion::{
     Flow, Stretch,
     exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+use hammerbeam_path::{
+    DenseLu, Determinant, EvaluationError, Events, Outside, PathProblem, SingularJacobian, TestValue,
+};
 
 use crate::{
     ContinuationParameter, NoEigenvalues, eigenvalues::eigenvalues, stability, state_scale::StateScale,
@@ -410,6 +412,13 @@ impl PathProblem for ShootingProblem {
         if let Ok(multipliers) = self.multipliers() {
             values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
         }
+    }
+
+    fn outside(&mut self, events: Events) -> Option<Outside> {
+        if !self.watches_stability {
+            return None;
+        }
+        self.multipliers().ok().map(|multipliers| stability::outside(multipliers, events))
     }
 
     /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart.

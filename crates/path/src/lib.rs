@@ -37,7 +37,7 @@
 //! signature* the steps shrink to `signature_step` on both sides, in proportion to the distance from the change, so
 //! that pairs of folds beside it are found whatever the longest step; the change itself is bracketed by bisection. A *zero of a
 //! test function* of the problem (for orbits: a multiplier on the unit circle) is located by regula falsi; where the count of its zeros
-//! rises by two within a step the step is in doubt.
+//! rises by two within a step the step is in doubt, as is one over which another number of multipliers crosses the unit circle than the events say.
 //!
 //! # Example
 //! The unit circle has two folds and closes.
@@ -85,5 +85,5 @@ pub use error::{Doubt, PathError, StopReason};
 pub use follower::{Branch, Direction, Follower, StepOutcome, TwoSidedBranch, follow, follow_both};
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
-pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+pub use problem::{Determinant, EvaluationError, Outside, PathProblem, SingularJacobian, TestValue};
 pub use settings::{ParameterRange, Settings};
