@@ -21,7 +21,7 @@ use crate::{
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0004;
+const MAGIC: u64 = 0x4842_5741_4c4b_0005;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -52,6 +52,8 @@ impl BranchWalk {
             out.word(u64::from(test.count));
         }
         out.word(u64::from(state.zeros_near));
+        // Their number is small: the largest word says that nothing is known.
+        out.word(state.outside.map_or(u64::MAX, |(least, most)| u64::from(most) << 32 | u64::from(least)));
         let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
         [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
         out.word(self.evaluations_between);
@@ -178,6 +180,9 @@ fn read(
         change_ahead: reader.float()?,
         tests: (0..reader.word()?).map(|_| reader.test()).collect::<Option<_>>()?,
         zeros_near: u32::try_from(reader.word()?).ok()?,
+        outside: Some(reader.word()?)
+            .filter(|word| *word != u64::MAX)
+            .map(|word| ((word & 0xffff_ffff) as u32, (word >> 32) as u32)),
         counters: Counters {
             evaluations: reader.word()?,
             factorisations: reader.word()?,

@@ -27,7 +27,9 @@ use hammerbeam_motion::{
     Flow, Stretch, System,
     exact::{ExactIntegrator, MotionError, complete_touches},
 };
-use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+use hammerbeam_path::{
+    DenseLu, Determinant, EvaluationError, Events, Outside, PathProblem, SingularJacobian, TestValue,
+};
 
 use crate::{
     ContinuationParameter, NoEigenvalues, eigenvalues::eigenvalues, stability, state_scale::StateScale,
@@ -416,6 +418,31 @@ impl PathProblem for ShootingProblem {
         if let Ok(multipliers) = self.multipliers() {
             values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
         }
+    }
+
+    fn outside(&mut self, events: Events) -> Option<Outside> {
+        if !self.watches_stability {
+            return None;
+        }
+        self.multipliers().ok().map(|multipliers| stability::outside(multipliers, events))
+    }
+
+    /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart.
+    ///
+    /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} - z_j`, the least one over the proper divisors k of N
+    /// for which s is a whole number.
+    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+        let (periods, m) = (self.period_multiple as usize, self.segments);
+        let states = &point[..self.residual.len()];
+        let shift = |k: usize| {
+            (periods.is_multiple_of(k) && (m * k).is_multiple_of(periods)).then_some(m * k / periods)
+        };
+        let distance = |nodes: usize| {
+            let later = states.iter().cycle().skip(nodes * self.node_size());
+            let squares: f64 = states.iter().zip(later).map(|(a, b)| (a - b) * (a - b)).sum();
+            self.hertz_per_norm * (squares / m as f64).sqrt()
+        };
+        (1..periods).filter_map(shift).map(distance).fold(f64::INFINITY, f64::min)
     }
 
     fn signature(&self) -> u64 {

@@ -8,10 +8,16 @@
 //! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of pairs outside. Where a pair
 //!   outside the circle splits into two real multipliers the sign jumps without a zero, which is no event.
 //!
+//! A pair that leaves the circle and turns real between two points escapes all three; the path keeps books of how many lie outside ([`outside`]).
+//!
 //! # Source
 //! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), chapters 4 and 10.
 
-use hammerbeam_path::TestValue;
+use hammerbeam_path::{Events, Outside, TestValue};
+
+/// Distance from the unit circle, relative to the largest multiplier where that is beyond 1e6, within which rounding and the tolerance of the motion
+/// leave the side open.
+const ON_CIRCLE: f64 = 1e-7;
 
 /// Vanishes where a multiplier is -1.
 pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
@@ -32,6 +38,37 @@ pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
     let pairs = || multipliers.iter().filter(|[_, im]| *im > 0.0).map(|[re, im]| re * re + im * im);
     let count = pairs().filter(|square| *square > 1.0).count() as u32;
     signed(pairs().map(|square| (1.0 - square).abs()).fold(1.0, f64::min), count)
+}
+
+/// How many multipliers lie outside the circle, without those that are critical at these events of a path with the test functions [`flip`] and
+/// [`neimark_sacker`] in this order.
+pub(crate) fn outside(multipliers: &[[f64; 2]], events: Events) -> Outside {
+    let mut left = multipliers.to_vec();
+    let off_circle =
+        |[re, im]: &[f64; 2]| if *im == 0.0 { f64::INFINITY } else { (re.hypot(*im) - 1.0).abs() };
+    if events.fold || events.branch_point {
+        remove_least(&mut left, |[re, im]| (re - 1.0).hypot(*im));
+    }
+    if events.zeros & 1 != 0 {
+        remove_least(&mut left, |[re, im]| (re + 1.0).hypot(*im));
+    }
+    if events.zeros & 2 != 0 {
+        remove_least(&mut left, off_circle);
+        remove_least(&mut left, off_circle);
+    }
+    let critical = (multipliers.len() - left.len()) as u32;
+    let largest = multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
+    let margin = ON_CIRCLE * (1e-6 * largest).max(1.0);
+    let beyond = |least: f64| left.iter().filter(|[re, im]| re.hypot(*im) > least).count() as u32;
+    Outside { least: beyond(1.0 + margin), most: beyond(1.0 - margin) + critical, critical }
+}
+
+/// Removes the multiplier with the least distance.
+fn remove_least(multipliers: &mut Vec<[f64; 2]>, distance: impl Fn(&[f64; 2]) -> f64) {
+    let numbered = multipliers.iter().enumerate();
+    if let Some((index, _)) = numbered.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))) {
+        multipliers.remove(index);
+    }
 }
 
 fn signed(magnitude: f64, count: u32) -> TestValue {

@@ -17,7 +17,7 @@ use crate::{
 };
 
 /// Amplitudes of the first orbit relative to the orbit, tried one after the other.
-const AMPLITUDES: [f64; 5] = [1e-3, 1e-4, 1e-2, 1e-5, 1e-6];
+const AMPLITUDES: [f64; 6] = [1e-3, 1e-4, 1e-2, 1e-5, 1e-6, 1e-7];
 
 /// Where a branch leaves another one.
 #[derive(Debug, Clone, PartialEq)]

@@ -401,8 +401,8 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
     }
 }
 
-/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period. Nodes must not lie in contacts whose
-/// laws remember how they began: then there is one.
+/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period, and a whole number of them per excitation period, so
+/// that an orbit of shorter period is known when it is met. Nodes must not lie in contacts whose laws remember how they began: then there is one.
 fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
     match settings.segments {
         Segments::Fixed(count) => count.max(1),
@@ -411,7 +411,7 @@ fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSett
             let largest = start.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
             let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;
             let by_contacts = start.maxima.contacts as usize / 12 + 1;
-            by_growth.max(by_contacts).min(16)
+            by_growth.max(by_contacts).min(16).next_multiple_of(start.period_multiple as usize)
         }
     }
 }

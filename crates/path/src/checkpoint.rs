@@ -29,6 +29,8 @@ pub struct Checkpoint {
     pub tests: Vec<TestValue>,
     /// Bit `k` is set while test function `k` has not left the zero behind which the path goes on.
     pub zeros_near: u32,
+    /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is known of them.
+    pub outside: Option<(u32, u32)>,
     /// Units of the unknowns now, in those of the start.
     pub unit: f64,
     /// A change of signature is known to lie within this distance ahead; zero if none is known.

@@ -121,6 +121,22 @@ pub enum Doubt {
     /// A test function seems to be zero twice between the points.
     #[error("a test function is zero twice within the step")]
     HiddenZeros,
+    /// The number of multipliers outside the unit circle changes by another number than the events of the step account for.
+    #[error(
+        "{before} multipliers lie outside the unit circle before the step, {behind} behind it, and no event between accounts for it"
+    )]
+    Unaccounted {
+        /// Before the step.
+        before: u32,
+        /// The nearest number that there may be behind it.
+        behind: u32,
+    },
+    /// The candidate lies on a path that this one meets at branch points only.
+    #[error("the point lies on a simpler path, {distance:.1e} from it")]
+    Simpler {
+        /// [`PathProblem::distance_to_simpler`](crate::PathProblem::distance_to_simpler).
+        distance: f64,
+    },
     /// The candidate lies on a stretch that was already walked.
     #[error("the stretch at arc length {arc_length} was walked before")]
     Retraced {

@@ -25,6 +25,7 @@
 //! - `‖z₁ − z₀ − h (t₀ + t₁)/2‖ > sheet_distance + h θ/10`: chord and tangents are not those of one arc,
 //! - the signature of the solution changes and `h > signature_step`,
 //! - the Hermite polynomial of `λ` turns twice,
+//! - the point lies on a simpler path, which the problem knows and which is met at branch points only,
 //! - the point lies on a stretch that was already walked.
 //!
 //! The second look at a step in doubt is the step to about its middle, and from there on: what short steps find is
@@ -36,7 +37,7 @@
 //! signature* the steps shrink to `signature_step` on both sides, in proportion to the distance from the change, so
 //! that pairs of folds beside it are found whatever the longest step; the change itself is bracketed by bisection. A *zero of a
 //! test function* of the problem (for orbits: a multiplier on the unit circle) is located by regula falsi; where the count of its zeros
-//! rises by two within a step the step is in doubt.
+//! rises by two within a step the step is in doubt, as is one over which another number of multipliers crosses the unit circle than the events say.
 //!
 //! # Example
 //! The unit circle has two folds and closes.
@@ -84,5 +85,5 @@ pub use error::{Doubt, PathError, StopReason};
 pub use follower::{Branch, Direction, Follower, StepOutcome, TwoSidedBranch, follow, follow_both};
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
-pub use problem::{Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
+pub use problem::{Determinant, EvaluationError, Outside, PathProblem, SingularJacobian, TestValue};
 pub use settings::{ParameterRange, Settings};

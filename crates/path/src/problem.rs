@@ -1,5 +1,7 @@
 //! What is followed: `R(x, λ) = 0` with `n` equations for `n + 1` unknowns, seen through its linearisation.
 
+use crate::point::Events;
+
 /// Why `R` could not be evaluated at a point. The step that asked for it is shortened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -36,6 +38,17 @@ pub struct TestValue {
     pub value: f64,
     /// How often the function has gone through zero since some common reference: two zeros within one step show here.
     pub count: u32,
+}
+
+/// How many multipliers of the solution at the last evaluated point lie outside the unit circle: of a solution that is a fixed point of a map, say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outside {
+    /// Those that certainly do.
+    pub least: u32,
+    /// With those that may, since they are critical at the events or on the circle to rounding.
+    pub most: u32,
+    /// How many are critical at the events: one at a fold, the pair at a Neimark-Sacker point.
+    pub critical: u32,
 }
 
 /// A system of `n` equations `R(x, λ) = 0` in `n` unknowns `x` and one parameter `λ`.
@@ -82,6 +95,25 @@ pub trait PathProblem {
     /// A function may jump: where its sign changes without a zero, nothing is recorded.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
+    }
+
+    /// Multipliers outside the unit circle at the last evaluated point, at which these events were found; `None` if nothing is known.
+    ///
+    /// They cross the circle at folds, branch points and zeros of test functions only. What crosses it and turns real within one step escapes the
+    /// test functions; here it shows.
+    fn outside(&mut self, events: Events) -> Option<Outside> {
+        let _ = events;
+        None
+    }
+
+    /// Distance of a point from the nearest solution that this path can meet at branch points only, in the norm of the weights; infinite if there is
+    /// none, or if nothing is known.
+    ///
+    /// An orbit of N periods solves the same equations as one of a divisor of N that is gone through several times, a solution without a symmetry the
+    /// same as one with it. Such a path is tangent to nothing: a point that comes that close is a jump. Answered without an evaluation.
+    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+        let _ = point;
+        f64::INFINITY
     }
 
     /// What kind of solution the last evaluated point is: equal along one smooth arc, different where `R` may

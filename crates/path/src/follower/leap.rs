@@ -29,7 +29,8 @@ impl Follower {
             if 0.1 * length > self.settings.sheet_distance {
                 break;
             }
-            if let Ok(arrival) = self.leap_over(problem, length) {
+            let arrival = self.leap_over(problem, length);
+            if let Ok(arrival) = arrival.and_then(|arrival| self.heed_simpler(problem, arrival)) {
                 return Ok((arrival, length));
             }
         }

@@ -8,9 +8,11 @@ mod corner;
 mod fold;
 mod judge;
 mod leap;
+mod outside;
 mod range_end;
 mod recut;
 mod rescale;
+mod simpler;
 mod start;
 mod step_control;
 mod transfer;
@@ -78,6 +80,8 @@ struct Arrival {
     uncertainty: f64,
     /// Test functions that have not left their last zero yet.
     zeros_near: u32,
+    /// Least and most number of multipliers outside the unit circle behind the candidate, if known.
+    outside: Option<(u32, u32)>,
 }
 
 /// What happened to the attempts at one step.
@@ -185,7 +189,9 @@ impl Follower {
         let mut step = self.first_step();
         loop {
             let attempt = self.attempt(problem, step, attempts.most_earlier);
-            let doubt = match attempt.and_then(|arrival| self.heed_zeros(problem, step, arrival)) {
+            let checked = attempt.and_then(|arrival| self.heed_simpler(problem, arrival));
+            let checked = checked.and_then(|arrival| self.heed_zeros(problem, step, arrival));
+            let doubt = match checked.and_then(|arrival| self.heed_outside(problem, step, arrival)) {
                 Ok(arrival) => {
                     self.accept(arrival, step, attempts);
                     return Ok(());
@@ -213,6 +219,7 @@ impl Follower {
         step: f64,
     ) -> Option<(Arrival, f64)> {
         self.turn_corner(problem, step)
+            .and_then(|(arrival, length)| Ok((self.heed_simpler(problem, arrival)?, length)))
             .or_else(|_| self.pass_recut(problem, step))
             .or_else(|_| self.leap(problem))
             .ok()
@@ -262,6 +269,7 @@ impl Follower {
         state.counters.accepted += 1;
         state.zeros_near = arrival.zeros_near | arrival.events.zeros;
         state.tests.clone_from(&self.trial.tests);
+        state.outside = arrival.outside;
         // Where something else was located, the change of signature lies anywhere in the step.
         let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };
         self.store(events, arrival.uncertainty.max(of_change), arc_length);

@@ -65,7 +65,8 @@ impl Follower {
         problem.tests(&mut trial.tests);
         check_inside(trial.parameter(), range)?;
         scale(&mut trial.node.tangent, direction.sign());
-        let state = first_state(&trial, direction.sign(), &settings, counters);
+        let mut state = first_state(&trial, direction.sign(), &settings, counters);
+        state.outside = problem.outside(Events::default()).map(|here| (here.least, here.most));
         let mut follower = Self::resume(problem, state, range, settings);
         follower.stop_if_leaving();
         follower.memory.remember(&follower.state.current, 1.0);
@@ -140,6 +141,7 @@ fn first_state(trial: &Candidate, sign: f64, settings: &Settings, counters: Coun
         parameter_sign: if current.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
         tests: trial.tests.clone(),
         zeros_near: 0,
+        outside: None,
         unit: 1.0,
         change_ahead: 0.0,
         counters,
