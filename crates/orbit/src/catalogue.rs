@@ -148,7 +148,8 @@ impl<'a> Catalogue<'a> {
     ) -> Result<Option<Arrived>, OrbitError> {
         let motion = integrator(self.system, self.response, self.settings)?;
         let scale = self.scale(state);
-        let mut shorter = ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).beginning_at(problem.phase());
+        let mut shorter =
+            ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).beginning_at(problem.phase());
         let mut point = shorter.point(&[state.to_vec()], self.frequency_hz);
         let Ok(correction) = correct(&mut shorter, &mut point, self.settings) else { return Ok(None) };
         let found = solution(&mut shorter, &point, correction)?;

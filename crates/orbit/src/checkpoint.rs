@@ -6,8 +6,8 @@
 
 use hammerbeam_motion::{Parameter, System};
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, PathProblem, StopReason,
-    TestValue,
+    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, PathProblem,
+    StopReason, TestValue,
 };
 
 use crate::{
@@ -98,7 +98,8 @@ impl BranchWalk {
         let length = hertz_per_norm(range_hz);
         let Stored { mut problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
-        let (touches, begins_with_present, origin) = read_walk(&mut reader, problem.unknowns() + 1).ok_or(OrbitError::Checkpoint)?;
+        let (touches, begins_with_present, origin) =
+            read_walk(&mut reader, problem.unknowns() + 1).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -258,9 +259,9 @@ fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<(Vec<u32>, bool, 
         0 => None,
         _ => Some(Origin { phase: reader.float()?, point: reader.point()? }),
     };
-    let fits = origin.as_ref().is_none_or(|origin| {
-        origin.point.point.len() == length && origin.point.tangent.len() == length
-    });
+    let fits = origin
+        .as_ref()
+        .is_none_or(|origin| origin.point.point.len() == length && origin.point.tangent.len() == length);
     (fits && reader.bytes.is_empty()).then_some((touches, begins_with_present, origin))
 }
 

@@ -8,8 +8,7 @@ use std::collections::VecDeque;
 
 use crate::{
     BranchWalk, Crossing, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Side, StopReason,
-    catalogue::Catalogue,
-    walk::Walked,
+    catalogue::Catalogue, walk::Walked,
 };
 
 /// Steps of the branches followed are this many times longer than those of a run; corrector and contacts shorten them where needed.
@@ -157,7 +156,8 @@ impl Branches {
         match error {
             OrbitError::Motion(_)
             | OrbitError::NeverOpens { .. }
-            | OrbitError::SearchBudget { .. } | OrbitError::Eigenvalues(_) => {
+            | OrbitError::SearchBudget { .. }
+            | OrbitError::Eigenvalues(_) => {
                 self.incomplete.get_or_insert(error);
                 Ok(())
             }

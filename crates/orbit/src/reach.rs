@@ -4,8 +4,7 @@ use hammerbeam_motion::System;
 
 use crate::{
     BranchWalk, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response, Side, find_start_unless,
-    start::attempt_nodes,
-    walk::Walked,
+    start::attempt_nodes, walk::Walked,
 };
 
 /// Frequencies from which another one is reached, relative to it.

@@ -58,7 +58,8 @@ impl BranchWalk {
         let point = self.follower.current().point.clone();
         self.problem.move_to(&point).ok()?;
         let (phase, cycles) = (self.problem.phase(), f64::from(self.problem.period_multiple()));
-        let (frequency_hz, state) = (self.problem.frequency(&point), self.problem.nodes(&point).swap_remove(0));
+        let (frequency_hz, state) =
+            (self.problem.frequency(&point), self.problem.nodes(&point).swap_remove(0));
         let contacts = contacts(self.problem.integrator(), (phase, cycles), &state, frequency_hz).ok()?;
         let (gap, nearest) = longest_of_orbit(&contacts, cycles, flees)?;
         let moves = flees || gap.asks_to_move(nearest);

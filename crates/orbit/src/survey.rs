@@ -116,13 +116,7 @@ impl Survey<'_> {
             for nodes in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
                 // Newton's method from all states and from the first one alone go different ways; either may arrive.
                 let orbit = (self.frequency_hz, multiple);
-                orbits.extend(attempt_nodes(
-                    self.system,
-                    self.response,
-                    (0.0, nodes),
-                    orbit,
-                    self.settings,
-                )?);
+                orbits.extend(attempt_nodes(self.system, self.response, (0.0, nodes), orbit, self.settings)?);
                 if multiple > 1 {
                     orbits.extend(self.orbit((0.0, &nodes[0]), multiple)?);
                 }

@@ -82,7 +82,8 @@ impl Crossing {
         let mut integrator = integrator(system, response, settings)?;
         let (frequency_hz, multiple) = (self.orbit.frequency_hz, self.orbit.period_multiple * self.factor);
         let (segments, phase) = (self.orbit.nodes.len() * self.factor as usize, self.orbit.phase);
-        let nodes = nodes_from(&mut integrator, (phase, &self.orbit.nodes[0]), frequency_hz, multiple, segments)?;
+        let nodes =
+            nodes_from(&mut integrator, (phase, &self.orbit.nodes[0]), frequency_hz, multiple, segments)?;
         let scale = state_scale(system, &self.orbit.nodes[0], frequency_hz);
         let mut problem =
             ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(phase);
