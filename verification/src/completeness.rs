@@ -3,7 +3,11 @@
 //! At random frequencies random states are simulated until they repeat. Each attractor must be one of the orbits in which the branches of its period
 //! cross that frequency. What is not found is what a run misses, or where simulation and shooting disagree.
 
-use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
+use hammerbeam_motion::{
+    System,
+    exact::{ExactIntegrator, ExactSettings},
+};
+use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, states_at_phase};
 use hammerbeam_study::corrected;
 
 use crate::{
@@ -62,7 +66,8 @@ pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) 
             let period = attractor.period();
             report.found[period] += 1;
             let same = |orbit: &PeriodicSolution| {
-                attractor.states.iter().any(|state| distance(system, state, &orbit.nodes[0]) < SAME)
+                let there = at_phase_0(system, orbit);
+                attractor.states.iter().any(|state| distance(system, state, &there) < SAME)
             };
             if !orbits[period].iter().any(same) {
                 report.missing.push(attractor);
@@ -70,6 +75,13 @@ pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) 
         }
     }
     Ok(report)
+}
+
+/// The state of an orbit at phase 0, infinitely far away if its motion cannot be computed.
+fn at_phase_0(system: &System, orbit: &PeriodicSolution) -> Vec<f64> {
+    let states = ExactIntegrator::new(system.clone(), ExactSettings::default())
+        .and_then(|mut integrator| states_at_phase(&mut integrator, orbit, 0.0));
+    states.map_or_else(|_| vec![f64::INFINITY; orbit.nodes[0].len()], |mut states| states.swap_remove(0))
 }
 
 fn energy_norm(results: &Results, orbit: &PeriodicSolution) -> f64 {
@@ -84,6 +96,7 @@ fn shortest(results: &Results, attractor: Attractor) -> Attractor {
     let guess = |state: &[f64], period: usize| PeriodicSolution {
         frequency_hz: attractor.frequency_hz,
         period_multiple: period as u32,
+        phase: 0.0,
         nodes: vec![state.to_vec()],
         floquet_multipliers: Vec::new(),
         residual: 0.0,
@@ -93,7 +106,8 @@ fn shortest(results: &Results, attractor: Attractor) -> Attractor {
     let period = attractor.period();
     for shorter in (1..period).filter(|shorter| period.is_multiple_of(*shorter)) {
         if let Some(orbit) = corrected(&results.model, guess(&attractor.states[0], shorter)) {
-            let off = distance(&results.model.system, &attractor.states[0], &orbit.nodes[0]);
+            let there = at_phase_0(&results.model.system, &orbit);
+            let off = distance(&results.model.system, &attractor.states[0], &there);
             if off < SAME {
                 let states = attractor.states[..shorter].to_vec();
                 return Attractor { states, ..attractor };

@@ -76,7 +76,7 @@ fn no_orbit_is_on_two_branches_or_twice_on_one() {
                 let model = &results.model;
                 let matcher = Matcher::new(&model.system, &model.response, orbit, &settings).unwrap();
                 for (other, second) in &orbits[place + 1..] {
-                    let apart = matcher.distance(&second.nodes[0]);
+                    let apart = matcher.distance((second.phase, &second.nodes[0]));
                     assert!(
                         apart > 1e-6,
                         "{frequency_hz} Hz, period {multiple}, branches {branch} and {other}: {apart:.1e}"

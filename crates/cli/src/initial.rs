@@ -4,6 +4,7 @@ use std::path::Path;
 
 use hammerbeam_attractor::{AttractorError, SectionMap, SystemMap};
 use hammerbeam_motion::{Stretch, System};
+use hammerbeam_orbit::states_at_phase;
 use hammerbeam_study::{Model, StoredBranches, StudyFile};
 
 use crate::failure::Failure;
@@ -30,7 +31,7 @@ pub fn state(
 ) -> Result<Vec<f64>, Failure> {
     let size = map.dimension();
     if let Some(branch) = text.strip_prefix("branch:") {
-        return of_branch(branch, map.frequency_hz(), (file, model), results);
+        return of_branch(branch, map, (file, model), results);
     }
     match text {
         "rest" => Ok(vec![0.0; size]),
@@ -59,13 +60,14 @@ fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
     if state.len() == size { Ok(state) } else { Err(refused(&format!("found {} number(s)", state.len()))) }
 }
 
-/// The first node of the orbit in which a branch crosses the frequency: of a stable one where there are several.
+/// The state at phase 0 of the orbit in which a branch crosses the frequency: of a stable one where there are several.
 fn of_branch(
     text: &str,
-    frequency_hz: f64,
+    map: &mut SystemMap,
     (file, model): (&StudyFile, &Model),
     results: Option<&Path>,
 ) -> Result<Vec<f64>, Failure> {
+    let frequency_hz = map.frequency_hz();
     let Some(folder) = results else {
         return Err(Failure::BadInput("--initial branch:N needs --results DIR".to_owned()));
     };
@@ -80,7 +82,9 @@ fn of_branch(
     let mut orbits = branches.crossings(model, frequency_hz, |record| record.id == number)?;
     orbits.sort_by_key(|(_, orbit)| !orbit.stable());
     match orbits.into_iter().next() {
-        Some((_, orbit)) => Ok(orbit.nodes[0].clone()),
+        Some((_, orbit)) => states_at_phase(map.integrator(), &orbit, 0.0)
+            .map(|mut states| states.swap_remove(0))
+            .map_err(|error| Failure::NoResult(error.to_string())),
         None => Err(Failure::NoResult(format!("branch {number} does not cross {frequency_hz} Hz"))),
     }
 }

@@ -7,7 +7,7 @@ use hammerbeam_motion::{System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
-    matching::{distance_in_phase, phases},
+    matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
     solve::{approach, correct, has_minimal_period, integrator, solution, state_scale},
     state_scale::StateScale,
@@ -81,13 +81,18 @@ impl<'a> Catalogue<'a> {
         state_scale(self.system, state, self.frequency_hz)
     }
 
-    /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at equal phases.
+    /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at equal phases, the first at `phase`.
     ///
     /// `None` if it leads nowhere: where no motion can be computed either, that is no more than a guess that was not good enough.
-    pub fn probe(&mut self, nodes: &[Vec<f64>], period_multiple: u32) -> Result<Option<Arrived>, OrbitError> {
+    pub fn probe(
+        &mut self,
+        (phase, nodes): (f64, &[Vec<f64>]),
+        period_multiple: u32,
+    ) -> Result<Option<Arrived>, OrbitError> {
         let integrator = self.integrator.take().expect("it is back after every use");
         let shape = (period_multiple, nodes.len());
-        let mut problem = ShootingProblem::new(integrator, shape, self.scale(&nodes[0]), 1.0);
+        let scale = self.scale(&nodes[0]);
+        let mut problem = ShootingProblem::new(integrator, shape, scale, 1.0).beginning_at(phase);
         let result = approach(&mut problem, nodes, self.frequency_hz, self.settings)
             .and_then(|(point, correction)| self.arrive(&mut problem, &point, correction));
         self.integrator = Some(problem.into_integrator());
@@ -108,10 +113,18 @@ impl<'a> Catalogue<'a> {
         correction: f64,
     ) -> Result<Option<Arrived>, OrbitError> {
         let multiple = problem.period_multiple();
-        if let Some(place) = self.place(&problem.nodes(point)[0], multiple) {
+        if problem.phase() == 0.0
+            && let Some(place) = self.place(&problem.nodes(point)[0], multiple)
+        {
             return Ok(Some(Arrived { place, is_new: false }));
         }
         let found = solution(problem, point, correction)?;
+        if found.phase != 0.0 {
+            let state = states_at_phase(problem.integrator(), &found, 0.0)?.swap_remove(0);
+            if let Some(place) = self.place(&state, multiple) {
+                return Ok(Some(Arrived { place, is_new: false }));
+            }
+        }
         let scale = self.scale(&found.nodes[0]);
         if has_minimal_period(problem.integrator(), &scale, &found)? {
             return self.add(problem.integrator(), found, scale).map(Some);
@@ -135,7 +148,8 @@ impl<'a> Catalogue<'a> {
     ) -> Result<Option<Arrived>, OrbitError> {
         let motion = integrator(self.system, self.response, self.settings)?;
         let scale = self.scale(state);
-        let mut shorter = ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0);
+        let mut shorter =
+            ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).beginning_at(problem.phase());
         let mut point = shorter.point(&[state.to_vec()], self.frequency_hz);
         let Ok(correction) = correct(&mut shorter, &mut point, self.settings) else { return Ok(None) };
         let found = solution(&mut shorter, &point, correction)?;
@@ -152,10 +166,10 @@ impl<'a> Catalogue<'a> {
         scale: StateScale,
     ) -> Result<Arrived, OrbitError> {
         let (multiple, count) = (solution.period_multiple as usize, solution.nodes.len());
-        let phases = if count.is_multiple_of(multiple) {
+        let phases = if count.is_multiple_of(multiple) && solution.phase == 0.0 {
             solution.nodes.iter().step_by(count / multiple).cloned().collect()
         } else {
-            phases(integrator, &solution)?
+            states_at_phase(integrator, &solution, 0.0)?
         };
         self.known.push(Known { solution, scale, phases, followed: false });
         Ok(Arrived { place: self.known.len() - 1, is_new: true })

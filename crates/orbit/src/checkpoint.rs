@@ -6,14 +6,15 @@
 
 use hammerbeam_motion::{Parameter, System};
 use hammerbeam_path::{
-    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, StopReason,
-    TestValue,
+    Checkpoint, ContinuationPoint, Counters, Events, Follower, History, Node, ParameterRange, PathProblem,
+    StopReason, TestValue,
 };
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
     continuation_parameter::ContinuationParameter,
     density::{LastRows, Place},
+    recut::Origin,
     shooting::ShootingProblem,
     solve::{integrator, state_of_rest},
     state_scale::StateScale,
@@ -32,6 +33,7 @@ impl BranchWalk {
         out.word(MAGIC);
         write_varied(&mut out, self.problem.period_multiple(), self.problem.varied());
         out.word(self.problem.segments() as u64);
+        out.float(self.problem.phase());
         out.floats(self.problem.scale().values());
         out.point(&state.current);
         out.point(&state.start);
@@ -67,10 +69,15 @@ impl BranchWalk {
         out.word(self.touches.len() as u64);
         self.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
         out.word(u64::from(self.begins_with_present));
+        out.word(u64::from(self.origin.is_some()));
+        if let Some(origin) = &self.origin {
+            out.float(origin.phase);
+            out.point(&origin.point);
+        }
         out.bytes
     }
 
-    /// The points accepted since the journal was taken last, the start first.
+    /// The points accepted since the journal was taken last, the start first. A point without unknowns tells that those before it are to be forgotten.
     #[must_use]
     pub fn take_journal(&mut self) -> Vec<u8> {
         let mut out = Writer::default();
@@ -93,7 +100,8 @@ impl BranchWalk {
         let length = hertz_per_norm(range_hz);
         let Stored { mut problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
-        let (touches, begins_with_present) = read_walk(&mut reader).ok_or(OrbitError::Checkpoint)?;
+        let (touches, begins_with_present, origin) =
+            read_walk(&mut reader, problem.unknowns() + 1).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -103,6 +111,10 @@ impl BranchWalk {
         let shortest = problem.node_size() + 1;
         while !reader.bytes.is_empty() {
             let point = reader.point().ok_or(OrbitError::Checkpoint)?;
+            if point.point.is_empty() {
+                follower.forget();
+                continue;
+            }
             if point.point.len() < shortest || point.tangent.len() != point.point.len() {
                 return Err(OrbitError::Checkpoint);
             }
@@ -119,6 +131,7 @@ impl BranchWalk {
             evaluations_between,
             touches,
             begins_with_present,
+            origin,
         })
     }
 }
@@ -143,8 +156,10 @@ fn read(
     }
     let (period_multiple, varied) = read_varied(reader)?;
     let segments = usize::try_from(reader.word()?).ok()?;
+    let phase = reader.float()?;
     let scale = StateScale::from_values(reader.floats()?);
-    if scale.values().len() != 2 * system.dof() || segments == 0 {
+    let on_orbit = (0.0..f64::from(period_multiple)).contains(&phase);
+    if scale.values().len() != 2 * system.dof() || segments == 0 || !on_orbit {
         return None;
     }
     let scale = scale.about(state_of_rest(system));
@@ -201,7 +216,8 @@ fn read(
             displacement: reader.float()?,
         });
     }
-    let mut problem = ShootingProblem::new(integrator, (period_multiple, segments), scale, length);
+    let mut problem =
+        ShootingProblem::new(integrator, (period_multiple, segments), scale, length).beginning_at(phase);
     if let Err(error) = problem.vary(varied) {
         return Some(Err(error.into()));
     }
@@ -241,10 +257,17 @@ fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> 
 }
 
 /// What a walk knows beside its follower; `None` if the bytes do not fit or are too many.
-fn read_walk(reader: &mut Reader<'_>) -> Option<(Vec<u32>, bool)> {
+fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<(Vec<u32>, bool, Option<Origin>)> {
     let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
     let begins_with_present = reader.word()? != 0;
-    reader.bytes.is_empty().then_some((touches, begins_with_present))
+    let origin = match reader.word()? {
+        0 => None,
+        _ => Some(Origin { phase: reader.float()?, point: reader.point()? }),
+    };
+    let fits = origin
+        .as_ref()
+        .is_none_or(|origin| origin.point.point.len() == length && origin.point.tangent.len() == length);
+    (fits && reader.bytes.is_empty()).then_some((touches, begins_with_present, origin))
 }
 
 /// The ends at which the last point already lies. A walk that stopped for another reason may be tried again.

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 use crate::{
     BranchWalk, Crossing, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Side, StopReason,
-    catalogue::Catalogue,
+    catalogue::Catalogue, walk::Walked,
 };
 
 /// Steps of the branches followed are this many times longer than those of a run; corrector and contacts shorten them where needed.
@@ -74,7 +74,7 @@ impl Branches {
             let settings = self.settings(catalogue, start.period_multiple, doubles);
             let (system, response) = (catalogue.system, catalogue.response);
             let walk = BranchWalk::new(system, response, start, side, self.range_hz, &settings);
-            let before = (start.frequency_hz, start.nodes.clone());
+            let before = Walked::of(start);
             self.walk(catalogue, walk, before, doubles, &mut *interrupted)?;
         }
         Ok(())
@@ -91,7 +91,7 @@ impl Branches {
         let settings = self.settings(catalogue, flip.orbit.period_multiple * flip.factor, doubles);
         let (system, response) = (catalogue.system, catalogue.response);
         let walk = BranchWalk::from_crossing(system, response, flip, Side::Up, self.range_hz, &settings);
-        let before = (flip.orbit.frequency_hz, flip.orbit.nodes.clone());
+        let before = Walked::of(&flip.orbit);
         self.walk(catalogue, walk, before, doubles, interrupted)
     }
 
@@ -115,7 +115,7 @@ impl Branches {
         &mut self,
         catalogue: &mut Catalogue<'_>,
         walk: Result<BranchWalk, OrbitError>,
-        mut before: (f64, Vec<Vec<f64>>),
+        mut before: Walked,
         doubles: bool,
         interrupted: Interruption<'_>,
     ) -> Result<(), OrbitError> {
@@ -143,9 +143,9 @@ impl Branches {
             if doubles && let Some(flip) = walk.flip_here()? {
                 self.flips.push_back(flip);
             }
-            let (from, to) = (before.0 - target, after.0 - target);
+            let (from, to) = (before.frequency_hz - target, after.frequency_hz - target);
             if from != 0.0 && from * to <= 0.0 {
-                cross(catalogue, (&before.1, &after.1), from / (from - to), multiple)?;
+                cross(catalogue, (&before, &after), from / (from - to), multiple)?;
             }
             before = after;
         }
@@ -154,7 +154,10 @@ impl Branches {
     /// Keeps in mind that something could not be searched; other failures end the search.
     pub fn heed(&mut self, error: OrbitError) -> Result<(), OrbitError> {
         match error {
-            OrbitError::Motion(_) | OrbitError::SearchBudget { .. } | OrbitError::Eigenvalues(_) => {
+            OrbitError::Motion(_)
+            | OrbitError::NeverOpens { .. }
+            | OrbitError::SearchBudget { .. }
+            | OrbitError::Eigenvalues(_) => {
                 self.incomplete.get_or_insert(error);
                 Ok(())
             }
@@ -183,28 +186,33 @@ impl Branches {
 /// Corrects the orbit at a share of the way between two solutions; its branch then counts as followed if it is near them.
 fn cross(
     catalogue: &mut Catalogue<'_>,
-    (before, after): (&[Vec<f64>], &[Vec<f64>]),
+    (before, after): (&Walked, &Walked),
     share: f64,
     period_multiple: u32,
 ) -> Result<(), OrbitError> {
     let between = |(a, b): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
         a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
     };
-    // Just cut anew, or left at a flip, the orbit before has fewer nodes.
-    let guess: Vec<Vec<f64>> = if before.len() == after.len() {
-        before.iter().zip(after).map(between).collect()
+    // Just cut anew, or left at a flip, the orbit before has fewer nodes or another phase.
+    let phase = after.phase;
+    let alike = before.nodes.len() == after.nodes.len() && before.phase == phase;
+    let guess: Vec<Vec<f64>> = if alike {
+        before.nodes.iter().zip(&after.nodes).map(between).collect()
     } else {
-        after.to_vec()
+        after.nodes.clone()
     };
-    let found = match catalogue.probe(&guess, period_multiple)? {
+    let found = match catalogue.probe((phase, &guess), period_multiple)? {
         Some(found) => Some(found),
         // The motion from the first node may be a better guess than nodes on a chord.
-        None => catalogue.probe(&guess[..1], period_multiple)?,
+        None => catalogue.probe((phase, &guess[..1]), period_multiple)?,
     };
     let Some(found) = found else { return Ok(()) };
     let scale = catalogue.scale(&guess[0]);
     let known = &mut catalogue.known[found.place];
-    let near = scale.distance(&known.solution.nodes[0], &guess[0]) <= scale.distance(&before[0], &after[0]);
+    let near = before.phase == phase
+        && known.solution.phase == phase
+        && scale.distance(&known.solution.nodes[0], &guess[0])
+            <= scale.distance(&before.nodes[0], &after.nodes[0]);
     known.followed |= near && known.solution.period_multiple == period_multiple;
     Ok(())
 }

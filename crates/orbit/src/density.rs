@@ -61,6 +61,12 @@ impl LastRows {
         self.0.drain(..surplus);
     }
 
+    /// Forgets all rows but the newest, where lengths are measured in another way from now on.
+    pub fn keep_newest(&mut self) {
+        let surplus = self.0.len().saturating_sub(1);
+        self.0.drain(..surplus);
+    }
+
     /// The rows and one more, without a row that is too close to the newest.
     fn with(&self, place: Place) -> Vec<Place> {
         let mut chain = self.0.clone();

@@ -29,6 +29,11 @@ pub enum OrbitError {
         "no periodic orbit of {period_multiple} excitation period(s) was found at {frequency_hz} Hz from {starts} starts"
     )]
     NoOrbit { frequency_hz: f64, period_multiple: u32, starts: usize },
+    /// A law needs the speed with which its contact began, and the contact never begins.
+    #[error(
+        "{element} is closed over the whole motion at {frequency_hz} Hz: its law needs to know how fast a contact began, and no orbit can begin within one"
+    )]
+    NeverOpens { element: String, frequency_hz: f64 },
     /// No other branch was found where one should leave.
     #[error("no other branch was found beside the crossing at {frequency_hz} Hz")]
     NoCrossing { frequency_hz: f64 },

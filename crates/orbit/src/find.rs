@@ -15,6 +15,7 @@ use crate::{
     Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
     catalogue::Catalogue,
     crossings::Branches,
+    cut::search_cut,
     noise::Noise,
     sampling::{Passed, Patience, sample},
     start::{Effort, SETTLED, STARTS, check_multiple, search_start, starting_states},
@@ -133,7 +134,7 @@ impl Search<'_> {
 
     /// Where a motion settles, and its near-returns.
     fn search_motion(&mut self, start: Vec<f64>) -> Result<(), OrbitError> {
-        self.catalogue.probe(std::slice::from_ref(&start), self.period_multiple)?;
+        self.catalogue.probe((0.0, std::slice::from_ref(&start)), self.period_multiple)?;
         let mut states = vec![start];
         let settled = match self.simulate(&mut states) {
             Err(OrbitError::Motion(error)) => {
@@ -143,7 +144,7 @@ impl Search<'_> {
             settled => settled?,
         };
         if settled == Some(true) {
-            self.catalogue.probe(&states[states.len() - 1..], self.period_multiple)?;
+            self.search_settled(&states[states.len() - 1])?;
         } else if settled == Some(false) {
             self.search_returns(&states[SETTLING..])?;
         }
@@ -151,6 +152,18 @@ impl Search<'_> {
         states.drain(..passing);
         self.passed.motions.push(states);
         Ok(())
+    }
+
+    /// Newton's method from the state with which the last motion has ended, at a phase without contact where a law asks for that.
+    fn search_settled(&mut self, last: &[f64]) -> Result<(), OrbitError> {
+        let orbit = (self.catalogue.frequency_hz, self.period_multiple);
+        match search_cut(self.catalogue.integrator(), last, orbit) {
+            Ok((begin, _)) => {
+                self.catalogue.probe((begin.phase, &[begin.state]), self.period_multiple)?;
+                Ok(())
+            }
+            Err(error) => self.branches.heed(error),
+        }
     }
 
     /// Appends the states of a motion period by period; true if it settles.
@@ -182,9 +195,9 @@ impl Search<'_> {
         for nodes in nearest_returns(states, &scale, multiple as usize, TRIED) {
             self.check_interrupted()?;
             // Newton's method from all states and from the first one alone go different ways; either may arrive.
-            self.catalogue.probe(nodes, multiple)?;
+            self.catalogue.probe((0.0, nodes), multiple)?;
             if multiple > 1 {
-                self.catalogue.probe(&nodes[..1], multiple)?;
+                self.catalogue.probe((0.0, &nodes[..1]), multiple)?;
             }
         }
         Ok(())

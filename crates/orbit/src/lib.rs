@@ -15,6 +15,7 @@
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
+//! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
@@ -30,10 +31,11 @@
 //! and grazing are located as rows of their own.
 //!
 //! # Contacts that lose energy
-//! The same equations serve. Laws that remember the speed of their impact need every node in free flight: orbits are cut once, at the phase 0, unless
-//! [`Segments::Fixed`] says otherwise, and an orbit that is in contact there is refused with
-//! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact); another phase of the load moves the cut. Motion is simulated over
-//! any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which is walked round like any other.
+//! The same equations serve. Laws that remember the speed of their impact need every node in free flight. Their orbits are cut once, unless
+//! [`Segments::Fixed`] says otherwise, and begin at a [`phase`](PeriodicSolution::phase) at which no contact is closed: 0, or the middle of the longest time without
+//! contact. A walk moves the phase when a contact comes near it; one of several segments does not, and stops with
+//! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose contact never opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states
+//! of an orbit at any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is simulated over any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which is walked round like any other.
 //!
 //! # Example
 //! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.
@@ -67,6 +69,7 @@ mod checkpoint;
 mod continuation_parameter;
 mod crossings;
 mod curve;
+mod cut;
 mod density;
 mod eigenvalues;
 mod error;
@@ -77,6 +80,7 @@ mod matching;
 mod noise;
 mod reach;
 mod recompute;
+mod recut;
 mod resegment;
 mod sampling;
 mod settings;
@@ -98,7 +102,7 @@ pub use error::OrbitError;
 pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
 pub use located::{ContactChange, EventStatus, LocatedEvent};
-pub use matching::Matcher;
+pub use matching::{Matcher, states_at_phase};
 pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};

@@ -46,7 +46,7 @@ pub struct LocatedEvent {
     pub uncertainty_hz: f64,
     /// The multiplier that is critical, `[re, im]`, the one with positive imaginary part of a pair; none at mere grazing.
     pub multiplier: Option<[f64; 2]>,
-    /// Critical direction of the state at phase 0, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one relative to the orbit; at a
+    /// Critical direction of the first node, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one relative to the orbit; at a
     /// Neimark-Sacker point its real part. Empty where there is none.
     pub direction: Vec<f64>,
     /// The contact that changes at grazing.

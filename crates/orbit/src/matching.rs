@@ -1,9 +1,12 @@
 //! Whether two orbits are the same, perhaps begun at different excitation periods.
 //!
-//! An orbit of N excitation periods has N states at phase 0, any of which may have been stored. Two orbits are the same if a state of one is
+//! An orbit of N excitation periods has N states at any phase, such as 0, any of which may have been stored. Two orbits are the same if a state of one is
 //! any of the states of the other; distances are in the energy norm relative to the orbit.
 
-use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
+use hammerbeam_motion::{
+    Stretch, System,
+    exact::{ExactIntegrator, MotionError},
+};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
@@ -11,12 +14,25 @@ use crate::{
     state_scale::StateScale,
 };
 
-/// States of an orbit at phase 0 of each of its excitation periods.
-pub(crate) fn phases(
+/// States of an orbit at a phase (from 0 to 1) of each of its excitation periods, wherever the orbit begins: within contacts, too.
+///
+/// * `integrator`: of its system.
+///
+/// # Errors
+/// [`MotionError`] if its motion cannot be computed.
+pub fn states_at_phase(
     integrator: &mut ExactIntegrator,
     orbit: &PeriodicSolution,
-) -> Result<Vec<Vec<f64>>, OrbitError> {
-    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 1.0 };
+    phase: f64,
+) -> Result<Vec<Vec<f64>>, MotionError> {
+    let (frequency_hz, start) = (orbit.frequency_hz, orbit.phase);
+    if start != phase {
+        let (periods, first) = (f64::from(orbit.period_multiple), if phase < start { 1.0 } else { 0.0 });
+        let phases: Vec<f64> = (0..orbit.period_multiple).map(|k| phase + first + f64::from(k)).collect();
+        let stretch = Stretch { frequency_hz, start, end: start + periods };
+        return Ok(integrator.trace(&stretch, &orbit.nodes[0], &phases)?.samples);
+    }
+    let stretch = Stretch { frequency_hz, start, end: start + 1.0 };
     let mut states = vec![orbit.nodes[0].clone()];
     for k in 1..orbit.period_multiple as usize {
         states.push(integrator.advance(&stretch, &states[k - 1])?);
@@ -60,33 +76,38 @@ impl<'a> Matcher<'a> {
     ) -> Result<Self, OrbitError> {
         let mut integrator = integrator(system, response, settings)?;
         let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
-        let phases = phases(&mut integrator, orbit)?;
+        let phases = states_at_phase(&mut integrator, orbit, orbit.phase)?;
         Ok(Self { system, response, settings, orbit, scale, phases })
     }
 
-    /// Distance of a state at phase 0 from the orbit, relative to it.
+    /// Distance of a state at a phase from the orbit, relative to it; infinite where the motion of the orbit cannot be computed.
     #[must_use]
-    pub fn distance(&self, state: &[f64]) -> f64 {
-        distance_in_phase(&self.scale, &self.phases, state)
+    pub fn distance(&self, (phase, state): (f64, &[f64])) -> f64 {
+        if phase == self.orbit.phase {
+            return distance_in_phase(&self.scale, &self.phases, state);
+        }
+        let states = integrator(self.system, self.response, self.settings)
+            .and_then(|mut integrator| Ok(states_at_phase(&mut integrator, self.orbit, phase)?));
+        states.map_or(f64::INFINITY, |states| distance_in_phase(&self.scale, &states, state))
     }
 
-    /// Whether the periodic orbit near a guess, at the same frequency and with the same number of periods, is this one.
+    /// Whether the periodic orbit near a guess, a state at a phase, at the same frequency and with the same number of periods, is this one.
     #[must_use]
-    pub fn is_near(&self, guess: &[f64]) -> bool {
+    pub fn is_near(&self, guess: (f64, &[f64])) -> bool {
         let distance = self.distance(guess);
         if distance > FAR {
             return false;
         }
         match self.correct(guess) {
-            Ok(found) => self.distance(&found.nodes[0]) < SAME.max(1e-3 * distance.min(NEAR)),
+            Ok(found) => self.distance((found.phase, &found.nodes[0])) < SAME.max(1e-3 * distance.min(NEAR)),
             Err(_) => distance < NEAR,
         }
     }
 
-    fn correct(&self, guess: &[f64]) -> Result<PeriodicSolution, OrbitError> {
+    fn correct(&self, guess: (f64, &[f64])) -> Result<PeriodicSolution, OrbitError> {
         let mut integrator = integrator(self.system, self.response, self.settings)?;
         let orbit = (self.orbit.frequency_hz, self.orbit.period_multiple);
         let nodes = nodes_from(&mut integrator, guess, orbit.0, orbit.1, self.orbit.nodes.len())?;
-        Ok(orbit_near(integrator, &nodes, orbit, self.settings)?.0)
+        Ok(orbit_near(integrator, (guess.0, &nodes), orbit, self.settings)?.0)
     }
 }

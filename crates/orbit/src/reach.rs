@@ -4,7 +4,7 @@ use hammerbeam_motion::System;
 
 use crate::{
     BranchWalk, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response, Side, find_start_unless,
-    start::attempt_nodes,
+    start::attempt_nodes, walk::Walked,
 };
 
 /// Frequencies from which another one is reached, relative to it.
@@ -57,10 +57,10 @@ pub fn reach_orbit(
             }
             reached.drain(..reached.len() - 1);
         }
-        if let Some((reached_hz, nodes)) = reached.pop()
+        if let Some(Walked { frequency_hz: reached_hz, phase, nodes }) = reached.pop()
             && reached_hz == frequency_hz
             && let Some(solution) =
-                attempt_nodes(system, response, &nodes, (frequency_hz, period_multiple), settings)?
+                attempt_nodes(system, response, (phase, &nodes), (frequency_hz, period_multiple), settings)?
         {
             return Ok(solution);
         }

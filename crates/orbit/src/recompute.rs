@@ -34,12 +34,14 @@ pub fn recompute(
     let (frequency_hz, multiple) = (given.frequency_hz, given.period_multiple);
     let nodes = match settings.segments {
         Segments::Fixed(count) if count.max(1) != given.nodes.len() => {
-            nodes_from(&mut integrator, &given.nodes[0], frequency_hz, multiple, count.max(1))?
+            let begin = (given.phase, given.nodes[0].as_slice());
+            nodes_from(&mut integrator, begin, frequency_hz, multiple, count.max(1))?
         }
         _ => given.nodes.clone(),
     };
     let scale = state_scale(system, &given.nodes[0], frequency_hz);
-    let mut problem = ShootingProblem::new(integrator, (multiple, nodes.len()), scale, 1.0);
+    let mut problem =
+        ShootingProblem::new(integrator, (multiple, nodes.len()), scale, 1.0).beginning_at(given.phase);
     let mut point = problem.point(&nodes, frequency_hz);
     evaluate(&mut problem, &point)?;
     let row = plane(&mut problem, frequency_hz)?;

@@ -7,6 +7,8 @@
 //! - from states of different motions, one for each excitation period: in chaotic motion an orbit exists for nearly every such order of
 //!   events, and the corrections are shared between the periods;
 //! - from a state at a random distance from one that was passed.
+//!
+//! They are states at phase 0; one within a contact whose law remembers its impact is no guess that counts.
 
 use crate::{
     Interruption, OrbitError,
@@ -69,7 +71,7 @@ pub(crate) fn sample(
         let before = catalogue.steps();
         let nodes = guess(catalogue, passed, (trial, period_multiple), &mut noise);
         let arrived = match nodes {
-            Some(nodes) => catalogue.probe(&nodes, period_multiple)?,
+            Some(nodes) => catalogue.probe((0.0, &nodes), period_multiple)?,
             None => None,
         };
         work += (catalogue.steps() - before) * (2 + 2 * catalogue.system.dof() as u64);
@@ -94,7 +96,7 @@ fn guess(
     let frequency_hz = catalogue.frequency_hz;
     let state = passed.any(noise).to_vec();
     let mut along = |state: &[f64], segments: usize| {
-        nodes_from(catalogue.integrator(), state, frequency_hz, period_multiple, segments).ok()
+        nodes_from(catalogue.integrator(), (0.0, state), frequency_hz, period_multiple, segments).ok()
     };
     let count = period_multiple as usize;
     match trial % 4 {
@@ -114,7 +116,7 @@ fn guess(
             if trial % 8 == 3 {
                 Some(vec![moved])
             } else {
-                nodes_from(catalogue.integrator(), &moved, frequency_hz, period_multiple, count).ok()
+                nodes_from(catalogue.integrator(), (0.0, &moved), frequency_hz, period_multiple, count).ok()
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Multiple shooting: the periodic orbit as a problem for the path crate.
 //!
-//! An orbit of N excitation periods is cut at m equal phases. The unknowns are the states `z_k` there, scaled: displacements with
+//! An orbit of N excitation periods is cut at m equal phases, the first of them the phase at which it begins (0 unless a law needs another one). The unknowns are the states `z_k` there, scaled: displacements with
 //! `V/w_i`, velocities with `V`, so that the Euclidean norm of a node is its energy norm relative to `V`. With the flow `Z_k`
 //! of segment k the equations are
 //!
@@ -41,6 +41,8 @@ pub(crate) struct ShootingProblem {
     integrator: ExactIntegrator,
     period_multiple: u32,
     segments: usize,
+    /// Phase of the first node [cycles], from 0 to N.
+    phase: f64,
     scale: StateScale,
     hertz_per_norm: f64,
     weights: Vec<f64>,
@@ -77,6 +79,7 @@ impl ShootingProblem {
             integrator,
             period_multiple,
             segments,
+            phase: 0.0,
             scale,
             hertz_per_norm,
             weights: Vec::new(),
@@ -96,6 +99,22 @@ impl ShootingProblem {
         };
         problem.set_segments(segments);
         problem
+    }
+
+    /// With the first node at this phase [cycles].
+    pub fn beginning_at(mut self, phase: f64) -> Self {
+        self.phase = phase;
+        self
+    }
+
+    /// Cuts the orbit at another phase [cycles]; the problem must be evaluated again.
+    pub fn set_phase(&mut self, phase: f64) {
+        self.phase = phase;
+    }
+
+    /// Phase of the first node [cycles], from 0 to N.
+    pub fn phase(&self) -> f64 {
+        self.phase
     }
 
     /// Makes this parameter the last unknown; the problem must be evaluated again.
@@ -235,7 +254,7 @@ impl ShootingProblem {
     /// Segment k at a frequency.
     pub fn stretch(&self, segment: usize, frequency_hz: f64) -> Stretch {
         let period = f64::from(self.period_multiple);
-        let phase = |k: usize| period * k as f64 / self.segments as f64;
+        let phase = |k: usize| self.phase + period * k as f64 / self.segments as f64;
         Stretch { frequency_hz, start: phase(segment), end: phase(segment + 1) }
     }
 

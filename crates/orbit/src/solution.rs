@@ -11,7 +11,9 @@ pub struct PeriodicSolution {
     pub frequency_hz: f64,
     /// Orbit period over excitation period.
     pub period_multiple: u32,
-    /// Shooting nodes: one state per segment, the first at phase 0, the others at equal phases.
+    /// Phase of the excitation at which the orbit begins, that of the first node [cycles], from 0 to 1; always 0 without laws that remember an impact.
+    pub phase: f64,
+    /// Shooting nodes: one state per segment, the first at [`phase`](Self::phase), the others at equal distances.
     pub nodes: Vec<Vec<f64>>,
     /// Floquet multipliers `[re, im]` of one orbit period, largest modulus first, positive imaginary part first in a pair.
     pub floquet_multipliers: Vec<[f64; 2]>,

@@ -151,12 +151,14 @@ pub(crate) fn solution(
     problem.move_to(point)?;
     let floquet_multipliers = problem.multipliers()?.to_vec();
     let residual = problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
+    let phase = problem.phase().fract();
     let nodes = problem.nodes(point);
     let stretches: Vec<Stretch> = (0..nodes.len()).map(|k| problem.stretch(k, frequency_hz)).collect();
     let maxima = observe(problem.integrator(), &stretches, &nodes)?;
     Ok(PeriodicSolution {
         frequency_hz,
         period_multiple: problem.period_multiple(),
+        phase,
         nodes,
         floquet_multipliers,
         residual,
@@ -184,15 +186,15 @@ pub(crate) fn observe(
     })
 }
 
-/// Nodes at equal phases of the motion from `state`.
+/// Nodes at equal phases of the motion from `state` at the phase `begin`.
 pub(crate) fn nodes_from(
     integrator: &mut ExactIntegrator,
-    state: &[f64],
+    (begin, state): (f64, &[f64]),
     frequency_hz: f64,
     period_multiple: u32,
     segments: usize,
 ) -> Result<Vec<Vec<f64>>, OrbitError> {
-    let phase = |k: usize| f64::from(period_multiple) * k as f64 / segments as f64;
+    let phase = |k: usize| begin + f64::from(period_multiple) * k as f64 / segments as f64;
     let mut nodes = vec![state.to_vec()];
     for k in 1..segments {
         let stretch = Stretch { frequency_hz, start: phase(k - 1), end: phase(k) };
@@ -224,7 +226,8 @@ pub(crate) fn distance_to_shorter_period(
     let mut state = solution.nodes[0].clone();
     let mut smallest = f64::INFINITY;
     for cycle in 1..multiple {
-        let stretch = Stretch { frequency_hz: solution.frequency_hz, start: 0.0, end: 1.0 };
+        let (start, frequency_hz) = (solution.phase, solution.frequency_hz);
+        let stretch = Stretch { frequency_hz, start, end: start + 1.0 };
         state = integrator.advance(&stretch, &state)?;
         if multiple.is_multiple_of(cycle) {
             smallest =
@@ -234,18 +237,19 @@ pub(crate) fn distance_to_shorter_period(
     Ok(smallest)
 }
 
-/// Corrects an orbit near these nodes, one per segment, at a fixed frequency.
+/// Corrects an orbit near these nodes, one per segment, the first at that phase, at a fixed frequency.
 ///
 /// # Errors
 /// [`OrbitError::NotConverged`] if Newton's method fails, [`OrbitError::Motion`] if the motion does.
 pub(crate) fn orbit_near(
     integrator: ExactIntegrator,
-    nodes: &[Vec<f64>],
+    (phase, nodes): (f64, &[Vec<f64>]),
     (frequency_hz, period_multiple): (f64, u32),
     settings: &OrbitSettings,
 ) -> Result<(PeriodicSolution, ShootingProblem), OrbitError> {
     let scale = state_scale(integrator.system(), &nodes[0], frequency_hz);
-    let mut problem = ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0);
+    let mut problem =
+        ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0).beginning_at(phase);
     let (point, correction) = approach(&mut problem, nodes, frequency_hz, settings)?;
     let solution = solution(&mut problem, &point, correction)?;
     Ok((solution, problem))

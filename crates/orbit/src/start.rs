@@ -4,6 +4,7 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
+    cut::search_cut,
     noise::Noise,
     solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_scale},
 };
@@ -85,7 +86,7 @@ pub(crate) fn search_start(
         match settle(system, response, (&start, effort.attempts), orbit, settings, &mut *interrupted) {
             Ok(Some(solution)) => return Ok(solution),
             Ok(None) => {}
-            Err(error @ OrbitError::Motion(_)) => failure = error,
+            Err(error @ (OrbitError::Motion(_) | OrbitError::NeverOpens { .. })) => failure = error,
             Err(error) => return Err(error),
         }
     }
@@ -143,11 +144,14 @@ fn settle(
         simulate(&mut simulation, &mut state, frequency_hz, PERIODS.saturating_sub(lag))?;
         let before = state.clone();
         simulate(&mut simulation, &mut state, frequency_hz, lag.min(PERIODS))?;
-        let found = attempt(system, response, &state, orbit, settings)?;
+        // Where a law remembers its impact, the orbit may begin at another phase, and the motion goes on behind it.
+        let (begin, end) = search_cut(&mut simulation, &state, orbit)?;
+        let found = attempt(system, response, begin.at(), orbit, settings)?;
         let scale = state_scale(system, &state, frequency_hz);
         if found.is_some() || scale.distance(&before, &state) < SETTLED {
             return Ok(found);
         }
+        state = end.unwrap_or(state);
     }
     Ok(None)
 }
@@ -166,11 +170,11 @@ pub(crate) fn simulate(
     Ok(())
 }
 
-/// Newton's method from `state`; `None` if it leads nowhere or to an orbit of a shorter period.
+/// Newton's method from a state at a phase; `None` if it leads nowhere or to an orbit of a shorter period.
 pub(crate) fn attempt(
     system: &System,
     response: &Response,
-    state: &[f64],
+    begin: (f64, &[f64]),
     (frequency_hz, period_multiple): (f64, u32),
     settings: &OrbitSettings,
 ) -> Result<Option<PeriodicSolution>, OrbitError> {
@@ -179,17 +183,17 @@ pub(crate) fn attempt(
         Segments::Fixed(count) => count.max(1),
     };
     let mut motion = integrator(system, response, settings)?;
-    let nodes = nodes_from(&mut motion, state, frequency_hz, period_multiple, segments)?;
-    attempt_nodes(system, response, &nodes, (frequency_hz, period_multiple), settings)
+    let nodes = nodes_from(&mut motion, begin, frequency_hz, period_multiple, segments)?;
+    attempt_nodes(system, response, (begin.0, &nodes), (frequency_hz, period_multiple), settings)
 }
 
-/// Newton's method from nodes, one per segment; `None` as in [`attempt`].
+/// Newton's method from nodes, one per segment, the first at that phase; `None` as in [`attempt`].
 ///
 /// Far from an orbit Newton's iterates may go where no motion can be computed: that is no more than a guess that was not good enough.
 pub(crate) fn attempt_nodes(
     system: &System,
     response: &Response,
-    nodes: &[Vec<f64>],
+    nodes: (f64, &[Vec<f64>]),
     orbit: (f64, u32),
     settings: &OrbitSettings,
 ) -> Result<Option<PeriodicSolution>, OrbitError> {

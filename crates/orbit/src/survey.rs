@@ -8,7 +8,8 @@ use hammerbeam_motion::{Stretch, System};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
-    matching::{distance_in_phase, phases},
+    cut::search_cut,
+    matching::{distance_in_phase, states_at_phase},
     solve::{integrator, state_scale},
     start::{attempt, attempt_nodes, simulate, starting_states},
     state_scale::StateScale,
@@ -56,7 +57,7 @@ pub fn survey(
     let mut computed = false;
     for start in starting_states(system, response, frequency_hz, effort.starts, settings)? {
         match survey.from(&start) {
-            Err(error @ OrbitError::Motion(_)) => failure = Some(error),
+            Err(error @ (OrbitError::Motion(_) | OrbitError::NeverOpens { .. })) => failure = Some(error),
             Err(error) => return Err(error),
             Ok(orbits) => {
                 computed = true;
@@ -101,7 +102,13 @@ impl Survey<'_> {
         let scale = state_scale(self.system, &states[0], self.frequency_hz);
         if let Some(period) = repeats_after(&states, &scale, largest) {
             let wanted = self.multiples.contains(&(period as u32));
-            let orbit = if wanted { self.orbit(&states[states.len() - 1], period as u32)? } else { None };
+            let last = &states[states.len() - 1];
+            let orbit = if wanted {
+                let (begin, _) = search_cut(&mut integrator, last, (self.frequency_hz, period as u32))?;
+                self.orbit(begin.at(), period as u32)?
+            } else {
+                None
+            };
             return Ok(orbit.into_iter().collect());
         }
         let mut orbits = Vec::new();
@@ -109,17 +116,17 @@ impl Survey<'_> {
             for nodes in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
                 // Newton's method from all states and from the first one alone go different ways; either may arrive.
                 let orbit = (self.frequency_hz, multiple);
-                orbits.extend(attempt_nodes(self.system, self.response, nodes, orbit, self.settings)?);
+                orbits.extend(attempt_nodes(self.system, self.response, (0.0, nodes), orbit, self.settings)?);
                 if multiple > 1 {
-                    orbits.extend(self.orbit(&nodes[0], multiple)?);
+                    orbits.extend(self.orbit((0.0, &nodes[0]), multiple)?);
                 }
             }
         }
         Ok(orbits)
     }
 
-    fn orbit(&self, state: &[f64], multiple: u32) -> Result<Option<PeriodicSolution>, OrbitError> {
-        attempt(self.system, self.response, state, (self.frequency_hz, multiple), self.settings)
+    fn orbit(&self, begin: (f64, &[f64]), multiple: u32) -> Result<Option<PeriodicSolution>, OrbitError> {
+        attempt(self.system, self.response, begin, (self.frequency_hz, multiple), self.settings)
     }
 
     fn holds(&self, found: &[PeriodicSolution], orbit: &PeriodicSolution) -> Result<bool, OrbitError> {
@@ -128,9 +135,19 @@ impl Survey<'_> {
             return Ok(false);
         }
         let mut integrator = integrator(self.system, self.response, self.settings)?;
-        let phases = phases(&mut integrator, orbit)?;
         let scale = state_scale(self.system, &orbit.nodes[0], self.frequency_hz);
-        Ok(same_period().any(|known| distance_in_phase(&scale, &phases, &known.nodes[0]) < SAME))
+        let mut phases = states_at_phase(&mut integrator, orbit, orbit.phase)?;
+        let mut at = orbit.phase;
+        for known in same_period() {
+            if known.phase != at {
+                at = known.phase;
+                phases = states_at_phase(&mut integrator, orbit, at)?;
+            }
+            if distance_in_phase(&scale, &phases, &known.nodes[0]) < SAME {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 }
 

@@ -81,10 +81,12 @@ impl Crossing {
     ) -> Result<PeriodicSolution, OrbitError> {
         let mut integrator = integrator(system, response, settings)?;
         let (frequency_hz, multiple) = (self.orbit.frequency_hz, self.orbit.period_multiple * self.factor);
-        let segments = self.orbit.nodes.len() * self.factor as usize;
-        let nodes = nodes_from(&mut integrator, &self.orbit.nodes[0], frequency_hz, multiple, segments)?;
+        let (segments, phase) = (self.orbit.nodes.len() * self.factor as usize, self.orbit.phase);
+        let nodes =
+            nodes_from(&mut integrator, (phase, &self.orbit.nodes[0]), frequency_hz, multiple, segments)?;
         let scale = state_scale(system, &self.orbit.nodes[0], frequency_hz);
-        let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, 1.0);
+        let mut problem =
+            ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(phase);
         let point = problem.point(&nodes, frequency_hz);
         evaluate(&mut problem, &point)?;
         solution(&mut problem, &point, self.orbit.error_estimate)
@@ -104,11 +106,13 @@ fn leave(
     let (multiple, segments) =
         (orbit.period_multiple * crossing.factor, orbit.nodes.len() * crossing.factor as usize);
     let mut integrator = integrator(system, response, settings)?;
-    let cut = Cut { frequency_hz: orbit.frequency_hz, period_multiple: multiple, segments };
+    let cut =
+        Cut { frequency_hz: orbit.frequency_hz, phase: orbit.phase, period_multiple: multiple, segments };
     let Carried { nodes, slopes } = carry(&mut integrator, &orbit.nodes[0], &crossing.direction, &cut)?;
     let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
     let length = hertz_per_norm(range_hz);
-    let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
+    let mut problem =
+        ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(orbit.phase);
     if settings.locates_stability_changes {
         problem.watch_stability();
     }
@@ -146,6 +150,7 @@ fn leave(
 /// How an orbit is cut.
 struct Cut {
     frequency_hz: f64,
+    phase: f64,
     period_multiple: u32,
     segments: usize,
 }
@@ -165,7 +170,7 @@ fn carry(
 ) -> Result<Carried, OrbitError> {
     let size = state.len();
     let by_frequency = direction[size];
-    let phase = |k: usize| f64::from(cut.period_multiple) * k as f64 / cut.segments as f64;
+    let phase = |k: usize| cut.phase + f64::from(cut.period_multiple) * k as f64 / cut.segments as f64;
     let (mut nodes, mut slopes) = (vec![state.to_vec()], vec![direction[..size].to_vec()]);
     for k in 1..cut.segments {
         let stretch = Stretch { frequency_hz: cut.frequency_hz, start: phase(k - 1), end: phase(k) };

@@ -11,6 +11,7 @@ use crate::{
     continuation_parameter::ContinuationParameter,
     density::{LastRows, Place},
     located,
+    recut::Origin,
     shooting::ShootingProblem,
     solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
 };
@@ -29,6 +30,9 @@ const SHORTEST_AT_IMPACTS: f64 = 100.0;
 /// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more segments. A segment of 3e6 makes steps
 /// of a millionth of a hertz.
 const MOST_GROWTH: f64 = 1e4;
+
+/// So often a step that fails is tried again with orbits that begin at another phase.
+const MOST_FLIGHTS: u32 = 3;
 
 /// One side of a branch, followed from its start.
 ///
@@ -50,6 +54,24 @@ pub struct BranchWalk {
     pub(crate) last_rows: LastRows,
     /// Shooting evaluations spent on rows between points of the path.
     pub(crate) evaluations_between: u64,
+    /// The start as it was begun, once the phase at which orbits begin has moved.
+    pub(crate) origin: Option<Origin>,
+}
+
+/// An orbit that a walk has come to, without its maxima.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Walked {
+    pub frequency_hz: f64,
+    /// Phase of the first node [cycles].
+    pub phase: f64,
+    pub nodes: Vec<Vec<f64>>,
+}
+
+impl Walked {
+    /// That orbit.
+    pub fn of(orbit: &PeriodicSolution) -> Self {
+        Self { frequency_hz: orbit.frequency_hz, phase: orbit.phase, nodes: orbit.nodes.clone() }
+    }
 }
 
 impl BranchWalk {
@@ -87,9 +109,11 @@ impl BranchWalk {
         let scale = state_scale(system, &start.nodes[0], start.frequency_hz);
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
         let segments = segment_count(system, start, settings);
-        let nodes = nodes_from(&mut integrator, &start.nodes[0], frequency, multiple, segments)?;
+        let begin = (start.phase, start.nodes[0].as_slice());
+        let nodes = nodes_from(&mut integrator, begin, frequency, multiple, segments)?;
         let length = hertz_per_norm(range_hz);
-        let mut problem = ShootingProblem::new(integrator, (multiple, segments), scale, length);
+        let mut problem =
+            ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(start.phase);
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -131,6 +155,7 @@ impl BranchWalk {
             begins_with_present: false,
             last_rows,
             evaluations_between: 0,
+            origin: None,
         }
     }
 
@@ -163,6 +188,7 @@ impl BranchWalk {
         let orbit = PeriodicSolution {
             frequency_hz: self.problem.frequency(point),
             period_multiple: multiple,
+            phase: self.problem.phase().fract(),
             nodes: self.problem.nodes(point),
             floquet_multipliers: Vec::new(),
             residual: 0.0,
@@ -189,6 +215,7 @@ impl BranchWalk {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
         self.keep_to_scale();
+        self.keep_phase_clear();
         let mut from = self.follower.current().clone();
         match self.advance(&mut from)? {
             None => match self.row() {
@@ -225,8 +252,7 @@ impl BranchWalk {
         let factor = 2f64.powi(size.log2().round() as i32);
         self.problem.rescale(factor);
         self.follower.rescale(factor);
-        let surplus = self.last_rows.0.len().saturating_sub(1);
-        self.last_rows.0.drain(..surplus);
+        self.last_rows.keep_newest();
     }
 
     /// Cuts the orbit anew where its multipliers have outgrown the segments, before steps become so short that the walk crawls.
@@ -243,16 +269,22 @@ impl BranchWalk {
         Ok(())
     }
 
-    /// Goes to the next point of the path, with more segments if it does not go on with the present ones; `from` becomes the point before it.
+    /// Goes to the next point of the path, with more segments or at another phase if it does not go on with the present ones; `from` becomes the point before it.
     fn advance(
         &mut self,
         from: &mut ContinuationPoint,
     ) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
         use hammerbeam_path::StopReason::{EvaluationFailed, StepTooShort};
+        let mut flights = 0;
         loop {
             from.clone_from(self.follower.current());
             match self.follower.step(&mut self.problem) {
                 StepOutcome::Accepted => return Ok(None),
+                StepOutcome::Stopped(StepTooShort { .. } | EvaluationFailed { .. })
+                    if flights < MOST_FLIGHTS && self.flee_phase() =>
+                {
+                    flights += 1;
+                }
                 StepOutcome::Stopped(reason @ (StepTooShort { .. } | EvaluationFailed { .. }))
                     if self.settings.segments == Segments::Automatic =>
                 {
@@ -267,20 +299,23 @@ impl BranchWalk {
         }
     }
 
-    /// Goes to the next solution but gives only its frequency and nodes.
+    /// Goes to the next solution but gives only its frequency, phase and nodes.
     pub(crate) fn step_without_maxima(
         &mut self,
-        states: &mut Vec<(f64, Vec<Vec<f64>>)>,
+        states: &mut Vec<Walked>,
     ) -> Result<Option<StopReason>, OrbitError> {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
         self.keep_to_scale();
+        self.keep_phase_clear();
         let mut from = self.follower.current().clone();
         match self.advance(&mut from)? {
             None => {
                 let current = self.follower.current();
-                states.push((current.parameter(), self.problem.nodes(&current.point)));
+                let nodes = self.problem.nodes(&current.point);
+                let phase = self.problem.phase().fract();
+                states.push(Walked { frequency_hz: current.parameter(), phase, nodes });
                 Ok(None)
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),

@@ -76,6 +76,13 @@ impl PathMemory {
         }
     }
 
+    /// Forgets all points.
+    pub fn clear(&mut self) {
+        self.vertices.clear();
+        self.heads.clear();
+        self.links.clear();
+    }
+
     /// Arc length of an earlier stretch that runs through this (oriented) candidate, if there is one.
     pub fn meets(&self, candidate: &Candidate, orientation: f64, unit: f64) -> Option<f64> {
         let tangent = in_units(&candidate.node.tangent, unit);

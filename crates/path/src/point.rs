@@ -51,7 +51,9 @@ pub struct ContinuationPoint {
 }
 
 impl ContinuationPoint {
-    pub(crate) fn empty(length: usize) -> Self {
+    /// A point of zeros with that many entries.
+    #[must_use]
+    pub fn empty(length: usize) -> Self {
         Self {
             point: vec![0.0; length],
             tangent: vec![0.0; length],

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use hammerbeam_attractor::{distance, state_scales};
-use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side};
+use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
+use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side, states_at_phase};
 
 use crate::{
     Model, Store, StoreError, StudyFile,
@@ -109,8 +110,13 @@ impl StoredBranches {
         let scales = state_scales(&model.system, frequency_hz);
         let orbits =
             self.crossings(model, frequency_hz, |record| record.period_multiple as usize == states.len())?;
-        let same = |orbit: &PeriodicSolution| {
-            states.iter().any(|state| distance(&scales, state, &orbit.nodes[0]) < SAME)
+        let motion = ExactIntegrator::new(model.system.clone(), ExactSettings::default());
+        let Ok(mut integrator) = motion else { return Ok(None) };
+        let mut same = |orbit: &PeriodicSolution| {
+            let there = states_at_phase(&mut integrator, orbit, 0.0).unwrap_or_default();
+            there
+                .first()
+                .is_some_and(|there| states.iter().any(|state| distance(&scales, state, there) < SAME))
         };
         Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
     }
@@ -125,6 +131,11 @@ impl StoredBranches {
     ) -> Result<PeriodicSolution, StoreError> {
         let stored = |placed: &PlacedRow| self.store.solution(record.start, placed.side, placed.number);
         let (first, second) = (stored(&pair[0])?, stored(&pair[1])?);
+        if first.phase != second.phase {
+            // The orbits were cut anew between the rows: the nearer one is the guess.
+            let nearer = if share < 0.5 { first } else { second };
+            return Ok(PeriodicSolution { frequency_hz, ..nearer });
+        }
         let states = first.nodes[0].iter().zip(&second.nodes[0]);
         let state = states.map(|(a, b)| a + share * (b - a)).collect();
         Ok(PeriodicSolution { frequency_hz, nodes: vec![state], ..first })

@@ -164,11 +164,11 @@ impl Solver for OrbitSolver<'_> {
 }
 
 impl Match for Matcher<'_> {
-    fn distance(&self, state: &[f64]) -> f64 {
+    fn distance(&self, state: (f64, &[f64])) -> f64 {
         self.distance(state)
     }
 
-    fn is_near(&self, guess: &[f64]) -> bool {
+    fn is_near(&self, guess: (f64, &[f64])) -> bool {
         self.is_near(guess)
     }
 }

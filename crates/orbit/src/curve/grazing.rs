@@ -73,18 +73,18 @@ impl Touch {
         Linear { values, rows, tests: vec![sign * acceleration / (unit * std::f64::consts::TAU * f)] }
     }
 
-    /// Phase and state of the orbit from `state` at phase 0 where the contact is reached with the least clearance and turns.
+    /// Phase and state of the orbit from `state` at the phase `begin` where the contact is reached with the least clearance and turns.
     pub fn find(
         self,
         shooting: &mut Shooting,
-        state: &[f64],
+        (begin, state): (f64, &[f64]),
         frequency_hz: f64,
     ) -> Result<Option<(f64, Vec<f64>)>, OrbitError> {
         let periods = f64::from(shooting.period_multiple);
         let looks = LOOKS * shooting.period_multiple as usize;
-        let phase = |k: usize| periods * k as f64 / looks as f64;
+        let phase = |k: usize| begin + periods * k as f64 / looks as f64;
         let (mut state, mut best) = (state.to_vec(), None::<(f64, f64, Vec<f64>)>);
-        let mut before = self.clearance(shooting, frequency_hz, 0.0, &state);
+        let mut before = self.clearance(shooting, frequency_hz, begin, &state);
         for k in 1..=looks {
             let stretch = Stretch { frequency_hz, start: phase(k - 1), end: phase(k) };
             let next = shooting.integrator.advance(&stretch, &state)?;

@@ -135,6 +135,8 @@ pub struct CurveWalk {
     follower: Follower,
     settings: CurveSettings,
     kind: CurveKind,
+    /// Phase at which its orbits begin: that of the start.
+    begin: f64,
     end: Option<CurveEnd>,
 }
 
@@ -179,7 +181,7 @@ impl CurveWalk {
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
-        Ok(Self { problem, follower, settings: *settings, kind, end: None })
+        Ok(Self { problem, follower, settings: *settings, kind, begin: start.phase, end: None })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -254,10 +256,11 @@ impl CurveWalk {
             (0..shooting.count).map(|k| shooting.stretch(k, place.frequency_hz, place.phase)).collect();
         let maxima = observe(&mut shooting.integrator, &stretches, &nodes)?;
         let has_phase = self.problem.condition.has_phase();
-        let nodes = if has_phase { self.nodes_at_phase_zero(&place, &nodes[0])? } else { nodes };
+        let nodes = if has_phase { self.nodes_from_begin(&place, &nodes[0])? } else { nodes };
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
             period_multiple: self.problem.shooting.period_multiple,
+            phase: self.begin,
             nodes,
             floquet_multipliers,
             residual,
@@ -289,15 +292,15 @@ impl CurveWalk {
         }
     }
 
-    /// Nodes at equal phases from phase 0 of the orbit that is cut elsewhere.
-    fn nodes_at_phase_zero(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
+    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere.
+    fn nodes_from_begin(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
         let shooting = &mut self.problem.shooting;
         let (f, multiple, count) = (place.frequency_hz, shooting.period_multiple, shooting.count);
         let periods = f64::from(multiple);
-        let end = (place.phase / periods).ceil() * periods;
+        let end = self.begin + ((place.phase - self.begin) / periods).ceil() * periods;
         let stretch = Stretch { frequency_hz: f, start: place.phase, end };
         let first = shooting.integrator.advance(&stretch, state)?;
-        nodes_from(&mut shooting.integrator, &first, f, multiple, count)
+        nodes_from(&mut shooting.integrator, (self.begin, &first), f, multiple, count)
     }
 }
 
@@ -312,10 +315,10 @@ fn first_condition(
     };
     let frequency_hz = start.frequency_hz;
     let scales = shooting.scale.values().to_vec();
-    let mut place = Place { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: 0.0, value };
+    let mut place = Place { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: start.phase, value };
     if let CurveKind::Grazing { contact } = kind {
         let Some(touch) = Touch::of_contact(shooting, contact) else { return Ok(None) };
-        let Some((phase, state)) = touch.find(shooting, &start.nodes[0], frequency_hz)? else {
+        let Some((phase, state)) = touch.find(shooting, (start.phase, &start.nodes[0]), frequency_hz)? else {
             return Ok(None);
         };
         let mut nodes = vec![state];

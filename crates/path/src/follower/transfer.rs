@@ -4,6 +4,9 @@
 //! the start, against which a closed path is recognised; the arc length, the counters, the sense of the parameter and of the
 //! determinant; and the memory, which holds only the part of the unknowns that stays
 //! ([`PathProblem::memory_weights`]).
+//!
+//! Where nothing of the unknowns stays, the memory begins anew ([`Follower::transfer_afresh`]): what was walked before is then not recognised again. The start may have no
+//! unknowns of the new kind; it is out of reach then, and no path closes, until a later transfer brings it back.
 
 use super::{
     Follower,
@@ -34,8 +37,29 @@ impl Follower {
         current: &Node,
         start: &Node,
     ) -> Result<(), PathError> {
+        let memory = self.memory.clone();
+        self.transfer_afresh(problem, current, Some((start, &self.state.start.clone())))?;
+        self.memory = memory;
+        Ok(())
+    }
+
+    /// [`transfer`](Self::transfer) to unknowns none of which is the same: the memory begins anew, with the present point.
+    ///
+    /// * `start`: in the new unknowns, and the point that it is in the old ones or was in earlier ones (whose orientation and events stay); `None` where it has none of the new kind.
+    ///
+    /// # Errors
+    /// Those of [`transfer`](Self::transfer).
+    pub fn transfer_afresh(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        current: &Node,
+        start: Option<(&Node, &ContinuationPoint)>,
+    ) -> Result<(), PathError> {
         let mut counters = self.state.counters;
-        let (start, _) = self.in_new_unknowns(problem, start, &self.state.start, &mut counters)?;
+        let start = match start {
+            Some((start, old)) => self.in_new_unknowns(problem, start, old, &mut counters)?.0,
+            None => out_of_reach(problem.weights().len()),
+        };
         let (current, node) = self.in_new_unknowns(problem, current, &self.state.current, &mut counters)?;
         let mut state = self.state.clone();
         state.history = History::new(current.point.len());
@@ -44,10 +68,21 @@ impl Follower {
         state.counters = counters;
         state.stop = None;
         (state.start, state.current) = (start, current);
-        let mut follower = Self::resume(problem, state, self.range, self.settings.clone());
-        std::mem::swap(&mut follower.memory, &mut self.memory);
-        *self = follower;
+        let unit = state.unit;
+        *self = Self::resume(problem, state, self.range, self.settings.clone());
+        self.memory.remember(&self.state.current, unit);
         Ok(())
+    }
+
+    /// Whether the start has the present unknowns, so that a path that comes back to it is seen to close.
+    #[must_use]
+    pub fn has_start(&self) -> bool {
+        self.state.start.parameter().is_finite()
+    }
+
+    /// Forgets all points so far, as [`transfer_afresh`](Self::transfer_afresh) did; for [`remember`](Self::remember).
+    pub fn forget(&mut self) {
+        self.memory.clear();
     }
 
     /// The old point in the new unknowns, and the node of the predictor there.
@@ -81,4 +116,11 @@ impl Follower {
         };
         Ok((point, trial.node))
     }
+}
+
+/// A point that no path comes to.
+fn out_of_reach(length: usize) -> ContinuationPoint {
+    let mut point = ContinuationPoint::empty(length);
+    point.point[length - 1] = f64::INFINITY;
+    point
 }

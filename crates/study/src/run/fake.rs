@@ -32,6 +32,7 @@ impl FakeSolver {
             (0..self.state_length).map(|i| (s + (segment * self.state_length + i) as f64).sin()).collect()
         };
         PeriodicSolution {
+            phase: 0.0,
             frequency_hz,
             period_multiple: multiple,
             nodes: (0..self.segments).map(node).collect(),
@@ -100,11 +101,11 @@ impl Solver for FakeSolver {
 struct FakeMatch<'a>(&'a PeriodicSolution);
 
 impl Match for FakeMatch<'_> {
-    fn distance(&self, state: &[f64]) -> f64 {
+    fn distance(&self, (_, state): (f64, &[f64])) -> f64 {
         state.iter().zip(&self.0.nodes[0]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
 
-    fn is_near(&self, guess: &[f64]) -> bool {
+    fn is_near(&self, guess: (f64, &[f64])) -> bool {
         self.distance(guess) < 1e-3
     }
 }

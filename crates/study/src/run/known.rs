@@ -73,7 +73,8 @@ pub(super) fn has_branch_point(
     }
     let Ok(matcher) = solver.matcher(root) else { return Ok(false) };
     for key in near {
-        if matcher.distance(&store.solution_of_key(key)?.nodes[0]) < SAME_STATE {
+        let stored = store.solution_of_key(key)?;
+        if matcher.distance((stored.phase, &stored.nodes[0])) < SAME_STATE {
             return Ok(true);
         }
     }
@@ -127,7 +128,12 @@ fn is_between(
     share: f64,
 ) -> Result<bool, StoreError> {
     let (first, second) = (store.solution_of_key(first)?, store.solution_of_key(second)?);
+    if first.phase != second.phase {
+        // The orbits were cut anew between them: their nodes are no neighbours, but each is near the solution.
+        let near = |stored: PeriodicSolution| matcher.is_near((stored.phase, &stored.nodes[0]));
+        return Ok(near(first) || near(second));
+    }
     let pairs = first.nodes[0].iter().zip(&second.nodes[0]);
     let guess: Vec<f64> = pairs.map(|(a, b)| a + share * (b - a)).collect();
-    Ok(matcher.is_near(&guess))
+    Ok(matcher.is_near((first.phase, &guess)))
 }

@@ -85,9 +85,9 @@ pub trait Walk {
 
 /// A solution that others are compared with, whatever the excitation period at which they begin.
 pub trait Match {
-    /// Distance of a state at phase 0 from the solution, relative to it.
-    fn distance(&self, state: &[f64]) -> f64;
+    /// Distance of a state at a phase [cycles] from the solution, relative to it.
+    fn distance(&self, state: (f64, &[f64])) -> f64;
 
-    /// Whether the periodic solution near a guess, at the same frequency, is this one.
-    fn is_near(&self, guess: &[f64]) -> bool;
+    /// Whether the periodic solution near a guess, a state at a phase, at the same frequency, is this one.
+    fn is_near(&self, guess: (f64, &[f64])) -> bool;
 }

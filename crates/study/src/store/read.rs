@@ -177,7 +177,7 @@ impl Store {
     pub fn solution_of_key(&self, key: i64) -> Result<PeriodicSolution, StoreError> {
         let select = format!(
             "SELECT {ROW}, segments, state_length, multiplier_count, multipliers, nodes,
-            (SELECT period_multiple FROM start WHERE id = ?2) FROM solution WHERE id = ?1"
+            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles FROM solution WHERE id = ?1"
         );
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, key >> 33])?;
@@ -257,6 +257,7 @@ fn read_solution(row: &SqlRow<'_>) -> Result<PeriodicSolution, StoreError> {
     Ok(PeriodicSolution {
         frequency_hz: shown.frequency_hz,
         period_multiple: row.get(18)?,
+        phase: row.get(19)?,
         nodes: nodes.chunks(state_length.max(1)).map(<[f64]>::to_vec).collect(),
         floquet_multipliers: pairs.chunks(2).map(|pair| [pair[0], pair[1]]).collect(),
         residual: shown.residual,

@@ -68,7 +68,8 @@ CREATE TABLE solution (
     state_length INTEGER NOT NULL,
     multiplier_count INTEGER NOT NULL,
     multipliers BLOB NOT NULL,
-    nodes BLOB NOT NULL
+    nodes BLOB NOT NULL,
+    phase_cycles REAL NOT NULL
 );
 CREATE TABLE event (
     solution INTEGER PRIMARY KEY,

@@ -13,6 +13,7 @@ fn study(text: &str) -> StudyFile {
 
 fn solution(frequency_hz: f64) -> PeriodicSolution {
     PeriodicSolution {
+        phase: 0.375,
         frequency_hz,
         period_multiple: 1,
         nodes: vec![vec![0.1, 1.0 / 3.0], vec![-0.0, 1e-300], vec![f64::MAX, 5.0]],

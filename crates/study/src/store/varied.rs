@@ -46,6 +46,7 @@ CREATE TABLE IF NOT EXISTS piece_row (
     segments INTEGER NOT NULL,
     state_length INTEGER NOT NULL,
     nodes BLOB NOT NULL,
+    phase_cycles REAL NOT NULL,
     PRIMARY KEY (piece, branch, place)
 ) WITHOUT ROWID;
 ";
@@ -295,7 +296,7 @@ fn insert_row(
     row: &VariedRow,
 ) -> Result<(), StoreError> {
     let insert = "INSERT INTO piece_row VALUES
-        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20)";
+        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21)";
     let (solution, maxima) = (&row.solution, &row.solution.maxima);
     let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or([0.0, 0.0]);
     transaction.prepare_cached(insert)?.execute(params![
@@ -319,6 +320,7 @@ fn insert_row(
         solution.nodes.len() as i64,
         solution.nodes.first().map_or(0, Vec::len) as i64,
         blob::pack(solution.nodes.iter().flatten()),
+        solution.phase,
     ])?;
     Ok(())
 }

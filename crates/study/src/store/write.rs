@@ -94,7 +94,7 @@ pub(super) fn insert_solution(
     events: Events,
 ) -> Result<(), StoreError> {
     let insert = "INSERT INTO solution VALUES
-        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19)";
+        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20)";
     let maxima = &solution.maxima;
     let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or([0.0, 0.0]);
     let state_length = solution.nodes.first().map_or(0, Vec::len);
@@ -118,6 +118,7 @@ pub(super) fn insert_solution(
         solution.floquet_multipliers.len() as i64,
         blob::pack(solution.floquet_multipliers.iter().flatten()),
         blob::pack(solution.nodes.iter().flatten()),
+        solution.phase,
     ])?;
     Ok(())
 }

@@ -32,11 +32,11 @@ pub(super) fn follow(model: &Model, study: &Study, vary: &Vary, watch: &Watch<'_
         watch.interrupted()
     })?;
     let mut branches = Vec::new();
-    let mut known: Vec<Vec<f64>> = Vec::new();
+    let mut known: Vec<(f64, Vec<f64>)> = Vec::new();
     let orbits = found.orbits.len() as f64;
     for (number, start) in found.orbits.iter().enumerate() {
         let matcher = Matcher::new(&model.system, &model.response, start, &searching)?;
-        if known.iter().any(|guess| matcher.is_near(guess)) {
+        if known.iter().any(|(phase, guess)| matcher.is_near((*phase, guess))) {
             continue;
         }
         let tell = |value: f64, frequency_hz: f64, part: f64| {
@@ -112,8 +112,8 @@ fn varied(row: BranchRow, parameter: &StudyParameter) -> VariedRow {
     VariedRow { parameter: value, event: row.events.label(), solution: row.solution }
 }
 
-/// States near the orbits in which a branch passes the value of the study.
-fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<Vec<f64>> {
+/// Phases and states near the orbits in which a branch passes the value of the study.
+fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<(f64, Vec<f64>)> {
     let value = parameter.in_study(value);
     let mut found = Vec::new();
     for pair in rows.windows(2) {
@@ -122,8 +122,14 @@ fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<
             continue;
         }
         let share = if a == b { 0.0 } else { a / (a - b) };
-        let (from, to) = (&pair[0].solution.nodes[0], &pair[1].solution.nodes[0]);
-        found.push(from.iter().zip(to).map(|(x, y)| x + share * (y - x)).collect());
+        let [from, to] = [&pair[0].solution, &pair[1].solution];
+        if from.phase == to.phase {
+            let states = from.nodes[0].iter().zip(&to.nodes[0]);
+            found.push((from.phase, states.map(|(x, y)| x + share * (y - x)).collect()));
+        } else {
+            // The orbits were cut anew between the rows: their nodes are no neighbours.
+            found.extend([from, to].map(|orbit| (orbit.phase, orbit.nodes[0].clone())));
+        }
     }
     found
 }

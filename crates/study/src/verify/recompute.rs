@@ -79,7 +79,8 @@ pub(super) fn recompute(
     let (mut residual, mut largest) = (0.0_f64, 0.0_f64);
     let mut joined: Option<Observed> = None;
     for k in 0..segments {
-        let phase = |k: usize| f64::from(solution.period_multiple) * k as f64 / segments as f64;
+        let periods = f64::from(solution.period_multiple);
+        let phase = |k: usize| solution.phase + periods * k as f64 / segments as f64;
         let stretch = Stretch { frequency_hz: solution.frequency_hz, start: phase(k), end: phase(k + 1) };
         let observed = observe(system, &stretch, &state, response, &settings).map_err(Failed::Motion)?;
         settings.first_step = Some(observed.next_step);

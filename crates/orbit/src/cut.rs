@@ -1,0 +1,173 @@
+//! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began.
+//!
+//! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of
+//! it, in the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, so that whole cycles can be added to them without rounding: a motion that is
+//! followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0.
+
+use hammerbeam_motion::{
+    Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
+
+use crate::OrbitError;
+
+/// Phases of a cycle at which an orbit may begin.
+const GRID: f64 = 1024.0;
+/// A contact this near [cycles] moves the phase,
+pub(crate) const MARGIN: f64 = 1.0 / 32.0;
+/// or a smaller part of the longest time without contact.
+const PART: f64 = 1.0 / 8.0;
+/// Shortest time without contact in which an orbit can begin [cycles].
+const SHORTEST: f64 = 4.0 / GRID;
+
+/// A state at a phase at which an orbit may begin.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Begin {
+    /// From 0 to 1 [cycles].
+    pub phase: f64,
+    pub state: Vec<f64>,
+}
+
+impl Begin {
+    /// Phase and state.
+    pub fn at(&self) -> (f64, &[f64]) {
+        (self.phase, &self.state)
+    }
+}
+
+/// A time without contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Gap {
+    pub begin: f64,
+    pub end: f64,
+}
+
+impl Gap {
+    pub fn length(self) -> f64 {
+        self.end - self.begin
+    }
+
+    /// Its middle after the phase `from`, which is one of the grid, so that the phase there is one, too.
+    pub fn middle(self, from: f64) -> f64 {
+        ((from + 0.5 * (self.begin + self.end)) * GRID).round() / GRID - from
+    }
+
+    /// Whether an orbit that begins so near a contact had better begin in the middle of the gap.
+    pub fn asks_to_move(self, nearest: f64) -> bool {
+        nearest < MARGIN.min(PART * self.length())
+    }
+}
+
+/// Times of contacts whose laws remember their impact, in cycles since the phase `start`, in their order, over `cycles` of the motion.
+pub(crate) fn contacts(
+    integrator: &mut ExactIntegrator,
+    (start, cycles): (f64, f64),
+    state: &[f64],
+    frequency_hz: f64,
+) -> Result<Vec<Gap>, MotionError> {
+    let stretch = Stretch { frequency_hz, start, end: start + cycles };
+    let trace = integrator.trace(&stretch, state, &[])?;
+    Ok(closed_times(integrator, &trace.contacts, (frequency_hz, cycles)))
+}
+
+fn closed_times(
+    integrator: &ExactIntegrator,
+    contacts: &[hammerbeam_motion::exact::ContactPiece],
+    (frequency_hz, cycles): (f64, f64),
+) -> Vec<Gap> {
+    let elements = integrator.system().elements();
+    let of_law = contacts.iter().filter(|contact| elements[contact.element].law.remembers_impact());
+    let mut times: Vec<Gap> = of_law
+        .map(|contact| Gap {
+            begin: contact.begin.as_ref().map_or(0.0, |begin| begin.time * frequency_hz),
+            end: contact.end.map_or(cycles, |end| end * frequency_hz),
+        })
+        .collect();
+    times.sort_by(|a, b| a.begin.total_cmp(&b.begin));
+    times
+}
+
+/// The longest time between contacts within `from..to`.
+fn longest_gap(contacts: &[Gap], (from, to): (f64, f64)) -> Gap {
+    let (mut longest, mut reached) = (Gap { begin: from, end: from }, from);
+    let end = Gap { begin: to, end: to };
+    for contact in contacts.iter().chain([&end]) {
+        if contact.begin - reached > longest.length() {
+            longest = Gap { begin: reached, end: contact.begin };
+        }
+        reached = reached.max(contact.end);
+    }
+    longest
+}
+
+/// The longest time without contact of an orbit of that many cycles that begins in flight; it may go on beyond the end of the orbit. The second number is the time from the begin to the
+/// nearest contact, before or behind.
+///
+/// * `avoids_begin`: the begin counts as a contact.
+pub(crate) fn longest_of_orbit(contacts: &[Gap], cycles: f64, avoids_begin: bool) -> Option<(Gap, f64)> {
+    let first = contacts.first()?.begin;
+    let last = contacts.iter().map(|contact| contact.end).fold(0.0, f64::max);
+    let nearest = first.min(cycles - last).max(0.0);
+    if avoids_begin {
+        return Some((longest_gap(contacts, (0.0, cycles)), nearest));
+    }
+    Some((longest_gap(contacts, (first, cycles + first)), nearest))
+}
+
+/// Where an orbit of some periods may begin near the motion from `state` at phase 0, which the integrator has followed up to there; and, where the motion was looked at, the state at a later
+/// phase 0, from which it can be followed on.
+///
+/// # Errors
+/// [`OrbitError::NeverOpens`], [`OrbitError::Motion`].
+pub(crate) fn search_cut(
+    integrator: &mut ExactIntegrator,
+    state: &[f64],
+    (frequency_hz, period_multiple): (f64, u32),
+) -> Result<(Begin, Option<Vec<f64>>), OrbitError> {
+    if !integrator.system().remembers_impacts() {
+        return Ok((Begin { phase: 0.0, state: state.to_vec() }, None));
+    }
+    let cycles = f64::from(period_multiple + 1);
+    let phases: Vec<f64> = (0..=(cycles * GRID) as u32).map(|k| f64::from(k) / GRID).collect();
+    let stretch = Stretch { frequency_hz, start: 0.0, end: cycles };
+    let trace = integrator.trace(&stretch, state, &phases)?;
+    let contacts = closed_times(integrator, &trace.contacts, (frequency_hz, cycles));
+    let gap = longest_gap(&contacts, (0.0, cycles));
+    if gap.length() < SHORTEST {
+        let element = trace.contacts.first().map_or(0, |contact| contact.element);
+        let element = integrator.system().elements()[element].name.clone();
+        return Err(OrbitError::NeverOpens { element, frequency_hz });
+    }
+    // Phase 0 after one cycle, where what comes before is known, too.
+    let distance = |contact: &Gap| (contact.begin - 1.0).max(1.0 - contact.end).max(0.0);
+    let nearest = contacts.iter().map(distance).fold(f64::INFINITY, f64::min);
+    let at = if gap.asks_to_move(nearest) { gap.middle(0.0) } else { 1.0 };
+    let state = trace.samples[(at * GRID) as usize].clone();
+    Ok((Begin { phase: at.fract(), state }, Some(trace.state)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CONTACTS: [Gap; 2] = [Gap { begin: 0.25, end: 0.5 }, Gap { begin: 0.625, end: 0.75 }];
+
+    #[test]
+    fn the_longest_gap_of_an_orbit_may_lie_across_its_end() {
+        let across = Gap { begin: 0.75, end: 1.25 };
+        assert_eq!(longest_of_orbit(&CONTACTS, 1.0, false), Some((across, 0.25)));
+        // From the phase 3/8 its middle is the phase 11/8, one cycle after 3/8.
+        assert_eq!(across.middle(0.375), 1.0);
+        let before = Gap { begin: 0.0, end: 0.25 };
+        assert_eq!(longest_of_orbit(&CONTACTS, 1.0, true), Some((before, 0.25)));
+        assert_eq!(longest_of_orbit(&[], 1.0, false), None);
+    }
+
+    /// Overlapping contacts of two stops leave only what both leave.
+    #[test]
+    fn a_gap_is_free_of_all_contacts() {
+        let both = [Gap { begin: 0.1, end: 0.6 }, Gap { begin: 0.2, end: 0.3 }, Gap { begin: 0.9, end: 1.0 }];
+        assert_eq!(longest_gap(&both, (0.0, 1.0)), Gap { begin: 0.6, end: 0.9 });
+        assert_eq!(longest_gap(&[Gap { begin: 0.0, end: 1.0 }], (0.0, 1.0)).length(), 0.0);
+    }
+}
