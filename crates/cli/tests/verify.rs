@@ -147,6 +147,56 @@ fn a_fold_that_is_none_is_found() {
     assert_found("events = 1", middle(), "events");
 }
 
+/// A weight on a damped stop that it leaves for an instant: the touch is as weak as the flight is low, the contact as deep as ever.
+#[test]
+fn touches_of_a_deep_contact_that_just_opens_agree() {
+    let workshop = Workshop::with(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{ name = "m", mass_kg = 2.0 }]
+        spring = [{ between = ["m", "ground"], stiffness_n_m = 50.0 }]
+        damper = [{ between = ["m", "ground"], damping_n_s_m = 2.0 }]
+        [excitation]
+        kind = "support-motion"
+        at = "ground"
+        amplitude_m = 1.0e-3
+        frequency_hz = [12.8, 13.0]
+        [[load]]
+        kind = "gravity"
+        acceleration_m_s2 = -9.81
+        [[stop]]
+        at = "m"
+        law = "linear"
+        stiffness_n_m = 4.0e4
+        damping_n_s_m = 20.0
+        gap_m = 0.0
+        side = "below"
+        [response]
+        period_multiples = [1]
+        [continuation]
+        max_step_hz = 0.001
+        "#,
+    );
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let weak: Vec<f64> =
+        impact_velocities(&workshop.csv("results")).into_iter().filter(|v| *v < 2e-4).collect();
+    assert!(weak.len() > 2, "no weak touches: {weak:?}");
+    let output = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
+    let document = document(&output);
+    let quantities = document["quantities"].as_array().unwrap();
+    let velocity = quantities.iter().find(|q| q["quantity"] == "max_impact_velocity_m_s").unwrap();
+    assert_eq!(velocity["disagree"], 0, "{document:#}");
+}
+
+/// The impact velocities of a table that are not zero [m/s].
+fn impact_velocities(table: &str) -> Vec<f64> {
+    let column = |name| table.lines().next().unwrap().split(',').position(|title| title == name).unwrap();
+    let place = column("max_impact_velocity_m_s");
+    let values = table.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap());
+    values.filter(|v: &f64| *v > 0.0).collect()
+}
+
 #[test]
 fn a_folder_without_solutions_is_exit_code_1() {
     let workshop = tampered("DELETE FROM solution");

@@ -1,6 +1,6 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
-use hammerbeam_motion::{Law, System};
+use hammerbeam_motion::{Law, LocalElement, System};
 use hammerbeam_orbit::PeriodicSolution;
 
 use super::{
@@ -33,15 +33,22 @@ pub(super) struct Comparison {
 /// The measures of an orbit by which differences are judged.
 struct Measures {
     gain: f64,
-    /// Largest relative displacement [m], velocity [m/s] and acceleration [m/s^2] of an element that a unit of the relative state makes.
-    contact: [f64; 3],
+    /// Largest relative displacement [m] and velocity [m/s] of an element that a unit of the relative state makes.
+    contact: [f64; 2],
+    /// Bound of the relative acceleration of an element just before it touches [m/s^2].
+    approach: f64,
     /// The same of the response point, and its acceleration [m/s^2].
     displacement: f64,
     acceleration: f64,
 }
 
 impl Measures {
-    fn of(system: &System, response: &[f64], scales: &[f64], gain: f64) -> Self {
+    fn of(
+        (system, response): (&System, &[f64]),
+        scales: &[f64],
+        frequency_hz: f64,
+        found: &Recomputed,
+    ) -> Self {
         let n = system.dof();
         let (lengths, velocities) = scales.split_at(n);
         let size = |shape: &[f64], scale: &dyn Fn(usize) -> f64| {
@@ -51,24 +58,60 @@ impl Measures {
         let most = |scale: &dyn Fn(usize) -> f64| stops().map(|e| size(&e.shape, scale)).fold(0.0, f64::max);
         let frequencies = &system.model().natural_frequencies;
         Self {
-            gain,
-            contact: [
-                most(&|i| lengths[i]),
-                most(&|i| velocities[i]),
-                most(&|i| frequencies[i] * velocities[i]),
-            ],
+            gain: found.gain,
+            contact: [most(&|i| lengths[i]), most(&|i| velocities[i])],
+            approach: most(&|i| frequencies[i] * velocities[i])
+                + driven(system, frequency_hz)
+                + pushed(system) * found.maxima.contact_force,
             displacement: size(response, &|i| lengths[i]),
             acceleration: size(response, &|i| frequencies[i] * velocities[i]),
         }
     }
 
-    /// `g = 1 + min(V_r / v + W_r L_r / v^2, L_r / p)`.
-    fn contact_factor(&self, found: &Recomputed) -> f64 {
-        let [length, velocity, acceleration] = self.contact;
-        let deepest = found.extrema.iter().copied().fold(0.0, f64::max);
-        let impact = found.maxima.impact_velocity;
-        1.0 + (velocity / impact + acceleration * length / (impact * impact)).min(length / deepest)
+    /// `g_v = 1 + V_r / v + W L_r / v^2`, for the velocity at a touch.
+    ///
+    /// A state that is wrong by `e` changes the penetration by `L_r e` and its velocity by `V_r e`. The touch, where the penetration is zero, comes earlier or later by
+    /// `L_r e / v`, over which the acceleration, `W` at most, changes the velocity by `W L_r e / v`. So `|dv| <= (V_r + W L_r / v) e`.
+    /// `W` is what a state of size one, all loads (a weight among them) and the largest force of another element make of it. A weak touch need not be one of a shallow contact: where a deep contact just opens, the flight between is as low as
+    /// `v^2 / 2 W` and the penetration behind the touch as deep as ever, and says nothing of `v`.
+    fn touch_factor(&self, found: &Recomputed) -> f64 {
+        let ([length, velocity], impact) = (self.contact, found.maxima.impact_velocity);
+        1.0 + velocity / impact + self.approach * length / (impact * impact)
     }
+
+    /// `g = 1 + min(g_v - 1, L_r / p)`, for what a contact does: its force follows the penetration, which is wrong by `L_r e` of `p`.
+    fn contact_factor(&self, found: &Recomputed) -> f64 {
+        let deepest = found.extrema.iter().copied().fold(0.0, f64::max);
+        1.0 + (self.touch_factor(found) - 1.0).min(self.contact[0] / deepest)
+    }
+}
+
+/// Largest relative acceleration of an element that the loads and the support make [m/s^2].
+fn driven(system: &System, frequency_hz: f64) -> f64 {
+    let circular = std::f64::consts::TAU * frequency_hz;
+    let of_element = |element: &LocalElement| -> f64 {
+        let orders = system.orders().iter().enumerate().map(|(index, &order)| {
+            let load = system.modal_load(index, circular).amplitude;
+            let modal: faer::c64 = load.iter().zip(&element.shape).map(|(b, phi)| *b * *phi).sum();
+            let support = system.support_amplitudes()[index].norm() * (f64::from(order) * circular).powi(2);
+            modal.norm() + element.support_ratio.abs() * support
+        });
+        orders.sum()
+    };
+    system.elements().iter().map(of_element).fold(0.0, f64::max)
+}
+
+/// Largest relative acceleration that a unit of force in each of the other elements makes of one [m/s^2/N].
+fn pushed(system: &System) -> f64 {
+    let elements = system.elements();
+    let product = |a: &LocalElement, b: &LocalElement| -> f64 {
+        a.shape.iter().zip(&b.shape).map(|(a, b)| a * b).sum::<f64>().abs()
+    };
+    let of_others = |k: usize| -> f64 {
+        let others = elements.iter().enumerate().filter(|(j, _)| *j != k);
+        others.map(|(_, other)| product(&elements[k], other)).sum()
+    };
+    (0..elements.len()).map(of_others).fold(0.0, f64::max)
 }
 
 /// Every comparison of a solution.
@@ -81,7 +124,7 @@ pub(super) fn compare(
     found: &Recomputed,
     (tolerance, sensitivity): (f64, f64),
 ) -> Vec<Comparison> {
-    let measures = Measures::of(system, response, scales, found.gain);
+    let measures = Measures::of((system, response), scales, solution.frequency_hz, found);
     let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
     maxima(row, found, &measures, &mut list);
     let margin = tolerance * found.gain * measures.contact[0];
@@ -127,7 +170,8 @@ fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Com
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
     push(Quantity::ContactForce, stored.contact_force, new.contact_force, factor * new.contact_force);
-    push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, factor * new.impact_velocity);
+    let touch = if new.impact_velocity > 0.0 { measures.touch_factor(found) } else { 1.0 };
+    push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, touch * new.impact_velocity);
     push(Quantity::Impulse, stored.impulse, new.impulse, factor * new.impulse);
 }
 
