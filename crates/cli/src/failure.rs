@@ -79,8 +79,8 @@ impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
         match error {
             ExportError::Store(error) => error.into(),
-            // Its message has the cause already.
-            other => Self::Other(anyhow::Error::msg(other.to_string())),
+            // The user named the folder; the message has the cause already.
+            other => Self::BadInput(other.to_string()),
         }
     }
 }

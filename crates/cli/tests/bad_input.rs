@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success};
+use common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 
 /// Every command that reads a study refuses it in the same words, and the folder stays as it was.
 #[track_caller]
@@ -183,9 +183,8 @@ fn export_of_a_folder_without_results() {
 fn export_into_a_place_that_is_a_file_says_why_once() {
     let workshop = with_results();
     let output = workshop.hammerbeam(&["export", "results", "--format", "csv", "--out", "study.toml"]);
-    assert_eq!(output.status.code(), Some(1));
+    assert_bad_input(&output, &["cannot write study.toml"]);
     let message = common::stderr(&output);
-    assert!(message.contains("cannot write study.toml"), "{message}");
     assert_eq!(message.matches("os error").count(), 1, "{message}");
 }
 
@@ -210,5 +209,45 @@ fn flags_out_of_range() {
         &["juggle"],
     ] {
         assert_bad_input(&workshop.hammerbeam(arguments), &["error: "]);
+    }
+}
+
+/// A mass with a damper, which nothing brings back.
+const FREE: &str = "[structure]\nkind = \"lumped\"\nmass = [{ name = \"m\", mass_kg = 1.0 }]\n\
+    damper = [{ between = [\"m\", \"ground\"], damping_n_s_m = 0.5 }]\n\
+    [excitation]\nkind = \"force\"\nat = \"m\"\namplitude_n = 1.0\nfrequency_hz = [1.0, 1.1]\n";
+const STOP_ABOVE: &str = "[[stop]]\nname = \"s\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 1e3\ngap_m = 1.0\nside = \"above\"\n";
+
+#[test]
+fn a_structure_that_nothing_holds_has_no_isolated_solutions() {
+    let workshop = Workshop::with(FREE);
+    let parts = ["nothing holds the rigid-body motion (m 1.000), at 0 Hz", "families"];
+    let before = workshop.listing();
+    assert_bad_input(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]), &parts);
+    assert_bad_input(&workshop.hammerbeam(&["orbit", "study.toml", "--frequency", "1"]), &parts);
+    assert_eq!(workshop.listing(), before, "something was written");
+    let check = workshop.hammerbeam(&["check", "study.toml", "--json"]);
+    assert_success(&check);
+    assert!(stderr(&check).contains(parts[0]), "{}", stderr(&check));
+    let document: serde_json::Value = serde_json::from_str(&stdout(&check)).unwrap();
+    assert_eq!(document["drifts"][0]["motion"]["m"], 1.0);
+    assert_eq!(document["drifts"][0]["held_by_stops"], false);
+}
+
+#[test]
+fn a_structure_that_only_stops_hold_is_warned_of() {
+    let workshop = Workshop::with(&format!("{FREE}{STOP_ABOVE}"));
+    let check = workshop.hammerbeam(&["check", "study.toml"]);
+    assert_success(&check);
+    assert!(stderr(&check).contains("warning: only stops that can open hold"), "{}", stderr(&check));
+}
+
+#[test]
+fn folders_that_cannot_be_made_are_bad_input() {
+    let workshop = Workshop::with(TWO_MASSES);
+    // A file where a folder should be: nobody, not even root, can write below it.
+    let below = "study.toml/below";
+    for arguments in [&["new", below][..], &["run", "study.toml", "--out", below]] {
+        assert_bad_input(&workshop.hammerbeam(arguments), &["below"]);
     }
 }

@@ -52,6 +52,6 @@ pub use document::{Problem, Report};
 pub use export::export_csv;
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
-pub use model::{Model, StudyParameter};
+pub use model::{Drift, Model, StudyParameter};
 pub use orbit_solver::OrbitSolver;
 pub use store::{Store, StoreError};

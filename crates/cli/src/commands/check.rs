@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_study::{
-    Model, Study, StudyFile,
+    Drift, Model, Study, StudyFile,
     file::{
         Approach, Beam, ExcitationKind, FixedTo, Load, Lumped, Place, Reduction, ReductionMethod, Side, Stop,
         StopLaw, Structure,
@@ -11,11 +11,12 @@ use hammerbeam_study::{
 };
 use serde_json::{Value, json};
 
-use crate::{args::StudyOptions, failure::Failure, output::Output};
+use crate::{args::StudyOptions, drift, failure::Failure, output::Output};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
+    drift::warn(&model.drifts());
     output.give(&document(&file.study, &model), || text(&file.study, &model));
     Ok(())
 }
@@ -32,11 +33,19 @@ fn document(study: &Study, model: &Model) -> Value {
         "degrees_of_freedom": model.system.dof(),
         "eigenfrequencies_hz": eigenfrequencies_hz(model),
         "frequency_hz": study.excitation.frequency_hz,
+        "drifts": model.drifts().iter().map(drift_document).collect::<Vec<_>>(),
         "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
         "response_point": study.response.point,
         "period_multiples": study.response.period_multiples,
         "study": study,
     })
+}
+
+/// Displacements are relative to the largest.
+fn drift_document(drift: &Drift) -> Value {
+    let motion: serde_json::Map<String, Value> =
+        drift.motion.iter().map(|(name, size)| (name.clone(), (*size).into())).collect();
+    json!({ "frequency_hz": 0.0, "motion": motion, "held_by_stops": drift.held_by_stops })
 }
 
 fn text(study: &Study, model: &Model) -> String {

@@ -6,7 +6,7 @@ use hammerbeam_orbit::{FoundOrbits, OrbitError, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
 
-use crate::{args::OrbitOptions, failure::Failure, interrupt::Interrupt, output::Output};
+use crate::{args::OrbitOptions, drift, failure::Failure, interrupt::Interrupt, output::Output};
 
 /// Time after which a search ends with what it has found.
 const LONGEST: Duration = Duration::from_secs(20);
@@ -14,6 +14,7 @@ const LONGEST: Duration = Duration::from_secs(20);
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
+    drift::heed(&model)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
     let interrupt = Interrupt::listen()?;

@@ -12,12 +12,14 @@ use hammerbeam_study::{
 use serde_json::{Value, json};
 
 use crate::{
-    args::RunOptions, failure::Failure, figures, interrupt::Interrupt, output::Output, progress::Terminal,
+    args::RunOptions, drift, failure::Failure, figures, interrupt::Interrupt, output::Output,
+    progress::Terminal,
 };
 
 pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
+    drift::heed(&model)?;
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let mut terminal = Terminal::new(Interrupt::listen()?);

@@ -1,5 +1,6 @@
 //! From the study to the equations of motion.
 
+mod drift;
 mod element;
 mod load;
 mod parameter;
@@ -9,6 +10,7 @@ use hammerbeam_motion::{System, SystemError};
 use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, ReducedModel, StructureError};
 
+pub use drift::Drift;
 pub use parameter::StudyParameter;
 
 use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
