@@ -184,7 +184,7 @@ fn export_into_a_place_that_is_a_file_says_why_once() {
     let workshop = with_results();
     let output = workshop.hammerbeam(&["export", "results", "--format", "csv", "--out", "study.toml"]);
     assert_bad_input(&output, &["cannot write study.toml"]);
-    let message = common::stderr(&output);
+    let message = stderr(&output);
     assert_eq!(message.matches("os error").count(), 1, "{message}");
 }
 
