@@ -251,3 +251,20 @@ fn folders_that_cannot_be_made_are_bad_input() {
         assert_bad_input(&workshop.hammerbeam(arguments), &["below"]);
     }
 }
+
+#[test]
+fn results_folder_of_another_version() {
+    let workshop = with_results();
+    let connection = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    connection.execute("UPDATE about SET value = '0' WHERE key = 'data_version'", []).unwrap();
+    connection.close().unwrap();
+    let before = workshop.listing();
+    for arguments in [
+        &["run", "study.toml", "--out", "results"][..],
+        &["export", "results", "--format", "csv"],
+        &["verify", "results"],
+    ] {
+        assert_bad_input(&workshop.hammerbeam(arguments), &["data version 0"]);
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
+}
