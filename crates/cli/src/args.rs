@@ -34,7 +34,7 @@ pub enum Command {
     /// Read and validate a study, and print what was understood
     Check(StudyOptions),
     /// Print the eigenfrequencies: unreduced, of the reduction basis, and reduced
-    Modes(StudyOptions),
+    Modes(ModesOptions),
     /// Compute everything a study asks for into a results folder; started again, it goes on where it was
     Run(RunOptions),
     /// Compute the periodic solutions at one frequency
@@ -50,6 +50,8 @@ pub enum Command {
     /// Measured or exported time series: filter, spectrum, damping, kind of motion, exponent
     #[command(subcommand)]
     Signal(SignalCommand),
+    /// Draw everything that a results folder holds, as SVG and PNG
+    Figure(FigureOptions),
     /// Write stored results for other programs
     Export(ExportOptions),
     /// Compute stored solutions again with the independent integrator, and report every disagreement
@@ -66,6 +68,16 @@ pub struct NewOptions {
 pub struct StudyOptions {
     /// Study file
     pub study: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct ModesOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Folder, made if it is not there, into which the error of the reduction is drawn
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -94,6 +106,10 @@ pub struct OrbitOptions {
     /// Orbit period over excitation period; solutions of a shorter period are not given
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub period_multiple: u32,
+
+    /// Folder, made if it is not there, into which each solution is drawn: over its period, in the phase plane, and its spectrum
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -108,6 +124,57 @@ pub struct ExportOptions {
     /// Folder to write into [default: RESULTS/export]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct FigureOptions {
+    /// Results folder
+    pub results: PathBuf,
+
+    /// Folder to draw into, made if it is not there [default: RESULTS]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Draw these alone; may be given several times [default: all]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub kind: Vec<FigureKind>,
+
+    /// Scale of the vertical axis of response diagrams
+    #[arg(long, value_enum, default_value_t = FigureScale::Automatic)]
+    pub scale: FigureScale,
+}
+
+/// Scale of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureScale {
+    /// Logarithmic where the values are positive and span a factor of more than 40
+    Automatic,
+    /// Linear
+    Linear,
+    /// Logarithmic
+    Logarithmic,
+}
+
+/// What a figure shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureKind {
+    /// Branches: maximum displacement and acceleration over the frequency
+    Response,
+    /// Curves of bifurcations in two parameters
+    Curves,
+    /// Floquet multipliers of each branch, over the frequency and in the complex plane
+    Multipliers,
+    /// Settled motions of sweeps over the frequency
+    Sweeps,
+    /// Lyapunov exponents, their convergence, and stroboscopic sections
+    Exponents,
+    /// Basins of attraction
+    Basins,
+}
+
+impl FigureKind {
+    pub const ALL: [Self; 6] =
+        [Self::Response, Self::Curves, Self::Multipliers, Self::Sweeps, Self::Exponents, Self::Basins];
 }
 
 #[derive(Debug, Args)]

@@ -15,7 +15,7 @@
 //!     ..ResponsePoint::default()
 //! });
 //! let curve = ResponseCurve { period_multiple: 1, points: points.collect() };
-//! let diagram = ResponseDiagram { title: String::new(), curves: vec![curve], frequency_range_hz: None };
+//! let diagram = ResponseDiagram { curves: vec![curve], ..ResponseDiagram::default() };
 //! let figure = diagram.draw(Quantity::Displacement)?;
 //! assert!(figure.svg().starts_with("<svg"));
 //! assert!(figure.png(300.0)?.starts_with(b"\x89PNG"));
@@ -23,15 +23,16 @@
 //! ```
 //!
 //! # The rooms
-//! Data run from the diagram to the page. [`ResponseDiagram`] and [`CurveDiagram`] are the kinds of figures so far; a further
-//! kind is one more file beside them, made of the same parts:
+//! Data run from the diagram to the page. [`ResponseDiagram`] and [`CurveDiagram`] draw themselves; every other
+//! kind is a file that turns its data into a `chart`, panels of layers over one axis:
 //!
 //! | room | what it knows |
 //! |---|---|
 //! | `style` | the look: sizes for a journal column, line widths, colours; the only place to change it |
 //! | `scale`, `ticks`, `axis`, `plot` | a linear or logarithmic scale, where its ticks are, a frame with two axes |
 //! | `stretch`, `decimate`, `line` | a branch cut where its stability changes, fewer points for the same line, dashes |
-//! | `marks`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
+//! | `chart`, `layer` | panels on top of each other under one legend; lines, dots, intervals, cells, shades, reference lines |
+//! | `marks`, `dots`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
 //! | `text`, `font` | lines with italic parts, numbers as printed, widths of the glyphs of the bundled font |
 //! | `svg`, `png` | the few elements we need, in points; the renderer with the bundled font alone |
 //!
@@ -49,27 +50,46 @@
 //!   to every figure.
 
 mod axis;
+mod basin_map;
+mod chart;
 mod curve_diagram;
 mod decimate;
+mod dots;
 mod error;
+mod exponent_diagram;
 mod figure;
 mod font;
+mod layer;
 mod legend;
 mod line;
 mod marks;
+mod motion;
+mod motion_section;
+mod multiplier_diagram;
+mod orbit_diagram;
 mod plot;
 mod png;
+mod reduction_diagram;
 mod response_diagram;
 mod scale;
 mod stretch;
 mod style;
 mod svg;
+mod sweep_diagram;
 mod text;
 mod ticks;
 
+pub use basin_map::{BasinMap, Destination};
 pub use curve_diagram::{Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint};
 pub use error::FigureError;
+pub use exponent_diagram::{ConvergenceDiagram, ExponentDiagram, ExponentPoint};
 pub use figure::Figure;
+pub use motion::MotionKind;
+pub use motion_section::SectionDiagram;
+pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
+pub use orbit_diagram::{OrbitDiagram, OrbitSample};
+pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
 pub use scale::ScaleChoice;
 pub use style::Style;
+pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};
