@@ -6,7 +6,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     cut::search_cut,
     noise::Noise,
-    solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_scale},
+    solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_of_rest, state_scale},
 };
 
 /// Excitation periods simulated between two attempts of Newton's method.
@@ -100,7 +100,8 @@ pub(crate) fn check_multiple(found: u32) -> Result<(), OrbitError> {
     if (1..=most).contains(&found) { Ok(()) } else { Err(OrbitError::PeriodMultiple { found, most }) }
 }
 
-/// The linear response, and states in its neighbourhood and well beyond it, always the same ones.
+/// The linear response, and states in its neighbourhood and well beyond it, always the same ones. Of a state within a contact that must not be begun in, its mirror image about
+/// the place of rest is taken.
 pub(crate) fn starting_states(
     system: &System,
     response: &Response,
@@ -122,7 +123,24 @@ pub(crate) fn starting_states(
         let add = |i: usize, noise: f64| scale.values()[i] * reach * noise / (1 + i % n) as f64;
         states.push((0..2 * n).map(|i| linear[i] + add(i, noise.signed())).collect());
     }
+    if system.remembers_impacts() {
+        let rest = state_of_rest(system);
+        for state in &mut states {
+            if is_in_contact(system, frequency_hz, state) {
+                state.iter_mut().zip(&rest).for_each(|(z, rest)| *z = 2.0 * rest - *z);
+            }
+        }
+    }
     Ok(states)
+}
+
+/// Whether a state at phase 0 lies within a contact whose law remembers its impact.
+fn is_in_contact(system: &System, frequency_hz: f64, state: &[f64]) -> bool {
+    let of_law = system.elements().iter().enumerate().filter(|(_, element)| element.law.remembers_impact());
+    of_law.into_iter().any(|(number, element)| {
+        let [r, ..] = system.relative_motion(number, frequency_hz, 0.0, state);
+        element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) >= 0.0)
+    })
 }
 
 /// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has settled on one of another period.

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use hammerbeam_path::{
-    DenseProblem, Determinant, Direction, EvaluationError, Follower, Node, ParameterRange, PathError,
-    PathProblem, Settings, SingularJacobian, StepOutcome, StopReason,
+    ContinuationPoint, DenseProblem, Determinant, Direction, EvaluationError, Follower, Node, ParameterRange,
+    PathError, PathProblem, Settings, SingularJacobian, StepOutcome, StopReason,
 };
 
 type Function = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64]) -> u64>;
@@ -113,4 +113,40 @@ fn other_equations_on_the_way_are_refused_and_change_nothing() {
     let found = follower.transfer(&mut Circle::new(3), &node, &node);
     assert_eq!(found, Err(PathError::WrongLength { found: 3, expected: 4 }));
     assert_eq!(follower.checkpoint(), &before);
+}
+
+/// The unknowns are those of before, but nothing of them is said to stay: without its start the circle is walked on beyond it; with the start brought back on the way it closes there.
+#[test]
+fn a_start_that_is_out_of_reach_can_be_brought_back() {
+    for brought_back in [false, true] {
+        let mut problem = Circle::new(1);
+        let mut follower = begun(&mut problem, &[1.0, 0.0]);
+        let first = follower.checkpoint().start.clone();
+        let node =
+            |point: &ContinuationPoint| Node { point: point.point.clone(), tangent: point.tangent.clone() };
+        let mut closed = false;
+        while follower.current().arc_length < TAU + 0.5 && !closed {
+            match follower.step(&mut problem) {
+                StepOutcome::Accepted => {}
+                StepOutcome::Stopped(reason) => {
+                    assert_eq!(reason, StopReason::Closed);
+                    closed = true;
+                }
+            }
+            let current = node(follower.current());
+            let length = follower.current().arc_length;
+            if follower.has_start() && (1.0..2.0).contains(&length) {
+                follower.transfer_afresh(&mut problem, &current, None).unwrap();
+                assert!(!follower.has_start());
+            } else if brought_back && !follower.has_start() && length > 5.0 {
+                let start = node(&first);
+                follower.transfer_afresh(&mut problem, &current, Some((&start, &first))).unwrap();
+                assert!(follower.has_start());
+            }
+        }
+        assert_eq!(closed, brought_back);
+        if closed {
+            assert_relative_eq!(follower.current().arc_length, TAU, epsilon = 1e-4);
+        }
+    }
 }
