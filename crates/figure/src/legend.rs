@@ -1,11 +1,12 @@
 //! The legend: a flow of samples with their names, in rows above the plot, where it covers no data.
 
 use crate::{
+    dots::Dot,
     font::CAPITAL_HEIGHT,
     line::draw_stretches,
-    marks::Mark,
+    marks::{Mark, square},
     plot::lettering,
-    style::{Pattern, Style},
+    style::{INK, Pattern, Style},
     svg::{Anchor, Dashes, Point, Stroke, SvgWriter},
     text::Text,
 };
@@ -21,6 +22,10 @@ pub(crate) enum Sample {
     Pattern(Pattern),
     /// An event.
     Mark(Mark),
+    /// A kind of dots.
+    Dot(Dot),
+    /// A colour that fills.
+    Cell(&'static str),
 }
 
 /// A sample with its name.
@@ -34,6 +39,8 @@ const LINE_LENGTH: f64 = 20.0; // five dashes of the default pattern
 const COLOUR_LENGTH: f64 = 9.0;
 const COLOUR_WIDTH: f64 = 2.5;
 const MARK_WIDTH: f64 = 4.0;
+const CELL_WIDTH: f64 = 6.0;
+const SAMPLE_RADIUS: f64 = 1.2;
 const GAP_IN_ENTRY: f64 = 3.0;
 const GAP_BETWEEN_ENTRIES: f64 = 11.0;
 
@@ -42,7 +49,8 @@ impl Entry {
         match self.sample {
             Sample::Line { .. } | Sample::Pattern(_) => LINE_LENGTH,
             Sample::Colour(_) => COLOUR_LENGTH,
-            Sample::Mark(_) => MARK_WIDTH,
+            Sample::Mark(_) | Sample::Dot(_) => MARK_WIDTH,
+            Sample::Cell(_) => CELL_WIDTH,
         }
     }
 
@@ -61,6 +69,15 @@ impl Entry {
                 svg.polylines(std::iter::once((ends.as_slice(), dashes)), stroke);
             }
             Sample::Colour(colour) => svg.polyline(&ends, Stroke { colour, width: COLOUR_WIDTH }),
+            Sample::Dot(dot) => {
+                let radius = dot.radius.max(SAMPLE_RADIUS);
+                Dot { radius, ..dot }.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }]);
+            }
+            Sample::Cell(colour) => {
+                let half = 0.5 * CELL_WIDTH;
+                let data = square(Point { x: at.x + half, y }, half);
+                svg.path(&data, colour, Stroke { colour: INK, width: 0.5 * style.frame_width });
+            }
             Sample::Mark(mark) => {
                 mark.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }], style.mark_radius);
             }

@@ -49,14 +49,21 @@
 //!   to every figure.
 
 mod axis;
+mod basin_map;
+mod chart;
 mod curve_diagram;
 mod decimate;
+mod dots;
 mod error;
+mod exponent_diagram;
 mod figure;
 mod font;
+mod layer;
 mod legend;
 mod line;
 mod marks;
+mod motion;
+mod motion_section;
 mod plot;
 mod png;
 mod response_diagram;
@@ -64,12 +71,18 @@ mod scale;
 mod stretch;
 mod style;
 mod svg;
+mod sweep_diagram;
 mod text;
 mod ticks;
 
+pub use basin_map::{BasinMap, Destination};
 pub use curve_diagram::{Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint};
 pub use error::FigureError;
+pub use exponent_diagram::{ConvergenceDiagram, ExponentDiagram, ExponentPoint};
 pub use figure::Figure;
+pub use motion::MotionKind;
+pub use motion_section::SectionDiagram;
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
 pub use scale::ScaleChoice;
 pub use style::Style;
+pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};

@@ -74,7 +74,7 @@ impl Mark {
     }
 }
 
-fn circle(at: Point, radius: f64) -> String {
+pub(crate) fn circle(at: Point, radius: f64) -> String {
     let (r, diameter) = (number(radius), number(2.0 * radius));
     format!(
         "M{} {}a{r} {r} 0 1 0 {diameter} 0a{r} {r} 0 1 0 -{diameter} 0z",
@@ -84,18 +84,18 @@ fn circle(at: Point, radius: f64) -> String {
 }
 
 /// Upright and equilateral, its centre at the place.
-fn triangle(at: Point, radius: f64) -> String {
+pub(crate) fn triangle(at: Point, radius: f64) -> String {
     let (half, height) = (radius * 0.75f64.sqrt(), 1.5 * radius);
     let start = format!("M{} {}", number(at.x), number(at.y - radius));
     format!("{start}l{} {}h-{}z", number(half), number(height), number(2.0 * half))
 }
 
-fn diamond(at: Point, radius: f64) -> String {
+pub(crate) fn diamond(at: Point, radius: f64) -> String {
     let r = number(radius);
     format!("M{} {}l{r} {r}l-{r} {r}l-{r} -{r}z", number(at.x), number(at.y - radius))
 }
 
-fn square(at: Point, half: f64) -> String {
+pub(crate) fn square(at: Point, half: f64) -> String {
     let side = number(2.0 * half);
     format!("M{} {}h{side}v{side}h-{side}z", number(at.x - half), number(at.y - half))
 }

@@ -3,7 +3,7 @@
 //! Colours are told apart by eyes of every kind and in grey print: those of neighbouring periods differ in
 //! lightness as well as in hue. Nothing is said by colour alone where a line style or a mark can say it.
 
-use crate::Bifurcation;
+use crate::{Bifurcation, MotionKind};
 
 /// Colour of text, frames and marks.
 pub(crate) const INK: &str = "#222222";
@@ -13,6 +13,35 @@ pub(crate) const PALE_INK: &str = "#7d7d7d";
 pub(crate) const GRID: &str = "#e3e3e3";
 /// Colour of the paper, inside open marks.
 pub(crate) const PAPER: &str = "#ffffff";
+
+/// Colour of shaded ranges behind the data.
+pub(crate) const SHADE: &str = "#f3ddb8";
+
+/// Fills of areas, told apart in grey print by their lightness; later ones start again.
+const FILLS: [&str; 6] = ["#2b4f87", "#f2c38a", "#5fae96", "#a0476b", "#dfe6ee", "#8c8c3a"];
+
+/// Colour of the area with that number, from 0.
+pub(crate) fn fill(number: usize) -> &'static str {
+    FILLS[number % FILLS.len()]
+}
+
+/// Lines with that number, from 0: told apart by colour and by dashes.
+pub(crate) fn line_pattern(number: usize) -> Pattern {
+    const DASHES: [Option<(f64, f64)>; 6] =
+        [None, Some((5.0, 1.6)), Some((2.6, 1.4)), Some((1.2, 1.2)), Some((7.0, 2.5)), Some((0.8, 2.0))];
+    let place = number % DASHES.len();
+    Pattern { colour: PERIOD_COLOURS[place], dashes: DASHES[place] }
+}
+
+/// Colour of a kind of motion: dark where it repeats, light where not.
+pub(crate) fn kind_colour(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Periodic { .. } => PERIOD_COLOURS[0],
+        MotionKind::QuasiPeriodic => PERIOD_COLOURS[2],
+        MotionKind::Chaotic => PERIOD_COLOURS[1],
+        MotionKind::Doubtful => PALE_INK,
+    }
+}
 
 /// Colours of period multiples 1, 2, 3 and so on; later ones start again.
 const PERIOD_COLOURS: [&str; 6] = ["#14356b", "#d1571b", "#3fb89b", "#7d2a8c", "#b98a10", "#6fb1e0"];

@@ -1,0 +1,185 @@
+//! A chart: panels on top of each other, each a frame with layers, under one title and one legend.
+//!
+//! Every figure but the response diagram and the curves is a function from its data to one of these. A value without a place on an axis
+//! (not finite, not positive on a logarithmic one, outside the ends) is a gap in a line and left out of a cloud; a panel without any is refused.
+
+use crate::{
+    Figure, FigureError, ScaleChoice, Style,
+    axis::Axis,
+    font::CAPITAL_HEIGHT,
+    layer::Layer,
+    legend::{Entry, Legend},
+    plot::{Area, Plot, lettering, room_below, room_left},
+    scale::{Scale, ScaleKind, extent},
+    svg::{Anchor, Point, SvgWriter, points},
+    text::{Text, wrap},
+};
+
+/// Space around everything, between head and plot, and between panels (pt).
+const MARGIN: f64 = 2.0;
+const GAP: f64 = 5.0;
+const PANEL_GAP: f64 = 10.0;
+/// Distance of tick labels on the horizontal and vertical axis (pt).
+const TICK_SPACING: (f64, f64) = (42.0, 24.0);
+
+/// What an axis of a chart shows.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Measure {
+    /// What it measures, with the unit.
+    pub(crate) label: Text,
+    pub(crate) choice: ScaleChoice,
+    /// Where it ends; a little beyond the data if not told.
+    pub(crate) ends: Option<(f64, f64)>,
+}
+
+impl Measure {
+    /// A linear axis a little longer than the data.
+    pub(crate) fn new(label: impl Into<String>) -> Self {
+        Self { label: Text::upright(label), choice: ScaleChoice::Linear, ends: None }
+    }
+
+    pub(crate) fn logarithmic(label: impl Into<String>) -> Self {
+        Self { choice: ScaleChoice::Logarithmic, ..Self::new(label) }
+    }
+
+    pub(crate) fn between(self, ends: (f64, f64)) -> Self {
+        Self { ends: Some(ends), ..self }
+    }
+
+    fn kind(&self, values: impl Iterator<Item = f64>) -> ScaleKind {
+        self.choice.decide(values.filter(|value| ScaleKind::Linear.shows(*value)))
+    }
+
+    /// The scale for values, of which none may have a place.
+    fn scale(&self, kind: ScaleKind, values: impl Iterator<Item = f64>) -> Option<Scale> {
+        let (least, greatest) = extent(values.filter(|value| kind.shows(*value)))?;
+        Some(match (self.ends, kind) {
+            (Some(ends), _) => Scale::exact(kind, ends),
+            (None, ScaleKind::Linear) if greatest - least > 1e-9 * greatest.abs().max(least.abs()) => {
+                let margin = 0.05 * (greatest - least);
+                Scale::exact(kind, (least - margin, greatest + margin))
+            }
+            (None, ScaleKind::Linear) => {
+                let margin = if least == 0.0 { 1.0 } else { 0.1 * least.abs() };
+                Scale::exact(kind, (least - margin, greatest + margin))
+            }
+            (None, ScaleKind::Logarithmic) => Scale::around(kind, (least, greatest)),
+        })
+    }
+}
+
+/// A frame with layers, the first at the bottom.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Panel {
+    /// What is missing if there is nothing to draw, and what a description says.
+    pub(crate) quantity: &'static str,
+    pub(crate) y: Measure,
+    pub(crate) layers: Vec<Layer>,
+    /// A few words in the upper left corner of the frame, above it; empty for none.
+    pub(crate) heading: String,
+}
+
+/// Panels over one horizontal axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Chart {
+    pub(crate) title: String,
+    pub(crate) x: Measure,
+    pub(crate) panels: Vec<Panel>,
+    pub(crate) legend: Vec<Vec<Entry>>,
+    /// In words, for readers that cannot see it.
+    pub(crate) description: String,
+    /// Height of a panel over its width; by default what the style has for a figure.
+    pub(crate) aspect: Option<f64>,
+}
+
+impl Chart {
+    /// The figure.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where a panel has no value with a place; [`FigureError::NoQuantity`] without a panel.
+    pub(crate) fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
+        let plots = self.plots(style)?;
+        let last = plots.last().ok_or(FigureError::NoQuantity)?;
+        let height_mm = (last.0.area.bottom + room_below(style)) * 25.4 / 72.0;
+        let mut svg = SvgWriter::new(style.width_mm, height_mm, &self.title, &self.description);
+        let area = last.0.area;
+        let title = wrap(&self.title, style.label_size, area.right - area.left);
+        for (i, line) in title.iter().enumerate() {
+            let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
+            svg.text(Point { x: area.left, y }, line, lettering(style.label_size, Anchor::Start));
+        }
+        let y = MARGIN + 1.5 * title.len() as f64 * style.label_size;
+        let legend = Legend::new(self.legend.clone(), style, area.right - area.left);
+        legend.draw(&mut svg, Point { x: area.left, y }, style);
+        for (plot, panel) in &plots {
+            plot.draw_grid(&mut svg, style);
+            panel
+                .layers
+                .iter()
+                .filter(|layer| layer.is_ground())
+                .for_each(|layer| layer.draw(&mut svg, plot, style));
+            plot.draw_axes(&mut svg, style);
+            panel
+                .layers
+                .iter()
+                .filter(|layer| !layer.is_ground())
+                .for_each(|layer| layer.draw(&mut svg, plot, style));
+            let at = Point { x: plot.area.left, y: plot.area.top - 2.5 };
+            svg.text(at, &Text::upright(&panel.heading), lettering(style.tick_size, Anchor::Start));
+        }
+        Ok(Figure::new(svg.finish(), self.description.clone(), style.width_mm, height_mm))
+    }
+
+    fn plots(&self, style: &Style) -> Result<Vec<(Plot, &Panel)>, FigureError> {
+        let values = || self.panels.iter().flat_map(|panel| &panel.layers).flat_map(Layer::extremes);
+        let empty = |panel: &Panel| FigureError::Empty {
+            quantity: panel.quantity,
+            curves: panel.layers.len(),
+            points: panel.layers.iter().map(|layer| layer.extremes().len()).sum(),
+        };
+        let first = self.panels.first().ok_or(FigureError::NoQuantity)?;
+        let kind = self.x.kind(values().map(|(x, _)| x));
+        let across = self.x.scale(kind, values().map(|(x, _)| x)).ok_or_else(|| empty(first))?;
+        let scales = self.panels.iter().map(|panel| panel.scale(&across).ok_or_else(|| empty(panel)));
+        let scales: Vec<Scale> = scales.collect::<Result<_, _>>()?;
+        let guess = points(style.height_mm) * if scales.len() > 1 { 0.5 } else { 0.7 };
+        let axis = |(scale, panel): (&Scale, &Panel), height: f64| {
+            Axis::new(*scale, panel.y.label.clone(), height, TICK_SPACING.1)
+        };
+        let axes: Vec<Axis> = scales.iter().zip(&self.panels).map(|pair| axis(pair, guess)).collect();
+        let labels = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
+        let left = room_left(style, labels);
+        let right = points(style.width_mm) - MARGIN - style.tick_size;
+        let title = wrap(&self.title, style.label_size, right - left).len() as f64;
+        let legend = Legend::new(self.legend.clone(), style, right - left).height(style);
+        let head = MARGIN + 1.5 * title * style.label_size + legend + GAP;
+        let longest = axes.iter().map(|axis| axis.label.width(style.label_size)).fold(0.0, f64::max);
+        let height = self.aspect.map_or(guess, |aspect| aspect * (right - left)).max(longest);
+        let x = Axis::new(across, self.x.label.clone(), right - left, TICK_SPACING.0);
+        let last = self.panels.len() - 1;
+        let mut top = head;
+        Ok(scales
+            .iter()
+            .zip(&self.panels)
+            .enumerate()
+            .map(|(i, pair)| {
+                top += if pair.1.heading.is_empty() { 0.0 } else { style.tick_size };
+                let area = Area { left, right, top, bottom: top + height };
+                top = area.bottom + PANEL_GAP;
+                (Plot { area, x: x.clone(), y: axis(pair, height), labelled_below: i == last }, pair.1)
+            })
+            .collect())
+    }
+}
+
+impl Panel {
+    /// The scale for what lies between the ends of the horizontal axis.
+    fn scale(&self, across: &Scale) -> Option<Scale> {
+        let inside = |x: f64| across.kind.shows(x) && (across.from..=across.to).contains(&x);
+        let values = || {
+            let all = self.layers.iter().flat_map(Layer::extremes);
+            all.filter(|(x, _)| inside(*x)).map(|(_, y)| y)
+        };
+        self.y.scale(self.y.kind(values()), values())
+    }
+}

@@ -1,0 +1,136 @@
+//! What a panel of a chart is made of.
+
+use crate::{
+    Style,
+    decimate::decimate,
+    dots::Dot,
+    plot::Plot,
+    scale::Scale,
+    style::{PALE_INK, Pattern, SHADE},
+    svg::{Dashes, Point, Stroke, SvgWriter, number},
+};
+
+/// A layer, in the units of the axes.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Layer {
+    /// A line through points; one that is not finite is a gap.
+    Line { points: Vec<(f64, f64)>, pattern: Pattern },
+    /// Dots.
+    Dots { points: Vec<(f64, f64)>, dot: Dot },
+    /// Intervals: place, low end, high end.
+    Whiskers { intervals: Vec<(f64, f64, f64)>, colour: &'static str },
+    /// Shaded ranges of the horizontal axis, behind everything.
+    Shade { ranges: Vec<(f64, f64)> },
+    /// Level lines that are no data.
+    Levels { at: Vec<f64> },
+    /// Upright lines that are no data.
+    Uprights { at: Vec<f64> },
+    /// Rectangles of one colour, behind the frame: left, right, bottom, top.
+    Cells { cells: Vec<[f64; 4]>, colour: &'static str },
+}
+
+impl Layer {
+    /// Whether it stands behind the frame.
+    pub(crate) fn is_ground(&self) -> bool {
+        matches!(self, Self::Shade { .. } | Self::Cells { .. } | Self::Levels { .. } | Self::Uprights { .. })
+    }
+
+    /// Places that have to lie on the axes, where those have no ends of their own.
+    pub(crate) fn extremes(&self) -> Vec<(f64, f64)> {
+        match self {
+            Self::Line { points, .. } | Self::Dots { points, .. } => {
+                points.iter().copied().filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+            }
+            Self::Whiskers { intervals, .. } => {
+                let ends = intervals.iter().flat_map(|&(x, low, high)| [(x, low), (x, high)]);
+                ends.filter(|(x, y)| x.is_finite() && y.is_finite()).collect()
+            }
+            Self::Cells { cells, .. } => {
+                cells.iter().flat_map(|&[left, right, bottom, top]| [(left, bottom), (right, top)]).collect()
+            }
+            Self::Shade { .. } | Self::Levels { .. } | Self::Uprights { .. } => Vec::new(),
+        }
+    }
+
+    pub(crate) fn draw(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
+        let is_in = |(x, y): (f64, f64)| shows(&plot.x.scale, x) && shows(&plot.y.scale, y);
+        match self {
+            Self::Line { points, pattern } => draw_line(svg, plot, (points, *pattern), style),
+            Self::Dots { points, dot } => {
+                let places: Vec<Point> =
+                    points.iter().filter(|at| is_in(**at)).map(|&(x, y)| plot.place(x, y)).collect();
+                dot.draw(svg, &places);
+            }
+            Self::Whiskers { intervals, colour } => {
+                let inside =
+                    intervals.iter().filter(|(x, low, high)| is_in((*x, *low)) && is_in((*x, *high)));
+                let lines: Vec<[Point; 2]> =
+                    inside.map(|&(x, low, high)| [plot.place(x, low), plot.place(x, high)]).collect();
+                let stroke = Stroke { colour, width: style.unstable_width };
+                svg.polylines(lines.iter().map(|line| (line.as_slice(), None)), stroke);
+            }
+            Self::Shade { ranges } => {
+                let (bottom, top) = (plot.y.scale.from, plot.y.scale.to);
+                let cells: Vec<[f64; 4]> = ranges.iter().map(|&(from, to)| [from, to, bottom, top]).collect();
+                draw_cells(svg, plot, &cells, SHADE);
+            }
+            Self::Levels { at } => {
+                let ends = (plot.x.scale.from, plot.x.scale.to);
+                let inside = at.iter().filter(|y| shows(&plot.y.scale, **y));
+                let lines = inside.map(|&y| [plot.place(ends.0, y), plot.place(ends.1, y)]);
+                draw_references(svg, lines.collect(), style);
+            }
+            Self::Uprights { at } => {
+                let ends = (plot.y.scale.from, plot.y.scale.to);
+                let inside = at.iter().filter(|x| shows(&plot.x.scale, **x));
+                let lines = inside.map(|&x| [plot.place(x, ends.0), plot.place(x, ends.1)]);
+                draw_references(svg, lines.collect(), style);
+            }
+            Self::Cells { cells, colour } => draw_cells(svg, plot, cells, colour),
+        }
+    }
+}
+
+/// Whether a value lies on an axis; its ends may be off by rounding.
+fn shows(scale: &Scale, value: f64) -> bool {
+    scale.kind.shows(value) && (-1e-9..=1.0 + 1e-9).contains(&scale.share(value))
+}
+
+fn draw_references(svg: &mut SvgWriter, lines: Vec<[Point; 2]>, style: &Style) {
+    let dashes = Some(Dashes { dash: 1.5, gap: 1.5, offset: 0.0 });
+    let stroke = Stroke { colour: PALE_INK, width: 1.2 * style.frame_width };
+    svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);
+}
+
+fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], Pattern), style: &Style) {
+    let parts = line.split(|&(x, y)| !(shows(&plot.x.scale, x) && shows(&plot.y.scale, y)));
+    let on_page = |part: &[(f64, f64)]| -> Vec<Point> {
+        let places: Vec<Point> = part.iter().map(|&(x, y)| plot.place(x, y)).collect();
+        decimate(&places, &vec![false; places.len()], style.line_tolerance)
+            .into_iter()
+            .map(|k| places[k])
+            .collect()
+    };
+    let lines: Vec<Vec<Point>> = parts.filter(|part| part.len() > 1).map(on_page).collect();
+    let dashes = pattern.dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
+    let stroke = Stroke { colour: pattern.colour, width: style.stable_width };
+    svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);
+}
+
+/// Rectangles, cut at the ends of the axes; neighbours overlap by a hair, so that no light shows between them.
+fn draw_cells(svg: &mut SvgWriter, plot: &Plot, cells: &[[f64; 4]], colour: &'static str) {
+    let area = plot.area;
+    let mut data = String::new();
+    for &[left, right, bottom, top] in cells {
+        let (low, high) = (plot.place(left, bottom), plot.place(right, top));
+        let [x, end] = [low.x, high.x].map(|x| x.clamp(area.left, area.right));
+        let [y, floor] = [high.y, low.y].map(|y| y.clamp(area.top, area.bottom));
+        if end > x && floor > y {
+            let [from, to] = [number(x), number(end)];
+            data.push_str(&format!("M{from} {}H{to}V{}H{from}z", number(y), number(floor)));
+        }
+    }
+    if !data.is_empty() {
+        svg.path(&data, colour, Stroke { colour, width: 0.0 });
+    }
+}
