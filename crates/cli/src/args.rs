@@ -50,6 +50,8 @@ pub enum Command {
     /// Measured or exported time series: filter, spectrum, damping, kind of motion, exponent
     #[command(subcommand)]
     Signal(SignalCommand),
+    /// Draw everything that a results folder holds, as SVG and PNG
+    Figure(FigureOptions),
     /// Write stored results for other programs
     Export(ExportOptions),
     /// Compute stored solutions again with the independent integrator, and report every disagreement
@@ -108,6 +110,42 @@ pub struct ExportOptions {
     /// Folder to write into [default: RESULTS/export]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct FigureOptions {
+    /// Results folder
+    pub results: PathBuf,
+
+    /// Folder to draw into, made if it is not there [default: RESULTS]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Draw these alone; may be given several times [default: all]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub kind: Vec<FigureKind>,
+}
+
+/// What a figure shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureKind {
+    /// Branches: maximum displacement and acceleration over the frequency
+    Response,
+    /// Curves of bifurcations in two parameters
+    Curves,
+    /// Floquet multipliers of each branch, over the frequency and in the complex plane
+    Multipliers,
+    /// Settled motions of sweeps over the frequency
+    Sweeps,
+    /// Lyapunov exponents, their convergence, and stroboscopic sections
+    Exponents,
+    /// Basins of attraction
+    Basins,
+}
+
+impl FigureKind {
+    pub const ALL: [Self; 6] =
+        [Self::Response, Self::Curves, Self::Multipliers, Self::Sweeps, Self::Exponents, Self::Basins];
 }
 
 #[derive(Debug, Args)]

@@ -1,16 +1,21 @@
 //! Figures of a results folder.
 
+mod motions;
+mod multipliers;
+
 use std::{fs, path::Path};
 
 use anyhow::Context;
 use hammerbeam_figure::{
-    Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Figure, Quantity, ResponseCurve,
+    Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Figure, FigureError, Quantity, ResponseCurve,
     ResponseDiagram, ResponsePoint, Style,
 };
 use hammerbeam_study::{
-    Store, StoreError,
+    Store, StoreError, StudyFile,
     store::{PieceRecord, Row},
 };
+
+use crate::args::FigureKind;
 
 /// Resolution of the PNG files, in pixels per inch.
 const RESOLUTION: f64 = 300.0;
@@ -18,39 +23,87 @@ const RESOLUTION: f64 = 300.0;
 const FIGURES: [(&str, Quantity); 2] =
     [("response_displacement", Quantity::Displacement), ("response_acceleration", Quantity::Acceleration)];
 
+/// Files as they are drawn, and what cannot be.
+#[derive(Debug)]
+pub struct Drawn<'a> {
+    folder: &'a Path,
+    /// Names of the files.
+    pub files: Vec<String>,
+    /// Names of figures that cannot be drawn, each with the reason.
+    pub refused: Vec<(String, String)>,
+}
+
+impl<'a> Drawn<'a> {
+    /// Into a folder, made if it is not there.
+    pub fn into(folder: &'a Path) -> anyhow::Result<Self> {
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        Ok(Self { folder, files: Vec::new(), refused: Vec::new() })
+    }
+
+    /// Writes a figure as SVG and PNG, or notes why there is none.
+    pub fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) -> anyhow::Result<()> {
+        let figure = match figure {
+            Ok(figure) => figure,
+            Err(reason) => {
+                self.refused.push((name.to_owned(), reason.to_string()));
+                return Ok(());
+            }
+        };
+        for (suffix, bytes) in [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(RESOLUTION)?)] {
+            let file = format!("{name}.{suffix}");
+            replace(&self.folder.join(&file), &bytes)?;
+            self.files.push(file);
+        }
+        Ok(())
+    }
+}
+
 /// Draws the response diagrams and the curves of bifurcations into the results folder, each as SVG and PNG.
 ///
 /// # Returns
 /// Names of the files.
 pub fn draw(store: &Store, range_hz: [f64; 2]) -> anyhow::Result<Vec<String>> {
-    let diagram = diagram(store, range_hz)?;
-    let mut names = Vec::new();
-    for (name, quantity) in FIGURES {
-        let figure = diagram.draw(quantity).context("cannot draw the response")?;
-        names.extend(write(store, name, &figure)?);
+    let mut drawn = Drawn::into(store.folder())?;
+    draw_response(store, range_hz, &mut drawn)?;
+    draw_curves(store, &mut drawn)?;
+    match drawn.refused.first() {
+        Some((name, reason)) => anyhow::bail!("cannot draw {name}: {reason}"),
+        None => Ok(drawn.files),
     }
-    names.extend(draw_curves(store)?);
-    Ok(names)
 }
 
-/// Writes a figure as SVG and PNG.
-fn write(store: &Store, name: &str, figure: &Figure) -> anyhow::Result<Vec<String>> {
-    let mut names = Vec::new();
-    for (suffix, bytes) in [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(RESOLUTION)?)] {
-        let file = format!("{name}.{suffix}");
-        replace(&store.folder().join(&file), &bytes)?;
-        names.push(file);
+/// Draws the figures of a kind.
+pub fn draw_kind(
+    store: &Store,
+    file: &StudyFile,
+    kind: FigureKind,
+    drawn: &mut Drawn<'_>,
+) -> anyhow::Result<()> {
+    match kind {
+        FigureKind::Response if store.branches()?.is_empty() => Ok(()),
+        FigureKind::Response => draw_response(store, file.study.excitation.frequency_hz, drawn),
+        FigureKind::Curves => draw_curves(store, drawn),
+        FigureKind::Multipliers => multipliers::draw(store, drawn),
+        FigureKind::Sweeps => motions::draw_sweeps(store, drawn),
+        FigureKind::Exponents => motions::draw_exponents(store, drawn),
+        FigureKind::Basins => motions::draw_basins(store, file, drawn),
     }
-    Ok(names)
+}
+
+fn draw_response(store: &Store, range_hz: [f64; 2], drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+    let diagram = diagram(store, range_hz)?;
+    for (name, quantity) in FIGURES {
+        drawn.add(name, diagram.draw(quantity))?;
+    }
+    Ok(())
 }
 
 /// Draws the curves of bifurcations, one figure for each parameter that they are over.
-fn draw_curves(store: &Store) -> anyhow::Result<Vec<String>> {
+fn draw_curves(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
     let pieces: Vec<PieceRecord> = store.pieces()?.into_iter().filter(|piece| piece.is_curve).collect();
     let mut parameters: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
     parameters.sort_unstable();
     parameters.dedup();
-    let mut names = Vec::new();
     for parameter in parameters {
         let mut curves = Vec::new();
         for piece in pieces.iter().filter(|piece| piece.parameter == parameter) {
@@ -60,11 +113,10 @@ fn draw_curves(store: &Store) -> anyhow::Result<Vec<String>> {
             continue;
         }
         let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
-        let figure = diagram.draw(&Style::default()).context("cannot draw the curves")?;
         let name = parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-        names.extend(write(store, &format!("curves_{name}"), &figure)?);
+        drawn.add(&format!("curves_{name}"), diagram.draw(&Style::default()))?;
     }
-    Ok(names)
+    Ok(())
 }
 
 fn curves_of(store: &Store, piece: &PieceRecord) -> anyhow::Result<Vec<BifurcationCurve>> {
@@ -126,7 +178,12 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> anyhow::Result<ResponseDiagr
         })?;
         curves.push(ResponseCurve { period_multiple: branch.period_multiple, points });
     }
-    Ok(ResponseDiagram { title: store.about("title")?, curves, frequency_range_hz: Some((low, high)) })
+    Ok(ResponseDiagram {
+        title: store.about("title")?,
+        curves,
+        frequency_range_hz: Some((low, high)),
+        chaotic_ranges_hz: motions::chaotic_ranges(store)?,
+    })
 }
 
 fn point(row: &Row) -> ResponsePoint {

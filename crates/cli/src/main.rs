@@ -36,6 +36,7 @@ fn main() -> ExitCode {
         Command::Lyapunov(options) => commands::lyapunov::run(options, output),
         Command::Basins(options) => commands::basins::run(options, output),
         Command::Signal(command) => commands::signal::run(command, output),
+        Command::Figure(options) => commands::figure::run(options, output),
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),
     };

@@ -37,6 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         title: String::new(),
         curves: vec![harmonic],
         frequency_range_hz: Some((19.0, 110.0)),
+        ..ResponseDiagram::default()
     };
     let all = ResponseDiagram {
         title: "Clamped beam with an elastic stop".to_owned(),
@@ -46,7 +47,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     write(&folder, "displacement", &harmonic, &[Quantity::Displacement], &logarithmic())?;
     write(&folder, "acceleration", &harmonic, &[Quantity::Acceleration], &logarithmic())?;
     write(&folder, "linear", &harmonic, &[Quantity::Displacement], &ResponseSettings::default())?;
-    let dense = ResponseDiagram { curves: vec![thicket()], title: String::new(), frequency_range_hz: None };
+    let dense = ResponseDiagram {
+        curves: vec![thicket()],
+        title: String::new(),
+        frequency_range_hz: None,
+        ..ResponseDiagram::default()
+    };
     write(&folder, "dense", &dense, &[Quantity::Displacement], &ResponseSettings::default())?;
     let both = [Quantity::Displacement, Quantity::Acceleration];
     write(&folder, "all", &all, &both, &logarithmic())?;

@@ -15,7 +15,7 @@
 //!     ..ResponsePoint::default()
 //! });
 //! let curve = ResponseCurve { period_multiple: 1, points: points.collect() };
-//! let diagram = ResponseDiagram { title: String::new(), curves: vec![curve], frequency_range_hz: None };
+//! let diagram = ResponseDiagram { curves: vec![curve], ..ResponseDiagram::default() };
 //! let figure = diagram.draw(Quantity::Displacement)?;
 //! assert!(figure.svg().starts_with("<svg"));
 //! assert!(figure.png(300.0)?.starts_with(b"\x89PNG"));
@@ -64,6 +64,8 @@ mod line;
 mod marks;
 mod motion;
 mod motion_section;
+mod multiplier_diagram;
+mod orbit_diagram;
 mod plot;
 mod png;
 mod response_diagram;
@@ -82,6 +84,8 @@ pub use exponent_diagram::{ConvergenceDiagram, ExponentDiagram, ExponentPoint};
 pub use figure::Figure;
 pub use motion::MotionKind;
 pub use motion_section::SectionDiagram;
+pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
+pub use orbit_diagram::{OrbitDiagram, OrbitSample};
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
 pub use scale::ScaleChoice;
 pub use style::Style;

@@ -17,6 +17,8 @@ pub struct ResponseDiagram {
     pub curves: Vec<ResponseCurve>,
     /// Ends of the frequency axis (Hz); by default those of the data.
     pub frequency_range_hz: Option<(f64, f64)>,
+    /// Ranges of the frequency in which a chaotic motion was found (Hz), shaded behind everything.
+    pub chaotic_ranges_hz: Vec<(f64, f64)>,
 }
 
 /// A branch of periodic solutions.

@@ -43,6 +43,11 @@ pub(crate) fn kind_colour(kind: MotionKind) -> &'static str {
     }
 }
 
+/// Colour of what belongs to stable or to unstable solutions.
+pub(crate) fn stability_colour(stable: bool) -> &'static str {
+    PERIOD_COLOURS[usize::from(!stable)]
+}
+
 /// Colours of period multiples 1, 2, 3 and so on; later ones start again.
 const PERIOD_COLOURS: [&str; 6] = ["#14356b", "#d1571b", "#3fb89b", "#7d2a8c", "#b98a10", "#6fb1e0"];
 

@@ -27,6 +27,7 @@ fn diagram(curves: &[(u32, &[ResponsePoint])]) -> ResponseDiagram {
         title: String::new(),
         curves: curves.iter().map(curve).collect(),
         frequency_range_hz: None,
+        ..ResponseDiagram::default()
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod basins;
 pub mod check;
 pub mod export;
+pub mod figure;
 pub mod lyapunov;
 pub mod modes;
 pub mod new;

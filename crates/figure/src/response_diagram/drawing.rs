@@ -5,11 +5,12 @@ use crate::{
     Figure, FigureError,
     axis::Axis,
     font::CAPITAL_HEIGHT,
+    layer::Layer,
     legend::{Entry, Legend, Sample},
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left},
     scale::{Scale, ScaleKind, extent},
-    style::{INK, Style, period_colour},
+    style::{INK, SHADE, Style, period_colour},
     svg::{Anchor, Point, SvgWriter, points},
     text::{Text, wrap},
 };
@@ -83,7 +84,7 @@ impl<'a> Page<'a> {
         let left = room_left(style, label_width);
         let right = points(style.width_mm) - MARGIN - style.tick_size;
         let title = wrap(&diagram.title, style.label_size, right - left);
-        let legend = Legend::new(entries(panels), style, right - left);
+        let legend = Legend::new(entries(panels, diagram), style, right - left);
         let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
         let horizontal = Axis::new(
             Scale::exact(ScaleKind::Linear, range_hz),
@@ -114,6 +115,8 @@ impl<'a> Page<'a> {
         let mut svg = SvgWriter::new(style.width_mm, height_mm, &self.diagram.title, &description);
         self.draw_head(&mut svg);
         for (panel, plot) in self.panels.iter().zip(&self.plots) {
+            let ranges = self.diagram.chaotic_ranges_hz.clone();
+            Layer::Shade { ranges }.draw(&mut svg, plot, style);
             plot.draw_grid(&mut svg, style);
             plot.draw_axes(&mut svg, style);
             panel.draw(&mut svg, plot, style);
@@ -141,6 +144,11 @@ impl<'a> Page<'a> {
             "{names} over excitation frequency, {curves} {branches} with {solutions} solutions; \
              stable solid, unstable dashed"
         );
+        if !self.diagram.chaotic_ranges_hz.is_empty() {
+            let words = |(from, to): &(f64, f64)| format!("{from:.3} to {to:.3} Hz");
+            let ranges: Vec<String> = self.diagram.chaotic_ranges_hz.iter().map(words).collect();
+            description.push_str(&format!("; chaotic motion found at {}", ranges.join(", ")));
+        }
         for (panel, plot) in self.panels.iter().zip(&self.plots) {
             for (mark, places) in panel.marks(plot, self.style) {
                 let (all, drawn) = (panel.count(mark), places.len());
@@ -164,7 +172,7 @@ fn title_height(style: &Style) -> f64 {
 }
 
 /// What the legend explains, lines and marks: only what is drawn.
-fn entries(panels: &[Panel]) -> Vec<Vec<Entry>> {
+fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
     let mut multiples: Vec<u32> = panels.iter().flat_map(Panel::period_multiples).collect();
     multiples.sort_unstable();
     multiples.dedup();
@@ -184,7 +192,10 @@ fn entries(panels: &[Panel]) -> Vec<Vec<Entry>> {
         .into_iter()
         .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))
         .map(|mark| Entry { sample: Sample::Mark(mark), name: mark.name().to_owned() });
-    vec![colours.chain(lines).collect(), marks.collect()]
+    let is_shaded = !diagram.chaotic_ranges_hz.is_empty();
+    let shade =
+        is_shaded.then(|| Entry { sample: Sample::Cell(SHADE), name: "chaotic motion found".to_owned() });
+    vec![colours.chain(lines).collect(), marks.chain(shade).collect()]
 }
 
 fn period_name(multiple: u32) -> String {

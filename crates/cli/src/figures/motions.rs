@@ -1,0 +1,212 @@
+//! Figures of motions that need not repeat: sweeps, exponents, sections, basins.
+
+use hammerbeam_attractor::{Attractor, Class};
+use hammerbeam_figure::{
+    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, MotionKind, Origin,
+    SectionDiagram, Style, SweepDiagram, SweptMotion,
+};
+use hammerbeam_study::{
+    Model, Store, StoreError, StoredBranches, StudyFile,
+    store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion},
+};
+
+use super::Drawn;
+
+/// Draws the settled motions of every sweep.
+pub fn draw_sweeps(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+    let title = store.about("title")?;
+    for request in store.requests()? {
+        if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
+            let motions = store.settled(request.id)?.iter().map(swept).collect();
+            let figure = SweepDiagram { title: title.clone(), motions }.draw(&Style::double_column());
+            drawn.add(&format!("sweep-{}", request.id), figure)?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws exponents over the frequency where a request has several, their convergence where it has one, and every section.
+pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+    let title = store.about("title")?;
+    for request in store.requests()? {
+        if request.kind != RequestKind::Exponents {
+            continue;
+        }
+        let records = store.exponents(request.id)?;
+        if records.len() != 1 {
+            let mut points: Vec<ExponentPoint> = records.iter().map(exponent).collect();
+            points.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+            let figure = ExponentDiagram { title: title.clone(), points }.draw(&Style::double_column());
+            drawn.add(&format!("exponents-{}", request.id), figure)?;
+        }
+        for (number, record) in records.iter().enumerate() {
+            let suffix = if records.len() == 1 {
+                format!("-{}", request.id)
+            } else {
+                format!("-{}-{}", request.id, number + 1)
+            };
+            let frequency_hz = record.frequency_hz;
+            let title = format!("{title}, {frequency_hz} Hz");
+            let places = record
+                .spectrum
+                .convergence
+                .iter()
+                .map(|place| (place.time, place.exponents.clone()))
+                .collect();
+            let convergence = ConvergenceDiagram { title: title.clone(), frequency_hz, places };
+            drawn.add(&format!("convergence{suffix}"), convergence.draw(&Style::double_column()))?;
+            let points =
+                record.section.iter().map(|[displacement, velocity]| (*displacement, *velocity)).collect();
+            let section = SectionDiagram { title, frequency_hz, points };
+            drawn.add(&format!("section{suffix}"), section.draw(&Style::single_column()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws the basins of every request.
+pub fn draw_basins(store: &Store, file: &StudyFile, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+    let requests: Vec<RequestRecord> =
+        store.requests()?.into_iter().filter(|request| request.kind == RequestKind::Basins).collect();
+    if requests.is_empty() {
+        return Ok(());
+    }
+    let title = store.about("title")?;
+    let model = Model::build(file)?;
+    let branches = StoredBranches::open(store.folder(), file)?;
+    for request in requests {
+        let (cells, attractors) = store.basins(request.id)?;
+        let frequency_hz = number(&request, "frequency_hz")?;
+        let mut destinations = Vec::new();
+        for attractor in &attractors {
+            let branch = match attractor.class {
+                Class::Periodic { .. } => branches.branch_of(&model, frequency_hz, &attractor.states)?,
+                _ => None,
+            };
+            let places = places(&request, model.system.dof(), attractor);
+            destinations.push(Destination { kind: kind(attractor.class), branch, places });
+        }
+        let range = |axis: &str| {
+            Ok::<_, StoreError>((
+                number(&request, &format!("{axis}.low"))?,
+                number(&request, &format!("{axis}.high"))?,
+            ))
+        };
+        let map = BasinMap {
+            title: format!("{title}, {frequency_hz} Hz"),
+            x_label: coordinate(&request, "x"),
+            y_label: coordinate(&request, "y"),
+            x_range: range("x")?,
+            y_range: range("y")?,
+            cells_along: number(&request, "grid")? as usize,
+            cells,
+            attractors: destinations,
+        };
+        drawn.add(&format!("basins-{}", request.id), map.draw(&Style::single_column()))?;
+    }
+    Ok(())
+}
+
+/// Ranges of the frequency in which a stored sweep has a chaotic motion: each reaches half-way to the next frequency of the sweep.
+pub fn chaotic_ranges(store: &Store) -> Result<Vec<(f64, f64)>, StoreError> {
+    let mut ranges = Vec::new();
+    for request in store.requests()? {
+        if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
+            ranges.extend(ranges_of(&store.settled(request.id)?));
+        }
+    }
+    ranges.sort_by(|a: &(f64, f64), b| a.0.total_cmp(&b.0));
+    let mut joined: Vec<(f64, f64)> = Vec::new();
+    for (from, to) in ranges {
+        match joined.last_mut() {
+            Some(last) if from <= last.1 => last.1 = last.1.max(to),
+            _ => joined.push((from, to)),
+        }
+    }
+    Ok(joined)
+}
+
+fn ranges_of(motions: &[SettledMotion]) -> Vec<(f64, f64)> {
+    let mut frequencies: Vec<f64> = motions.iter().map(|motion| motion.point.frequency_hz).collect();
+    frequencies.sort_by(f64::total_cmp);
+    frequencies.dedup();
+    let is_chaotic = |frequency: f64| {
+        motions
+            .iter()
+            .any(|motion| motion.point.frequency_hz == frequency && motion.point.class == Class::Chaotic)
+    };
+    let half_way = |place: usize, other: Option<usize>| {
+        let beside = other.and_then(|other| frequencies.get(other)).unwrap_or(&frequencies[place]);
+        0.5 * (frequencies[place] + beside)
+    };
+    (0..frequencies.len())
+        .filter(|place| is_chaotic(frequencies[*place]))
+        .map(|place| (half_way(place, place.checked_sub(1)), half_way(place, place.checked_add(1))))
+        .collect()
+}
+
+fn swept(motion: &SettledMotion) -> SweptMotion {
+    SweptMotion {
+        origin: match motion.origin.as_str() {
+            "up" => Origin::Up,
+            "down" => Origin::Down,
+            _ => Origin::Start,
+        },
+        frequency_hz: motion.point.frequency_hz,
+        kind: kind(motion.point.class),
+        samples_m: motion.point.samples.clone(),
+        max_displacement_m: motion.point.max_abs_displacement,
+    }
+}
+
+fn exponent(record: &ExponentRecord) -> ExponentPoint {
+    let largest = record.spectrum.exponents.first();
+    ExponentPoint {
+        frequency_hz: record.frequency_hz,
+        largest_per_s: largest.map_or(f64::NAN, |exponent| exponent.value),
+        half_width_per_s: largest.map_or(f64::NAN, |exponent| exponent.half_width),
+        dimension: record.spectrum.kaplan_yorke_dimension,
+    }
+}
+
+fn kind(class: Class) -> MotionKind {
+    match class {
+        Class::Periodic { period } => MotionKind::Periodic { period: period as u32 },
+        Class::QuasiPeriodic => MotionKind::QuasiPeriodic,
+        Class::Chaotic => MotionKind::Chaotic,
+        Class::Doubtful(_) => MotionKind::Doubtful,
+    }
+}
+
+/// A number among the words of a request.
+fn number(request: &RequestRecord, key: &str) -> Result<f64, StoreError> {
+    let found = request.word(key).unwrap_or_default();
+    found.parse().map_err(|_| StoreError::Unknown { what: "grid of basins", found: found.to_owned() })
+}
+
+/// A coordinate of the initial state in words, with its unit.
+fn coordinate(request: &RequestRecord, axis: &str) -> String {
+    let name = request.word(&format!("{axis}.coordinate")).unwrap_or_default();
+    match name.split_at_checked(1) {
+        _ if name == "displacement" => "Initial displacement (m)".to_owned(),
+        _ if name == "velocity" => "Initial velocity (m/s)".to_owned(),
+        Some(("q", number)) => format!("Initial modal displacement {number} (kg½ m)"),
+        Some(("v", number)) => format!("Initial modal velocity {number} (kg½ m/s)"),
+        _ => name.to_owned(),
+    }
+}
+
+/// Where an attractor lies in the plane of a map: only of a single mode is that the whole state.
+fn places(request: &RequestRecord, dof: usize, attractor: &Attractor) -> Vec<(f64, f64)> {
+    let index = |axis: &str| match request.word(&format!("{axis}.coordinate")) {
+        Some("q1") => Some(0),
+        Some("v1") => Some(1),
+        _ => None,
+    };
+    match (dof, index("x"), index("y")) {
+        (1, Some(x), Some(y)) if matches!(attractor.class, Class::Periodic { .. }) => {
+            attractor.states.iter().map(|state| (state[x], state[y])).collect()
+        }
+        _ => Vec::new(),
+    }
+}

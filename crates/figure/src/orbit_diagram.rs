@@ -1,0 +1,191 @@
+//! An orbit: its motion and forces over a period, its phase portrait, and its spectrum. The samples come from the caller.
+
+use std::f64::consts::TAU;
+
+use crate::{
+    Figure, FigureError, Style,
+    chart::{Chart, Measure, Panel},
+    dots::{Dot, Shape},
+    layer::Layer,
+    legend::{Entry, Sample},
+    style::{INK, Pattern, line_pattern},
+};
+
+/// Ratio of the largest amplitude of a spectrum to the least that is drawn.
+const DEPTH: f64 = 1e5;
+
+/// An orbit in samples at equal steps over its period, both ends of which are the same instant and are given once.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OrbitDiagram {
+    /// Title above the figures; empty for none.
+    pub title: String,
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Orbit period over excitation period, from 1.
+    pub period_multiple: u32,
+    /// The samples.
+    pub samples: Vec<OrbitSample>,
+    /// Eigenfrequencies of the structure without its local elements (Hz), marked in the spectrum.
+    pub eigenfrequencies_hz: Vec<f64>,
+}
+
+/// A sample of an orbit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OrbitSample {
+    /// Displacement of the response point (m).
+    pub displacement_m: f64,
+    /// Its velocity (m/s).
+    pub velocity_m_s: f64,
+    /// Its acceleration (m/s²).
+    pub acceleration_m_s2: f64,
+    /// Forces of the local elements (N), with the same number of them in each sample.
+    pub forces_n: Vec<f64>,
+    /// Displacement of the support (m), if it moves.
+    pub support_m: Option<f64>,
+}
+
+impl OrbitDiagram {
+    /// Displacement, acceleration, forces of the local elements and support motion over the period.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where there are no finite samples.
+    pub fn draw_history(&self, style: &Style) -> Result<Figure, FigureError> {
+        let plain = |quantity, label: &str, points| Panel {
+            quantity,
+            y: Measure::new(label),
+            layers: vec![Layer::Line { points, pattern: line_pattern(0) }],
+            heading: String::new(),
+        };
+        let mut panels = vec![
+            plain("displacement", "Displ. (mm)", self.over_time(|sample| 1e3 * sample.displacement_m)),
+            plain("acceleration", "Accel. (m/s²)", self.over_time(|sample| sample.acceleration_m_s2)),
+        ];
+        let elements = self.samples.first().map_or(0, |sample| sample.forces_n.len());
+        let force = |k: usize| {
+            let value = |sample: &OrbitSample| sample.forces_n.get(k).copied().unwrap_or(f64::NAN);
+            Layer::Line { points: self.over_time(value), pattern: line_pattern(k) }
+        };
+        if elements > 0 {
+            let (y, layers) = (Measure::new("Force (N)"), (0..elements).map(force).collect());
+            panels.push(Panel { quantity: "force", y, layers, heading: String::new() });
+        }
+        if self.samples.iter().any(|sample| sample.support_m.is_some()) {
+            let points = self.over_time(|sample| sample.support_m.map_or(f64::NAN, |at| 1e3 * at));
+            panels.push(plain("support motion", "Support (mm)", points));
+        }
+        let entry = |k: usize| Entry {
+            sample: Sample::Pattern(line_pattern(k)),
+            name: format!("local element {}", k + 1),
+        };
+        let legend = vec![(0..elements).filter(|_| elements > 1).map(entry).collect()];
+        let x = Measure::new("Time over excitation period (–)").between((0.0, self.periods()));
+        self.chart("one period of the orbit", x, panels, legend, None).draw(style)
+    }
+
+    /// Velocity over displacement, with the points at phase 0.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where there are no finite samples.
+    pub fn draw_phase(&self, style: &Style) -> Result<Figure, FigureError> {
+        let at = |sample: &OrbitSample| (1e3 * sample.displacement_m, sample.velocity_m_s);
+        let points = self.samples.iter().chain(self.samples.first()).map(at).collect();
+        let (count, multiple) = (self.samples.len(), self.period_multiple.max(1) as usize);
+        let strobed = (0..multiple).filter_map(|k| self.samples.get(k * count / multiple)).map(at).collect();
+        let dot = Dot { shape: Shape::Circle, colour: INK, full: true, radius: 1.6 };
+        let layers =
+            vec![Layer::Line { points, pattern: line_pattern(0) }, Layer::Dots { points: strobed, dot }];
+        let legend =
+            vec![vec![Entry { sample: Sample::Dot(dot), name: "phase 0 of the excitation".to_owned() }]];
+        let y = Measure::new("Velocity (m/s)");
+        let panels = vec![Panel { quantity: "velocity", y, layers, heading: String::new() }];
+        self.chart("phase portrait", Measure::new("Displacement (mm)"), panels, legend, Some(0.8)).draw(style)
+    }
+
+    /// Amplitudes of the harmonics of the acceleration, with the eigenfrequencies marked.
+    ///
+    /// The samples `x_j` of an orbit have the harmonics `c_k = 2/n |sum_j x_j exp(-2 pi i j k/n)|`; those up to a quarter of the samples are drawn.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where there are no finite samples.
+    pub fn draw_spectrum(&self, style: &Style) -> Result<Figure, FigureError> {
+        let values: Vec<f64> = self.samples.iter().map(|sample| sample.acceleration_m_s2).collect();
+        let highest = self.eigenfrequencies_hz.iter().copied().fold(10.0 * self.frequency_hz, f64::max);
+        let step = self.frequency_hz / self.periods();
+        let wanted = (1.2 * highest / step).ceil().max(1.0) as usize;
+        let lines: Vec<(f64, f64)> =
+            (1..=wanted.min(values.len() / 4)).map(|k| (k as f64 * step, amplitude(&values, k))).collect();
+        let largest = lines.iter().map(|line| line.1).filter(|size| size.is_finite()).fold(0.0, f64::max);
+        let floor = largest / DEPTH;
+        let shown: Vec<(f64, f64)> = lines.into_iter().filter(|line| line.1 > floor).collect();
+        let intervals = shown.iter().map(|&(x, y)| (x, floor, y)).collect();
+        let dot = Dot { shape: Shape::Circle, colour: line_pattern(0).colour, full: true, radius: 0.9 };
+        let layers = vec![
+            Layer::Uprights { at: self.eigenfrequencies_hz.clone() },
+            Layer::Whiskers { intervals, colour: line_pattern(0).colour },
+            Layer::Dots { points: shown, dot },
+        ];
+        let pattern = Pattern { colour: crate::style::PALE_INK, dashes: Some((1.5, 1.5)) };
+        let mut legend = vec![Entry { sample: Sample::Dot(dot), name: "harmonic".to_owned() }];
+        if !self.eigenfrequencies_hz.is_empty() {
+            legend.push(Entry { sample: Sample::Pattern(pattern), name: "eigenfrequency".to_owned() });
+        }
+        let y = Measure::logarithmic("Amplitude of acceleration (m/s²)");
+        let y = if floor > 0.0 { y.between((floor, 3.0 * largest)) } else { y };
+        let panels = vec![Panel { quantity: "harmonic", y, layers, heading: String::new() }];
+        let x = Measure::new("Frequency (Hz)").between((0.0, 1.2 * highest));
+        self.chart("spectrum of the acceleration", x, panels, vec![legend], None).draw(style)
+    }
+
+    fn periods(&self) -> f64 {
+        f64::from(self.period_multiple.max(1))
+    }
+
+    /// Values over the time, closed at the end of the period.
+    fn over_time(&self, value: impl Fn(&OrbitSample) -> f64) -> Vec<(f64, f64)> {
+        let step = self.periods() / self.samples.len().max(1) as f64;
+        let closed = self.samples.iter().chain(self.samples.first()).enumerate();
+        closed.map(|(k, sample)| (k as f64 * step, value(sample))).collect()
+    }
+
+    fn chart(
+        &self,
+        what: &str,
+        x: Measure,
+        panels: Vec<Panel>,
+        legend: Vec<Vec<Entry>>,
+        aspect: Option<f64>,
+    ) -> Chart {
+        let (frequency, multiple) = (self.frequency_hz, self.period_multiple);
+        let description =
+            format!("{what}, at {frequency} Hz, period {multiple}, {} samples", self.samples.len());
+        Chart { title: self.title.clone(), x, panels, legend, description, aspect }
+    }
+}
+
+/// Amplitude of a harmonic, by Goertzel's sum written out; the phase is reduced first, so that it stays exact.
+fn amplitude(values: &[f64], k: usize) -> f64 {
+    let n = values.len();
+    let angle = |j: usize| TAU * ((j * k) % n) as f64 / n as f64;
+    let sums = values.iter().enumerate().map(|(j, value)| (value * angle(j).cos(), value * angle(j).sin()));
+    let (re, im) = sums.fold((0.0, 0.0), |(re, im), (c, s)| (re + c, im + s));
+    2.0 / n as f64 * re.hypot(im)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn harmonics_of_a_sum_of_cosines_are_its_amplitudes() {
+        let value = |j: i32| {
+            let t = TAU * f64::from(j) / 64.0;
+            3.0 * (2.0 * t + 0.4).cos() + 0.5 * (5.0 * t).sin() + 7.0
+        };
+        let values: Vec<f64> = (0..64).map(value).collect();
+        // Rounding of 64 terms of size 10.
+        let is = |k: usize, wanted: f64| assert!((amplitude(&values, k) - wanted).abs() < 1e-13, "{k}");
+        is(1, 0.0);
+        is(2, 3.0);
+        is(5, 0.5);
+    }
+}
