@@ -96,6 +96,10 @@ pub struct OrbitOptions {
     /// Orbit period over excitation period; solutions of a shorter period are not given
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub period_multiple: u32,
+
+    /// Folder, made if it is not there, into which each solution is drawn: over its period, in the phase plane, and its spectrum
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

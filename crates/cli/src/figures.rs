@@ -2,6 +2,7 @@
 
 mod motions;
 mod multipliers;
+pub mod orbit;
 
 use std::{fs, path::Path};
 

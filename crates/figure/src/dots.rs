@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use crate::{
-    marks::{circle, diamond, square, triangle},
+    marks::{circle, square, triangle},
     style::PAPER,
     svg::{Point, Stroke, SvgWriter, number},
 };
@@ -14,11 +14,9 @@ pub(crate) enum Shape {
     /// As small as can be seen: for clouds of thousands.
     Speck,
     Circle,
-    Diamond,
     Square,
     TriangleUp,
     TriangleDown,
-    Cross,
 }
 
 /// How a dot looks.
@@ -43,7 +41,7 @@ impl Dot {
         if data.is_empty() {
             return;
         }
-        let fill = if self.full || self.shape == Shape::Cross { self.colour } else { PAPER };
+        let fill = if self.full { self.colour } else { PAPER };
         let width = if self.shape == Shape::Speck { 0.0 } else { 0.5 };
         svg.path(&data, fill, Stroke { colour: self.colour, width });
     }
@@ -53,11 +51,9 @@ impl Dot {
         match self.shape {
             Shape::Speck => square(at, r),
             Shape::Circle => circle(at, r),
-            Shape::Diamond => diamond(at, 1.25 * r),
             Shape::Square => square(at, 0.9 * r),
             Shape::TriangleUp => triangle(at, 1.25 * r),
             Shape::TriangleDown => triangle_down(at, 1.25 * r),
-            Shape::Cross => cross(at, r),
         }
     }
 }
@@ -66,12 +62,6 @@ fn triangle_down(at: Point, radius: f64) -> String {
     let (half, height) = (radius * 0.75f64.sqrt(), 1.5 * radius);
     let start = format!("M{} {}", number(at.x), number(at.y + radius));
     format!("{start}l-{} -{}h{}z", number(half), number(height), number(2.0 * half))
-}
-
-fn cross(at: Point, r: f64) -> String {
-    let [left, right] = [at.x - r, at.x + r].map(number);
-    let [top, bottom] = [at.y - r, at.y + r].map(number);
-    format!("M{left} {top}L{right} {bottom}M{left} {bottom}L{right} {top}")
 }
 
 #[cfg(test)]

@@ -112,7 +112,8 @@ impl ConvergenceDiagram {
         };
         let mut layers = vec![Layer::Levels { at: vec![0.0] }];
         layers.extend((0..drawn).map(line));
-        let entry = |k: usize| Entry { sample: Sample::Pattern(line_pattern(k)), name: (k + 1).to_string() };
+        let name = |k: usize| if k == 0 { "1 (largest)".to_owned() } else { (k + 1).to_string() };
+        let entry = |k: usize| Entry { sample: Sample::Pattern(line_pattern(k)), name: name(k) };
         let legend = vec![(0..drawn).map(entry).collect()];
         let y = Measure::new("Lyapunov exponent (1/s)");
         let panels = vec![Panel { quantity: "exponent", y, layers, heading: String::new() }];

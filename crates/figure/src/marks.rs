@@ -90,7 +90,7 @@ pub(crate) fn triangle(at: Point, radius: f64) -> String {
     format!("{start}l{} {}h-{}z", number(half), number(height), number(2.0 * half))
 }
 
-pub(crate) fn diamond(at: Point, radius: f64) -> String {
+fn diamond(at: Point, radius: f64) -> String {
     let r = number(radius);
     format!("M{} {}l{r} {r}l-{r} {r}l-{r} -{r}z", number(at.x), number(at.y - radius))
 }

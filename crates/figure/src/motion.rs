@@ -1,6 +1,5 @@
 //! Kinds of settled motions, and how each looks.
 
-use crate::dots::{Dot, Shape};
 use crate::style::kind_colour;
 
 /// What a settled motion does.
@@ -51,16 +50,5 @@ impl MotionKind {
     /// Colour of its samples.
     pub(crate) fn colour(self) -> &'static str {
         kind_colour(self)
-    }
-
-    /// Dot of a single motion of the kind.
-    pub(crate) fn dot(self, radius: f64) -> Dot {
-        let (shape, full) = match self {
-            Self::Periodic { .. } => (Shape::Circle, true),
-            Self::QuasiPeriodic => (Shape::Diamond, false),
-            Self::Chaotic => (Shape::Square, true),
-            Self::Doubtful => (Shape::Cross, true),
-        };
-        Dot { shape, colour: self.colour(), full, radius }
     }
 }

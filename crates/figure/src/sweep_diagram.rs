@@ -12,8 +12,8 @@ use crate::{
 };
 
 /// Radius of a sample, of a sample of a motion with few of them, and of a maximum (pt).
-const SPECK: f64 = 0.25;
-const SINGLE: f64 = 0.55;
+const SPECK: f64 = 0.35;
+const SINGLE: f64 = 0.7;
 const MAXIMUM: f64 = 1.3;
 /// Samples up to which they are drawn larger.
 const FEW: usize = 40;

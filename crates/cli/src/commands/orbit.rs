@@ -6,7 +6,7 @@ use hammerbeam_orbit::{FoundOrbits, OrbitError, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
 
-use crate::{args::OrbitOptions, drift, failure::Failure, interrupt::Interrupt, output::Output};
+use crate::{args::OrbitOptions, drift, failure::Failure, figures, interrupt::Interrupt, output::Output};
 
 /// Time after which a search ends with what it has found.
 const LONGEST: Duration = Duration::from_secs(20);
@@ -40,7 +40,15 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     if let Some(why) = incomplete {
         anstream::eprintln!("{why}");
     }
-    output.give(&document(first, others, complete), || text(first, others, &file.study.response.point));
+    let mut document = document(first, others, complete);
+    if let Some(folder) = &options.out {
+        let drawn = figures::orbit::draw(folder, &model, &file.study.title, &orbits)?;
+        for (name, reason) in &drawn.refused {
+            anstream::eprintln!("{name}: {reason}");
+        }
+        document["figures"] = json!(drawn.files);
+    }
+    output.give(&document, || text(first, others, &file.study.response.point));
     Ok(())
 }
 

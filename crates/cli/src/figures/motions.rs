@@ -87,9 +87,11 @@ pub fn draw_basins(store: &Store, file: &StudyFile, drawn: &mut Drawn<'_>) -> an
             destinations.push(Destination { kind: kind(attractor.class), branch, places });
         }
         let range = |axis: &str| {
+            let scale =
+                if request.word(&format!("{axis}.coordinate")) == Some("displacement") { 1e3 } else { 1.0 };
             Ok::<_, StoreError>((
-                number(&request, &format!("{axis}.low"))?,
-                number(&request, &format!("{axis}.high"))?,
+                scale * number(&request, &format!("{axis}.low"))?,
+                scale * number(&request, &format!("{axis}.high"))?,
             ))
         };
         let map = BasinMap {
@@ -188,10 +190,10 @@ fn number(request: &RequestRecord, key: &str) -> Result<f64, StoreError> {
 fn coordinate(request: &RequestRecord, axis: &str) -> String {
     let name = request.word(&format!("{axis}.coordinate")).unwrap_or_default();
     match name.split_at_checked(1) {
-        _ if name == "displacement" => "Initial displacement (m)".to_owned(),
+        _ if name == "displacement" => "Initial displacement (mm)".to_owned(),
         _ if name == "velocity" => "Initial velocity (m/s)".to_owned(),
-        Some(("q", number)) => format!("Initial modal displacement {number} (kg½ m)"),
-        Some(("v", number)) => format!("Initial modal velocity {number} (kg½ m/s)"),
+        Some(("q", number)) => format!("Initial modal displacement {number} (√kg m)"),
+        Some(("v", number)) => format!("Initial modal velocity {number} (√kg m/s)"),
         _ => name.to_owned(),
     }
 }
