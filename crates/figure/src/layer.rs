@@ -3,7 +3,7 @@
 use crate::{
     Style,
     decimate::decimate,
-    dots::Dot,
+    dots::{Dot, Shape},
     plot::Plot,
     scale::Scale,
     style::{PALE_INK, Pattern, SHADE},
@@ -13,7 +13,7 @@ use crate::{
 /// A layer, in the units of the axes.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Layer {
-    /// A line through points; one that is not finite is a gap.
+    /// A line through points; one that is not finite is a gap, one alone between gaps a dot.
     Line { points: Vec<(f64, f64)>, pattern: Pattern },
     /// Dots.
     Dots { points: Vec<(f64, f64)>, dot: Dot },
@@ -111,7 +111,10 @@ fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], 
             .map(|k| places[k])
             .collect()
     };
-    let lines: Vec<Vec<Point>> = parts.filter(|part| part.len() > 1).map(on_page).collect();
+    let (lines, lone): (Vec<Vec<Point>>, Vec<Vec<Point>>) =
+        parts.filter(|part| !part.is_empty()).map(on_page).partition(|part| part.len() > 1);
+    let dot = Dot { shape: Shape::Circle, colour: pattern.colour, full: true, radius: style.stable_width };
+    dot.draw(svg, &lone.concat());
     let dashes = pattern.dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
     let stroke = Stroke { colour: pattern.colour, width: style.stable_width };
     svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);

@@ -66,7 +66,7 @@ impl OrbitDiagram {
             Layer::Line { points: self.over_time(value), pattern: line_pattern(k) }
         };
         if elements > 0 {
-            let (y, layers) = (Measure::new("Force (N)"), (0..elements).map(force).collect());
+            let (y, layers) = (Measure::new("Local force (N)"), (0..elements).map(force).collect());
             panels.push(Panel { quantity: "force", y, layers, heading: String::new() });
         }
         if self.samples.iter().any(|sample| sample.support_m.is_some()) {
@@ -79,7 +79,7 @@ impl OrbitDiagram {
         };
         let legend = vec![(0..elements).filter(|_| elements > 1).map(entry).collect()];
         let x = Measure::new("Time over excitation period (–)").between((0.0, self.periods()));
-        self.chart("one period of the orbit", x, panels, legend, None).draw(style)
+        self.chart("one period of the orbit", x, panels, legend, Some(0.16)).draw(style)
     }
 
     /// Velocity over displacement, with the points at phase 0.
@@ -115,8 +115,8 @@ impl OrbitDiagram {
         let lines: Vec<(f64, f64)> =
             (1..=wanted.min(values.len() / 4)).map(|k| (k as f64 * step, amplitude(&values, k))).collect();
         let largest = lines.iter().map(|line| line.1).filter(|size| size.is_finite()).fold(0.0, f64::max);
-        let floor = largest / DEPTH;
-        let shown: Vec<(f64, f64)> = lines.into_iter().filter(|line| line.1 > floor).collect();
+        let shown: Vec<(f64, f64)> = lines.into_iter().filter(|line| line.1 > largest / DEPTH).collect();
+        let floor = shown.iter().map(|line| line.1).fold(largest, f64::min) / 3.0;
         let intervals = shown.iter().map(|&(x, y)| (x, floor, y)).collect();
         let dot = Dot { shape: Shape::Circle, colour: line_pattern(0).colour, full: true, radius: 0.9 };
         let layers = vec![

@@ -1,0 +1,251 @@
+//! What the figures of motions, multipliers and orbits promise to those who draw them.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use std::f64::consts::TAU;
+
+use hammerbeam_figure::{
+    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, Figure, FigureError,
+    MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitSample, Origin, Quantity, ResponseCurve,
+    ResponseDiagram, ResponsePoint, SectionDiagram, Style, SweepDiagram, SweptMotion,
+};
+
+fn basins() -> BasinMap {
+    let destination = |kind, branch, places| Destination { kind, branch, places };
+    BasinMap {
+        title: "Basins".to_owned(),
+        x_label: "Initial displacement (mm)".to_owned(),
+        y_label: "Initial velocity (m/s)".to_owned(),
+        x_range: (-1.0, 1.0),
+        y_range: (0.0, 2.0),
+        cells_along: 2,
+        cells: vec![1, 2, 1, 0],
+        attractors: vec![
+            destination(MotionKind::Periodic { period: 3 }, Some(2), vec![(0.5, 0.5)]),
+            destination(MotionKind::Chaotic, None, vec![]),
+        ],
+    }
+}
+
+fn sweep() -> SweepDiagram {
+    let motion = |origin, frequency_hz: f64, kind, samples_m: &[f64]| SweptMotion {
+        origin,
+        frequency_hz,
+        kind,
+        samples_m: samples_m.to_vec(),
+        max_displacement_m: 2e-3,
+    };
+    let periodic = MotionKind::Periodic { period: 1 };
+    let cloud: Vec<f64> = (0..100).map(|k| 1e-3 * f64::from(k) / 100.0).collect();
+    SweepDiagram {
+        title: "Sweep".to_owned(),
+        motions: vec![
+            motion(Origin::Up, 20.0, periodic, &[1e-3]),
+            motion(Origin::Up, 21.0, MotionKind::Chaotic, &cloud),
+            motion(Origin::Down, 21.0, periodic, &[0.5e-3, f64::NAN]),
+        ],
+    }
+}
+
+fn exponents() -> ExponentDiagram {
+    let point = |frequency_hz, largest_per_s| ExponentPoint {
+        frequency_hz,
+        largest_per_s,
+        half_width_per_s: 1.0,
+        dimension: 2.0,
+    };
+    ExponentDiagram { title: String::new(), points: vec![point(40.0, -3.0), point(41.0, 8.0)] }
+}
+
+fn convergence() -> ConvergenceDiagram {
+    let places = (1..50).map(f64::from).map(|time| (time, vec![1.0 + 1.0 / time, -1.0, f64::NAN]));
+    ConvergenceDiagram { title: String::new(), frequency_hz: 40.0, places: places.collect() }
+}
+
+fn section() -> SectionDiagram {
+    SectionDiagram { title: String::new(), frequency_hz: 40.0, points: vec![(1e-3, 0.1), (2e-3, -0.1)] }
+}
+
+fn multipliers() -> MultiplierDiagram {
+    let solution = |frequency_hz: f64| {
+        let (re, im) = (0.02 * frequency_hz, 0.3);
+        let multipliers = vec![[re, im], [re, -im]];
+        Multipliers { frequency_hz, stable: re.hypot(im) < 1.0, multipliers }
+    };
+    let solutions = (20..70).map(f64::from).map(solution).collect();
+    MultiplierDiagram { title: String::new(), solutions }
+}
+
+/// A motion with two harmonics, of 10 and 30 Hz.
+fn orbit() -> OrbitDiagram {
+    let sample = |j: i32| {
+        let t = TAU * f64::from(j) / 256.0;
+        OrbitSample {
+            displacement_m: 1e-3 * t.cos(),
+            velocity_m_s: -t.sin(),
+            acceleration_m_s2: 100.0 * t.cos() + 10.0 * (3.0 * t).cos(),
+            forces_n: vec![t.cos().max(0.0), 0.0],
+            support_m: Some(1e-4 * t.cos()),
+        }
+    };
+    OrbitDiagram {
+        title: "Orbit".to_owned(),
+        frequency_hz: 10.0,
+        period_multiple: 1,
+        samples: (0..256).map(sample).collect(),
+        eigenfrequencies_hz: vec![18.0],
+    }
+}
+
+/// Every kind of figure, from the data above.
+fn all() -> Vec<(&'static str, Figure)> {
+    let style = Style::double_column();
+    vec![
+        ("basins", basins().draw(&style).unwrap()),
+        ("sweep", sweep().draw(&style).unwrap()),
+        ("exponents", exponents().draw(&style).unwrap()),
+        ("convergence", convergence().draw(&style).unwrap()),
+        ("section", section().draw(&style).unwrap()),
+        ("moduli", multipliers().draw_moduli(&style).unwrap()),
+        ("circle", multipliers().draw_circle(&style).unwrap()),
+        ("history", orbit().draw_history(&style).unwrap()),
+        ("phase", orbit().draw_phase(&style).unwrap()),
+        ("spectrum", orbit().draw_spectrum(&style).unwrap()),
+    ]
+}
+
+#[test]
+fn drawn_twice_every_figure_is_byte_for_byte_the_same() {
+    for ((name, first), (_, second)) in all().into_iter().zip(all()) {
+        assert_eq!(first.svg(), second.svg(), "{name}");
+        assert_eq!(first.png(60.0).unwrap(), second.png(60.0).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn no_figure_has_a_number_that_is_none_and_every_axis_has_its_unit() {
+    for (name, figure) in all() {
+        let svg = figure.svg();
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{name}");
+        let labels = ["(mm)", "(m/s)", "(m/s²)", "(1/s)", "(Hz)", "(–)", "(s)"];
+        assert!(labels.iter().filter(|unit| svg.contains(*unit)).count() >= 1, "{name}");
+        assert!(!figure.description().is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn basins_name_class_period_branch_and_fraction() {
+    let svg = basins().draw(&Style::single_column()).unwrap().svg();
+    for words in
+        ["1: period 3, branch 2, 50.0\u{2009}%", "2: chaotic, 25.0\u{2009}%", "not computed, 25.0\u{2009}%"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(svg.contains("attractor at phase 0"));
+    let unfinished = BasinMap { cells: vec![1, 2, 1], ..basins() }.draw(&Style::default()).unwrap();
+    assert!(unfinished.description().ends_with("1 cells are not done yet"), "{}", unfinished.description());
+}
+
+#[test]
+fn each_direction_of_a_sweep_has_its_panel_and_each_kind_its_name() {
+    let svg = sweep().draw(&Style::default()).unwrap().svg();
+    for words in
+        ["frequency rising", "frequency falling", ">periodic<", ">chaotic<", "maximum, frequency falling"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(!svg.contains("quasi-periodic") && !svg.contains("several initial states"));
+}
+
+#[test]
+fn nothing_to_draw_is_refused_with_a_sentence() {
+    let style = Style::default();
+    let refused = [
+        BasinMap::default().draw(&style),
+        SweepDiagram::default().draw(&style),
+        ExponentDiagram::default().draw(&style),
+        ConvergenceDiagram::default().draw(&style),
+        SectionDiagram::default().draw(&style),
+        MultiplierDiagram::default().draw_moduli(&style),
+        MultiplierDiagram::default().draw_circle(&style),
+        OrbitDiagram::default().draw_history(&style),
+        OrbitDiagram::default().draw_spectrum(&style),
+    ];
+    for result in refused {
+        let error = result.unwrap_err();
+        assert!(matches!(error, FigureError::Empty { .. }), "{error}");
+        assert!(error.to_string().starts_with("nothing to draw: no finite "), "{error}");
+    }
+    let missing = ExponentPoint { frequency_hz: 40.0, largest_per_s: f64::NAN, ..ExponentPoint::default() };
+    let diagram = ExponentDiagram { title: String::new(), points: vec![missing] };
+    assert!(diagram.draw(&style).unwrap_err().to_string().contains("largest exponent"));
+}
+
+#[test]
+fn multipliers_that_are_infinite_are_left_out_and_counted() {
+    let mut diagram = multipliers();
+    diagram.solutions[3].multipliers[0] = [f64::INFINITY, 0.0];
+    diagram.solutions[4].multipliers[1] = [f64::NAN, 0.0];
+    diagram.solutions[5].multipliers = vec![[50.0, 0.0], [1e-9, 0.0]];
+    let style = Style::single_column();
+    for figure in [diagram.draw_moduli(&style).unwrap(), diagram.draw_circle(&style).unwrap()] {
+        assert!(figure.description().contains("not finite: 2"), "{}", figure.description());
+        assert!(!figure.svg().contains("inf") && !figure.svg().contains("NaN"));
+    }
+    let circle = diagram.draw_circle(&style).unwrap();
+    assert!(circle.svg().contains("1 of 98 multipliers lie outside the frame"));
+}
+
+#[test]
+fn a_branch_of_one_point_is_dots() {
+    let mut diagram = multipliers();
+    diagram.solutions.truncate(1);
+    let svg = diagram.draw_moduli(&Style::default()).unwrap().svg();
+    assert!(svg.contains("0 1 0"), "an arc of a circle");
+}
+
+/// The circle of radius one about the origin has the same size across and up.
+#[test]
+fn the_unit_circle_is_round() {
+    let svg = multipliers().draw_circle(&Style::single_column()).unwrap().svg();
+    let is_circle = |line: &&str| line.starts_with("<path d=\"M") && line.matches('L').count() > 20;
+    let line = svg.lines().find(is_circle).unwrap();
+    let data = line.split('"').nth(1).unwrap();
+    let points: Vec<(f64, f64)> = data[1..]
+        .split('L')
+        .map(|pair| pair.split_once(' ').unwrap())
+        .map(|(x, y)| (x.parse().unwrap(), y.parse().unwrap()))
+        .collect();
+    let size = |values: Vec<f64>| {
+        values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
+    };
+    let (width, height) =
+        (size(points.iter().map(|p| p.0).collect()), size(points.iter().map(|p| p.1).collect()));
+    // Coordinates have two decimals, and the line is simplified to 0.024 pt.
+    assert!((width - height).abs() < 0.07 && width > 50.0, "{width} {height}");
+}
+
+#[test]
+fn a_spectrum_has_the_harmonics_of_the_motion_alone() {
+    let svg = orbit().draw_spectrum(&Style::default()).unwrap().svg();
+    // Those of 10 and 30 Hz, two arcs for the dot of each; all others are rounding, below 1e-5 of the largest.
+    assert_eq!(svg.matches("a0.9 0.9 0 1 0").count(), 4);
+    assert!(svg.contains(">harmonic<") && svg.contains(">eigenfrequency<"));
+}
+
+#[test]
+fn chaotic_ranges_are_shaded_and_named() {
+    let point = |frequency_hz| ResponsePoint {
+        frequency_hz,
+        displacement_m: 1e-3,
+        stable: true,
+        ..ResponsePoint::default()
+    };
+    let curve = ResponseCurve { period_multiple: 1, points: vec![point(20.0), point(30.0)] };
+    let plain = ResponseDiagram { curves: vec![curve], ..ResponseDiagram::default() };
+    let shaded = ResponseDiagram { chaotic_ranges_hz: vec![(22.0, 24.0), (90.0, 95.0)], ..plain.clone() };
+    let [plain, shaded] = [plain, shaded].map(|diagram| diagram.draw(Quantity::Displacement).unwrap());
+    assert!(!plain.svg().contains("chaotic") && shaded.svg().contains(">chaotic motion found<"));
+    assert!(shaded.description().contains("chaotic motion found at 22.000 to 24.000 Hz"));
+    // What lies outside the axis is cut off: one rectangle, and the sample of the legend.
+    assert_eq!(shaded.svg().matches("fill=\"#f3ddb8\"").count(), 2);
+}
