@@ -14,6 +14,8 @@ use crate::{
 /// Most moduli that are drawn, and the least that is.
 const MOST: usize = 6;
 const LEAST: f64 = 1e-4;
+/// Most multipliers of a solution that are drawn in the complex plane.
+const MOST_IN_PLANE: usize = 4;
 /// Half the width of the frame around the unit circle.
 const FRAME: f64 = 1.5;
 
@@ -85,7 +87,7 @@ impl MultiplierDiagram {
         .draw(style)
     }
 
-    /// Multipliers in the complex plane about the unit circle.
+    /// Multipliers in the complex plane about the unit circle; of many the four of largest modulus of each solution.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no multiplier is finite.
@@ -99,22 +101,19 @@ impl MultiplierDiagram {
         let outside = finite.iter().filter(|(_, at)| !is_in(at)).count();
         let circle = (0..=360).map(|k| f64::from(k) / 360.0 * TAU).map(|angle| (angle.cos(), angle.sin()));
         let pattern = Pattern { colour: INK, dashes: None };
-        let mut layers = vec![
-            Layer::Levels { at: vec![0.0] },
-            Layer::Uprights { at: vec![0.0] },
-            Layer::Line { points: circle.collect(), pattern },
-        ];
+        let mut layers = vec![Layer::Levels { at: vec![0.0] }, Layer::Uprights { at: vec![0.0] }];
         let mut legend = Vec::new();
         for (stable, name) in [(false, "of unstable solutions"), (true, "of stable solutions")] {
             let points: Vec<(f64, f64)> =
                 finite.iter().filter(|(of, _)| *of == stable).map(|(_, at)| *at).collect();
-            let (shape, radius) = if stable { (Shape::Circle, 0.8) } else { (Shape::Square, 0.9) };
+            let (shape, radius) = if stable { (Shape::Circle, 0.6) } else { (Shape::Square, 0.7) };
             let dot = Dot { shape, colour: stability_colour(stable), full: stable, radius };
             if !points.is_empty() {
                 legend.insert(0, Entry { sample: Sample::Dot(dot), name: name.to_owned() });
             }
             layers.push(Layer::Dots { points, dot });
         }
+        layers.push(Layer::Line { points: circle.collect(), pattern });
         let ends = (-FRAME, FRAME);
         let y = Measure::new("Imaginary part (–)").between(ends);
         let heading = if outside == 0 {
@@ -133,15 +132,19 @@ impl MultiplierDiagram {
             .draw(style)
     }
 
+    /// The largest finite multipliers of each solution, with its stability.
     fn finite(&self) -> impl Iterator<Item = (bool, (f64, f64))> {
-        let all = self.solutions.iter().flat_map(|solution| {
-            solution.multipliers.iter().map(move |[re, im]| (solution.stable, (*re, *im)))
-        });
-        all.filter(|(_, (re, im))| re.is_finite() && im.is_finite())
+        self.solutions.iter().flat_map(|solution| {
+            let mut finite = solution.multipliers.clone();
+            finite.retain(|[re, im]| re.is_finite() && im.is_finite());
+            finite.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
+            finite.truncate(MOST_IN_PLANE);
+            finite.into_iter().map(move |[re, im]| (solution.stable, (re, im)))
+        })
     }
 
     fn not_finite(&self) -> usize {
-        self.solutions.iter().map(|solution| solution.multipliers.len()).sum::<usize>()
-            - self.finite().count()
+        let all = self.solutions.iter().flat_map(|solution| &solution.multipliers);
+        all.filter(|[re, im]| !(re.is_finite() && im.is_finite())).count()
     }
 }

@@ -15,7 +15,7 @@ pub(crate) const GRID: &str = "#e3e3e3";
 pub(crate) const PAPER: &str = "#ffffff";
 
 /// Colour of shaded ranges behind the data.
-pub(crate) const SHADE: &str = "#f3ddb8";
+pub(crate) const SHADE: &str = "#f8ebd5";
 
 /// Fills of areas, told apart in grey print by their lightness; later ones start again.
 const FILLS: [&str; 6] = ["#2b4f87", "#f2c38a", "#5fae96", "#a0476b", "#dfe6ee", "#8c8c3a"];

@@ -247,5 +247,5 @@ fn chaotic_ranges_are_shaded_and_named() {
     assert!(!plain.svg().contains("chaotic") && shaded.svg().contains(">chaotic motion found<"));
     assert!(shaded.description().contains("chaotic motion found at 22.000 to 24.000 Hz"));
     // What lies outside the axis is cut off: one rectangle, and the sample of the legend.
-    assert_eq!(shaded.svg().matches("fill=\"#f3ddb8\"").count(), 2);
+    assert_eq!(shaded.svg().matches("fill=\"#f8ebd5\"").count(), 2);
 }
