@@ -34,7 +34,7 @@ pub enum Command {
     /// Read and validate a study, and print what was understood
     Check(StudyOptions),
     /// Print the eigenfrequencies: unreduced, of the reduction basis, and reduced
-    Modes(StudyOptions),
+    Modes(ModesOptions),
     /// Compute everything a study asks for into a results folder; started again, it goes on where it was
     Run(RunOptions),
     /// Compute the periodic solutions at one frequency
@@ -68,6 +68,16 @@ pub struct NewOptions {
 pub struct StudyOptions {
     /// Study file
     pub study: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub struct ModesOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Folder, made if it is not there, into which the error of the reduction is drawn
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -128,6 +138,21 @@ pub struct FigureOptions {
     /// Draw these alone; may be given several times [default: all]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub kind: Vec<FigureKind>,
+
+    /// Scale of the vertical axis of response diagrams
+    #[arg(long, value_enum, default_value_t = FigureScale::Automatic)]
+    pub scale: FigureScale,
+}
+
+/// Scale of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureScale {
+    /// Logarithmic where the values are positive and span a factor of more than 40
+    Automatic,
+    /// Linear
+    Linear,
+    /// Logarithmic
+    Logarithmic,
 }
 
 /// What a figure shows.

@@ -9,14 +9,14 @@ use std::{fs, path::Path};
 use anyhow::Context;
 use hammerbeam_figure::{
     Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Figure, FigureError, Quantity, ResponseCurve,
-    ResponseDiagram, ResponsePoint, Style,
+    ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
 use hammerbeam_study::{
     Store, StoreError, StudyFile,
     store::{PieceRecord, Row},
 };
 
-use crate::args::FigureKind;
+use crate::args::{FigureKind, FigureScale};
 
 /// Resolution of the PNG files, in pixels per inch.
 const RESOLUTION: f64 = 300.0;
@@ -65,7 +65,7 @@ impl<'a> Drawn<'a> {
 /// Names of the files.
 pub fn draw(store: &Store, range_hz: [f64; 2]) -> anyhow::Result<Vec<String>> {
     let mut drawn = Drawn::into(store.folder())?;
-    draw_response(store, range_hz, &mut drawn)?;
+    draw_response(store, range_hz, FigureScale::Automatic, &mut drawn)?;
     draw_curves(store, &mut drawn)?;
     match drawn.refused.first() {
         Some((name, reason)) => anyhow::bail!("cannot draw {name}: {reason}"),
@@ -77,12 +77,12 @@ pub fn draw(store: &Store, range_hz: [f64; 2]) -> anyhow::Result<Vec<String>> {
 pub fn draw_kind(
     store: &Store,
     file: &StudyFile,
-    kind: FigureKind,
+    (kind, scale): (FigureKind, FigureScale),
     drawn: &mut Drawn<'_>,
 ) -> anyhow::Result<()> {
     match kind {
         FigureKind::Response if store.branches()?.is_empty() => Ok(()),
-        FigureKind::Response => draw_response(store, file.study.excitation.frequency_hz, drawn),
+        FigureKind::Response => draw_response(store, file.study.excitation.frequency_hz, scale, drawn),
         FigureKind::Curves => draw_curves(store, drawn),
         FigureKind::Multipliers => multipliers::draw(store, drawn),
         FigureKind::Sweeps => motions::draw_sweeps(store, drawn),
@@ -91,10 +91,25 @@ pub fn draw_kind(
     }
 }
 
-fn draw_response(store: &Store, range_hz: [f64; 2], drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+fn draw_response(
+    store: &Store,
+    range_hz: [f64; 2],
+    scale: FigureScale,
+    drawn: &mut Drawn<'_>,
+) -> anyhow::Result<()> {
     let diagram = diagram(store, range_hz)?;
+    let choice = match scale {
+        FigureScale::Automatic => ScaleChoice::Automatic,
+        FigureScale::Linear => ScaleChoice::Linear,
+        FigureScale::Logarithmic => ScaleChoice::Logarithmic,
+    };
+    let settings = ResponseSettings {
+        displacement_scale: choice,
+        acceleration_scale: choice,
+        ..ResponseSettings::default()
+    };
     for (name, quantity) in FIGURES {
-        drawn.add(name, diagram.draw(quantity))?;
+        drawn.add(name, diagram.draw_with(&[quantity], &settings))?;
     }
     Ok(())
 }

@@ -67,6 +67,18 @@ fn what_is_not_there_is_refused_with_a_sentence() {
 }
 
 #[test]
+fn the_error_of_the_reduction_is_drawn_and_that_of_no_reduction_refused() {
+    let beam = Workshop::with(common::BEAM);
+    assert_success(&beam.hammerbeam(&["modes", "study.toml", "--out", "drawn"]));
+    let svg = fs::read_to_string(beam.path("drawn/reduction.svg")).unwrap();
+    assert!(svg.contains("up to the cut-off") && svg.contains("above the cut-off"));
+    let lumped = Workshop::with(DUFFING);
+    let output = lumped.hammerbeam(&["modes", "study.toml", "--out", "drawn"]);
+    assert_success(&output);
+    assert!(stderr(&output).contains("reduction: nothing to draw: no finite error"), "{}", stderr(&output));
+}
+
+#[test]
 fn an_orbit_is_drawn_with_the_force_of_its_stop() {
     let workshop = Workshop::with(common::BEAM);
     let output =

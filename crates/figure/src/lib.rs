@@ -23,15 +23,16 @@
 //! ```
 //!
 //! # The rooms
-//! Data run from the diagram to the page. [`ResponseDiagram`] and [`CurveDiagram`] are the kinds of figures so far; a further
-//! kind is one more file beside them, made of the same parts:
+//! Data run from the diagram to the page. [`ResponseDiagram`] and [`CurveDiagram`] draw themselves; every other
+//! kind is a file that turns its data into a `chart`, panels of layers over one axis:
 //!
 //! | room | what it knows |
 //! |---|---|
 //! | `style` | the look: sizes for a journal column, line widths, colours; the only place to change it |
 //! | `scale`, `ticks`, `axis`, `plot` | a linear or logarithmic scale, where its ticks are, a frame with two axes |
 //! | `stretch`, `decimate`, `line` | a branch cut where its stability changes, fewer points for the same line, dashes |
-//! | `marks`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
+//! | `chart`, `layer` | panels on top of each other under one legend; lines, dots, intervals, cells, shades, reference lines |
+//! | `marks`, `dots`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
 //! | `text`, `font` | lines with italic parts, numbers as printed, widths of the glyphs of the bundled font |
 //! | `svg`, `png` | the few elements we need, in points; the renderer with the bundled font alone |
 //!
@@ -68,6 +69,7 @@ mod multiplier_diagram;
 mod orbit_diagram;
 mod plot;
 mod png;
+mod reduction_diagram;
 mod response_diagram;
 mod scale;
 mod stretch;
@@ -86,6 +88,7 @@ pub use motion::MotionKind;
 pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{OrbitDiagram, OrbitSample};
+pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
 pub use scale::ScaleChoice;
 pub use style::Style;

@@ -18,7 +18,7 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let mut drawn = Drawn::into(folder)?;
     let kinds = if options.kind.is_empty() { FigureKind::ALL.as_slice() } else { &options.kind };
     for kind in FigureKind::ALL.into_iter().filter(|kind| kinds.contains(kind)) {
-        figures::draw_kind(&store, &file, kind, &mut drawn)?;
+        figures::draw_kind(&store, &file, (kind, options.scale), &mut drawn)?;
     }
     drop(snapshot);
     let Drawn { files, refused, .. } = drawn;

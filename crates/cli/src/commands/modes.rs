@@ -1,19 +1,45 @@
 //! `hammerbeam modes`: eigenfrequencies before and after the reduction.
 
-use hammerbeam_structure::ModeTables;
+use std::path::Path;
+
+use hammerbeam_figure::{ReducedMode, ReductionDiagram, Style};
+use hammerbeam_structure::{FrequencyError, ModeTables};
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
-use crate::{args::StudyOptions, failure::Failure, output::Output};
+use crate::{args::ModesOptions, failure::Failure, figures::Drawn, output::Output};
 
 /// Rows of the table that are always shown, when there are so many.
 const SHOWN: usize = 12;
 
-pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
+pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
-    output.give(&document(&model.tables), || text(&model.tables));
+    let mut document = document(&model.tables);
+    if let Some(folder) = &options.out {
+        let drawn = draw(folder, &file.study.title, &model.tables)?;
+        for (name, reason) in &drawn.refused {
+            anstream::eprintln!("{name}: {reason}");
+        }
+        document["figures"] = json!(drawn.files);
+    }
+    output.give(&document, || text(&model.tables));
     Ok(())
+}
+
+fn draw<'a>(folder: &'a Path, title: &str, tables: &ModeTables) -> Result<Drawn<'a>, Failure> {
+    let mode = |error: &FrequencyError| ReducedMode {
+        full_hz: error.full_hz,
+        relative_error: error.relative,
+        below_cut_off: error.below_cut_off,
+    };
+    let modes = tables.frequency_errors.iter().map(mode).collect();
+    let mut drawn = Drawn::into(folder)?;
+    drawn.add(
+        "reduction",
+        ReductionDiagram { title: title.to_owned(), modes }.draw(&Style::single_column()),
+    )?;
+    Ok(drawn)
 }
 
 fn document(tables: &ModeTables) -> Value {

@@ -1,0 +1,66 @@
+//! The error of a reduction: relative errors of the eigenfrequencies over the frequency.
+
+use crate::{
+    Figure, FigureError, Style,
+    chart::{Chart, Measure, Panel},
+    dots::{Dot, Shape},
+    layer::Layer,
+    legend::{Entry, Sample},
+    style::stability_colour,
+};
+
+/// The least error that is drawn: below it there is rounding alone.
+const LEAST: f64 = 1e-12;
+
+/// Errors of eigenfrequencies.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReductionDiagram {
+    /// Title above the figure; empty for none.
+    pub title: String,
+    /// The modes, in any order.
+    pub modes: Vec<ReducedMode>,
+}
+
+/// A mode before and after the reduction.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ReducedMode {
+    /// Unreduced eigenfrequency (Hz).
+    pub full_hz: f64,
+    /// Reduced over unreduced eigenfrequency, less one (–).
+    pub relative_error: f64,
+    /// Whether the unreduced eigenfrequency is not above the cut-off.
+    pub below_cut_off: bool,
+}
+
+impl ReductionDiagram {
+    /// The figure, in that style; errors below 1e-12 are drawn there.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where no mode has a positive frequency and a finite error.
+    pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
+        let place = |mode: &ReducedMode| {
+            let error = mode.relative_error.abs();
+            (mode.full_hz, if error.is_finite() { error.max(LEAST) } else { f64::NAN })
+        };
+        let mut layers = Vec::new();
+        let mut legend = Vec::new();
+        for (below, name) in [(true, "up to the cut-off"), (false, "above the cut-off")] {
+            let (shape, colour) =
+                (if below { Shape::Circle } else { Shape::Square }, stability_colour(below));
+            let dot = Dot { shape, colour, full: below, radius: 1.3 * style.mark_radius };
+            let modes = self.modes.iter().filter(|mode| mode.below_cut_off == below && mode.full_hz > 0.0);
+            let points: Vec<(f64, f64)> = modes.map(place).collect();
+            if !points.is_empty() {
+                legend.push(Entry { sample: Sample::Dot(dot), name: name.to_owned() });
+            }
+            layers.push(Layer::Dots { points, dot });
+        }
+        let y = Measure::logarithmic("Error of eigenfrequency (–)");
+        let panels = vec![Panel { quantity: "error", y, layers, heading: String::new() }];
+        let description =
+            format!("relative errors of {} eigenfrequencies by the reduction", self.modes.len());
+        let x = Measure::logarithmic("Unreduced eigenfrequency (Hz)");
+        Chart { title: self.title.clone(), x, panels, legend: vec![legend], description, aspect: None }
+            .draw(style)
+    }
+}
