@@ -87,7 +87,7 @@ impl MultiplierDiagram {
         .draw(style)
     }
 
-    /// Multipliers in the complex plane about the unit circle; of many the four of largest modulus of each solution.
+    /// Multipliers in the complex plane about the unit circle; of many the four of largest modulus of each solution, with the partner of the last.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no multiplier is finite.
@@ -138,7 +138,9 @@ impl MultiplierDiagram {
             let mut finite = solution.multipliers.clone();
             finite.retain(|[re, im]| re.is_finite() && im.is_finite());
             finite.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
-            finite.truncate(MOST_IN_PLANE);
+            // Of a pair both or none, which have one modulus but for rounding.
+            let least = finite.get(MOST_IN_PLANE - 1).map_or(0.0, |[re, im]| (1.0 - 1e-9) * re.hypot(*im));
+            finite.retain(|[re, im]| re.hypot(*im) >= least);
             finite.into_iter().map(move |[re, im]| (solution.stable, (re, im)))
         })
     }

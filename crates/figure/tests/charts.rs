@@ -195,6 +195,16 @@ fn multipliers_that_are_infinite_are_left_out_and_counted() {
     assert!(circle.svg().contains("1 of 98 multipliers lie outside the frame"));
 }
 
+/// Three real multipliers and a pair behind them: the pair stays whole.
+#[test]
+fn of_a_pair_both_are_drawn() {
+    let multipliers = vec![[0.9, 0.0], [-0.8, 0.0], [0.7, 0.0], [0.1, 0.5], [0.1, -0.5], [0.2, 0.0]];
+    let solution = Multipliers { frequency_hz: 40.0, stable: true, multipliers };
+    let diagram = MultiplierDiagram { title: String::new(), solutions: vec![solution] };
+    let svg = diagram.draw_circle(&Style::single_column()).unwrap().svg();
+    assert_eq!(svg.matches("a0.6 0.6 0 1 0").count(), 10, "two arcs for each of five dots");
+}
+
 #[test]
 fn a_branch_of_one_point_is_dots() {
     let mut diagram = multipliers();
