@@ -5,6 +5,7 @@
 //! the beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the solution itself.
 //!
 //! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point there: the same frequency and the same state.
+//! A point that was bracketed and not located is taken to lie within [`DOUBTS`] times its uncertainty.
 
 use hammerbeam_orbit::{PeriodicSolution, Side};
 
@@ -16,8 +17,10 @@ use crate::store::{Store, StoreError, solution_key};
 
 /// Relative margin of the maxima of candidates.
 const MARGIN: f64 = 0.02;
-/// Relative difference of frequencies up to which two branch points can be the same.
+/// Relative difference of frequencies up to which two branch points can be the same, besides what their place is uncertain by.
 const SAME_FREQUENCY: f64 = 1e-7;
+/// Uncertainties within which a bracketed point lies: they are what the last steps of its search moved it by, and have been seen to be a third of its error.
+const DOUBTS: f64 = 10.0;
 /// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the same.
 const SAME_STATE: f64 = 5e-3;
 /// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
@@ -64,10 +67,15 @@ pub(super) fn has_branch_point(
     if start.period_multiple != root.period_multiple {
         return Ok(false);
     }
-    let here =
-        |row: &Sketch| (row.frequency_hz - root.frequency_hz).abs() <= SAME_FREQUENCY * root.frequency_hz;
     let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
-    let near: Vec<i64> = places.filter(|(_, row)| here(row)).map(|(key, _)| key).collect();
+    let mut near = Vec::new();
+    for (key, row) in places {
+        let uncertain_hz = store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty_hz);
+        let allowed_hz = SAME_FREQUENCY * root.frequency_hz + uncertain_hz;
+        if (row.frequency_hz - root.frequency_hz).abs() <= allowed_hz {
+            near.push(key);
+        }
+    }
     if near.is_empty() {
         return Ok(false);
     }
