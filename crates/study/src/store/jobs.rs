@@ -138,7 +138,7 @@ impl Store {
     ///
     /// * `message`: why there are none.
     ///
-    /// Those beyond [`MOST_STARTS`] are left out.
+    /// Those beyond the first 1024 are left out.
     ///
     /// A branch of doubled period is walked away from its flip only: the other way it is its own copy, a period later.
     ///
