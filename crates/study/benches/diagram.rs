@@ -90,14 +90,13 @@ struct Costs {
 }
 
 impl Costs {
-    /// Shares of a solution's time, in percent: flight, contact, maxima, linear algebra with the checks of the path, storage.
-    fn shares(&self) -> [f64; 5] {
+    /// Shares of a solution's time, in percent: flight, contact, what is done with the evaluations (maxima, linear algebra, checks of the path), storage.
+    fn shares(&self) -> [f64; 4] {
         let flight = self.evaluations * self.flight;
         let contact = self.evaluations * (self.evaluation - self.flight);
-        let maxima = self.maxima - self.state;
-        let algebra = self.walked - flight - contact - maxima;
+        let others = self.walked - flight - contact;
         let whole = self.walked + self.storage;
-        [flight, contact, maxima, algebra, self.storage].map(|part| 100.0 * part / whole)
+        [flight, contact, others, self.storage].map(|part| 100.0 * part / whole)
     }
 }
 
@@ -113,9 +112,9 @@ fn print_costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) {
         microseconds(costs.flight),
         microseconds(costs.maxima)
     );
-    let [flight, contact, maxima, algebra, storage] = costs.shares();
+    let [flight, contact, others, storage] = costs.shares();
     println!(
-        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, maxima {maxima:.0} %, linear algebra and path {algebra:.0} %, storage {storage:.0} %",
+        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, maxima, linear algebra and path {others:.0} %, storage {storage:.0} %",
         costs.evaluations,
         microseconds(costs.walked + costs.storage)
     );
@@ -154,8 +153,12 @@ fn stretch(orbit: &PeriodicSolution) -> Stretch {
     Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: f64::from(orbit.period_multiple) }
 }
 
-/// Stretches of an orbit in which nothing is in contact, and the states at their starts.
+/// Stretches of an orbit in which no force acts, and the states at their starts.
 fn flights(integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Vec<(Stretch, Vec<f64>)> {
+    let always = integrator.system().elements().iter().any(|element| element.law.contacts().is_empty());
+    if always {
+        return Vec::new();
+    }
     let whole = stretch(orbit);
     let trace = integrator.trace(&whole, &orbit.nodes[0], &[]).unwrap();
     let phase = |time: f64| time * orbit.frequency_hz;
