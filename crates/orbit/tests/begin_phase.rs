@@ -6,7 +6,9 @@
 
 use std::f64::consts::PI;
 
-use faer::Mat;
+mod common;
+
+use common::unit_mass;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},
@@ -16,7 +18,6 @@ use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side, StopReason,
     SurveyEffort, find_orbits, find_start, recompute, states_at_phase, survey,
 };
-use hammerbeam_structure::{PointOutput, ReducedModel};
 
 const RANGE: (f64, f64) = (0.1, 0.4);
 const PLAIN: f64 = -2.2;
@@ -28,13 +29,7 @@ fn oscillator(phase: f64) -> (System, Response) {
 
 /// The same under a constant force besides.
 fn pressed(phase: f64, constant: f64) -> (System, Response) {
-    let model = ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: Mat::from_fn(1, 1, |_, _| 0.04),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
-        uniform_acceleration: vec![1.0],
-    };
+    let model = unit_mass(0.04);
     let force = |order, amplitude, phase| HarmonicForce {
         shape: vec![1.0],
         harmonic: Harmonic { order, amplitude, phase },

@@ -1,22 +1,17 @@
 //! A walk that is stored and taken up again goes on with the same bits.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-use faer::Mat;
+mod common;
+
+use common::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::HertzStop};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, Response, Segments, Side, find_start,
 };
-use hammerbeam_structure::{PointOutput, ReducedModel};
 
 /// Unit mass on a spring, `w = 1`, damping ratio 0.02, with a Hertz stop at a gap, driven by a force.
 fn oscillator() -> (System, Response) {
-    let model = ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: Mat::from_fn(1, 1, |_, _| 0.04),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
-        uniform_acceleration: vec![1.0],
-    };
+    let model = unit_mass(0.04);
     let force =
         HarmonicForce { shape: vec![1.0], harmonic: Harmonic { order: 1, amplitude: 0.2, phase: 0.0 } };
     let load = Load { support: Vec::new(), forces: vec![force] };

@@ -73,15 +73,20 @@ pub fn chain(with_stop: bool) -> (System, Response) {
     (system, Response { shape: last.shape, support_ratio: 0.0 })
 }
 
-/// `x'' + 0.1 x' + x + x^3 = 0.3 cos(2 pi f t)`.
-pub fn duffing() -> (System, Response) {
-    let model = ReducedModel {
+/// `x'' + damping x' + x = 0`.
+pub fn unit_mass(damping: f64) -> ReducedModel {
+    ReducedModel {
         natural_frequencies: vec![1.0],
-        damping: Mat::from_fn(1, 1, |_, _| 0.1),
+        damping: Mat::from_fn(1, 1, |_, _| damping),
         points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
         support: None,
         uniform_acceleration: vec![1.0],
-    };
+    }
+}
+
+/// `x'' + 0.1 x' + x + x^3 = 0.3 cos(2 pi f t)`.
+pub fn duffing() -> (System, Response) {
+    let model = unit_mass(0.1);
     let harmonic = Harmonic { order: 1, amplitude: 0.3, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
