@@ -57,6 +57,13 @@ impl<'a> Drawn<'a> {
         }
         Ok(())
     }
+
+    /// Says on standard error what could not be drawn.
+    pub fn tell_refused(&self) {
+        for (name, reason) in &self.refused {
+            anstream::eprintln!("{name}: {reason}");
+        }
+    }
 }
 
 /// Draws the response diagrams and the curves of bifurcations into the results folder, each as SVG and PNG.

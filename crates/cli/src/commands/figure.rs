@@ -21,10 +21,8 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
         figures::draw_kind(&store, &file, (kind, options.scale), &mut drawn)?;
     }
     drop(snapshot);
+    drawn.tell_refused();
     let Drawn { files, refused, .. } = drawn;
-    for (name, reason) in &refused {
-        anstream::eprintln!("{name}: {reason}");
-    }
     if files.is_empty() {
         let results = options.results.display();
         return Err(Failure::NoResult(format!("{results} holds nothing of what was asked for to draw")));

@@ -18,9 +18,7 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let mut document = document(&model.tables);
     if let Some(folder) = &options.out {
         let drawn = draw(folder, &file.study.title, &model.tables)?;
-        for (name, reason) in &drawn.refused {
-            anstream::eprintln!("{name}: {reason}");
-        }
+        drawn.tell_refused();
         document["figures"] = json!(drawn.files);
     }
     output.give(&document, || text(&model.tables));

@@ -43,9 +43,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let mut document = document(first, others, complete);
     if let Some(folder) = &options.out {
         let drawn = figures::orbit::draw(folder, &model, &file.study.title, &orbits)?;
-        for (name, reason) in &drawn.refused {
-            anstream::eprintln!("{name}: {reason}");
-        }
+        drawn.tell_refused();
         document["figures"] = json!(drawn.files);
     }
     output.give(&document, || text(first, others, &file.study.response.point));
