@@ -1,5 +1,7 @@
 //! Solving one step with forces, and its error.
 
+use std::sync::Arc;
+
 use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
@@ -49,13 +51,13 @@ impl ExactIntegrator {
         precision: f64,
     ) -> Option<()> {
         self.counts.solves += 1;
-        let before = self.step.weights.length;
+        let before = self.step.length;
         self.set_weights(length, run.remaining, grading);
         let step = &mut self.step;
         step.grading = Some(grading);
         step.start = run.time;
         step.set_free_motion(&self.series, &self.drive, &self.outputs, &run.state);
-        let change = step.weights.length / before - 1.0;
+        let change = step.length / before - 1.0;
         if again {
             step.shift_guess(change);
         } else {
@@ -71,23 +73,38 @@ impl ExactIntegrator {
     }
 
     fn set_weights(&mut self, length: f64, remaining: f64, grading: Grading) {
-        let Self { blocks, series, step, cache, outputs, inputs, .. } = self;
-        let damped = step.damped;
-        if length <= series.reach() {
-            return series.prepare((&step.active, damped), grading, length, &mut step.weights);
+        if length <= self.series.reach() {
+            return self.prepare_weights(length, grading);
         }
         // Lengths on a grid, so that matrices made by quadrature serve again.
         let place = (4.0 * length.log2() + GRID_SLACK).floor().min((4.0 * remaining.log2()).floor());
         let length = (0.25 * place).exp2().min(remaining);
-        if length <= series.reach() {
-            return series.prepare((&step.active, damped), grading, length, &mut step.weights);
+        if length <= self.series.reach() {
+            return self.prepare_weights(length, grading);
         }
+        let Self { blocks, step, kept_weights, own_weights, outputs, inputs, .. } = self;
         let make = || {
-            let active = (step.active.as_slice(), damped);
-            StepWeights::by_quadrature(blocks, outputs, inputs, active, grading, length)
+            let active = (step.active.as_slice(), step.damped);
+            Arc::new(StepWeights::by_quadrature(blocks, outputs, inputs, active, grading, length))
         };
-        step.weights
-            .clone_from(cache.entry((step.active.clone(), grading, place as i32)).or_insert_with(make));
+        let kept =
+            kept_weights.entry((step.active.clone(), grading, place as i32)).or_insert_with(make).clone();
+        let before = std::mem::replace(&mut step.weights, kept);
+        if Arc::strong_count(&before) == 1 {
+            *own_weights = before;
+        }
+        step.length = length;
+    }
+
+    /// Matrices of a step within the reach of the series, in the integrator's own place for them.
+    fn prepare_weights(&mut self, length: f64, grading: Grading) {
+        let Self { series, step, own_weights, .. } = self;
+        if Arc::strong_count(&step.weights) > 1 {
+            step.weights = std::mem::take(own_weights);
+        }
+        let active = (step.active.as_slice(), step.damped);
+        series.prepare(active, grading, length, Arc::make_mut(&mut step.weights));
+        step.length = length;
     }
 
     /// First guess of the displacements: the present motion continued.

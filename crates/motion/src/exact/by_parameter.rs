@@ -28,7 +28,7 @@ impl ForceStep {
         (laws, outputs): (&[Law], &[Output]),
         (column, columns): (usize, usize),
     ) {
-        let (span, c) = ((self.start, self.weights.length), &self.grading().rule().c);
+        let (span, c) = ((self.start, self.length), &self.grading().rule().c);
         let count = self.active.len();
         for (a, &e) in self.active.iter().enumerate() {
             let values: [f64; NODES] = match parameter {
@@ -152,7 +152,7 @@ impl ExactIntegrator {
         let Some(by_damping) = &self.by_damping else { return };
         let (mut nodes, mut end) = std::mem::take(&mut self.step.by_damping);
         let (grading, step) = (self.step.grading(), &self.step);
-        let (length, active) = (step.weights.length, step.active.as_slice());
+        let (length, active) = (step.length, step.active.as_slice());
         let solved = SolvedStep { grading, length, active, force: &step.force, state: &run.state };
         by_damping.over_step(&solved, (&self.outputs, &self.inputs), (&mut nodes, &mut end));
         let (span, c) = ((step.start, length), &grading.rule().c);

@@ -3,6 +3,8 @@
 //! A contact that is struck and left takes two steps: one from the touch to about its middle, one from there to the release, each
 //! graded towards its end. Where that is too coarse, steps between them go as far as their error allows.
 
+use std::sync::Arc;
+
 use super::{
     ExactIntegrator, MotionError,
     clearance::ClearanceBounds,
@@ -174,12 +176,12 @@ impl ExactIntegrator {
             None => self.attempt(run, aim.length, grading).map(|error| Solved {
                 error,
                 at_event: false,
-                length: self.step.weights.length,
+                length: self.step.length,
             }),
         };
         let Some(Solved { error, at_event, length }) = solved else {
             run.release = None;
-            return free(if aim.event.is_some() { aim.otherwise } else { 0.5 * self.step.weights.length });
+            return free(if aim.event.is_some() { aim.otherwise } else { 0.5 * self.step.length });
         };
         let event = aim.event.filter(|_| at_event);
         let release = match event {
@@ -236,11 +238,11 @@ impl ExactIntegrator {
             Some(Event::Touch(touch)) => self.close(run, touch)?,
             Some(Event::Release(element)) => {
                 run.closed[element] = None;
-                run.slack = 1e-7 * self.step.weights.length;
+                run.slack = 1e-7 * self.step.length;
             }
             Some(Event::Part(element)) => {
                 run.parted[element] = run.closed[element].take();
-                run.slack = 1e-7 * self.step.weights.length;
+                run.slack = 1e-7 * self.step.length;
             }
         }
         Ok(())
@@ -257,13 +259,15 @@ impl ExactIntegrator {
             };
             self.mobility[element][element] * (0..NODES).map(at).sum::<f64>()
         };
-        step.weights.length * step.active.iter().enumerate().map(of_active).sum::<f64>()
+        step.length * step.active.iter().enumerate().map(of_active).sum::<f64>()
     }
 
     /// Moves the run to the end of the solved step.
     fn accept(&mut self, run: &mut Run, end: f64, error: f64) {
-        let length = self.step.weights.length;
-        self.step.weights.set_propagators(&self.blocks, length);
+        let length = self.step.length;
+        if self.step.weights.propagators.is_empty() {
+            Arc::make_mut(&mut self.step.weights).set_propagators(&self.blocks, length);
+        }
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
             if self.step.damped {

@@ -139,7 +139,7 @@ impl Course {
         let passed = CourseStep {
             grading: step.grading(),
             start: step.start,
-            length: step.weights.length,
+            length: step.length,
             state: self.keep(&run.state),
             force: self.keep(&step.force),
             active: (first, self.elements.len()),
@@ -154,5 +154,5 @@ impl Course {
 fn energy_taken(step: &ForceStep, a: usize) -> f64 {
     let weights = &step.grading().rule().at_end[0];
     let power = |j: usize| step.force[a * NODES + j] * step.velocity[a * NODES + j];
-    -step.weights.length * (0..NODES).map(|j| weights[j] * power(j)).sum::<f64>()
+    -step.length * (0..NODES).map(|j| weights[j] * power(j)).sum::<f64>()
 }

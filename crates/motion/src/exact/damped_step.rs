@@ -155,7 +155,7 @@ impl ForceStep {
         self.work.clear();
         self.work.resize(size * columns, 0.0);
         let mut rates = vec![0.0; NODES * columns];
-        let (span, c) = ((self.start, self.weights.length), &self.grading().rule().c);
+        let (span, c) = ((self.start, self.length), &self.grading().rule().c);
         let frequency = sensitivity.frequency_column();
         let last = parameter.zip(sensitivity.parameter_column());
         for (a, &e) in self.active.iter().enumerate() {

@@ -76,7 +76,7 @@ impl ExactIntegrator {
         let mut last = false;
         for tries in 0..MAX_TRIES {
             self.solve_step(run, length, (grading, tries > 0), precision)?;
-            if self.step.weights.length != length {
+            if self.step.length != length {
                 return None;
             }
             if last {
@@ -119,7 +119,7 @@ impl ExactIntegrator {
     /// and rounding of its clearance, leave undecided.
     pub(super) fn located_within(&self, run: &Run, touch: Touch) -> f64 {
         let exponent = self.exponent_of(run, Event::Touch(touch));
-        let length = self.step.weights.length;
+        let length = self.step.length;
         let speed = self.distance(self.jet_at_step_end(run, touch.element), touch).slope.abs();
         let margin = run.start[touch.element].margin.max(self.pressure_rounding(run, Event::Touch(touch)));
         let rounding = (8.0 * margin / speed).min(length);
@@ -183,7 +183,7 @@ impl ExactIntegrator {
 
     /// An output and its derivatives at the end of the solved step.
     fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
-        let end = self.step.start + self.step.weights.length;
+        let end = self.step.start + self.step.length;
         let jet = |output: usize| {
             let (own, driven) = (
                 self.step.end_jet(output, &self.series, &self.outputs, &run.state),
@@ -238,7 +238,7 @@ impl ExactIntegrator {
             _ => run.start[event.element()].margin,
         };
         let s = first_below(&rule.bernstein(&distance), rule.s[0], 1e-9 * deepest + rounding)?;
-        Some(self.step.grading().map(s).0 * self.step.weights.length)
+        Some(self.step.grading().map(s).0 * self.step.length)
     }
 }
 

@@ -4,6 +4,8 @@
 //! by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. Laws that depend on the velocity
 //! see `damped_step.rs`.
 
+use std::sync::Arc;
+
 use super::{
     collocation::{Grading, NODES},
     drive::{Drive, Jet},
@@ -24,7 +26,10 @@ const READ_AHEAD: f64 = 1.3;
 /// Forces of a step and what they were solved with. Node values are indexed `[a * NODES + k]` with the a-th active element.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ForceStep {
-    pub weights: StepWeights,
+    /// Matrices of the step: its own, or such as are kept for steps of that length.
+    pub weights: Arc<StepWeights>,
+    /// Length of the step [s].
+    pub length: f64,
     pub grading: Option<Grading>,
     /// Start of the step in the time of the stretch [s].
     pub start: f64,
@@ -63,7 +68,7 @@ fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
 impl ForceStep {
     /// Time of node k since the start of the step.
     pub fn node_time(&self, k: usize) -> f64 {
-        self.grading().rule().c[k] * self.weights.length
+        self.grading().rule().c[k] * self.length
     }
 
     /// The grading of the step.
@@ -80,7 +85,7 @@ impl ForceStep {
     /// Displacements at the nodes if no force acted in the step that starts from `state`.
     pub fn set_free_motion(&mut self, series: &Series, drive: &Drive, outputs: &[Output], state: &[f64]) {
         self.free.clear();
-        if self.weights.length > self.readings_reach {
+        if self.length > self.readings_reach {
             self.readings.clear();
         }
         for (a, &e) in self.active.iter().enumerate() {
@@ -88,12 +93,12 @@ impl ForceStep {
                 rows_times_state(&self.weights.rows[a], state)
             } else {
                 if self.readings.len() == a {
-                    self.readings_reach = READ_AHEAD * self.weights.length;
+                    self.readings_reach = READ_AHEAD * self.length;
                     self.readings.push(series.readings(e, state, self.readings_reach));
                 }
-                series.free_values(&self.readings[a], self.grading(), self.weights.length)
+                series.free_values(&self.readings[a], self.grading(), self.length)
             };
-            let span = (self.start, self.weights.length);
+            let span = (self.start, self.length);
             drive.add_values(e, &outputs[e], span, &self.grading().rule().c, &mut free);
             self.free.extend_from_slice(&free);
         }
@@ -110,9 +115,9 @@ impl ForceStep {
             let mut rates = if self.weights.complete {
                 rows_times_state(&self.weights.velocity_rows[a], state)
             } else {
-                series.free_rates(&self.readings[a], self.grading(), self.weights.length)
+                series.free_rates(&self.readings[a], self.grading(), self.length)
             };
-            let span = (self.start, self.weights.length);
+            let span = (self.start, self.length);
             drive.add_rates(e, &outputs[e], span, &self.grading().rule().c, &mut rates);
             self.free_velocity.extend_from_slice(&rates);
         }
@@ -122,15 +127,11 @@ impl ForceStep {
     pub fn end_jet(&self, output: usize, series: &Series, outputs: &[Output], state: &[f64]) -> Jet {
         let active = self.active.iter().position(|&e| e == output);
         if !self.weights.complete {
-            let step = (self.grading(), self.weights.length);
+            let step = (self.grading(), self.length);
             let loads = (self.active.as_slice(), self.force.as_slice());
             return match active {
                 Some(a) => series.end_jet((output, &self.readings[a]), step, loads),
-                None => series.end_jet(
-                    (output, &series.readings(output, state, self.weights.length)),
-                    step,
-                    loads,
-                ),
+                None => series.end_jet((output, &series.readings(output, state, self.length)), step, loads),
             };
         }
         let mut end = state.to_vec();
@@ -149,7 +150,7 @@ impl ForceStep {
         for (a, &element) in self.active.iter().enumerate() {
             let force = &self.force[a * NODES..(a + 1) * NODES];
             if !self.weights.complete {
-                series.add_force(element, (self.grading(), self.weights.length), force, state);
+                series.add_force(element, (self.grading(), self.length), force, state);
                 continue;
             }
             for (x, weights) in state.iter_mut().zip(self.weights.to_state[a].chunks_exact(NODES)) {
@@ -174,7 +175,7 @@ impl ForceStep {
         let size = self.active.len() * NODES;
         self.work.clear();
         self.work.resize(size * columns, 0.0);
-        let (span, c) = ((self.start, self.weights.length), &self.grading().rule().c);
+        let (span, c) = ((self.start, self.length), &self.grading().rule().c);
         for (a, &e) in self.active.iter().enumerate() {
             let target = &mut self.work[a * NODES * columns..(a + 1) * NODES * columns];
             sensitivity.read(&self.weights.rows[a], target);

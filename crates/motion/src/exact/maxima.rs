@@ -257,7 +257,7 @@ impl ExactIntegrator {
             }
             let force = &step.force[a * NODES..(a + 1) * NODES];
             let impulse: f64 = (0..NODES).map(|j| rule.at_end[0][j] * force[j]).sum();
-            observation.maxima.impulse += (impulse * step.weights.length).abs();
+            observation.maxima.impulse += (impulse * step.length).abs();
             if let Some(largest) = self.largest(force, observation.hardest.bar()) {
                 observation.hardest.note(self.peak(state, (piece, element), largest));
             }
@@ -286,7 +286,7 @@ impl ExactIntegrator {
             place,
             grading: self.step.grading(),
             start: self.step.start,
-            length: self.step.weights.length,
+            length: self.step.length,
             state: state.to_vec(),
             active: self.step.active.clone(),
             laws: self.step.active.iter().map(|&e| self.laws[e]).collect(),
@@ -298,7 +298,7 @@ impl ExactIntegrator {
     fn recall(&mut self, course: &Course, step: &CourseStep) {
         self.step.grading = Some(step.grading);
         self.step.start = step.start;
-        self.step.weights.length = step.length;
+        self.step.length = step.length;
         self.step.active.clear();
         for (element, law) in course.active(step) {
             self.step.active.push(*element);
@@ -312,7 +312,7 @@ impl ExactIntegrator {
     fn recall_peak(&mut self, peak: &Peak) -> f64 {
         self.step.grading = Some(peak.grading);
         self.step.start = peak.start;
-        self.step.weights.length = peak.length;
+        self.step.length = peak.length;
         peak.active.iter().zip(&peak.laws).for_each(|(&element, law)| self.laws[element] = *law);
         self.step.active.clone_from(&peak.active);
         self.step.force.clone_from(&peak.force);
@@ -372,7 +372,7 @@ impl ExactIntegrator {
     /// Displacement (`derivative` 0) or acceleration (2) of the response point at the nodes of the solved step.
     fn response_nodes(&self, state: &[f64], derivative: usize) -> [f64; NODES] {
         let (step, response) = (&self.step, self.laws.len());
-        let length = step.weights.length;
+        let length = step.length;
         let pick = |jet: super::drive::Jet| if derivative == 0 { jet.value } else { jet.curvature };
         if length > self.series.reach() {
             return std::array::from_fn(|k| pick(self.jet_in_step(state, response, step.node_time(k))));

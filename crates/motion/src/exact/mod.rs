@@ -72,7 +72,7 @@ mod weights;
 #[cfg(test)]
 mod tests;
 
-use std::collections::HashMap;
+use std::{collections::HashMap, sync::Arc};
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
@@ -183,7 +183,10 @@ pub struct ExactIntegrator {
     drive: Drive,
     run: Run,
     step: ForceStep,
-    cache: HashMap<(Vec<usize>, Grading, i32), StepWeights>,
+    /// Matrices of steps beyond the reach of the series, by their active elements, grading and place on the grid of lengths.
+    kept_weights: HashMap<(Vec<usize>, Grading, i32), Arc<StepWeights>>,
+    /// Place of the matrices of steps within the reach, while kept ones are in use.
+    own_weights: Arc<StepWeights>,
     flight_start: Vec<f64>,
     propagators: Vec<Propagator>,
     touches: Vec<u32>,
@@ -258,7 +261,8 @@ impl ExactIntegrator {
             counts: ExactCounts::default(),
             run: Run::default(),
             step: ForceStep::default(),
-            cache: HashMap::new(),
+            kept_weights: HashMap::new(),
+            own_weights: Arc::default(),
             flight_start: Vec::new(),
             propagators: Vec::new(),
             notes_course: false,

@@ -28,14 +28,14 @@ impl StepWeights {
         length: f64,
     ) -> Self {
         let n = blocks.count();
-        let mut weights = Self { length, complete: true, ..Self::default() };
+        let mut weights = Self { complete: true, ..Self::default() };
         weights.resize(active.len(), 2 * n, velocity);
         weights.convolution.fill([[0.0; NODES]; NODES]);
         weights.velocity_convolution.fill([[0.0; NODES]; NODES]);
         weights.set_propagators(blocks, length);
         for i in 0..n {
             let block = (blocks.stiffness[i], blocks.damping[i]);
-            weights.set_rows(outputs, active, (i, n), block, grading);
+            weights.set_rows(outputs, active, (i, n), block, (grading, length));
             for (node, integrals) in block_integrals(block, grading, length).iter().enumerate() {
                 for (b, &f) in active.iter().enumerate() {
                     let input = (inputs[f][i], inputs[f][n + i]);
@@ -59,10 +59,10 @@ impl StepWeights {
         active: &[usize],
         (i, n): (usize, usize),
         (stiffness, damping): (f64, f64),
-        grading: Grading,
+        (grading, length): (Grading, f64),
     ) {
         for (node, c) in grading.rule().c.iter().enumerate() {
-            let propagator = Propagator::new(stiffness, damping, self.length * c);
+            let propagator = Propagator::new(stiffness, damping, length * c);
             let set = |rows: &mut [f64], row: &[f64]| {
                 rows[i * NODES + node] = row[i] * propagator.a + row[n + i] * propagator.c;
                 rows[(n + i) * NODES + node] = row[i] * propagator.b + row[n + i] * propagator.d;
@@ -178,7 +178,7 @@ mod tests {
                 StepWeights::by_quadrature(&blocks, &outputs, &inputs, (&active, true), grading, length);
             let mut expected = StepWeights::default();
             series.prepare((&active, true), grading, length, &mut expected);
-            series.complete((&active, true), grading, &mut expected);
+            series.complete((&active, true), (grading, length), &mut expected);
             for a in 0..2 {
                 assert!(near(&found.rows[a], &expected.rows[a]), "{grading:?}");
                 assert!(near(&found.to_state[a], &expected.to_state[a]), "{grading:?}");

@@ -24,7 +24,7 @@ impl ExactIntegrator {
         }
         let grading = step.grading();
         let rule = grading.rule();
-        let end = grading.inverse((time / step.weights.length).min(1.0));
+        let end = grading.inverse((time / step.length).min(1.0));
         let forces = |s: f64| {
             let lagrange = rule.lagrange(s);
             let force = |a: usize| (0..NODES).map(|k| lagrange[k] * step.force[a * NODES + k]).sum::<f64>();
@@ -32,8 +32,8 @@ impl ExactIntegrator {
         };
         for &(x, weight) in gauss_sixteen() {
             let (c, slope) = grading.map(end * x);
-            let measure = weight * end * slope * step.weights.length;
-            let delay = time - c * step.weights.length;
+            let measure = weight * end * slope * step.length;
+            let delay = time - c * step.length;
             for (force, &element) in forces(end * x).into_iter().zip(&step.active) {
                 let response = |derivative| self.impulse_response(output, element, derivative, delay);
                 jet.value += measure * force * response(0);
@@ -52,7 +52,7 @@ impl ExactIntegrator {
     /// `x(t) = exp(A (t - t_0)) x(t_0) + int exp(A (t - s)) B F(s) ds`, by Gauss in the variable of the grading over panels that resolve every block.
     pub(super) fn carry_in_step(&self, state: &mut [f64], from: f64, to: f64) {
         let step = &self.step;
-        let (grading, length) = (step.grading(), step.weights.length);
+        let (grading, length) = (step.grading(), step.length);
         let fastest = self.rates.iter().fold(0.0_f64, |fastest, rate| fastest.max(*rate));
         let panels = (fastest * (to - from) / RADIANS).ceil().max(1.0);
         let place = |time: f64| grading.inverse((time / length).clamp(0.0, 1.0));
@@ -98,7 +98,7 @@ impl ExactIntegrator {
     pub(super) fn forced_jet(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let step = &self.step;
         let mut jet = self.output_jet(state, output, step.start + time);
-        let s = step.grading().inverse((time / step.weights.length).clamp(0.0, 1.0));
+        let s = step.grading().inverse((time / step.length).clamp(0.0, 1.0));
         for (a, &element) in step.active.iter().enumerate() {
             jet.curvature += self.mobility[output][element] * step.interpolate(&step.force, a, s);
         }

@@ -183,8 +183,8 @@ impl Series {
         let z = length * self.rate;
         let terms = Self::terms(z);
         let count = self.columns.len();
-        into.length = length;
         into.complete = false;
+        into.propagators.clear();
         let pairs = active.len() * active.len();
         into.convolution.resize(pairs, [[0.0; NODES]; NODES]);
         into.velocity_convolution.resize(if velocity { pairs } else { 0 }, [[0.0; NODES]; NODES]);
@@ -226,10 +226,14 @@ impl Series {
     }
 
     /// Completes a prepared step: `X` and `P`, and `X'` if `velocity` says so.
-    pub fn complete(&self, (active, velocity): (&[usize], bool), grading: Grading, step: &mut StepWeights) {
+    pub fn complete(
+        &self,
+        (active, velocity): (&[usize], bool),
+        (grading, length): (Grading, f64),
+        step: &mut StepWeights,
+    ) {
         let rule = grading.rule();
         let size = self.columns[0][0].len();
-        let length = step.length;
         let z = length * self.rate;
         let terms = Self::terms(z);
         step.resize(active.len(), size, velocity);

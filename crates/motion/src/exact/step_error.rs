@@ -17,6 +17,8 @@
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency).
 
+use std::sync::Arc;
+
 use super::{
     ExactIntegrator,
     collocation::NODES,
@@ -88,13 +90,13 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
             let response = self.response(element);
-            let impulse = step.weights.length * response.mobility;
+            let impulse = step.length * response.mobility;
             let ElementStart { jet, velocity, .. } = run.start[element];
-            let driven = jet.slope.abs() + jet.curvature.abs() * step.weights.length;
+            let driven = jet.slope.abs() + jet.curvature.abs() * step.length;
             let velocity = velocity.max(driven).max(f64::MIN_POSITIVE);
             let force = step.tail(&step.force[nodes.clone()]);
             let tail = impulse * force.highest / velocity;
-            let mut dual = impulse * step.weights.length * step.tail(&step.slope[nodes.clone()]).highest;
+            let mut dual = impulse * step.length * step.tail(&step.slope[nodes.clone()]).highest;
             if step.damped {
                 dual += impulse * step.tail(&step.damping[nodes.clone()]).highest;
             }
@@ -105,7 +107,9 @@ impl ExactIntegrator {
             };
             largest = largest.max(self.relative_to_bound(errors));
             let follows = self.following(element, nodes);
-            for (i, amplitude) in amplitudes.iter_mut().enumerate() {
+            for (i, amplitude) in
+                amplitudes.iter_mut().enumerate().filter(|(i, _)| self.may_be_unresolved(*i))
+            {
                 let own = response.mobility * follows(i) * self.vibration(run, i) / velocity;
                 *amplitude = amplitude.max(own);
             }
@@ -156,7 +160,7 @@ impl ExactIntegrator {
     fn response(&self, element: usize) -> Response {
         let (mut mobility, mut fast) = (0.0, 0.0);
         for (rate, share) in self.rates.iter().zip(&self.shares[element]) {
-            let z = rate * self.step.weights.length;
+            let z = rate * self.step.length;
             mobility += share * (2.0 / z).min(1.0);
             fast += share * highest_part(z, &HIGHEST).min(z.recip()) * z.recip().min(1.0);
         }
@@ -174,13 +178,13 @@ impl ExactIntegrator {
 
     /// `U` relative to its bound, if it is above.
     fn unresolved_excess(&self) -> f64 {
-        let excess = self.unresolved(self.step.weights.length) / (10.0 * self.settings.tolerance);
+        let excess = self.unresolved(self.step.length) / (10.0 * self.settings.tolerance);
         if excess > 1.0 { excess.sqrt() } else { 0.0 }
     }
 
     /// Whether a block is so fast that a somewhat longer step might not resolve it.
     fn may_be_unresolved(&self, block: usize) -> bool {
-        self.rates[block] * self.step.weights.length * LONGEST_GROWTH > RESOLVED
+        self.rates[block] * self.step.length * LONGEST_GROWTH > RESOLVED
     }
 
     /// The longest step up to `length` whose nodes resolve the motion.
@@ -197,7 +201,8 @@ impl ExactIntegrator {
         let Some(sensitivity) = &run.sensitivity else { return Some(0.0) };
         if !self.step.weights.complete {
             let active = (self.step.active.as_slice(), self.step.damped);
-            self.series.complete(active, self.step.grading(), &mut self.step.weights);
+            let shape = (self.step.grading(), self.step.length);
+            self.series.complete(active, shape, Arc::make_mut(&mut self.step.weights));
         }
         self.prepare_damped_step(run);
         let parameter = self.parameter;
@@ -210,7 +215,7 @@ impl ExactIntegrator {
         let mut further = [Errors::default(); 2];
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
-            let impulse = self.step.weights.length * response.mobility.sqrt();
+            let impulse = self.step.length * response.mobility.sqrt();
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let size = found.velocity + impulse * found.largest;
                 let (scale, into) = if column >= sensitivity.frequency_column() {

@@ -3,6 +3,8 @@
 use faer::Mat;
 use hammerbeam_structure::ReducedModel;
 
+use std::sync::Arc;
+
 use super::{ExactIntegrator, ExactSettings, collocation::Grading};
 use crate::{
     Law, Load, LocalElement, Stretch, System,
@@ -37,8 +39,8 @@ fn steps(law: Law, state: &[f64], duration: f64, count: usize, grading: Grading)
         let grading = if step == 0 { grading } else { Grading::Smooth };
         let length = duration / count as f64;
         integrator.attempt(&run, length, grading).unwrap();
-        assert_eq!(integrator.step.weights.length, length, "the lengths are those asked for");
-        integrator.step.weights.set_propagators(&integrator.blocks, length);
+        assert_eq!(integrator.step.length, length, "the lengths are those asked for");
+        Arc::make_mut(&mut integrator.step.weights).set_propagators(&integrator.blocks, length);
         integrator.step.advance_state(&integrator.series, &mut run.state);
         run.time += length;
     }

@@ -70,9 +70,9 @@ impl ExactIntegrator {
         let forced = Forced::new(self);
         for element in (0..self.laws.len()).filter(|&e| run.closed[e].is_none()) {
             for touch in self.watched(element, run.parted[element]) {
-                let mut until = first.map_or(self.step.weights.length, |(_, time)| time);
+                let mut until = first.map_or(self.step.length, |(_, time)| time);
                 if event == Some(Event::Touch(touch)) {
-                    until = until.min(self.step.weights.length - self.located_within(run, touch));
+                    until = until.min(self.step.length - self.located_within(run, touch));
                 }
                 let found = Search::new(self, run, touch, &forced, until).run();
                 self.counts.looks += found.looks;
@@ -101,7 +101,7 @@ impl Forced {
         let n = blocks.count();
         let of_active = |a: usize| {
             let nodal: [f64; NODES] = std::array::from_fn(|k| step.force[a * NODES + k]);
-            ForceBound::new(step.grading(), step.weights.length, &nodal, step.tail(&nodal).highest)
+            ForceBound::new(step.grading(), step.length, &nodal, step.tail(&nodal).highest)
         };
         let bounds: Vec<ForceBound> = (0..step.active.len()).map(of_active).collect();
         let (mut rest, mut gain) = (vec![0.0; 2 * n], vec![0.0; n]);

@@ -206,7 +206,7 @@ impl ExactIntegrator {
     pub(super) fn trace_step(&mut self, run: &Run) {
         let Some(mut tracing) = self.tracing.take() else { return };
         tracing.end_open(run);
-        while let Some(time) = tracing.due(run.time + self.step.weights.length) {
+        while let Some(time) = tracing.due(run.time + self.step.length) {
             let mut state = run.state.clone();
             self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
             tracing.trace.forces.push(self.forces_of(run, &state, time));
@@ -231,7 +231,7 @@ impl ExactIntegrator {
         let velocity = self.velocity_nodes(run, step.active[a]);
         let (mut impulse, mut work) = (0.0, 0.0);
         for k in 0..NODES {
-            let part = rule.at_end[0][k] * step.weights.length * force[k];
+            let part = rule.at_end[0][k] * step.length * force[k];
             impulse += part;
             work += part * velocity[k];
         }
@@ -241,7 +241,7 @@ impl ExactIntegrator {
     /// Velocity of an output at the nodes of the solved step.
     fn velocity_nodes(&self, run: &Run, output: usize) -> [f64; NODES] {
         let step = &self.step;
-        let length = step.weights.length;
+        let length = step.length;
         if length > self.series.reach() {
             return std::array::from_fn(|k| self.jet_in_step(&run.state, output, step.node_time(k)).slope);
         }

@@ -3,7 +3,7 @@
 //! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate docs). For short steps all of
 //! them come from power series in h (`collocation.rs`, `series.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
 //! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`](super::collocation::REACH), they come from quadrature (`quadrature.rs`)
-//! fine enough for every mode; such steps have lengths on a grid and are cached.
+//! fine enough for every mode; such steps have lengths on a grid and their matrices are kept.
 //!
 //! Where a law depends on the velocity, `r'_k = r'_particular + X'_k x + sum W'_kj F_j` is wanted besides. `W'` and `X'` are the same with `C A`
 //! instead of C (`C B` vanishes); elsewhere they are not made.
@@ -19,9 +19,7 @@ pub(crate) type NodeRows = Vec<f64>;
 /// Matrices of a step. `a` and `b` count the active elements.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StepWeights {
-    /// Length of the step [s].
-    pub length: f64,
-    /// `E`, one propagator per block.
+    /// `E`, one propagator per block; empty until they are wanted.
     pub propagators: Vec<Propagator>,
     /// `X` of each active element.
     pub rows: Vec<NodeRows>,
