@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0005;
+const MAGIC: u64 = 0x4842_5741_4c4b_0006;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -56,8 +56,9 @@ impl BranchWalk {
         out.word(u64::from(state.zeros_near));
         // Their number is small: the largest word says that nothing is known.
         out.word(state.outside.map_or(u64::MAX, |(least, most)| u64::from(most) << 32 | u64::from(least)));
-        let Counters { evaluations, factorisations, accepted, rejected } = state.counters;
-        [evaluations, factorisations, accepted, rejected].iter().for_each(|&count| out.word(count));
+        let Counters { evaluations, factorisations, accepted, rejected, short_in_a_row } = state.counters;
+        let counts = [evaluations, factorisations, accepted, rejected, short_in_a_row];
+        counts.iter().for_each(|&count| out.word(count));
         out.word(self.evaluations_between);
         out.word(end_word(state.stop));
         out.word(self.last_rows.0.len() as u64);
@@ -203,6 +204,7 @@ fn read(
             factorisations: reader.word()?,
             accepted: reader.word()?,
             rejected: reader.word()?,
+            short_in_a_row: reader.word()?,
         },
         stop: None,
     };

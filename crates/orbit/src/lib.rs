@@ -16,6 +16,7 @@
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
 //! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
+//! | `stop.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
@@ -87,9 +88,11 @@ mod settings;
 mod shooting;
 mod solution;
 mod solve;
+mod splitting;
 mod stability;
 mod start;
 mod state_scale;
+mod stop;
 mod survey;
 mod switch;
 mod trials;
@@ -106,8 +109,9 @@ pub use matching::{Matcher, states_at_phase};
 pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
-pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
+pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side};
 pub use start::{Interruption, find_start, find_start_unless};
+pub use stop::StopReason;
 pub use survey::{SurveyEffort, survey};
 pub use switch::Crossing;
 pub use trials::harmonic_trials;

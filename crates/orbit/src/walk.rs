@@ -387,27 +387,6 @@ impl BranchWalk {
         let length = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt();
         (base.tangent[last] - before.tangent[last]).abs() / length.max(f64::MIN_POSITIVE)
     }
-
-    fn stop_reason(&self, reason: hammerbeam_path::StopReason) -> StopReason {
-        let frequency_hz = self.follower.current().parameter();
-        match reason {
-            hammerbeam_path::StopReason::RangeEnd => StopReason::RangeEnd { frequency_hz },
-            hammerbeam_path::StopReason::Closed => StopReason::Closed,
-            hammerbeam_path::StopReason::StepTooShort { parameter, step, residual, doubt } => {
-                StopReason::StepTooShort { frequency_hz: parameter, step, residual, doubt: doubt.to_string() }
-            }
-            hammerbeam_path::StopReason::RunsBack { parameter, met_arc_length } => {
-                StopReason::RunsBack { frequency_hz: parameter, met_arc_length }
-            }
-            hammerbeam_path::StopReason::EvaluationFailed { parameter, error, .. } => {
-                let message = self.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
-                StopReason::Motion { frequency_hz: parameter, message }
-            }
-            hammerbeam_path::StopReason::Budget => {
-                StopReason::Budget { solutions: self.follower.counters().accepted as usize }
-            }
-        }
-    }
 }
 
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
@@ -425,6 +404,7 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
         max_parameter_step: settings.max_step_hz,
         max_step_length: 2.0 * settings.max_step_hz,
         min_step: shortest * default.min_step * length,
+        crawl_step: default.crawl_step * length,
         correction_tolerance: settings.tolerance * length,
         correction_floor: default.correction_floor * length,
         // Rounding of the residual grows with the multipliers.

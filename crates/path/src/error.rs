@@ -47,6 +47,13 @@ pub enum StopReason {
         /// What was wrong with it.
         doubt: Doubt,
     },
+    /// The path was followed, but in steps so short that it does not get anywhere.
+    Crawls {
+        /// Parameter of the last accepted point.
+        parameter: f64,
+        /// So many steps in a row were no longer than `Settings::crawl_step`.
+        steps: u64,
+    },
     /// The problem could not be evaluated beyond the last accepted point.
     EvaluationFailed {
         /// Parameter of the last accepted point.
@@ -76,6 +83,9 @@ impl std::fmt::Display for StopReason {
                     f,
                     "no step from parameter {parameter}: at step {step:.1e}, residual {residual:.1e}: {doubt}"
                 )
+            }
+            Self::Crawls { parameter, steps } => {
+                write!(f, "{steps} steps up to parameter {parameter} led nowhere")
             }
             Self::EvaluationFailed { parameter, step, error } => {
                 write!(f, "no step from parameter {parameter}: at step {step:.1e}: {error}")

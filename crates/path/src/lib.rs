@@ -82,7 +82,9 @@ pub use corrector::CorrectorError;
 pub use dense_lu::DenseLu;
 pub use dense_problem::DenseProblem;
 pub use error::{Doubt, PathError, StopReason};
-pub use follower::{Branch, Direction, Follower, StepOutcome, TwoSidedBranch, follow, follow_both};
+pub use follower::{
+    Branch, Direction, Follower, MOST_SHORT_STEPS, StepOutcome, TwoSidedBranch, follow, follow_both,
+};
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
 pub use problem::{Determinant, EvaluationError, Outside, PathProblem, SingularJacobian, TestValue};

@@ -4,7 +4,8 @@ mod support;
 
 use approx::assert_abs_diff_eq;
 use hammerbeam_path::{
-    DenseProblem, Determinant, EvaluationError, PathProblem, Settings, SingularJacobian, follow_both,
+    DenseProblem, Determinant, EvaluationError, MOST_SHORT_STEPS, PathProblem, Settings, SingularJacobian,
+    StopReason, follow_both,
 };
 use support::*;
 
@@ -294,4 +295,15 @@ fn hidden_pairs_are_found_through_noise() {
         assert_reached_end(&branch, 0.5);
         assert_eq!(folds(&branch).len(), 10);
     }
+}
+
+/// A path that turns by a right angle every few hundredths of a millionth is followed, but it leads nowhere: that is said instead of going on for ever.
+#[test]
+fn a_path_that_leads_nowhere_is_left() {
+    let wriggle = |x: f64, l: f64| (x - 1e-8 * (1e8 * l).sin(), 1.0, -(1e8 * l).cos(), 0);
+    let settings = Settings { crawl_step: 1e-7, ..steps_of(0.01) };
+    let branch = up(&mut mixed(3, 0.3, wriggle), &mixed_point(3, 0.3, 0.0, 0.0), -1.0, 1.0, settings);
+    let StopReason::Crawls { parameter, steps } = branch.stop else { panic!("{:?}", branch.stop) };
+    assert_eq!(steps, MOST_SHORT_STEPS);
+    assert!(parameter < 1e-7 * MOST_SHORT_STEPS as f64, "{parameter}");
 }

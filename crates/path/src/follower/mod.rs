@@ -92,6 +92,9 @@ struct Attempts {
     most_earlier: usize,
 }
 
+/// So many steps in a row that are no longer than `Settings::crawl_step` end a branch: an ordinary turn, whatever its size, is passed with steps that grow again.
+pub const MOST_SHORT_STEPS: u64 = 5000;
+
 /// So many halvings of a step that meets an old stretch are enough to know that the jump was made earlier.
 const MOST_RETRACED: u32 = 8;
 
@@ -165,6 +168,10 @@ impl Follower {
     pub fn step(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> StepOutcome {
         if self.state.stop.is_none() && self.state.counters.accepted >= self.settings.max_points {
             self.state.stop = Some(StopReason::Budget);
+        }
+        let Counters { short_in_a_row: steps, .. } = self.state.counters;
+        if self.state.stop.is_none() && steps >= MOST_SHORT_STEPS {
+            self.state.stop = Some(StopReason::Crawls { parameter: self.state.current.parameter(), steps });
         }
         if let Some(reason) = self.state.stop {
             return StepOutcome::Stopped(reason);
@@ -267,6 +274,8 @@ impl Follower {
         state.history.push(&self.trial.node);
         state.stop = arrival.end;
         state.counters.accepted += 1;
+        let is_short = chord <= self.settings.crawl_step;
+        state.counters.short_in_a_row = if is_short { state.counters.short_in_a_row + 1 } else { 0 };
         state.zeros_near = arrival.zeros_near | arrival.events.zeros;
         state.tests.clone_from(&self.trial.tests);
         state.outside = arrival.outside;

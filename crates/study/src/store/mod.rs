@@ -57,7 +57,7 @@ pub struct Store {
 /// How a walk ended, as it is stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredReason {
-    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`, `motion`.
+    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`, `contact-splits`, `crawls`, `motion`.
     pub kind: String,
     /// Where [Hz], if there is a place.
     pub frequency_hz: Option<f64>,
@@ -183,6 +183,16 @@ impl StoredReason {
                     "at {frequency_hz:.6} Hz every step led back to a stretch already walked, at arc length {met_arc_length:.6}"
                 ),
             ),
+            StopReason::ContactSplits { frequency_hz, element, phase } => (
+                "contact-splits",
+                Some(*frequency_hz),
+                format!("beyond {frequency_hz:.6} Hz {}", splits(element, *phase)),
+            ),
+            StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => (
+                "crawls",
+                Some(*frequency_hz),
+                format!("at {frequency_hz:.6} Hz {}", crawls(*solutions, *largest_multiplier)),
+            ),
             StopReason::Motion { frequency_hz, message } => (
                 "motion",
                 Some(*frequency_hz),
@@ -191,6 +201,18 @@ impl StoredReason {
         };
         Self { kind: kind.to_owned(), frequency_hz, message }
     }
+}
+
+/// What happens beyond the end of a branch whose contact splits.
+pub(crate) fn splits(element: &str, phase: f64) -> String {
+    format!(
+        "{element} opens and is pressed on again at once, at the phase of {phase:.4} cycles; its law remembers how a contact began, so its force jumps there"
+    )
+}
+
+/// What a branch does that crawls.
+pub(crate) fn crawls(solutions: u64, largest_multiplier: f64) -> String {
+    format!("{solutions} solutions in a row led nowhere, with a multiplier of {largest_multiplier:.1e}")
 }
 
 impl StoredReason {

@@ -14,7 +14,7 @@ use crate::{
     file::Vary,
     model::StudyParameter,
     orbit_solver::settings,
-    store::{VariedBranch, VariedRow},
+    store::{VariedBranch, VariedRow, crawls, splits},
 };
 
 /// Steps over the range of a parameter.
@@ -148,6 +148,12 @@ fn in_words(reason: &StopReason, name: &str, parameter: &StudyParameter) -> Stri
         }
         StopReason::RunsBack { frequency_hz, .. } => {
             format!("at {} every step led back to a stretch already walked", at(*frequency_hz))
+        }
+        StopReason::ContactSplits { frequency_hz, element, phase } => {
+            format!("beyond {} {}", at(*frequency_hz), splits(element, *phase))
+        }
+        StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => {
+            format!("at {} {}", at(*frequency_hz), crawls(*solutions, *largest_multiplier))
         }
         StopReason::Motion { frequency_hz, message } => format!("at {}: {message}", at(*frequency_hz)),
     }

@@ -1,0 +1,162 @@
+//! Contacts that are about to open and to be pressed on again at once.
+//!
+//! A law that remembers how a contact began loses `C r'/v` of its force, with the speed v of that impact. Where the penetration of a contact has a minimum of zero, the orbits
+//! on one side keep the old v; on the other side the contact opens for an instant and begins anew, with a v next to zero. Then it can hardly be pressed in, since the force grows like one over v:
+//! it acts like a rigid stop without rebound. The motion jumps from one side to the other, so a branch that comes there ends, from either side:
+//!
+//! - a contact has a minimum of its penetration below [`NEARLY_OPEN`] of its maximum;
+//! - a contact begins with less than [`HARDLY_STRIKES`] of the largest speed of an impact, and yet its force comes to more than [`PRESSES`] of the largest. (One that just grazes has
+//!   next to no force.)
+
+use hammerbeam_motion::{
+    Stretch,
+    exact::{ContactPiece, ExactIntegrator, MotionError},
+};
+
+/// Least penetration within a contact, over its largest.
+const NEARLY_OPEN: f64 = 1e-3;
+/// Speed of an impact, over the largest.
+const HARDLY_STRIKES: f64 = 1e-3;
+/// Force of a contact, over the largest.
+const PRESSES: f64 = 1e-2;
+/// Places at which the penetration is read in a contact, and again around its least value.
+const READINGS: usize = 256;
+/// Closer looks, each by the factor `READINGS/2`.
+const LOOKS: usize = 3;
+
+/// Where a contact opens and is pressed on again.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Splitting {
+    /// Name of the local element.
+    pub element: String,
+    /// Phase of the excitation, from 0 to 1 [cycles].
+    pub phase: f64,
+}
+
+/// The first such place of an orbit of `cycles` that begins at a phase with a state.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be followed.
+pub(crate) fn find(
+    integrator: &mut ExactIntegrator,
+    (start, state): (f64, Vec<f64>),
+    (frequency_hz, cycles): (f64, f64),
+) -> Result<Option<Splitting>, MotionError> {
+    let stretch = Stretch { frequency_hz, start, end: start + cycles };
+    let contacts = integrator.trace(&stretch, &state, &[])?.contacts;
+    let remembers =
+        |piece: &&ContactPiece| integrator.system().elements()[piece.element].law.remembers_impact();
+    let contacts: Vec<ContactPiece> = contacts.iter().filter(remembers).cloned().collect();
+    for piece in &contacts {
+        let Some(begin) = &piece.begin else { continue };
+        let (from, to) = (begin.time, piece.end.unwrap_or(cycles / frequency_hz));
+        let splits_at = if begins_slowly(piece, &contacts) {
+            Some(from)
+        } else {
+            nearly_opens(integrator, &stretch, &state, piece, (from, to))?
+        };
+        if let Some(time) = splits_at {
+            let element = integrator.system().elements()[piece.element].name.clone();
+            return Ok(Some(Splitting { element, phase: (start + time * frequency_hz).rem_euclid(1.0) }));
+        }
+    }
+    Ok(None)
+}
+
+/// Whether a contact begins with next to no speed and presses all the same.
+fn begins_slowly(piece: &ContactPiece, all: &[ContactPiece]) -> bool {
+    let of_element = || all.iter().filter(|other| other.element == piece.element);
+    let speed = |piece: &ContactPiece| piece.begin.as_ref().map_or(0.0, |begin| begin.velocity.abs());
+    let fastest = of_element().map(speed).fold(0.0, f64::max);
+    let strongest = of_element().map(|piece| piece.peak_force).fold(0.0, f64::max);
+    speed(piece) < HARDLY_STRIKES * fastest && piece.peak_force > PRESSES * strongest
+}
+
+/// When the penetration of a contact has a minimum next to zero.
+fn nearly_opens(
+    integrator: &mut ExactIntegrator,
+    stretch: &Stretch,
+    state: &[f64],
+    piece: &ContactPiece,
+    (mut from, mut to): (f64, f64),
+) -> Result<Option<f64>, MotionError> {
+    let mut deepest = 0.0_f64;
+    let mut least = None;
+    for _ in 0..LOOKS {
+        let times: Vec<f64> =
+            (1..READINGS).map(|k| from + (to - from) * k as f64 / READINGS as f64).collect();
+        let depths = penetrations(integrator, stretch, state, piece, &times)?;
+        deepest = depths.iter().fold(deepest, |deepest, depth| deepest.max(*depth));
+        let minima =
+            (1..depths.len() - 1).filter(|&k| depths[k] <= depths[k - 1] && depths[k] < depths[k + 1]);
+        let Some(k) = minima.min_by(|&a, &b| depths[a].total_cmp(&depths[b])) else { break };
+        least = Some((depths[k], times[k]));
+        (from, to) = (times[k - 1], times[k + 1]);
+    }
+    Ok(least.filter(|(depth, _)| *depth < NEARLY_OPEN * deepest).map(|(_, time)| time))
+}
+
+/// Penetrations of a contact at some times since the start of the stretch.
+fn penetrations(
+    integrator: &mut ExactIntegrator,
+    stretch: &Stretch,
+    state: &[f64],
+    piece: &ContactPiece,
+    times: &[f64],
+) -> Result<Vec<f64>, MotionError> {
+    let phases: Vec<f64> = times.iter().map(|time| stretch.start + time * stretch.frequency_hz).collect();
+    let samples = integrator.trace(stretch, state, &phases)?.samples;
+    let system = integrator.system();
+    let contact = system.elements()[piece.element].law.contacts()[piece.contact];
+    let depth = |(phase, state): (&f64, &Vec<f64>)| {
+        let [displacement, ..] = system.relative_motion(piece.element, stretch.frequency_hz, *phase, state);
+        contact.sign * (displacement - contact.level)
+    };
+    Ok(phases.iter().zip(&samples).map(depth).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use hammerbeam_motion::{
+        Harmonic, Law, Load, LocalElement, System,
+        exact::ExactSettings,
+        law::{HertzStop, RestitutionModel, RestitutionStop},
+    };
+    use hammerbeam_structure::{ReducedModel, SupportInput};
+
+    use super::*;
+
+    /// The stop is so soft that the support alone moves the contact: `r = - cos 2 pi x - cos(4 pi x)/2`, which has maxima of 3/4 around a minimum of 1/2 at the phase 1/2.
+    fn phase_of_splitting(gap: f64) -> Option<f64> {
+        let model = ReducedModel {
+            natural_frequencies: vec![1.0],
+            damping: faer::mat![[0.2]],
+            points: vec![],
+            support: Some(SupportInput { inertia: vec![0.0], damping: vec![0.0] }),
+            uniform_acceleration: vec![0.0],
+        };
+        let harmonic = |order, amplitude| Harmonic { order, amplitude, phase: 0.0 };
+        let load = Load { support: vec![harmonic(1, -1.0), harmonic(2, -0.5)], forces: vec![] };
+        let elastic = HertzStop::with_gap(1e-12, gap).unwrap();
+        let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.7).unwrap();
+        let law = Law::Restitution(law);
+        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 1.0, law };
+        let system = System::new(model, &load, vec![stop]).unwrap();
+        let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
+        let found = find(&mut integrator, (0.0, vec![0.0, 0.0]), (1.0, 1.0)).unwrap();
+        assert!(found.iter().all(|splitting| splitting.element == "stop"));
+        found.map(|splitting| splitting.phase)
+    }
+
+    #[test]
+    fn a_contact_that_nearly_opens_or_has_just_opened_is_found_and_no_other() {
+        // The largest penetration is 1/4.
+        for gap in [0.49, 0.4990, 0.51, 0.6] {
+            assert_eq!(phase_of_splitting(gap), None, "{gap}");
+        }
+        for gap in [0.4999, 0.5 - 1e-7, 0.5 + 1e-7] {
+            let phase = phase_of_splitting(gap).unwrap();
+            assert!((phase - 0.5).abs() < 1e-3, "{gap}: {phase}");
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Why a walk ended, in terms of orbits.
+
+use crate::{
+    BranchWalk,
+    solve::evaluate,
+    splitting::{self, Splitting},
+};
+
+/// Why a walk along a branch ended.
+///
+/// Places are frequencies [Hz], or values of the parameter where another one varies.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StopReason {
+    /// The branch left the frequency range and was cut exactly at its end.
+    RangeEnd {
+        /// End of the range [Hz].
+        frequency_hz: f64,
+    },
+    /// The branch came back to its start.
+    Closed,
+    /// The branch came to the flip of a branch of shorter period, beyond which it returns as its own copy, shifted by excitation
+    /// periods.
+    ShorterPeriod {
+        /// Where [Hz].
+        frequency_hz: f64,
+    },
+    /// The budget of solutions is used up.
+    Budget {
+        /// Number of solutions.
+        solutions: usize,
+    },
+    /// No step, however short, led to an acceptable solution.
+    StepTooShort {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Last step tried, in the arc length of the path.
+        step: f64,
+        /// Residual of the last attempt.
+        residual: f64,
+        /// What was wrong with it.
+        doubt: String,
+    },
+    /// However short the step, the path went on along a stretch that was already walked.
+    RunsBack {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Arc length of the stretch that was met.
+        met_arc_length: f64,
+    },
+    /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a contact began, its force jumps there, and so does the motion: the branch ends.
+    ContactSplits {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Name of the local element.
+        element: String,
+        /// Phase of the excitation at which that happens [cycles].
+        phase: f64,
+    },
+    /// Thousands of steps did not get anywhere.
+    Crawls {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// So many steps.
+        solutions: u64,
+        /// Largest magnitude of a multiplier: where it is huge, next to no change of the frequency turns the whole orbit.
+        largest_multiplier: f64,
+    },
+    /// The motion could not be computed.
+    Motion {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// What the integrator said.
+        message: String,
+    },
+}
+
+impl BranchWalk {
+    /// The reason, in terms of orbits.
+    pub(crate) fn stop_reason(&mut self, reason: hammerbeam_path::StopReason) -> StopReason {
+        let frequency_hz = self.follower.current().parameter();
+        match reason {
+            hammerbeam_path::StopReason::RangeEnd => StopReason::RangeEnd { frequency_hz },
+            hammerbeam_path::StopReason::Closed => StopReason::Closed,
+            hammerbeam_path::StopReason::StepTooShort { step, residual, doubt, .. } => {
+                self.splitting(frequency_hz).unwrap_or_else(|| StopReason::StepTooShort {
+                    frequency_hz,
+                    step,
+                    residual,
+                    doubt: doubt.to_string(),
+                })
+            }
+            hammerbeam_path::StopReason::Crawls { steps, .. } => {
+                self.splitting(frequency_hz).unwrap_or_else(|| StopReason::Crawls {
+                    frequency_hz,
+                    solutions: steps,
+                    largest_multiplier: self.largest_multiplier(),
+                })
+            }
+            hammerbeam_path::StopReason::RunsBack { parameter, met_arc_length } => {
+                StopReason::RunsBack { frequency_hz: parameter, met_arc_length }
+            }
+            hammerbeam_path::StopReason::EvaluationFailed { parameter, error, .. } => {
+                let message = self.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
+                StopReason::Motion { frequency_hz: parameter, message }
+            }
+            hammerbeam_path::StopReason::Budget => {
+                StopReason::Budget { solutions: self.follower.counters().accepted as usize }
+            }
+        }
+    }
+
+    /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.
+    fn splitting(&mut self, frequency_hz: f64) -> Option<StopReason> {
+        if !self.problem.system().remembers_impacts() {
+            return None;
+        }
+        let point = self.follower.current().point.clone();
+        self.problem.move_to(&point).ok()?;
+        let begin = (self.problem.phase(), self.problem.nodes(&point).swap_remove(0));
+        let span = (self.problem.frequency(&point), f64::from(self.problem.period_multiple()));
+        let Splitting { element, phase } = splitting::find(self.problem.integrator(), begin, span).ok()??;
+        Some(StopReason::ContactSplits { frequency_hz, element, phase })
+    }
+
+    /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
+    fn largest_multiplier(&mut self) -> f64 {
+        let point = self.follower.current().clone();
+        let row = evaluate(&mut self.problem, &point.point).and_then(|()| self.row_at(&point));
+        row.ok().map_or(f64::INFINITY, |row| {
+            row.solution.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im))
+        })
+    }
+}
