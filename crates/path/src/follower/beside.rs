@@ -6,7 +6,7 @@
 //! polynomial of the path's length over `D` through these four gives the length at `D = 0`, the Hermite polynomial through the inner two
 //! the point. The quadratic polynomial through three of them tells how far that can be trusted.
 
-use super::Follower;
+use super::{Follower, bracket::at_zero};
 use crate::{
     predictor::{self, Node},
     problem::PathProblem,
@@ -55,9 +55,9 @@ impl Follower {
         }
         let (low, high) = (&beside[1].0, &beside[2].0);
         let of = |node: &Node| progress(&self.weights, &low.tangent, &node.point, &low.point);
-        let places: Vec<(f64, f64)> = beside.iter().map(|(node, value)| (*value, of(node))).collect();
+        let places: Vec<(f64, f64)> = beside.iter().map(|(node, value)| (of(node), *value)).collect();
         let falls =
-            places.windows(2).all(|pair| pair[0].0 > pair[1].0) && places[1].0 > 0.0 && places[2].0 < 0.0;
+            places.windows(2).all(|pair| pair[0].1 > pair[1].1) && places[1].1 > 0.0 && places[2].1 < 0.0;
         if !falls {
             return None;
         }
@@ -72,26 +72,5 @@ impl Follower {
         let probe = &mut self.probe;
         probe.node.point.copy_from_slice(&probe.point);
         Some((root - at_zero(&places[..3])).abs().max((root - at_zero(&places[1..])).abs()))
-    }
-}
-
-/// Value at zero of the polynomial through pairs of abscissa and value.
-fn at_zero(pairs: &[(f64, f64)]) -> f64 {
-    let weight = |i: usize| -> f64 {
-        let others = pairs.iter().enumerate().filter(|(j, _)| *j != i);
-        others.map(|(_, (x, _))| -x / (pairs[i].0 - x)).product()
-    };
-    pairs.iter().enumerate().map(|(i, (_, value))| weight(i) * value).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cubic_is_met_exactly() {
-        let cubic = |x: f64| 0.3 - 2.0 * x + 0.7 * x * x - x * x * x;
-        let pairs = [1.0, 0.4, -0.6, -1.5].map(|x| (x, cubic(x)));
-        assert!((at_zero(&pairs) - 0.3).abs() < 1e-14);
     }
 }

@@ -3,7 +3,7 @@
 //! A jump to a sheet that runs the other way also changes the sign of `D`, but there `D` has no zero between: the
 //! bracket shrinks and `|D|` does not. That tells the two apart.
 
-use super::{Arrival, Follower, fold::Bracket};
+use super::{Arrival, Follower, bracket::Bracket};
 use crate::{
     corrector::CorrectorError,
     error::Doubt,

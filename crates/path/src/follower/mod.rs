@@ -2,6 +2,7 @@
 
 mod attempt;
 mod beside;
+mod bracket;
 mod branch_point;
 mod closing;
 mod corner;

@@ -1,10 +1,10 @@
 //! Events that are told by the problem: zeros of its test functions, and changes of its signature.
 //!
-//! A step over which a test function changes its sign ends at the zero instead, found by regula falsi. A function may also jump
+//! A step over which a test function changes its sign ends at the zero instead, found by few probes (`bracket.rs`). A function may also jump
 //! through zero (when what it is made of changes its kind); then the bracket shrinks and the value does not, and nothing is recorded.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
-use super::{Arrival, Follower, fold::Bracket};
+use super::{Arrival, Follower, bracket::Bracket};
 use crate::{error::Doubt, point::Events, problem::PathProblem};
 
 const MOST_PROBES: u32 = 60;
@@ -89,17 +89,23 @@ impl Follower {
         let length = self.trial_progress();
         let mut bracket = Bracket::new((0.0, low), (length, -sign * after.value.abs()));
         let mut value = low;
-        for _ in 0..MOST_PROBES {
+        for probes in 0..MOST_PROBES {
             let place = bracket.next();
-            self.probe_between(problem, step, place)?;
-            problem.tests(&mut self.probe.tests);
-            let Some(test) = self.probe.tests.get(index) else { return Err(Doubt::NotLocated) };
-            value = test.value;
+            value = self.probe_toward_zero(
+                problem,
+                step,
+                (&bracket, SHARP * ends),
+                (place, probes > 0),
+                |probe, problem| {
+                    problem.tests(&mut probe.tests);
+                    probe.tests.get(index).map(|test| test.value)
+                },
+            )?;
             bracket.narrow(place, value);
             if bracket.width() < JUMP_WIDTH * length && value.abs() > JUMP_SIZE * ends {
                 return self.return_to_trial(problem);
             }
-            if value.abs() <= SHARP * ends || bracket.width() <= self.settings.correction_floor {
+            if value.abs() <= SHARP * ends || bracket.uncertainty(value) <= self.settings.correction_floor {
                 break;
             }
         }
