@@ -158,6 +158,8 @@ pub enum FigureScale {
 /// What a figure shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FigureKind {
+    /// The structure with its stops
+    Structure,
     /// Branches: maximum displacement and acceleration over the frequency
     Response,
     /// Curves of bifurcations in two parameters
@@ -173,8 +175,15 @@ pub enum FigureKind {
 }
 
 impl FigureKind {
-    pub const ALL: [Self; 6] =
-        [Self::Response, Self::Curves, Self::Multipliers, Self::Sweeps, Self::Exponents, Self::Basins];
+    pub const ALL: [Self; 7] = [
+        Self::Structure,
+        Self::Response,
+        Self::Curves,
+        Self::Multipliers,
+        Self::Sweeps,
+        Self::Exponents,
+        Self::Basins,
+    ];
 }
 
 #[derive(Debug, Args)]

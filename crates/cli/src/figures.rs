@@ -3,6 +3,7 @@
 mod motions;
 mod multipliers;
 pub mod orbit;
+mod structure;
 
 use std::{fs, path::Path};
 
@@ -88,6 +89,7 @@ pub fn draw_kind(
     drawn: &mut Drawn<'_>,
 ) -> anyhow::Result<()> {
     match kind {
+        FigureKind::Structure => drawn.add("structure", structure::sketch(&file.study)),
         FigureKind::Response if store.branches()?.is_empty() => Ok(()),
         FigureKind::Response => draw_response(store, file.study.excitation.frequency_hz, scale, drawn),
         FigureKind::Curves => draw_curves(store, drawn),

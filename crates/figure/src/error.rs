@@ -18,6 +18,9 @@ pub enum FigureError {
         "the frequency axis must run from a lower to a higher finite frequency, not from {from_hz} to {to_hz} Hz"
     )]
     FrequencyRange { from_hz: f64, to_hz: f64 },
+    /// A sketch of so many masses could not be read.
+    #[error("a sketch has room for {most} masses, the structure has {masses}")]
+    Crowded { masses: usize, most: usize },
     /// The PNG would be useless or would not fit into memory.
     #[error("{pixels_per_inch} pixels per inch is outside the allowed 24 to 1200")]
     Resolution { pixels_per_inch: f64 },

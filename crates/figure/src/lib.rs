@@ -72,7 +72,9 @@ mod png;
 mod reduction_diagram;
 mod response_diagram;
 mod scale;
+mod sketch;
 mod stretch;
+mod structure_diagram;
 mod style;
 mod svg;
 mod sweep_diagram;
@@ -91,5 +93,9 @@ pub use orbit_diagram::{OrbitDiagram, OrbitSample};
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
 pub use scale::ScaleChoice;
+pub use structure_diagram::{
+    SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink, SketchLumped, SketchPoint, SketchStop,
+    StopKind, StructureDiagram,
+};
 pub use style::Style;
 pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};

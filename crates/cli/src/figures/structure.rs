@@ -1,0 +1,101 @@
+//! The sketch of the structure of a study.
+
+mod words;
+
+use hammerbeam_figure::{
+    Figure, FigureError, SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink, SketchLumped,
+    SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
+};
+use hammerbeam_study::{
+    Study,
+    file::{Approach, Beam, End, FixedTo, Lumped, Place, Side, Stop, StopLaw, Structure},
+};
+
+/// Most masses that stand well in one column.
+const NARROW: usize = 3;
+
+/// The sketch.
+pub fn sketch(study: &Study) -> Result<Figure, FigureError> {
+    let (layout, style) = match &study.structure {
+        Structure::Beam(beam) => (SketchLayout::Beam(sketched_beam(beam)), Style::single_column()),
+        Structure::Lumped(lumped) => {
+            let is_narrow = lumped.masses.len() <= NARROW;
+            let style = if is_narrow { Style::single_column() } else { Style::double_column() };
+            (SketchLayout::Lumped(sketched_masses(lumped)), style)
+        }
+    };
+    let mut forces: Vec<String> = study.force_points().map(str::to_owned).collect();
+    forces.sort_unstable();
+    forces.dedup();
+    let diagram = StructureDiagram {
+        title: study.title.clone(),
+        layout,
+        stops: study.stops.iter().map(sketched_stop).collect(),
+        moving: study.excitation.moving_supports().to_vec(),
+        forces,
+        words: words::of(study),
+    };
+    diagram.draw(&style)
+}
+
+fn sketched_beam(beam: &Beam) -> SketchBeam {
+    let point = |point: &hammerbeam_study::file::BeamPoint| SketchPoint {
+        name: point.name.clone(),
+        at_m: point.at_m,
+        has_mass: point.mass_kg > 0.0 || point.rotary_inertia_kg_m2 > 0.0,
+        has_spring: point.spring_n_m > 0.0,
+        has_damper: point.damper_n_s_m > 0.0,
+        has_rotational: point.rotational_spring_n_m_rad > 0.0 || point.rotational_damper_n_m_s_rad > 0.0,
+    };
+    SketchBeam {
+        length_m: beam.length_m,
+        left: end(beam.left),
+        right: end(beam.right),
+        points: beam.points.iter().map(point).collect(),
+    }
+}
+
+fn end(end: End) -> SketchEnd {
+    match end {
+        End::Clamped => SketchEnd::Clamped,
+        End::Pinned => SketchEnd::Pinned,
+        End::Sliding => SketchEnd::Sliding,
+        End::Free => SketchEnd::Free,
+    }
+}
+
+fn sketched_masses(lumped: &Lumped) -> SketchLumped {
+    let number = |name: &String| lumped.masses.iter().position(|mass| mass.name == *name);
+    let link = |between: &[String; 2], is_damper| SketchLink {
+        between: [number(&between[0]), number(&between[1])],
+        is_damper,
+    };
+    let springs = lumped.springs.iter().map(|spring| link(&spring.between, false));
+    let dampers = lumped.dampers.iter().map(|damper| link(&damper.between, true));
+    SketchLumped {
+        masses: lumped.masses.iter().map(|mass| mass.name.clone()).collect(),
+        links: springs.chain(dampers).collect(),
+    }
+}
+
+fn sketched_stop(stop: &Stop) -> SketchStop {
+    let (point, carrier) = match &stop.place {
+        Place::At { point, fixed_to: FixedTo::Support } => (point, SketchCarrier::Support),
+        Place::At { point, fixed_to: FixedTo::Space } => (point, SketchCarrier::Space),
+        Place::Between { first, second } => (first, SketchCarrier::Point(second.clone())),
+    };
+    let is_open = |approach: Approach| matches!(approach, Approach::Gap { gap_m, .. } if gap_m > 0.0);
+    let (kind, side, has_gap) = match stop.law {
+        StopLaw::Hertz { approach, side, .. } => (StopKind::Sphere { loses: false }, side, is_open(approach)),
+        StopLaw::HuntCrossley { approach, side, .. } | StopLaw::Restitution { approach, side, .. } => {
+            (StopKind::Sphere { loses: true }, side, is_open(approach))
+        }
+        StopLaw::Linear { approach, side, .. } => (StopKind::Spring, side, is_open(approach)),
+        StopLaw::Rigid { approach, side, .. } => (StopKind::Rigid, side, is_open(approach)),
+        StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
+            (StopKind::TwoSided, Side::Above, gap_above_m.max(gap_below_m) > 0.0)
+        }
+        StopLaw::Cubic { .. } => (StopKind::Always, Side::Below, false),
+    };
+    SketchStop { point: point.clone(), carrier, kind, above: side == Side::Above, has_gap }
+}

@@ -1,0 +1,190 @@
+//! What stands below the sketch of a structure: the numbers of the study, in words.
+
+use hammerbeam_study::{
+    Study,
+    file::{
+        Approach, Beam, BeamPoint, ExcitationKind, FixedTo, GapMeasured, Load, Lumped, Place, Side, Stop,
+        StopLaw, Structure,
+    },
+};
+
+/// Most springs, dampers and masses that are listed.
+const LISTED: usize = 12;
+
+/// The lines.
+pub fn of(study: &Study) -> Vec<String> {
+    let mut lines = match &study.structure {
+        Structure::Beam(beam) => beam_words(beam),
+        Structure::Lumped(lumped) => lumped_words(lumped),
+    };
+    lines.extend(study.stops.iter().map(stop_words));
+    lines.push(excitation_words(study));
+    lines.extend(study.loads.iter().map(load_words));
+    lines
+}
+
+fn beam_words(beam: &Beam) -> Vec<String> {
+    let stiffness = beam.youngs_modulus_pa * beam.section.second_moment_m4;
+    let mass = beam.density_kg_m3 * beam.section.area_m2;
+    let beam_line = format!("Beam: bending stiffness {} N m², {} kg/m.", number(stiffness), number(mass));
+    std::iter::once(beam_line).chain(beam.points.iter().map(point_words)).collect()
+}
+
+fn point_words(point: &BeamPoint) -> String {
+    let parts = [
+        (point.mass_kg, "kg"),
+        (point.rotary_inertia_kg_m2, "kg m²"),
+        (point.spring_n_m, "N/m to the ground"),
+        (point.damper_n_s_m, "N s/m to the ground"),
+        (point.rotational_spring_n_m_rad, "N m/rad to the ground"),
+        (point.rotational_damper_n_m_s_rad, "N m s/rad to the ground"),
+    ];
+    let carried = parts.iter().filter(|(value, _)| *value > 0.0);
+    let carried: Vec<String> = carried.map(|(value, unit)| format!("{} {unit}", number(*value))).collect();
+    let carried = if carried.is_empty() { String::new() } else { format!(", {}", carried.join(", ")) };
+    format!("{}: at {} mm{carried}.", point.name, number(1e3 * point.at_m))
+}
+
+fn lumped_words(lumped: &Lumped) -> Vec<String> {
+    let masses = lumped.masses.iter().map(|mass| format!("{} {} kg", mass.name, number(mass.mass_kg)));
+    let between = |ends: &[String; 2]| format!("{}–{}", ends[0], ends[1]);
+    let springs = lumped.springs.iter();
+    let springs = springs.map(|s| format!("{} {} N/m", between(&s.between), number(s.stiffness_n_m)));
+    let dampers = lumped.dampers.iter();
+    let dampers = dampers.map(|d| format!("{} {} N s/m", between(&d.between), number(d.damping_n_s_m)));
+    let lists =
+        [("Masses", masses.collect()), ("Springs", springs.collect()), ("Dampers", dampers.collect())];
+    let line = |(what, list): (&str, Vec<String>)| {
+        (!list.is_empty()).then(|| {
+            let more = if list.len() > LISTED { ", ..." } else { "" };
+            let listed: Vec<&str> = list.iter().take(LISTED).map(String::as_str).collect();
+            format!("{what}: {}{more}.", listed.join(", "))
+        })
+    };
+    lists.into_iter().filter_map(line).collect()
+}
+
+fn stop_words(stop: &Stop) -> String {
+    let place = match &stop.place {
+        Place::At { point, fixed_to: FixedTo::Support } => format!("at {point}, on the moving support"),
+        Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
+        Place::Between { first, second } => format!("between {first} and {second}"),
+    };
+    let hertz = |stiffness: f64| format!("Hertz contact {} N/m^1.5", number(stiffness));
+    let law = match stop.law {
+        StopLaw::Hertz { stiffness, approach, side } => {
+            format!("{}, {}", hertz(stiffness.value()), rest(approach, side))
+        }
+        StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side } => {
+            format!("{}, loss {} s/m, {}", hertz(stiffness.value()), number(loss_s_m), rest(approach, side))
+        }
+        StopLaw::Restitution { stiffness, restitution, approach, side, .. } => format!(
+            "{}, coefficient of restitution {}, {}",
+            hertz(stiffness.value()),
+            number(restitution),
+            rest(approach, side)
+        ),
+        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side } => {
+            let damper = if damping_n_s_m > 0.0 {
+                format!(" with {} N s/m", number(damping_n_s_m))
+            } else {
+                String::new()
+            };
+            format!("spring {} N/m{damper}, {}", number(stiffness_n_m), rest(approach, side))
+        }
+        StopLaw::Rigid { restitution, approach, side } => {
+            format!("rigid, coefficient of restitution {}, {}", number(restitution), rest(approach, side))
+        }
+        StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
+            "springs {} N/m on both sides, gaps {} mm above and {} mm below{}",
+            number(stiffness_n_m),
+            number(1e3 * gap_above_m),
+            number(1e3 * gap_below_m),
+            counted(gap_measured)
+        ),
+        StopLaw::Cubic { stiffness_n_m3 } => format!("cubic spring {} N/m³", number(stiffness_n_m3)),
+    };
+    format!("{} {place}: {law}.", capital(&stop.name))
+}
+
+fn rest(approach: Approach, side: Side) -> String {
+    let side = if side == Side::Above { "above" } else { "below" };
+    match approach {
+        Approach::Gap { gap_m, measured } => {
+            format!("gap {} mm {side}{}", number(1e3 * gap_m), counted(measured))
+        }
+        Approach::Preload { preload_n } => format!("preload {} N, {side}", number(preload_n)),
+    }
+}
+
+fn counted(measured: GapMeasured) -> &'static str {
+    if measured == GapMeasured::AtRest { " from rest" } else { "" }
+}
+
+fn excitation_words(study: &Study) -> String {
+    let excitation = &study.excitation;
+    let [low, high] = excitation.frequency_hz;
+    let what = match &excitation.kind {
+        ExcitationKind::SupportMotion { at, amplitude_m } => {
+            format!("motion u of {}, amplitude {} mm", at.join(" and "), number(1e3 * amplitude_m))
+        }
+        ExcitationKind::Force { at, amplitude_n } => {
+            format!("force F at {at}, amplitude {} N", number(*amplitude_n))
+        }
+    };
+    let order = if excitation.order > 1 { format!(", order {}", excitation.order) } else { String::new() };
+    format!("Excitation: {what}, {} to {} Hz{order}.", number(low), number(high))
+}
+
+fn load_words(load: &Load) -> String {
+    match load {
+        Load::Gravity { acceleration_m_s2 } => format!("Gravity: {} m/s².", number(*acceleration_m_s2)),
+        Load::Force { at, amplitude_n, order: 0, .. } => {
+            format!("Constant force F at {at}: {} N.", number(*amplitude_n))
+        }
+        Load::Force { at, amplitude_n, order, .. } => {
+            format!("Force F at {at}: {} N, order {order}.", number(*amplitude_n))
+        }
+        Load::SupportMotion { amplitude_m, order, .. } => {
+            format!("Further motion u: {} mm, order {order}.", number(1e3 * amplitude_m))
+        }
+    }
+}
+
+/// A number as a journal prints it: five significant digits, powers of ten outside 0.001 to 100 000.
+pub fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    let size = rounded.abs();
+    if size == 0.0 || (1e-3..1e5).contains(&size) {
+        return format!("{rounded}").replace('-', "−");
+    }
+    let written = format!("{rounded:e}");
+    let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    let raised: String = exponent.chars().map(raise).collect();
+    format!("{}\u{2009}×\u{2009}10{raised}", mantissa.replace('-', "−"))
+}
+
+fn raise(character: char) -> char {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    character.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize])
+}
+
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short_and_have_true_signs() {
+        assert_eq!(number(0.5015), "0.5015");
+        assert_eq!(number(4.5e9), "4.5\u{2009}×\u{2009}10⁹");
+        assert_eq!(number(1.59e-8), "1.59\u{2009}×\u{2009}10⁻⁸");
+        assert_eq!(number(-9.81), "−9.81");
+        assert_eq!(number(243.215_7), "243.22");
+        assert_eq!(number(0.0), "0");
+    }
+}

@@ -1,0 +1,308 @@
+//! The sketch of lumped masses on a line. In each space between two of them, and before the first and behind the last, elements stand
+//! in lanes on top of each other; what is fixed to the ground between two masses ends at a post of its own.
+
+use super::{
+    MARGIN, MOST_MASSES, Sketch, SketchCarrier, SketchLumped, SketchStop, StopKind, StructureDiagram, stop,
+};
+use crate::{
+    FigureError, Style,
+    font::CAPITAL_HEIGHT,
+    sketch::{Behind, HATCH, arrow, at, block, body, damper, label, line, spring, wall},
+    svg::{Anchor, Point, SvgWriter, points},
+    text::Text,
+};
+
+/// Height of a lane, and least height of a mass (pt).
+const LANE: f64 = 13.0;
+const LEAST: f64 = 26.0;
+/// Widest space between masses (pt).
+const WIDEST: f64 = 64.0;
+/// Room beside a wall, for its hatching and the arrow of its motion (pt).
+const BESIDE: f64 = 20.0;
+/// Thickness of a wall that moves (pt).
+const THICK: f64 = 4.0;
+
+/// What joins a mass to its left to something to its right.
+#[derive(Debug, Clone, Copy)]
+enum Element {
+    Spring,
+    Damper,
+    /// A stop, and whether what hits it comes from the left.
+    Stop {
+        kind: StopKind,
+        has_gap: bool,
+        from_left: bool,
+    },
+}
+
+/// An element in its lane.
+#[derive(Debug, Clone, Copy)]
+struct Lane {
+    element: Element,
+    /// Where it begins and ends.
+    ends: [Foot; 2],
+}
+
+/// Where an element ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Foot {
+    Mass,
+    /// The ground, and whether it moves.
+    Ground {
+        moves: bool,
+    },
+}
+
+/// Elements between masses that are no neighbours: numbers of the masses and what joins them.
+struct Bridge {
+    masses: [usize; 2],
+    element: Element,
+}
+
+struct Place<'a> {
+    diagram: &'a StructureDiagram,
+    lumped: &'a SketchLumped,
+    style: &'a Style,
+    /// Lanes in the spaces: before the first mass, between masses, behind the last.
+    spaces: Vec<Vec<Lane>>,
+    bridges: Vec<Bridge>,
+    /// Left edge of each mass, their width, and top and bottom of them.
+    masses: Vec<f64>,
+    width: f64,
+    walls: [f64; 2],
+    top: f64,
+    bottom: f64,
+}
+
+/// Lays masses out below `top`.
+pub(super) fn sketch<'a>(
+    diagram: &'a StructureDiagram,
+    lumped: &'a SketchLumped,
+    top: f64,
+    style: &'a Style,
+) -> Result<Sketch<'a>, FigureError> {
+    let count = lumped.masses.len();
+    if count == 0 {
+        return Err(FigureError::Empty { quantity: "mass", curves: 0, points: 0 });
+    }
+    if count > MOST_MASSES {
+        return Err(FigureError::Crowded { masses: count, most: MOST_MASSES });
+    }
+    let (spaces, bridges) = arrange(diagram, lumped);
+    let lanes = spaces.iter().map(Vec::len).max().unwrap_or(0);
+    let height = (LANE * lanes as f64).max(LEAST);
+    let room = points(style.width_mm) - 2.0 * (MARGIN + BESIDE);
+    let names = lumped.masses.iter().map(|name| Text::upright(name).width(style.tick_size) + 6.0);
+    let widest = names.fold(22.0, f64::max);
+    let outer = [0, count].map(|k| if spaces[k].is_empty() { 0.0 } else { 1.0 });
+    let gaps = count as f64 - 1.0 + outer[0] + outer[1];
+    let width = widest.min(0.5 * room / count as f64);
+    let gap = ((room - width * count as f64) / gaps.max(1.0)).min(WIDEST);
+    let start = MARGIN + BESIDE + 0.5 * (room - width * count as f64 - gap * gaps);
+    let first = start + outer[0] * gap;
+    let masses: Vec<f64> = (0..count).map(|k| first + (width + gap) * k as f64).collect();
+    let end = masses[count - 1] + width + outer[1] * gap;
+    let head = LANE * bridges.len() as f64 + 14.0;
+    let top = top + head;
+    let place = Place {
+        diagram,
+        lumped,
+        style,
+        spaces,
+        bridges,
+        masses,
+        width,
+        walls: [start, end],
+        top,
+        bottom: top + height,
+    };
+    let bottom = place.bottom + 14.0 + HATCH;
+    Ok(Sketch { bottom, draw: Box::new(move |svg| place.draw(svg)) })
+}
+
+/// Every element in the space where it is drawn.
+fn arrange(diagram: &StructureDiagram, lumped: &SketchLumped) -> (Vec<Vec<Lane>>, Vec<Bridge>) {
+    let count = lumped.masses.len();
+    let mut spaces: Vec<Vec<Lane>> = vec![Vec::new(); count + 1];
+    let mut bridges = Vec::new();
+    let ground = Foot::Ground { moves: diagram.moves("ground") };
+    for link in &lumped.links {
+        let element = if link.is_damper { Element::Damper } else { Element::Spring };
+        match link.between {
+            [Some(a), Some(b)] => join(&mut spaces, &mut bridges, [a, b], element),
+            [Some(mass), None] | [None, Some(mass)] => {
+                fix(&mut spaces, mass, mass + 1 == count && count > 1, element, ground)
+            }
+            [None, None] => {}
+        }
+    }
+    let number = |name: &str| lumped.masses.iter().position(|mass| mass == name);
+    for stop in &diagram.stops {
+        let Some(mass) = number(&stop.point) else { continue };
+        for from_left in sides(stop) {
+            let element = Element::Stop { kind: stop.kind, has_gap: stop.has_gap, from_left };
+            match &stop.carrier {
+                SketchCarrier::Point(other) => match number(other) {
+                    Some(other) => {
+                        // The stop stands on the second mass; what hits it comes from the first.
+                        let comes_from_left = if other > mass { from_left } else { !from_left };
+                        let element = Element::Stop {
+                            kind: stop.kind,
+                            has_gap: stop.has_gap,
+                            from_left: comes_from_left,
+                        };
+                        join(&mut spaces, &mut bridges, [mass, other], element);
+                    }
+                    None => fix(&mut spaces, mass, from_left, element, ground),
+                },
+                SketchCarrier::Support => {
+                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: true })
+                }
+                SketchCarrier::Space => {
+                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: false })
+                }
+            }
+        }
+    }
+    (spaces, bridges)
+}
+
+/// Whether what hits a stop comes from its left, for each side on which there is one.
+fn sides(stop: &SketchStop) -> Vec<bool> {
+    match stop.kind {
+        StopKind::TwoSided => vec![true, false],
+        StopKind::Always => vec![false],
+        _ => vec![stop.above],
+    }
+}
+
+fn join(spaces: &mut [Vec<Lane>], bridges: &mut Vec<Bridge>, [a, b]: [usize; 2], element: Element) {
+    let (low, high) = (a.min(b), a.max(b));
+    if high == low + 1 {
+        spaces[high].push(Lane { element, ends: [Foot::Mass, Foot::Mass] });
+    } else if high > low {
+        bridges.push(Bridge { masses: [low, high], element });
+    }
+}
+
+/// Joins a mass to the ground, on its right side or on its left.
+fn fix(spaces: &mut [Vec<Lane>], mass: usize, on_right: bool, element: Element, ground: Foot) {
+    let (space, ends) =
+        if on_right { (mass + 1, [Foot::Mass, ground]) } else { (mass, [ground, Foot::Mass]) };
+    spaces[space].push(Lane { element, ends });
+}
+
+impl Place<'_> {
+    fn draw(&self, svg: &mut SvgWriter) {
+        for space in 0..self.spaces.len() {
+            self.draw_space(svg, space);
+        }
+        self.draw_bridges(svg);
+        for (k, name) in self.lumped.masses.iter().enumerate() {
+            let x = self.masses[k];
+            body(svg, at(x, self.top), at(x + self.width, self.bottom));
+            let text = Text::upright(name);
+            if text.width(self.style.tick_size) < self.width {
+                let y = 0.5 * (self.top + self.bottom + CAPITAL_HEIGHT * self.style.tick_size);
+                label(svg, at(x + 0.5 * self.width, y), name, Anchor::Middle, self.style);
+            }
+            let middle = x + 0.5 * self.width;
+            let y = self.bottom + 7.0;
+            if self.diagram.forces.contains(name) {
+                arrow(svg, at(middle - 9.0, y), at(middle + 9.0, y), true);
+                label(svg, at(middle + 12.0, y + 2.4), "F", Anchor::Start, self.style);
+            }
+            if self.diagram.moves(name) {
+                arrow(svg, at(middle - 9.0, y), at(middle + 9.0, y), true);
+                label(svg, at(middle + 12.0, y + 2.4), "u", Anchor::Start, self.style);
+            }
+        }
+    }
+
+    /// Left and right end of a space.
+    fn ends(&self, space: usize) -> [f64; 2] {
+        let left = if space == 0 { self.walls[0] } else { self.masses[space - 1] + self.width };
+        let right = self.masses.get(space).copied().unwrap_or(self.walls[1]);
+        [left, right]
+    }
+
+    fn draw_space(&self, svg: &mut SvgWriter, space: usize) {
+        let lanes = &self.spaces[space];
+        let [left, right] = self.ends(space);
+        let is_outer = [space == 0, space + 1 == self.spaces.len()];
+        let pitch = (self.bottom - self.top) / lanes.len().max(1) as f64;
+        // Lanes that end at a post stand lowest, so that the post crosses none of the others.
+        let mut order: Vec<&Lane> = lanes.iter().collect();
+        order.sort_by_key(|lane| lane.ends.iter().any(|foot| *foot != Foot::Mass));
+        for (k, lane) in order.into_iter().enumerate() {
+            let y = self.top + (k as f64 + 0.5) * pitch;
+            let mut ends = [left, right];
+            for side in 0..2 {
+                let Foot::Ground { moves } = lane.ends[side] else { continue };
+                if is_outer[side] {
+                    self.draw_wall(svg, ends[side], y, (side == 0, pitch), moves);
+                } else {
+                    let share = if side == 1 { 0.62 } else { 0.38 };
+                    ends[side] = left + share * (right - left);
+                    self.draw_post(svg, at(ends[side], y), moves);
+                }
+            }
+            draw_element(svg, lane.element, ends, y);
+        }
+        for (side, x) in [(0, left), (1, right)] {
+            let moving = lanes.iter().any(|lane| lane.ends[side] == Foot::Ground { moves: true });
+            if is_outer[side] && moving {
+                let sign = if side == 0 { -1.0 } else { 1.0 };
+                let middle = x + sign * (THICK + 7.0);
+                let y = self.bottom + 7.0;
+                arrow(svg, at(middle - 8.0, y), at(middle + 8.0, y), true);
+                label(svg, at(middle, y + 8.5), "u", Anchor::Middle, self.style);
+            }
+        }
+    }
+
+    /// The part of the wall at the end of a lane.
+    fn draw_wall(&self, svg: &mut SvgWriter, x: f64, y: f64, (is_left, pitch): (bool, f64), moves: bool) {
+        let (top, bottom) = (y - 0.5 * pitch, y + 0.5 * pitch);
+        if moves {
+            block(svg, at(x, top), at(x + if is_left { -THICK } else { THICK }, bottom));
+        } else {
+            wall(svg, at(x, top), at(x, bottom), if is_left { Behind::Left } else { Behind::Right });
+        }
+    }
+
+    fn draw_post(&self, svg: &mut SvgWriter, head: Point, moves: bool) {
+        let floor = self.bottom + 3.0;
+        line(svg, &[at(head.x, head.y - 4.0), at(head.x, floor)]);
+        if moves {
+            block(svg, at(head.x - 5.0, floor), at(head.x + 5.0, floor + THICK));
+        } else {
+            wall(svg, at(head.x - 5.0, floor), at(head.x + 5.0, floor), Behind::Below);
+        }
+    }
+
+    fn draw_bridges(&self, svg: &mut SvgWriter) {
+        for (k, bridge) in self.bridges.iter().enumerate() {
+            let y = self.top - LANE * (k as f64 + 0.8);
+            let shift = 2.5 * k as f64;
+            let [low, high] = bridge.masses.map(|mass| self.masses[mass] + 0.5 * self.width);
+            let ends = [low + shift, high - shift];
+            for x in ends {
+                line(svg, &[at(x, self.top), at(x, y)]);
+            }
+            draw_element(svg, bridge.element, ends, y);
+        }
+    }
+}
+
+fn draw_element(svg: &mut SvgWriter, element: Element, [left, right]: [f64; 2], y: f64) {
+    let (from, to) = (at(left, y), at(right, y));
+    match element {
+        Element::Spring => spring(svg, from, to),
+        Element::Damper => damper(svg, from, to),
+        Element::Stop { kind, has_gap, from_left } => {
+            let (foot, tip) = if from_left { (to, from) } else { (from, to) };
+            stop::draw(svg, kind, foot, tip, has_gap);
+        }
+    }
+}
