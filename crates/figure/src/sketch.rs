@@ -122,6 +122,10 @@ pub(crate) fn turn(svg: &mut SvgWriter, centre: Point, radius: f64) {
 
 /// An arrow; with heads at both ends for a motion.
 pub(crate) fn arrow(svg: &mut SvgWriter, from: Point, to: Point, both: bool) {
+    arrow_of(svg, (from, to), both, LINE);
+}
+
+fn arrow_of(svg: &mut SvgWriter, (from, to): (Point, Point), both: bool, width: f64) {
     let size = 3.4;
     let place = along(from, to);
     let length = (to.x - from.x).hypot(to.y - from.y).max(1e-9);
@@ -131,7 +135,7 @@ pub(crate) fn arrow(svg: &mut SvgWriter, from: Point, to: Point, both: bool) {
         data += &head(place(0.0, 0.0), place(share, 0.4 * size), place(share, -0.4 * size));
     }
     let first = if both { place(0.5 * share, 0.0) } else { from };
-    line(svg, &[first, place(1.0 - 0.5 * share, 0.0)]);
+    svg.polyline(&[first, place(1.0 - 0.5 * share, 0.0)], ink(width));
     svg.path(&data, INK, Stroke { colour: INK, width: 0.0 });
 }
 
@@ -152,7 +156,7 @@ pub(crate) fn dimension(
     let thin = Stroke { colour: PALE_INK, width: THIN };
     let lines = [[at(from, tops.0), at(from, y + 2.0)], [at(to, tops.1), at(to, y + 2.0)]];
     svg.polylines(lines.iter().map(|line| (line.as_slice(), None)), thin);
-    arrow(svg, at(from, y), at(to, y), true);
+    arrow_of(svg, (at(from, y), at(to, y)), true, THIN);
     let text = Text::upright(label);
     let (half, middle) = (0.5 * text.width(style.tick_size) + 1.5, 0.5 * (from + to));
     let height = 0.5 * CAPITAL_HEIGHT * style.tick_size;
@@ -166,4 +170,9 @@ pub(crate) fn dimension(
 /// A short label.
 pub(crate) fn label(svg: &mut SvgWriter, place: Point, text: &str, anchor: Anchor, style: &Style) {
     svg.text(place, &Text::upright(text), lettering(style.tick_size, anchor));
+}
+
+/// A variable as a label.
+pub(crate) fn variable(svg: &mut SvgWriter, place: Point, text: &str, anchor: Anchor, style: &Style) {
+    svg.text(place, &Text::default().variable(text), lettering(style.tick_size, anchor));
 }

@@ -51,6 +51,9 @@ pub(crate) fn stability_colour(stable: bool) -> &'static str {
 /// Colours of period multiples 1, 2, 3 and so on; later ones start again.
 const PERIOD_COLOURS: [&str; 6] = ["#14356b", "#d1571b", "#3fb89b", "#7d2a8c", "#b98a10", "#6fb1e0"];
 
+/// Colour of a line that is alone.
+pub(crate) const PERIOD_COLOUR: &str = PERIOD_COLOURS[0];
+
 /// Colour of the solutions that repeat after so many excitation periods.
 pub(crate) fn period_colour(period_multiple: u32) -> &'static str {
     PERIOD_COLOURS[(period_multiple.max(1) as usize - 1) % PERIOD_COLOURS.len()]

@@ -7,7 +7,8 @@ use super::{
 use crate::{
     FigureError, Style,
     sketch::{
-        Behind, HATCH, arrow, at, block, body, damper, dimension, disc, label, line, spring, turn, wall,
+        Behind, HATCH, arrow, at, block, body, damper, dimension, disc, label, line, spring, turn, variable,
+        wall,
     },
     style::{INK, PAPER},
     svg::{Anchor, SvgWriter, points},
@@ -20,6 +21,8 @@ const MASS: f64 = 3.6;
 /// Room for stops on a side, and for what holds an end (pt).
 const REACH: f64 = 26.0;
 const END: f64 = 26.0;
+/// Half the height of what holds an end (pt).
+const END_HALF: f64 = 11.0;
 /// Thickness of what moves with the support, and distance of dimension lines (pt).
 const BASE: f64 = 5.0;
 const ROW: f64 = 11.0;
@@ -142,50 +145,64 @@ impl Place<'_> {
         for name in &self.diagram.forces {
             if let Some(x) = self.of(name) {
                 arrow(svg, at(x, self.middle - MASS - 15.0), at(x, self.middle - MASS - 1.0), true);
-                label(svg, at(x + 3.0, self.middle - MASS - 6.0), "F", Anchor::Start, self.style);
+                variable(svg, at(x + 3.0, self.middle - MASS - 6.0), "F", Anchor::Start, self.style);
             }
         }
         self.draw_names(svg);
         self.draw_dimensions(svg);
     }
 
-    /// The bodies that move with the support: from what moves to the stops that ride.
+    /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from what moves to them.
     fn draw_carriers(&self, svg: &mut SvgWriter) {
         let moving: Vec<f64> = self.diagram.moving.iter().filter_map(|name| self.of(name)).collect();
-        for above in [false, true] {
-            let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
-            let mut stops = riding
-                .filter(|stop| self.is_on(stop, above))
-                .filter_map(|stop| self.of(&stop.point))
-                .peekable();
-            let is_drawn = stops.peek().is_some() || (!above && self.inner_moving().next().is_some());
-            let (Some(_), true) = (moving.first(), is_drawn) else { continue };
-            let places: Vec<f64> =
-                stops.flat_map(|x| [x - 7.0, x + 7.0]).chain(moving.iter().copied()).collect();
-            let from = places.iter().copied().fold(f64::INFINITY, f64::min);
-            let to = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let (near, far) =
-                if above { (self.ceiling, self.ceiling - BASE) } else { (self.floor, self.floor + BASE) };
-            for &x in &moving {
-                let side = if x == self.right { BASE } else { -BASE };
-                block(svg, at(x, self.middle), at(x + side, far));
+        let has_bar = [false, true].map(|above| self.draw_bar(svg, &moving, above));
+        for &x in &moving {
+            let (side, end) = match x {
+                x if x == self.left => (-BASE, self.beam.left),
+                x if x == self.right => (BASE, self.beam.right),
+                _ => (0.5 * BASE, SketchEnd::Free),
+            };
+            if end == SketchEnd::Clamped {
+                let top = if has_bar[1] { self.ceiling } else { self.middle - END_HALF };
+                let bottom = if has_bar[0] { self.floor } else { self.middle + END_HALF };
+                block(svg, at(x, top), at(x + side, bottom));
+            } else if has_bar[0] {
+                let top = if end == SketchEnd::Pinned { self.middle + HALF + 7.0 } else { self.middle };
+                block(svg, at(x - 0.5 * BASE, top), at(x + 0.5 * BASE, self.floor));
             }
-            let ends = (
-                if from == self.left { from - BASE } else { from },
-                if to == self.right { to + BASE } else { to },
-            );
-            block(svg, at(ends.0, near), at(ends.1, far));
         }
+    }
+
+    /// The bar above or below the beam; false if nothing needs it.
+    fn draw_bar(&self, svg: &mut SvgWriter, moving: &[f64], above: bool) -> bool {
+        let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
+        let stops = riding.filter(|stop| self.is_on(stop, above)).filter_map(|stop| self.of(&stop.point));
+        let stops: Vec<f64> = stops.flat_map(|x| [x - 7.0, x + 7.0]).collect();
+        let is_needed = !stops.is_empty() || (!above && self.inner_moving().next().is_some());
+        if !is_needed || moving.is_empty() {
+            return false;
+        }
+        let outer = moving.iter().map(|&x| match x {
+            x if x == self.left => x - BASE,
+            x if x == self.right => x + BASE,
+            x => x,
+        });
+        let places: Vec<f64> = stops.into_iter().chain(outer).collect();
+        let from = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let to = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let near = if above { self.ceiling } else { self.floor };
+        block(svg, at(from, near), at(to, if above { near - BASE } else { near + BASE }));
+        true
     }
 
     fn draw_end(&self, svg: &mut SvgWriter, end: SketchEnd, is_left: bool) {
         let (x, side, behind) =
             if is_left { (self.left, -1.0, Behind::Left) } else { (self.right, 1.0, Behind::Right) };
         let moves = self.diagram.moves(if is_left { "left" } else { "right" });
-        let (top, bottom) = (self.middle - 11.0, self.middle + 11.0);
+        let (top, bottom) = (self.middle - END_HALF, self.middle + END_HALF);
         match (end, moves) {
             (SketchEnd::Clamped, false) => wall(svg, at(x, top), at(x, bottom), behind),
-            (SketchEnd::Clamped, true) => block(svg, at(x, top), at(x + side * BASE, bottom)),
+            (SketchEnd::Clamped, true) | (SketchEnd::Free, _) => {}
             (SketchEnd::Pinned, _) => {
                 let foot = self.middle + HALF + 7.0;
                 line(
@@ -210,13 +227,12 @@ impl Place<'_> {
                 }
                 wall(svg, at(x + side * 4.0, top), at(x + side * 4.0, bottom), behind);
             }
-            (SketchEnd::Free, _) => {}
         }
         if moves {
             let out = x + side * 14.0;
             arrow(svg, at(out, self.middle + 9.0), at(out, self.middle - 9.0), true);
             let anchor = if is_left { Anchor::End } else { Anchor::Start };
-            label(svg, at(out + side * 3.0, self.middle + 2.5), "u", anchor, self.style);
+            variable(svg, at(out + side * 3.0, self.middle + 2.5), "u", anchor, self.style);
         }
     }
 
@@ -244,7 +260,7 @@ impl Place<'_> {
         if self.diagram.moves(&point.name) {
             disc(svg, at(x, self.middle), MASS, PAPER);
             arrow(svg, at(x + 9.0, self.floor - 2.0), at(x + 9.0, self.floor - 18.0), true);
-            label(svg, at(x + 12.0, self.floor - 7.0), "u", Anchor::Start, self.style);
+            variable(svg, at(x + 12.0, self.floor - 7.0), "u", Anchor::Start, self.style);
         } else {
             disc(
                 svg,

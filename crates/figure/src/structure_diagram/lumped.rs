@@ -7,7 +7,7 @@ use super::{
 use crate::{
     FigureError, Style,
     font::CAPITAL_HEIGHT,
-    sketch::{Behind, HATCH, arrow, at, block, body, damper, label, line, spring, wall},
+    sketch::{Behind, HATCH, arrow, at, block, body, damper, label, line, spring, variable, wall},
     svg::{Anchor, Point, SvgWriter, points},
     text::Text,
 };
@@ -204,7 +204,7 @@ impl Place<'_> {
             let text = Text::upright(name);
             if text.width(self.style.tick_size) < self.width {
                 let y = 0.5 * (self.top + self.bottom + CAPITAL_HEIGHT * self.style.tick_size);
-                label(svg, at(x + 0.5 * self.width, y), name, Anchor::Middle, self.style);
+                variable(svg, at(x + 0.5 * self.width, y), name, Anchor::Middle, self.style);
             }
             let middle = x + 0.5 * self.width;
             let y = self.bottom + 7.0;
@@ -214,7 +214,7 @@ impl Place<'_> {
             }
             if self.diagram.moves(name) {
                 arrow(svg, at(middle - 9.0, y), at(middle + 9.0, y), true);
-                label(svg, at(middle + 12.0, y + 2.4), "u", Anchor::Start, self.style);
+                variable(svg, at(middle + 12.0, y + 2.4), "u", Anchor::Start, self.style);
             }
         }
     }
@@ -256,7 +256,7 @@ impl Place<'_> {
                 let middle = x + sign * (THICK + 7.0);
                 let y = self.bottom + 7.0;
                 arrow(svg, at(middle - 8.0, y), at(middle + 8.0, y), true);
-                label(svg, at(middle, y + 8.5), "u", Anchor::Middle, self.style);
+                variable(svg, at(middle, y + 8.5), "u", Anchor::Middle, self.style);
             }
         }
     }

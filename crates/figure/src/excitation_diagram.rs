@@ -1,0 +1,56 @@
+//! The amplitude of the excitation over the frequency, as it is computed with and as it was measured.
+
+use crate::{
+    Figure, FigureError, Style,
+    chart::{Chart, Measure, Panel},
+    dots::{Dot, Shape},
+    layer::Layer,
+    legend::{Entry, Sample},
+    style::{INK, line_pattern},
+};
+
+/// Amplitudes of an excitation.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ExcitationDiagram {
+    /// Title above the figure; empty for none.
+    pub title: String,
+    /// What the amplitude is of, with the unit: the label of the vertical axis.
+    pub quantity: String,
+    /// Frequency (Hz) and amplitude, in order.
+    pub rows: Vec<(f64, f64)>,
+    /// Measured amplitudes: frequency (Hz) and amplitude.
+    pub measured: Vec<(f64, f64)>,
+}
+
+impl ExcitationDiagram {
+    /// The figure; its vertical axis begins at zero.
+    ///
+    /// # Errors
+    /// [`FigureError::Empty`] where no row is finite.
+    pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
+        let values = self.rows.iter().chain(&self.measured).map(|(_, value)| *value);
+        let largest = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let dot = Dot { shape: Shape::Square, colour: INK, full: false, radius: 1.3 * style.mark_radius };
+        let mut legend = Vec::new();
+        if !self.measured.is_empty() {
+            let (line, dots) = (Sample::Pattern(line_pattern(0)), Sample::Dot(dot));
+            legend.push(Entry { sample: line, name: "computed with".to_owned() });
+            legend.push(Entry { sample: dots, name: "measured".to_owned() });
+        }
+        let layers = vec![
+            Layer::Line { points: self.rows.clone(), pattern: line_pattern(0) },
+            Layer::Dots { points: self.measured.clone(), dot },
+        ];
+        let y = Measure::new(self.quantity.clone());
+        let y = if largest > 0.0 { y.between((0.0, 1.06 * largest)) } else { y };
+        let panels = vec![Panel { quantity: "amplitude", y, layers, heading: String::new() }];
+        let description = format!(
+            "amplitude of the excitation over its frequency, {} rows, {} measured",
+            self.rows.len(),
+            self.measured.len()
+        );
+        let x = Measure::new("Excitation frequency (Hz)");
+        Chart { title: self.title.clone(), x, panels, legend: vec![legend], description, aspect: Some(0.6) }
+            .draw(style)
+    }
+}
