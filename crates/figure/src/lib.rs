@@ -95,7 +95,9 @@ pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{OrbitDiagram, OrbitSample};
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
-pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
+pub use response_diagram::{
+    MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
+};
 pub use scale::ScaleChoice;
 pub use structure_diagram::{
     SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink, SketchLumped, SketchPoint, SketchStop,
