@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use hammerbeam_study::verify::TOLERANCE;
+use hammerbeam_study::{file::DrawnOrbit, verify::TOLERANCE};
 
 use crate::{
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
@@ -75,7 +75,7 @@ pub struct ModesOptions {
     /// Study file
     pub study: PathBuf,
 
-    /// Folder, made if it is not there, into which the error of the reduction is drawn
+    /// Folder, made if it is not there, into which the structure, its modes, the error of the reduction and the excitation are drawn
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -110,6 +110,10 @@ pub struct OrbitOptions {
     /// Folder, made if it is not there, into which each solution is drawn: over its period, in the phase plane, and its spectrum
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    /// Draw the acceleration behind a low-pass filter as well [default: that of the study]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, requires = "out")]
+    pub low_pass: Option<f64>,
 }
 
 #[derive(Debug, Args)]
@@ -142,6 +146,14 @@ pub struct FigureOptions {
     /// Scale of the vertical axis of response diagrams
     #[arg(long, value_enum, default_value_t = FigureScale::Automatic)]
     pub scale: FigureScale,
+
+    /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may be given several times [default: those of the study]
+    #[arg(long, value_name = "HZ[:N]", value_parser = orbit)]
+    pub orbit: Vec<DrawnOrbit>,
+
+    /// Draw accelerations of orbits behind a low-pass filter as well [default: that of the study]
+    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    pub low_pass: Option<f64>,
 }
 
 /// Scale of an axis.
@@ -158,14 +170,18 @@ pub enum FigureScale {
 /// What a figure shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FigureKind {
-    /// The structure with its stops
+    /// The structure with its stops, its modes, the error of its reduction, the amplitude of its excitation
     Structure,
-    /// Branches: maximum displacement and acceleration over the frequency
+    /// Branches: maximum displacement, acceleration, contact force and impact velocity over the frequency
     Response,
+    /// Branches over another parameter than the frequency
+    Vary,
     /// Curves of bifurcations in two parameters
     Curves,
     /// Floquet multipliers of each branch, over the frequency and in the complex plane
     Multipliers,
+    /// Orbits at the frequencies of --orbit, else at those of the study
+    Orbits,
     /// Settled motions of sweeps over the frequency
     Sweeps,
     /// Lyapunov exponents, their convergence, and stroboscopic sections
@@ -175,11 +191,13 @@ pub enum FigureKind {
 }
 
 impl FigureKind {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Structure,
         Self::Response,
+        Self::Vary,
         Self::Curves,
         Self::Multipliers,
+        Self::Orbits,
         Self::Sweeps,
         Self::Exponents,
         Self::Basins,
@@ -222,6 +240,18 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("must be a finite number of hertz, more than 0".to_owned()),
+    }
+}
+
+/// `HZ`, or `HZ:N` for an orbit of N excitation periods.
+fn orbit(text: &str) -> Result<DrawnOrbit, String> {
+    let (frequency, multiple) = text.split_once(':').unwrap_or((text, "1"));
+    let frequency_hz = positive(frequency)?;
+    match multiple.parse::<u32>() {
+        Ok(period_multiple) if (1..=64).contains(&period_multiple) => {
+            Ok(DrawnOrbit { frequency_hz, period_multiple })
+        }
+        _ => Err("must be a frequency, or a frequency and a whole number from 1 to 64: 53:2".to_owned()),
     }
 }
 

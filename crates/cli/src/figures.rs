@@ -1,9 +1,11 @@
 //! Figures of a results folder.
 
+mod linear;
 mod motions;
 mod multipliers;
 pub mod orbit;
 mod structure;
+mod varied;
 
 use std::{fs, path::Path};
 
@@ -12,18 +14,54 @@ use hammerbeam_figure::{
     Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Figure, FigureError, Quantity, ResponseCurve,
     ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
+use hammerbeam_structure::ModeTables;
 use hammerbeam_study::{
-    Store, StoreError, StudyFile,
+    Model, Store, StoreError, StudyFile,
+    file::DrawnOrbit,
     store::{PieceRecord, Row},
 };
 
-use crate::args::{FigureKind, FigureScale};
+use crate::{
+    args::{FigureKind, FigureScale},
+    failure::Failure,
+};
 
 /// Resolution of the PNG files, in pixels per inch.
 const RESOLUTION: f64 = 300.0;
 
-const FIGURES: [(&str, Quantity); 2] =
-    [("response_displacement", Quantity::Displacement), ("response_acceleration", Quantity::Acceleration)];
+/// Quantities of response diagrams, with the words that files have for them.
+const FIGURES: [(&str, Quantity); 4] = [
+    ("displacement", Quantity::Displacement),
+    ("acceleration", Quantity::Acceleration),
+    ("force", Quantity::ContactForce),
+    ("velocity", Quantity::ImpactVelocity),
+];
+
+/// How a results folder is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wishes {
+    /// What is drawn.
+    pub kinds: Vec<FigureKind>,
+    /// Scale of the vertical axis of response diagrams.
+    pub scale: FigureScale,
+    /// Orbits at frequencies.
+    pub orbits: Vec<DrawnOrbit>,
+    /// Cut-off of the filter behind which accelerations of orbits are drawn as well (Hz).
+    pub low_pass_hz: Option<f64>,
+}
+
+impl Wishes {
+    /// Everything that a folder holds, and the orbits of the study.
+    pub fn of(file: &StudyFile) -> Self {
+        let figures = &file.study.figures;
+        Self {
+            kinds: FigureKind::ALL.to_vec(),
+            scale: FigureScale::Automatic,
+            orbits: figures.orbits.clone(),
+            low_pass_hz: figures.low_pass_hz,
+        }
+    }
+}
 
 /// Files as they are drawn, and what cannot be.
 #[derive(Debug)]
@@ -47,7 +85,7 @@ impl<'a> Drawn<'a> {
         let figure = match figure {
             Ok(figure) => figure,
             Err(reason) => {
-                self.refused.push((name.to_owned(), reason.to_string()));
+                self.refuse(name, reason.to_string());
                 return Ok(());
             }
         };
@@ -59,6 +97,20 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
+    /// Writes a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
+    pub fn add_unless_empty(
+        &mut self,
+        name: &str,
+        figure: Result<Figure, FigureError>,
+    ) -> anyhow::Result<()> {
+        if matches!(figure, Err(FigureError::Empty { .. })) { Ok(()) } else { self.add(name, figure) }
+    }
+
+    /// Notes why there is no figure.
+    pub fn refuse(&mut self, name: &str, reason: String) {
+        self.refused.push((name.to_owned(), reason));
+    }
+
     /// Says on standard error what could not be drawn.
     pub fn tell_refused(&self) {
         for (name, reason) in &self.refused {
@@ -67,60 +119,91 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// Draws the response diagrams and the curves of bifurcations into the results folder, each as SVG and PNG.
-///
-/// # Returns
-/// Names of the files.
-pub fn draw(store: &Store, range_hz: [f64; 2]) -> anyhow::Result<Vec<String>> {
-    let mut drawn = Drawn::into(store.folder())?;
-    draw_response(store, range_hz, FigureScale::Automatic, &mut drawn)?;
-    draw_curves(store, &mut drawn)?;
-    match drawn.refused.first() {
-        Some((name, reason)) => anyhow::bail!("cannot draw {name}: {reason}"),
-        None => Ok(drawn.files),
+/// Draws what is wished of a results folder.
+pub fn draw(
+    store: &Store,
+    (file, model): (&StudyFile, &Model),
+    wishes: &Wishes,
+    drawn: &mut Drawn<'_>,
+) -> Result<(), Failure> {
+    for kind in FigureKind::ALL.into_iter().filter(|kind| wishes.kinds.contains(kind)) {
+        draw_kind(store, (file, model), (kind, wishes), drawn)?;
     }
+    Ok(())
 }
 
-/// Draws the figures of a kind.
-pub fn draw_kind(
+fn draw_kind(
     store: &Store,
-    file: &StudyFile,
-    (kind, scale): (FigureKind, FigureScale),
+    (file, model): (&StudyFile, &Model),
+    (kind, wishes): (FigureKind, &Wishes),
     drawn: &mut Drawn<'_>,
-) -> anyhow::Result<()> {
+) -> Result<(), Failure> {
     match kind {
-        FigureKind::Structure => drawn.add("structure", structure::sketch(&file.study)),
-        FigureKind::Response if store.branches()?.is_empty() => Ok(()),
-        FigureKind::Response => draw_response(store, file.study.excitation.frequency_hz, scale, drawn),
-        FigureKind::Curves => draw_curves(store, drawn),
-        FigureKind::Multipliers => multipliers::draw(store, drawn),
-        FigureKind::Sweeps => motions::draw_sweeps(store, drawn),
-        FigureKind::Exponents => motions::draw_exponents(store, drawn),
-        FigureKind::Basins => motions::draw_basins(store, file, drawn),
+        FigureKind::Structure => draw_linear(drawn, file, model)?,
+        FigureKind::Response => draw_response(store, file, wishes.scale, drawn)?,
+        FigureKind::Vary => varied::draw(store, wishes.scale, drawn)?,
+        FigureKind::Curves => draw_curves(store, drawn)?,
+        FigureKind::Multipliers => multipliers::draw(store, drawn)?,
+        FigureKind::Orbits => {
+            let asked = (wishes.orbits.as_slice(), wishes.low_pass_hz);
+            orbit::draw_stored(store.folder(), (file, model), asked, drawn)?;
+        }
+        FigureKind::Sweeps => motions::draw_sweeps(store, drawn)?,
+        FigureKind::Exponents => motions::draw_exponents(store, drawn)?,
+        FigureKind::Basins => motions::draw_basins(store, (file, model), drawn)?,
     }
+    Ok(())
+}
+
+/// Draws the structure, its modes, the error of its reduction if it is reduced, and its excitation.
+pub fn draw_linear(drawn: &mut Drawn<'_>, file: &StudyFile, model: &Model) -> anyhow::Result<()> {
+    let (study, tables): (_, &ModeTables) = (&file.study, &model.tables);
+    drawn.add("structure", structure::sketch(study))?;
+    drawn.add("modes", linear::modes(study, model))?;
+    if !tables.frequency_errors.is_empty() {
+        drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables))?;
+    }
+    drawn.add("excitation", linear::excitation(study))
 }
 
 fn draw_response(
     store: &Store,
-    range_hz: [f64; 2],
+    file: &StudyFile,
     scale: FigureScale,
     drawn: &mut Drawn<'_>,
 ) -> anyhow::Result<()> {
-    let diagram = diagram(store, range_hz)?;
+    let diagram = diagram(store, file.study.excitation.frequency_hz)?;
+    if diagram.curves.is_empty() {
+        return Ok(());
+    }
+    let has_contacts = |value: fn(&ResponsePoint) -> f64| {
+        diagram.curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)
+    };
+    for (word, quantity) in FIGURES {
+        let is_there = match quantity {
+            Quantity::ContactForce => has_contacts(|point| point.contact_force_n),
+            Quantity::ImpactVelocity => has_contacts(|point| point.impact_velocity_m_s),
+            _ => true,
+        };
+        if is_there {
+            drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale)))?;
+        }
+    }
+    Ok(())
+}
+
+fn settings(scale: FigureScale) -> ResponseSettings {
     let choice = match scale {
         FigureScale::Automatic => ScaleChoice::Automatic,
         FigureScale::Linear => ScaleChoice::Linear,
         FigureScale::Logarithmic => ScaleChoice::Logarithmic,
     };
-    let settings = ResponseSettings {
+    ResponseSettings {
         displacement_scale: choice,
         acceleration_scale: choice,
+        contact_scale: choice,
         ..ResponseSettings::default()
-    };
-    for (name, quantity) in FIGURES {
-        drawn.add(name, diagram.draw_with(&[quantity], &settings))?;
     }
-    Ok(())
 }
 
 /// Draws the curves of bifurcations, one figure for each parameter that they are over.
@@ -138,8 +221,7 @@ fn draw_curves(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
             continue;
         }
         let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
-        let name = parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
-        drawn.add(&format!("curves_{name}"), diagram.draw(&Style::default()))?;
+        drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&Style::default()))?;
     }
     Ok(())
 }
@@ -177,6 +259,11 @@ fn codimension_two(events: &str) -> String {
     events.split('+').filter_map(name).collect::<Vec<String>>().join(", ")
 }
 
+/// A parameter as part of a file name.
+fn file_name(parameter: &str) -> String {
+    parameter.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
+}
+
 /// A parameter in words, with its unit.
 fn axis_label(parameter: &str) -> String {
     let (owner, key) = parameter.rsplit_once('.').unwrap_or(("", parameter));
@@ -205,6 +292,7 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> anyhow::Result<ResponseDiagr
     }
     Ok(ResponseDiagram {
         title: store.about("title")?,
+        parameter: String::new(),
         curves,
         frequency_range_hz: Some((low, high)),
         chaotic_ranges_hz: motions::chaotic_ranges(store)?,
@@ -217,6 +305,8 @@ fn point(row: &Row) -> ResponsePoint {
         frequency_hz: row.frequency_hz,
         displacement_m: row.maxima.displacement,
         acceleration_m_s2: row.maxima.acceleration,
+        contact_force_n: row.maxima.contact_force,
+        impact_velocity_m_s: row.maxima.impact_velocity,
         stable: row.stable,
         fold: row.events.fold,
         grazing: row.events.grazing,

@@ -93,7 +93,7 @@ pub use mode_diagram::{DrawnMode, ModeDiagram};
 pub use motion::MotionKind;
 pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
-pub use orbit_diagram::{OrbitDiagram, OrbitSample};
+pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitSample};
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
     MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,

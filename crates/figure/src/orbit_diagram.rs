@@ -25,8 +25,19 @@ pub struct OrbitDiagram {
     pub period_multiple: u32,
     /// The samples.
     pub samples: Vec<OrbitSample>,
+    /// The acceleration behind a low-pass filter, as an instrument shows it.
+    pub filtered: Option<FilteredAcceleration>,
     /// Eigenfrequencies of the structure without its local elements (Hz), marked in the spectrum.
     pub eigenfrequencies_hz: Vec<f64>,
+}
+
+/// An acceleration behind a low-pass filter that has settled.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FilteredAcceleration {
+    /// Cut-off frequency (Hz).
+    pub cut_off_hz: f64,
+    /// One value for each sample of the orbit (m/s²).
+    pub values_m_s2: Vec<f64>,
 }
 
 /// A sample of an orbit.
@@ -60,6 +71,11 @@ impl OrbitDiagram {
             plain("displacement", "Displ. (mm)", self.over_time(|sample| 1e3 * sample.displacement_m)),
             plain("acceleration", "Accel. (m/s²)", self.over_time(|sample| sample.acceleration_m_s2)),
         ];
+        if let Some(filtered) = &self.filtered {
+            let heading = format!("acceleration behind a low-pass filter of {} Hz", filtered.cut_off_hz);
+            let points = self.closed(&filtered.values_m_s2);
+            panels.push(Panel { heading, ..plain("filtered acceleration", "Accel. (m/s²)", points) });
+        }
         let elements = self.samples.first().map_or(0, |sample| sample.forces_n.len());
         let force = |k: usize| {
             let value = |sample: &OrbitSample| sample.forces_n.get(k).copied().unwrap_or(f64::NAN);
@@ -82,7 +98,7 @@ impl OrbitDiagram {
         self.chart("one period of the orbit", x, panels, legend, Some(0.16)).draw(style)
     }
 
-    /// Velocity over displacement, with the points at phase 0.
+    /// Velocity over displacement, with the points at phase 0; below it these points alone, the Poincaré section.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
@@ -90,15 +106,25 @@ impl OrbitDiagram {
         let at = |sample: &OrbitSample| (1e3 * sample.displacement_m, sample.velocity_m_s);
         let points = self.samples.iter().chain(self.samples.first()).map(at).collect();
         let (count, multiple) = (self.samples.len(), self.period_multiple.max(1) as usize);
-        let strobed = (0..multiple).filter_map(|k| self.samples.get(k * count / multiple)).map(at).collect();
+        let strobed: Vec<(f64, f64)> =
+            (0..multiple).filter_map(|k| self.samples.get(k * count / multiple)).map(at).collect();
         let dot = Dot { shape: Shape::Circle, colour: INK, full: true, radius: 1.6 };
-        let layers =
-            vec![Layer::Line { points, pattern: line_pattern(0) }, Layer::Dots { points: strobed, dot }];
+        let dots = Layer::Dots { points: strobed, dot };
         let legend =
             vec![vec![Entry { sample: Sample::Dot(dot), name: "phase 0 of the excitation".to_owned() }]];
-        let y = Measure::new("Velocity (m/s)");
-        let panels = vec![Panel { quantity: "velocity", y, layers, heading: String::new() }];
-        self.chart("phase portrait", Measure::new("Displacement (mm)"), panels, legend, Some(0.8)).draw(style)
+        let panel = |quantity, heading: &str, layers| Panel {
+            quantity,
+            y: Measure::new("Velocity (m/s)"),
+            layers,
+            heading: heading.to_owned(),
+        };
+        let line = Layer::Line { points, pattern: line_pattern(0) };
+        let panels = vec![
+            panel("velocity", "phase portrait", vec![line, dots.clone()]),
+            panel("point of the section", "Poincaré section", vec![dots]),
+        ];
+        let x = Measure::new("Displacement (mm)");
+        self.chart("phase portrait and Poincaré section", x, panels, legend, Some(0.62)).draw(style)
     }
 
     /// Amplitudes of the harmonics of the acceleration, with the eigenfrequencies marked.
@@ -142,9 +168,13 @@ impl OrbitDiagram {
 
     /// Values over the time, closed at the end of the period.
     fn over_time(&self, value: impl Fn(&OrbitSample) -> f64) -> Vec<(f64, f64)> {
-        let step = self.periods() / self.samples.len().max(1) as f64;
-        let closed = self.samples.iter().chain(self.samples.first()).enumerate();
-        closed.map(|(k, sample)| (k as f64 * step, value(sample))).collect()
+        self.closed(&self.samples.iter().map(value).collect::<Vec<f64>>())
+    }
+
+    fn closed(&self, values: &[f64]) -> Vec<(f64, f64)> {
+        let step = self.periods() / values.len().max(1) as f64;
+        let closed = values.iter().chain(values.first()).enumerate();
+        closed.map(|(k, value)| (k as f64 * step, *value)).collect()
     }
 
     fn chart(

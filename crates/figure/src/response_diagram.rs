@@ -1,5 +1,5 @@
-//! The response diagram: maximum displacement and acceleration of the response point over the excitation
-//! frequency.
+//! The response diagram: maximum displacement and acceleration of the response point, contact force and impact velocity over the
+//! excitation frequency, or over another parameter.
 //!
 //! Figures 3 and 4 of van de Vorst, Fey, de Kraker, van Campen are of this kind.
 
@@ -17,6 +17,9 @@ use crate::{
 pub struct ResponseDiagram {
     /// Title above the figure; empty for none, as most journals want it.
     pub title: String,
+    /// What the horizontal axis measures, with the unit, for branches over another parameter: all that is said of the frequency is then
+    /// said of that parameter. Empty for the frequency.
+    pub parameter: String,
     /// The branches, in the order in which they are drawn.
     pub curves: Vec<ResponseCurve>,
     /// Ends of the frequency axis (Hz); by default those of the data.
@@ -90,6 +93,10 @@ pub struct ResponsePoint {
     pub displacement_m: f64,
     /// Maximum of the absolute acceleration over the period (m/s²).
     pub acceleration_m_s2: f64,
+    /// Largest contact force over the period and over all local elements (N).
+    pub contact_force_n: f64,
+    /// Largest speed with which a contact is reached (m/s).
+    pub impact_velocity_m_s: f64,
     /// Whether the solution is stable; at an event the neighbours decide how the line is drawn.
     pub stable: bool,
     /// The branch turns: a multiplier of +1.
@@ -111,6 +118,10 @@ pub enum Quantity {
     Displacement,
     /// Maximum acceleration (m/s²).
     Acceleration,
+    /// Largest contact force (N).
+    ContactForce,
+    /// Largest speed with which a contact is reached (m/s).
+    ImpactVelocity,
 }
 
 /// How the diagram is drawn.
@@ -122,6 +133,8 @@ pub struct ResponseSettings {
     pub displacement_scale: ScaleChoice,
     /// Scale of the axis of accelerations.
     pub acceleration_scale: ScaleChoice,
+    /// Scale of the axis of contact forces and of that of impact velocities.
+    pub contact_scale: ScaleChoice,
 }
 
 impl ResponseDiagram {
@@ -163,6 +176,8 @@ impl Quantity {
         match self {
             Self::Displacement => "maximum displacement",
             Self::Acceleration => "maximum acceleration",
+            Self::ContactForce => "largest contact force",
+            Self::ImpactVelocity => "largest impact velocity",
         }
     }
 
@@ -171,6 +186,7 @@ impl Quantity {
         match self {
             Self::Displacement => mark.displacement_m.map_or(f64::NAN, |value| 1e3 * value),
             Self::Acceleration => mark.acceleration_m_s2.unwrap_or(f64::NAN),
+            Self::ContactForce | Self::ImpactVelocity => f64::NAN,
         }
     }
 
@@ -179,6 +195,8 @@ impl Quantity {
         match self {
             Self::Displacement => 1e3 * point.displacement_m,
             Self::Acceleration => point.acceleration_m_s2,
+            Self::ContactForce => point.contact_force_n,
+            Self::ImpactVelocity => point.impact_velocity_m_s,
         }
     }
 }

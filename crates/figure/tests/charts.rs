@@ -4,9 +4,9 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::{
-    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, Figure, FigureError,
+    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, Figure, FigureError, FilteredAcceleration,
     MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitSample, Origin, Quantity, ResponseCurve,
-    ResponseDiagram, ResponsePoint, SectionDiagram, Style, SweepDiagram, SweptMotion,
+    ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, SectionDiagram, Style, SweepDiagram, SweptMotion,
 };
 
 fn basins() -> BasinMap {
@@ -92,6 +92,7 @@ fn orbit() -> OrbitDiagram {
         frequency_hz: 10.0,
         period_multiple: 1,
         samples: (0..256).map(sample).collect(),
+        filtered: None,
         eigenfrequencies_hz: vec![18.0],
     }
 }
@@ -258,4 +259,59 @@ fn chaotic_ranges_are_shaded_and_named() {
     assert!(shaded.description().contains("chaotic motion found at 22.000 to 24.000 Hz"));
     // What lies outside the axis is cut off: one rectangle, and the sample of the legend.
     assert_eq!(shaded.svg().matches("fill=\"#f8ebd5\"").count(), 2);
+}
+
+#[test]
+fn a_filtered_acceleration_has_a_panel_of_its_own_with_the_cut_off() {
+    let plain = orbit().draw_history(&Style::double_column()).unwrap();
+    let filtered = FilteredAcceleration { cut_off_hz: 20.0, values_m_s2: vec![7.0; 256] };
+    let with = OrbitDiagram { filtered: Some(filtered), ..orbit() }.draw_history(&Style::double_column()).unwrap();
+    assert!(with.svg().contains("low-pass filter of 20 Hz") && !plain.svg().contains("low-pass"));
+    assert!(with.height_mm() > plain.height_mm());
+    let other = FilteredAcceleration { cut_off_hz: 20.0, values_m_s2: Vec::new() };
+    let refused = OrbitDiagram { filtered: Some(other), ..orbit() }.draw_history(&Style::double_column());
+    assert!(refused.unwrap_err().to_string().contains("no finite filtered acceleration"));
+}
+
+/// Of an orbit of three excitation periods the section has three points, and they stand in the portrait as well.
+#[test]
+fn the_section_of_an_orbit_has_as_many_points_as_excitation_periods() {
+    let svg = OrbitDiagram { period_multiple: 3, ..orbit() }.draw_phase(&Style::single_column()).unwrap().svg();
+    assert!(svg.contains(">phase portrait<") && svg.contains(">Poincaré section<"));
+    let dots = svg.split(" d=\"").map(|rest| rest.split('"').next().unwrap().matches(" 0 1 0 ").count() / 2);
+    assert_eq!(dots.filter(|circles| *circles == 3).count(), 2, "three dots in each of the two frames");
+}
+
+/// Contact forces and impact velocities have their axes; without a contact there is nothing on a logarithmic one.
+#[test]
+fn contact_forces_and_impact_velocities_have_their_diagrams() {
+    let point = |k: i32, force: f64| ResponsePoint {
+        frequency_hz: f64::from(k),
+        contact_force_n: force,
+        impact_velocity_m_s: 1e-3 * force,
+        stable: true,
+        ..ResponsePoint::default()
+    };
+    let diagram = |force: f64| ResponseDiagram {
+        curves: vec![ResponseCurve { period_multiple: 1, points: (1..9).map(|k| point(k, force)).collect() }],
+        ..ResponseDiagram::default()
+    };
+    assert!(diagram(5.0).draw(Quantity::ContactForce).unwrap().svg().contains("Largest contact force (N)"));
+    assert!(diagram(5.0).draw(Quantity::ImpactVelocity).unwrap().svg().contains("impact velocity (m/s)"));
+    let settings = ResponseSettings { contact_scale: ScaleChoice::Logarithmic, ..ResponseSettings::default() };
+    assert!(diagram(0.0).draw_with(&[Quantity::ContactForce], &settings).is_err());
+}
+
+#[test]
+fn branches_over_another_parameter_say_which() {
+    let point = |k: i32| ResponsePoint { frequency_hz: 0.1 * f64::from(k), displacement_m: 1e-3, ..ResponsePoint::default() };
+    let curve = ResponseCurve { period_multiple: 1, points: (1..9).map(point).collect() };
+    let diagram = ResponseDiagram {
+        parameter: "Gap of stop 1 (m)".to_owned(),
+        curves: vec![curve],
+        ..ResponseDiagram::default()
+    };
+    let figure = diagram.draw(Quantity::Displacement).unwrap();
+    assert!(figure.svg().contains(">Gap of stop 1 (m)<") && !figure.svg().contains("Excitation frequency"));
+    assert!(figure.description().contains("over Gap of stop 1 (m)"));
 }

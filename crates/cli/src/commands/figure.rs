@@ -1,12 +1,12 @@
 //! `hammerbeam figure`: pictures of everything in a results folder.
 
-use hammerbeam_study::{Store, StudyFile};
+use hammerbeam_study::{Model, Store, StudyFile};
 use serde_json::json;
 
 use crate::{
-    args::{FigureKind, FigureOptions},
+    args::FigureOptions,
     failure::Failure,
-    figures::{self, Drawn},
+    figures::{self, Drawn, Wishes},
     output::Output,
 };
 
@@ -14,12 +14,11 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let snapshot = store.snapshot()?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
+    let model = Model::build(&file)?;
     let folder = options.out.as_deref().unwrap_or(&options.results);
     let mut drawn = Drawn::into(folder)?;
-    let kinds = if options.kind.is_empty() { FigureKind::ALL.as_slice() } else { &options.kind };
-    for kind in FigureKind::ALL.into_iter().filter(|kind| kinds.contains(kind)) {
-        figures::draw_kind(&store, &file, (kind, options.scale), &mut drawn)?;
-    }
+    let wishes = wishes(options, &file);
+    figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
     drop(snapshot);
     drawn.tell_refused();
     let Drawn { files, refused, .. } = drawn;
@@ -33,4 +32,15 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
         format!("{} files in {}:\n{}", files.len(), folder.display(), files.join("\n"))
     });
     Ok(())
+}
+
+/// What the options ask for: of what they do not name, everything.
+fn wishes(options: &FigureOptions, file: &StudyFile) -> Wishes {
+    let all = Wishes::of(file);
+    Wishes {
+        kinds: if options.kind.is_empty() { all.kinds } else { options.kind.clone() },
+        scale: options.scale,
+        orbits: if options.orbit.is_empty() { all.orbits } else { options.orbit.clone() },
+        low_pass_hz: options.low_pass.or(all.low_pass_hz),
+    }
 }

@@ -1,13 +1,15 @@
 //! `hammerbeam modes`: eigenfrequencies before and after the reduction.
 
-use std::path::Path;
-
-use hammerbeam_figure::{ReducedMode, ReductionDiagram, Style};
-use hammerbeam_structure::{FrequencyError, ModeTables};
+use hammerbeam_structure::ModeTables;
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
-use crate::{args::ModesOptions, failure::Failure, figures::Drawn, output::Output};
+use crate::{
+    args::ModesOptions,
+    failure::Failure,
+    figures::{self, Drawn},
+    output::Output,
+};
 
 /// Rows of the table that are always shown, when there are so many.
 const SHOWN: usize = 12;
@@ -17,27 +19,13 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let model = Model::build(&file)?;
     let mut document = document(&model.tables);
     if let Some(folder) = &options.out {
-        let drawn = draw(folder, &file.study.title, &model.tables)?;
+        let mut drawn = Drawn::into(folder)?;
+        figures::draw_linear(&mut drawn, &file, &model)?;
         drawn.tell_refused();
         document["figures"] = json!(drawn.files);
     }
     output.give(&document, || text(&model.tables));
     Ok(())
-}
-
-fn draw<'a>(folder: &'a Path, title: &str, tables: &ModeTables) -> Result<Drawn<'a>, Failure> {
-    let mode = |error: &FrequencyError| ReducedMode {
-        full_hz: error.full_hz,
-        relative_error: error.relative,
-        below_cut_off: error.below_cut_off,
-    };
-    let modes = tables.frequency_errors.iter().map(mode).collect();
-    let mut drawn = Drawn::into(folder)?;
-    drawn.add(
-        "reduction",
-        ReductionDiagram { title: title.to_owned(), modes }.draw(&Style::single_column()),
-    )?;
-    Ok(drawn)
 }
 
 fn document(tables: &ModeTables) -> Value {

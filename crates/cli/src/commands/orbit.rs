@@ -42,7 +42,8 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     }
     let mut document = document(first, others, complete);
     if let Some(folder) = &options.out {
-        let drawn = figures::orbit::draw(folder, &model, &file.study.title, &orbits)?;
+        let low_pass_hz = options.low_pass.or(file.study.figures.low_pass_hz);
+        let drawn = figures::orbit::draw(folder, (&model, &file.study.title), &orbits, low_pass_hz)?;
         drawn.tell_refused();
         document["figures"] = json!(drawn.files);
     }

@@ -12,7 +12,12 @@ use hammerbeam_study::{
 use serde_json::{Value, json};
 
 use crate::{
-    args::RunOptions, drift, failure::Failure, figures, interrupt::Interrupt, output::Output,
+    args::RunOptions,
+    drift,
+    failure::Failure,
+    figures::{self, Drawn, Wishes},
+    interrupt::Interrupt,
+    output::Output,
     progress::Terminal,
 };
 
@@ -43,11 +48,17 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         Summary { study: &file.study, folder: options.out.display().to_string(), branches, pieces, jobs };
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
-        _ if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
-            let figures = figures::draw(&store, file.study.excitation.frequency_hz)?;
-            output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
-            Ok(())
+            let mut drawn = Drawn::into(&options.out)?;
+            figures::draw(&store, (&file, &model), &Wishes::of(&file), &mut drawn)?;
+            drawn.tell_refused();
+            if summary.branches.is_empty() {
+                Err(Failure::NoResult(summary.nothing()))
+            } else {
+                let figures = drawn.files;
+                output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
+                Ok(())
+            }
         }
     };
     store.finish()?;

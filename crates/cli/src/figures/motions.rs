@@ -65,14 +65,17 @@ pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()
 }
 
 /// Draws the basins of every request.
-pub fn draw_basins(store: &Store, file: &StudyFile, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw_basins(
+    store: &Store,
+    (file, model): (&StudyFile, &Model),
+    drawn: &mut Drawn<'_>,
+) -> anyhow::Result<()> {
     let requests: Vec<RequestRecord> =
         store.requests()?.into_iter().filter(|request| request.kind == RequestKind::Basins).collect();
     if requests.is_empty() {
         return Ok(());
     }
     let title = store.about("title")?;
-    let model = Model::build(file)?;
     let branches = StoredBranches::open(store.folder(), file)?;
     for request in requests {
         let (cells, attractors) = store.basins(request.id)?;
@@ -80,7 +83,7 @@ pub fn draw_basins(store: &Store, file: &StudyFile, drawn: &mut Drawn<'_>) -> an
         let mut destinations = Vec::new();
         for attractor in &attractors {
             let branch = match attractor.class {
-                Class::Periodic { .. } => branches.branch_of(&model, frequency_hz, &attractor.states)?,
+                Class::Periodic { .. } => branches.branch_of(model, frequency_hz, &attractor.states)?,
                 _ => None,
             };
             let places = places(&request, model.system.dof(), attractor);
@@ -109,12 +112,22 @@ pub fn draw_basins(store: &Store, file: &StudyFile, drawn: &mut Drawn<'_>) -> an
     Ok(())
 }
 
-/// Ranges of the frequency in which a stored sweep has a chaotic motion: each reaches half-way to the next frequency of the sweep.
+/// Ranges of the frequency in which a stored sweep has a chaotic motion, or a stored series of exponents one whose largest exponent is
+/// positive with confidence: each reaches half-way to the next frequency of its sweep or series.
 pub fn chaotic_ranges(store: &Store) -> Result<Vec<(f64, f64)>, StoreError> {
     let mut ranges = Vec::new();
     for request in store.requests()? {
         if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
-            ranges.extend(ranges_of(&store.settled(request.id)?));
+            let is_chaotic = |motion: &SettledMotion| motion.point.class == Class::Chaotic;
+            let motions = store.settled(request.id)?;
+            let seen = motions.iter().map(|motion| (motion.point.frequency_hz, is_chaotic(motion)));
+            ranges.extend(ranges_of(&seen.collect::<Vec<_>>()));
+        }
+        if request.kind == RequestKind::Exponents {
+            let is_chaotic = |point: &ExponentPoint| point.largest_per_s > point.half_width_per_s;
+            let points: Vec<ExponentPoint> = store.exponents(request.id)?.iter().map(exponent).collect();
+            let seen = points.iter().map(|point| (point.frequency_hz, is_chaotic(point)));
+            ranges.extend(ranges_of(&seen.collect::<Vec<_>>()));
         }
     }
     ranges.sort_by(|a: &(f64, f64), b| a.0.total_cmp(&b.0));
@@ -128,15 +141,13 @@ pub fn chaotic_ranges(store: &Store) -> Result<Vec<(f64, f64)>, StoreError> {
     Ok(joined)
 }
 
-fn ranges_of(motions: &[SettledMotion]) -> Vec<(f64, f64)> {
-    let mut frequencies: Vec<f64> = motions.iter().map(|motion| motion.point.frequency_hz).collect();
+/// Ranges around the frequencies at which something chaotic was seen.
+fn ranges_of(seen: &[(f64, bool)]) -> Vec<(f64, f64)> {
+    let mut frequencies: Vec<f64> = seen.iter().map(|(frequency, _)| *frequency).collect();
     frequencies.sort_by(f64::total_cmp);
     frequencies.dedup();
-    let is_chaotic = |frequency: f64| {
-        motions
-            .iter()
-            .any(|motion| motion.point.frequency_hz == frequency && motion.point.class == Class::Chaotic)
-    };
+    let is_chaotic =
+        |frequency: f64| seen.iter().any(|(other, is_chaotic)| *other == frequency && *is_chaotic);
     let half_way = |place: usize, other: Option<usize>| {
         let beside = other.and_then(|other| frequencies.get(other)).unwrap_or(&frequencies[place]);
         0.5 * (frequencies[place] + beside)

@@ -88,7 +88,7 @@ impl<'a> Page<'a> {
         let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
         let horizontal = Axis::new(
             Scale::exact(ScaleKind::Linear, range_hz),
-            Text::upright("Excitation frequency (Hz)"),
+            Text::upright(horizontal_label(diagram)),
             right - left,
             TICK_SPACING.0,
         );
@@ -141,8 +141,8 @@ impl<'a> Page<'a> {
         let solutions: usize = self.diagram.curves.iter().map(|curve| curve.points.len()).sum();
         let (branches, names) = (if curves == 1 { "branch" } else { "branches" }, names.join(" and "));
         let mut description = format!(
-            "{names} over excitation frequency, {curves} {branches} with {solutions} solutions; \
-             stable solid, unstable dashed"
+            "{names} over {}, {curves} {branches} with {solutions} solutions; stable solid, unstable dashed",
+            if self.diagram.parameter.is_empty() { "excitation frequency" } else { &self.diagram.parameter }
         );
         if !self.diagram.chaotic_ranges_hz.is_empty() {
             let words = |(from, to): &(f64, f64)| format!("{from:.3} to {to:.3} Hz");
@@ -165,6 +165,10 @@ impl<'a> Page<'a> {
         }
         description
     }
+}
+
+fn horizontal_label(diagram: &ResponseDiagram) -> &str {
+    if diagram.parameter.is_empty() { "Excitation frequency (Hz)" } else { &diagram.parameter }
 }
 
 /// Height of a panel over that of a figure of one: panels on top of each other are lower.

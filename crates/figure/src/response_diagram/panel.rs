@@ -59,6 +59,8 @@ impl Panel {
             Quantity::Acceleration => {
                 Text::upright("Acceleration max\u{2009}|").variable("ÿ").and("| (m/s²)")
             }
+            Quantity::ContactForce => Text::upright("Largest contact force (N)"),
+            Quantity::ImpactVelocity => Text::upright("Largest impact velocity (m/s)"),
         }
     }
 
@@ -133,6 +135,7 @@ fn scale_choice(quantity: Quantity, settings: &ResponseSettings) -> ScaleChoice 
     match quantity {
         Quantity::Displacement => settings.displacement_scale,
         Quantity::Acceleration => settings.acceleration_scale,
+        Quantity::ContactForce | Quantity::ImpactVelocity => settings.contact_scale,
     }
 }
 

@@ -38,12 +38,13 @@ fn every_key_is_documented() {
     for added in ["gravity", "force", "support-motion"].map(load) {
         keys.extend(known_keys(&format!("{BEAM}\n{added}")));
     }
-    for table in ["continuation", "search"] {
+    for table in ["continuation", "search", "figures"] {
         keys.extend(known_keys(&format!("{BEAM}\n[{table}]\nwrong_key = 1\n")));
     }
     for table in ["vary", "curve"] {
         keys.extend(known_keys(&format!("{BEAM}\n[[{table}]]\nwrong_key = 1\n")));
     }
+    keys.extend(known_keys(&format!("{BEAM}\n[[figures.orbit]]\nwrong_key = 1\n")));
     keys.extend(known_keys(&BEAM.replace("height_m = 0.003 }", "height_m = 0.003, wrong_key = 1 }")));
     assert!(keys.len() > 80, "{}", keys.len());
     for key in keys {

@@ -13,9 +13,9 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Curve, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Search, Stop,
-    Structure, Vary, continuation, damping, excitation, load, names::Names, parameter::Variable, reduction,
-    response, search, stop, structure, vary,
+    Continuation, Curve, Damping, Excitation, ExcitationKind, Figures, Load, Reduction, Response, Search,
+    Stop, Structure, Vary, continuation, damping, excitation, figures, load, names::Names,
+    parameter::Variable, reduction, response, search, stop, structure, vary,
 };
 
 /// Everything a study says.
@@ -48,6 +48,9 @@ pub struct Study {
     /// Curves of bifurcations; no part of the identity.
     #[serde(skip)]
     pub curves: Vec<Curve>,
+    /// What the figures show besides; no part of the identity.
+    #[serde(skip)]
+    pub figures: Figures,
 }
 
 impl Study {
@@ -153,6 +156,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         Some(Variable { excitation, damping, loads: loads.as_deref()?, stops: stops.as_deref()? })
     })();
     let varied = vary::read(root, reading, variable);
+    let figures = figures::read(root, reading);
     let varied = varied?;
     Some(Study {
         title: title?.to_owned(),
@@ -167,5 +171,6 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         continuation: continuation?,
         varies: varied.0,
         curves: varied.1,
+        figures: figures?,
     })
 }

@@ -1,0 +1,137 @@
+//! Figures of the linear structure and of its excitation: mode shapes, the error of the reduction, the amplitude over the frequency.
+
+use std::f64::consts::TAU;
+
+use hammerbeam_figure::{
+    DrawnMode, ExcitationDiagram, Figure, FigureError, ModeDiagram, ReducedMode, ReductionDiagram, Style,
+};
+use hammerbeam_structure::{FrequencyError, ModeTables};
+use hammerbeam_study::{
+    Model, Study,
+    file::{End, Excitation, ExcitationKind, Place, Side, StopLaw, Structure},
+};
+
+/// Rows of the amplitude over the frequency range.
+const ROWS: u32 = 200;
+
+/// The mode shapes.
+pub fn modes(study: &Study, model: &Model) -> Result<Figure, FigureError> {
+    let at = |name: &str| position(study, name);
+    let points: Vec<(f64, String)> = match &study.structure {
+        Structure::Beam(beam) => beam.points.iter().map(|point| (point.at_m, point.name.clone())).collect(),
+        Structure::Lumped(lumped) => {
+            (0u32..).zip(&lumped.masses).map(|(k, mass)| (f64::from(k), mass.name.clone())).collect()
+        }
+    };
+    let stops = study.stops.iter().flat_map(|stop| {
+        let name = match &stop.place {
+            Place::At { point, .. } | Place::Between { first: point, .. } => point,
+        };
+        let place = at(name);
+        sides(&stop.law).iter().filter_map(move |above| place.map(|place| (place, *above)))
+    });
+    let reduced = &model.tables.frequency_errors;
+    let rates = model.system.model().natural_frequencies.iter();
+    let mode = |(number, rate): (usize, &f64)| DrawnMode {
+        frequency_hz: rate / TAU,
+        unreduced_hz: (!model.tables.reduced_hz.is_empty())
+            .then(|| reduced.get(number).map(|error| error.full_hz))
+            .flatten(),
+        shape: model
+            .outline
+            .iter()
+            .map(|place| place.shape.get(number).copied().unwrap_or(f64::NAN))
+            .collect(),
+    };
+    let diagram = ModeDiagram {
+        title: study.title.clone(),
+        is_beam: matches!(study.structure, Structure::Beam(_)),
+        places: model.outline.iter().map(|place| place.at).collect(),
+        ends: match &study.structure {
+            Structure::Beam(beam) => [beam.left, beam.right].map(held),
+            Structure::Lumped(_) => [(false, false); 2],
+        },
+        points,
+        stops: stops.collect(),
+        modes: rates.enumerate().map(mode).collect(),
+    };
+    diagram.draw(&Style::single_column())
+}
+
+/// Whether an end is held, and whether it cannot turn.
+fn held(end: End) -> (bool, bool) {
+    match end {
+        End::Clamped => (true, true),
+        End::Pinned => (true, false),
+        End::Sliding => (false, true),
+        End::Free => (false, false),
+    }
+}
+
+/// The sides on which a stop stands; a spring that always acts is none.
+fn sides(law: &StopLaw) -> &'static [bool] {
+    let side = match law {
+        StopLaw::Hertz { side, .. }
+        | StopLaw::HuntCrossley { side, .. }
+        | StopLaw::Restitution { side, .. }
+        | StopLaw::Linear { side, .. }
+        | StopLaw::Rigid { side, .. } => side,
+        StopLaw::TwoSided { .. } => return &[true, false],
+        StopLaw::Cubic { .. } => return &[],
+    };
+    if *side == Side::Above { &[true] } else { &[false] }
+}
+
+fn position(study: &Study, name: &str) -> Option<f64> {
+    match (&study.structure, name) {
+        (Structure::Lumped(lumped), _) => {
+            lumped.masses.iter().position(|mass| mass.name == name).map(|k| k as f64)
+        }
+        (Structure::Beam(_), "left") => Some(0.0),
+        (Structure::Beam(beam), "right") => Some(beam.length_m),
+        (Structure::Beam(beam), _) => {
+            beam.points.iter().find(|point| point.name == name).map(|point| point.at_m)
+        }
+    }
+}
+
+/// The error of the reduction.
+pub fn reduction(title: &str, tables: &ModeTables) -> Result<Figure, FigureError> {
+    let mode = |error: &FrequencyError| ReducedMode {
+        full_hz: error.full_hz,
+        relative_error: error.relative,
+        below_cut_off: error.below_cut_off,
+    };
+    let modes = tables.frequency_errors.iter().map(mode).collect();
+    ReductionDiagram { title: title.to_owned(), modes }.draw(&Style::single_column())
+}
+
+/// The amplitude of the excitation: of the acceleration of a support, or of a force.
+pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
+    let excitation = &study.excitation;
+    let [low, high] = excitation.frequency_hz;
+    let frequency = |k: u32| low + (high - low) * f64::from(k) / f64::from(ROWS);
+    let rows =
+        (0..=ROWS).map(frequency).map(|frequency_hz| (frequency_hz, amplitude(excitation, frequency_hz)));
+    let quantity = match excitation.kind {
+        ExcitationKind::SupportMotion { .. } => "Acceleration of the support (m/s²)",
+        ExcitationKind::Force { .. } => "Amplitude of the force (N)",
+    };
+    let diagram = ExcitationDiagram {
+        title: study.title.clone(),
+        quantity: quantity.to_owned(),
+        rows: rows.collect(),
+        measured: Vec::new(),
+    };
+    diagram.draw(&Style::single_column())
+}
+
+/// Amplitude of the acceleration of the support (m/s²), `A (2 pi m f)²`, or of the force (N).
+fn amplitude(excitation: &Excitation, frequency_hz: f64) -> f64 {
+    match excitation.kind {
+        ExcitationKind::SupportMotion { amplitude_m, .. } => {
+            amplitude_m * (TAU * f64::from(excitation.order) * frequency_hz).powi(2)
+        }
+        ExcitationKind::Force { amplitude_n, .. } => amplitude_n,
+    }
+}
