@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hammerbeam_study::{file::DrawnOrbit, verify::TOLERANCE};
 
 use crate::{
+    figures::RESOLUTION,
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
     signal_args::SignalCommand,
 };
@@ -151,6 +152,10 @@ pub struct FigureOptions {
     #[arg(long, value_name = "HZ[:N]", value_parser = orbit)]
     pub orbit: Vec<DrawnOrbit>,
 
+    /// Resolution of the PNG files, in pixels per inch
+    #[arg(long, value_name = "PPI", default_value_t = RESOLUTION, value_parser = resolution)]
+    pub resolution: f64,
+
     /// Draw accelerations of orbits behind a low-pass filter as well [default: that of the study]
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub low_pass: Option<f64>,
@@ -240,6 +245,13 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("must be a finite number of hertz, more than 0".to_owned()),
+    }
+}
+
+fn resolution(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (24.0..=1200.0).contains(&number) => Ok(number),
+        _ => Err("must be 24 to 1200 pixels per inch".to_owned()),
     }
 }
 

@@ -26,8 +26,8 @@ use crate::{
     failure::Failure,
 };
 
-/// Resolution of the PNG files, in pixels per inch.
-const RESOLUTION: f64 = 300.0;
+/// Resolution of the PNG files, in pixels per inch, where none is asked for.
+pub const RESOLUTION: f64 = 300.0;
 
 /// Quantities of response diagrams, with the words that files have for them.
 const FIGURES: [(&str, Quantity); 4] = [
@@ -67,6 +67,8 @@ impl Wishes {
 #[derive(Debug)]
 pub struct Drawn<'a> {
     folder: &'a Path,
+    /// Resolution of the PNG files, in pixels per inch.
+    pub resolution: f64,
     /// Names of the files.
     pub files: Vec<String>,
     /// Names of figures that cannot be drawn, each with the reason.
@@ -77,7 +79,7 @@ impl<'a> Drawn<'a> {
     /// Into a folder, made if it is not there.
     pub fn into(folder: &'a Path) -> anyhow::Result<Self> {
         fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-        Ok(Self { folder, files: Vec::new(), refused: Vec::new() })
+        Ok(Self { folder, resolution: RESOLUTION, files: Vec::new(), refused: Vec::new() })
     }
 
     /// Writes a figure as SVG and PNG, or notes why there is none.
@@ -89,7 +91,9 @@ impl<'a> Drawn<'a> {
                 return Ok(());
             }
         };
-        for (suffix, bytes) in [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(RESOLUTION)?)] {
+        for (suffix, bytes) in
+            [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(self.resolution)?)]
+        {
             let file = format!("{name}.{suffix}");
             replace(&self.folder.join(&file), &bytes)?;
             self.files.push(file);

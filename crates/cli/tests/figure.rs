@@ -67,30 +67,150 @@ fn what_is_not_there_is_refused_with_a_sentence() {
 }
 
 #[test]
-fn the_error_of_the_reduction_is_drawn_and_that_of_no_reduction_refused() {
+fn the_linear_structure_is_drawn_and_an_error_of_the_reduction_where_there_is_one() {
     let beam = Workshop::with(common::BEAM);
     assert_success(&beam.hammerbeam(&["modes", "study.toml", "--out", "drawn"]));
+    let read = |name: &str| fs::read_to_string(beam.path("drawn").join(name)).unwrap();
+    for (name, words) in [
+        ("structure.svg", ">243.2 mm<"),
+        ("structure.svg", "Hertz contact 4.5\u{2009}×\u{2009}10⁹ N/m¹·⁵"),
+        ("modes.svg", "Mode 1: 17.495 Hz (unreduced 17.495 Hz)"),
+        ("excitation.svg", "Acceleration of the support (m/s²)"),
+    ] {
+        assert!(read(name).contains(words), "{words} is not in {name}");
+    }
     let svg = fs::read_to_string(beam.path("drawn/reduction.svg")).unwrap();
     assert!(svg.contains("up to the cut-off") && svg.contains("above the cut-off"));
     let lumped = Workshop::with(DUFFING);
     let output = lumped.hammerbeam(&["modes", "study.toml", "--out", "drawn"]);
     assert_success(&output);
-    assert!(stderr(&output).contains("reduction: nothing to draw: no finite error"), "{}", stderr(&output));
+    assert_eq!(stderr(&output), "", "what is not reduced has no error to draw, which is no fault");
+    assert!(!lumped.path("drawn/reduction.svg").exists() && lumped.path("drawn/structure.svg").exists());
 }
 
 #[test]
 fn an_orbit_is_drawn_with_the_force_of_its_stop() {
     let workshop = Workshop::with(common::BEAM);
-    let output =
-        workshop.hammerbeam(&["orbit", "study.toml", "--frequency", "30", "--out", "drawn", "--json"]);
+    let filter = ["--low-pass", "400"];
+    let command = ["orbit", "study.toml", "--frequency", "30", "--out", "drawn", "--json"];
+    let output = workshop.hammerbeam(&[&command[..], &filter].concat());
     assert_success(&output);
     let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(document["figures"].as_array().unwrap().len() % 6, 0);
     let history = fs::read_to_string(workshop.path("drawn/orbit-1-history.svg")).unwrap();
-    for label in
-        ["Displ. (mm)", "Accel. (m/s²)", "Local force (N)", "Support (mm)", "30 Hz, period 1, stable"]
-    {
+    for label in [
+        "Displ. (mm)",
+        "Accel. (m/s²)",
+        "Local force (N)",
+        "Support (mm)",
+        "30 Hz, period 1, stable",
+        "low-pass filter of 400 Hz",
+    ] {
         assert!(history.contains(label), "{label}");
     }
     assert!(workshop.path("drawn/orbit-1-spectrum.png").is_file());
+}
+
+const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// A run of one short branch.
+fn short_run(added: &str) -> Workshop {
+    let study = common::TWO_MASSES.replacen("[3.0, 14.0]", "[13.5, 14.0]", 1);
+    let workshop = Workshop::with(&format!("{study}\n{added}"));
+    assert_success(&workshop.hammerbeam(&RUN));
+    workshop
+}
+
+#[test]
+fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
+    let orbit = "[figures]\nlow_pass_hz = 30.0\n[[figures.orbit]]\nfrequency_hz = 13.7\n";
+    let workshop = short_run(orbit);
+    let drawn = files(&workshop, &["--out", "again"]);
+    for name in [
+        "structure.svg",
+        "modes.svg",
+        "excitation.svg",
+        "response_displacement.svg",
+        "response_acceleration.svg",
+        "multipliers-1.svg",
+        "multipliers-1-unit-circle.svg",
+        "orbit_13.7Hz_period1-history.svg",
+        "orbit_13.7Hz_period1-phase.png",
+        "orbit_13.7Hz_period1-spectrum.svg",
+    ] {
+        assert!(drawn.iter().any(|file| file == name), "{name} is not among {drawn:?}");
+    }
+    for name in &drawn {
+        let read = |folder: &str| fs::read(workshop.path(folder).join(name)).unwrap();
+        assert!(read("results") == read("again"), "{name} differs");
+    }
+    let history = fs::read_to_string(workshop.path("again/orbit_13.7Hz_period1-history.svg")).unwrap();
+    assert!(history.contains("low-pass filter of 30 Hz") && history.contains("13.7 Hz, period 1"));
+}
+
+/// Figures are no part of a study's identity: another orbit is drawn by the same command, and nothing is computed again.
+#[test]
+fn an_orbit_that_is_added_to_the_study_is_drawn_by_the_next_run() {
+    let workshop = short_run("");
+    let study = fs::read_to_string(workshop.path("study.toml")).unwrap();
+    fs::write(workshop.path("study.toml"), format!("{study}\n[[figures.orbit]]\nfrequency_hz = 13.6\n"))
+        .unwrap();
+    assert_success(&workshop.hammerbeam(&RUN));
+    assert!(workshop.path("results/orbit_13.6Hz_period1-history.svg").is_file());
+}
+
+#[test]
+fn an_orbit_that_no_branch_has_is_refused_with_a_sentence_and_the_rest_is_drawn() {
+    let workshop = short_run("");
+    let arguments = ["figure", "results", "--orbit", "13.7", "--orbit", "20", "--orbit", "13.7:3", "--json"];
+    let output = workshop.hammerbeam(&arguments);
+    assert_success(&output);
+    for sentence in [
+        "orbit_20Hz_period1: no stored branch of 1 excitation period(s) crosses 20 Hz",
+        "orbit_13.7Hz_period3: no stored branch of 3 excitation period(s) crosses 13.7 Hz",
+    ] {
+        assert!(stderr(&output).contains(sentence), "{}", stderr(&output));
+    }
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["not_drawn"].as_array().unwrap().len(), 2);
+    assert!(workshop.path("results/orbit_13.7Hz_period1-spectrum.svg").is_file());
+    let refused = workshop.hammerbeam(&["figure", "results", "--orbit", "13.7:0"]);
+    assert_bad_input(&refused, &["a whole number from 1 to 64"]);
+}
+
+#[test]
+fn branches_over_another_parameter_are_drawn_over_it() {
+    let study = include_str!("../../../studies/duffing-in-two-parameters.toml");
+    let workshop = Workshop::with(study);
+    assert_success(&workshop.hammerbeam(&RUN));
+    let svg = fs::read_to_string(workshop.path("results/vary_1_excitation_amplitude_n_displacement.svg"));
+    let svg = svg.unwrap();
+    assert!(svg.contains(">Excitation amplitude (N)<") && svg.contains(">fold<"), "an S between two folds");
+    assert!(svg.contains("0.25 Hz") && svg.contains(">unstable<"));
+    assert!(workshop.path("results/curves_excitation_amplitude_n.svg").is_file());
+}
+
+/// While a run writes its folder, it can be drawn as far as it has come; before there is anything, a sentence says so.
+#[test]
+fn a_folder_that_is_being_written_is_drawn_as_far_as_it_has_come() {
+    let workshop = Workshop::with(common::TWO_MASSES);
+    let mut run = std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+        .args(RUN)
+        .current_dir(workshop.path(""))
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut meanwhile = 0;
+    while run.try_wait().unwrap().is_none() {
+        let output = workshop.hammerbeam(&["figure", "results", "--kind", "response", "--out", "drawn"]);
+        match output.status.code() {
+            Some(0) => meanwhile += 1,
+            Some(1) => assert!(stderr(&output).contains("holds nothing of what was asked for")),
+            _ => assert!(stderr(&output).contains("there are no results in results"), "{}", stderr(&output)),
+        }
+    }
+    assert!(run.wait().unwrap().success());
+    assert!(meanwhile > 0, "nothing was drawn while the run went on");
+    assert!(workshop.path("drawn/response_displacement.svg").is_file());
 }

@@ -6,6 +6,7 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
+    scale::extent,
     style::{INK, line_pattern},
 };
 
@@ -50,6 +51,9 @@ impl ExcitationDiagram {
             self.measured.len()
         );
         let x = Measure::new("Excitation frequency (Hz)");
+        let frequencies = self.rows.iter().chain(&self.measured).map(|(frequency, _)| *frequency);
+        let ends = extent(frequencies.filter(|frequency| frequency.is_finite()));
+        let x = ends.filter(|(from, to)| from < to).map_or_else(|| x.clone(), |ends| x.clone().between(ends));
         Chart { title: self.title.clone(), x, panels, legend: vec![legend], description, aspect: Some(0.6) }
             .draw(style)
     }

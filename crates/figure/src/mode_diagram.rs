@@ -271,6 +271,6 @@ mod tests {
     fn frequencies_have_five_digits() {
         assert_eq!(hertz(17.495_46), "17.495");
         assert_eq!(hertz(1538.8499), "1538.8");
-        assert_eq!(hertz(0.159_155), "0.1592");
+        assert_eq!(hertz(0.159_154_9), "0.15915");
     }
 }

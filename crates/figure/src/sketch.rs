@@ -80,9 +80,10 @@ fn filled(svg: &mut SvgWriter, a: Point, b: Point, fill: &str) {
 /// A spring between two places: a zigzag with straight ends.
 pub(crate) fn spring(svg: &mut SvgWriter, from: Point, to: Point) {
     let place = along(from, to);
-    let zigzag = (0..7).map(|k| {
-        let side = if k == 0 || k == 6 { 0.0 } else { 2.6 * if k % 2 == 0 { 1.0 } else { -1.0 } };
-        place(0.2 + 0.1 * f64::from(k), side)
+    let coils = share_of(from, to, 24.0);
+    let zigzag = (0..9).map(|k| {
+        let side = if k == 0 || k == 8 { 0.0 } else { 2.6 * if k % 2 == 0 { 1.0 } else { -1.0 } };
+        place(0.5 + coils * (f64::from(k) / 8.0 - 0.5), side)
     });
     let points: Vec<Point> = std::iter::once(from).chain(zigzag).chain([to]).collect();
     line(svg, &points);
@@ -91,10 +92,17 @@ pub(crate) fn spring(svg: &mut SvgWriter, from: Point, to: Point) {
 /// A damper between two places: a piston in a cylinder.
 pub(crate) fn damper(svg: &mut SvgWriter, from: Point, to: Point) {
     let place = along(from, to);
-    line(svg, &[from, place(0.55, 0.0)]);
-    line(svg, &[place(0.55, -1.7), place(0.55, 1.7)]);
-    line(svg, &[place(0.38, -3.0), place(0.7, -3.0), place(0.7, 3.0), place(0.38, 3.0)]);
-    line(svg, &[place(0.7, 0.0), to]);
+    let half = 0.5 * share_of(from, to, 10.0);
+    line(svg, &[from, place(0.5, 0.0)]);
+    line(svg, &[place(0.5, -1.7), place(0.5, 1.7)]);
+    let (open, closed) = (0.5 - half, 0.5 + half);
+    line(svg, &[place(open, -3.0), place(closed, -3.0), place(closed, 3.0), place(open, 3.0)]);
+    line(svg, &[place(closed, 0.0), to]);
+}
+
+/// Share of the way between two places that a symbol of a length takes, at most six tenths.
+fn share_of(from: Point, to: Point, length: f64) -> f64 {
+    (length / (to.x - from.x).hypot(to.y - from.y).max(1e-9)).min(0.6)
 }
 
 /// A place by its share of the way between two places and its distance to the side.

@@ -4,9 +4,10 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_figure::{
-    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, Figure, FigureError, FilteredAcceleration,
-    MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitSample, Origin, Quantity, ResponseCurve,
-    ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, SectionDiagram, Style, SweepDiagram, SweptMotion,
+    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, Figure, FigureError,
+    FilteredAcceleration, MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitSample, Origin,
+    Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, SectionDiagram,
+    Style, SweepDiagram, SweptMotion,
 };
 
 fn basins() -> BasinMap {
@@ -265,7 +266,8 @@ fn chaotic_ranges_are_shaded_and_named() {
 fn a_filtered_acceleration_has_a_panel_of_its_own_with_the_cut_off() {
     let plain = orbit().draw_history(&Style::double_column()).unwrap();
     let filtered = FilteredAcceleration { cut_off_hz: 20.0, values_m_s2: vec![7.0; 256] };
-    let with = OrbitDiagram { filtered: Some(filtered), ..orbit() }.draw_history(&Style::double_column()).unwrap();
+    let with =
+        OrbitDiagram { filtered: Some(filtered), ..orbit() }.draw_history(&Style::double_column()).unwrap();
     assert!(with.svg().contains("low-pass filter of 20 Hz") && !plain.svg().contains("low-pass"));
     assert!(with.height_mm() > plain.height_mm());
     let other = FilteredAcceleration { cut_off_hz: 20.0, values_m_s2: Vec::new() };
@@ -276,7 +278,8 @@ fn a_filtered_acceleration_has_a_panel_of_its_own_with_the_cut_off() {
 /// Of an orbit of three excitation periods the section has three points, and they stand in the portrait as well.
 #[test]
 fn the_section_of_an_orbit_has_as_many_points_as_excitation_periods() {
-    let svg = OrbitDiagram { period_multiple: 3, ..orbit() }.draw_phase(&Style::single_column()).unwrap().svg();
+    let svg =
+        OrbitDiagram { period_multiple: 3, ..orbit() }.draw_phase(&Style::single_column()).unwrap().svg();
     assert!(svg.contains(">phase portrait<") && svg.contains(">Poincaré section<"));
     let dots = svg.split(" d=\"").map(|rest| rest.split('"').next().unwrap().matches(" 0 1 0 ").count() / 2);
     assert_eq!(dots.filter(|circles| *circles == 3).count(), 2, "three dots in each of the two frames");
@@ -298,13 +301,18 @@ fn contact_forces_and_impact_velocities_have_their_diagrams() {
     };
     assert!(diagram(5.0).draw(Quantity::ContactForce).unwrap().svg().contains("Largest contact force (N)"));
     assert!(diagram(5.0).draw(Quantity::ImpactVelocity).unwrap().svg().contains("impact velocity (m/s)"));
-    let settings = ResponseSettings { contact_scale: ScaleChoice::Logarithmic, ..ResponseSettings::default() };
+    let settings =
+        ResponseSettings { contact_scale: ScaleChoice::Logarithmic, ..ResponseSettings::default() };
     assert!(diagram(0.0).draw_with(&[Quantity::ContactForce], &settings).is_err());
 }
 
 #[test]
 fn branches_over_another_parameter_say_which() {
-    let point = |k: i32| ResponsePoint { frequency_hz: 0.1 * f64::from(k), displacement_m: 1e-3, ..ResponsePoint::default() };
+    let point = |k: i32| ResponsePoint {
+        frequency_hz: 0.1 * f64::from(k),
+        displacement_m: 1e-3,
+        ..ResponsePoint::default()
+    };
     let curve = ResponseCurve { period_multiple: 1, points: (1..9).map(point).collect() };
     let diagram = ResponseDiagram {
         parameter: "Gap of stop 1 (m)".to_owned(),

@@ -69,7 +69,8 @@ fn places(figure: &Figure) -> Vec<(f64, f64)> {
     let mut places = Vec::new();
     for data in svg.split(" d=\"").skip(1).map(|rest| rest.split('"').next().unwrap()) {
         // Absolute moves and lines alone; what is relative begins at one of them.
-        for command in data.split_inclusive(|c: char| c.is_ascii_alphabetic()).collect::<Vec<_>>().windows(2) {
+        for command in data.split_inclusive(|c: char| c.is_ascii_alphabetic()).collect::<Vec<_>>().windows(2)
+        {
             let (kind, numbers) = (command[0].chars().last(), command[1]);
             if !matches!(kind, Some('M' | 'L')) {
                 continue;
@@ -97,7 +98,10 @@ fn assert_on_the_page(figure: &Figure) {
     let places = places(figure);
     assert!(places.len() > 5);
     for (x, y) in places {
-        assert!((0.0..=width).contains(&x) && (0.0..=height).contains(&y), "({x}, {y}) of {width} x {height}");
+        assert!(
+            (0.0..=width).contains(&x) && (0.0..=height).contains(&y),
+            "({x}, {y}) of {width} x {height}"
+        );
     }
 }
 
@@ -199,7 +203,9 @@ fn modes_have_their_frequencies_and_a_rigid_body_says_that_it_is_one() {
     let figure = modes(3).draw(&Style::single_column()).unwrap();
     assert_on_the_page(&figure);
     let svg = figure.svg();
-    for label in ["Mode 1: 0 Hz, moves as a rigid body", "Mode 2: 17.500 Hz (unreduced 17.400 Hz)", ">contact<"] {
+    for label in
+        ["Mode 1: 0 Hz, moves as a rigid body", "Mode 2: 17.500 Hz (unreduced 17.400 Hz)", ">contact<"]
+    {
         assert!(svg.contains(label), "{label}");
     }
     assert_eq!(figure, modes(3).draw(&Style::single_column()).unwrap());
@@ -225,14 +231,14 @@ fn modes_without_a_shape_are_refused() {
 #[test]
 fn the_amplitude_is_drawn_from_zero_with_what_was_measured_over_it() {
     let rows: Vec<(f64, f64)> = (20..=70).map(|f| (f64::from(f), 0.02 * f64::from(f).powi(2))).collect();
-    let computed =
-        ExcitationDiagram { quantity: "Acceleration (m/s²)".to_owned(), rows, ..ExcitationDiagram::default() };
+    let computed = ExcitationDiagram {
+        quantity: "Acceleration (m/s²)".to_owned(),
+        rows,
+        ..ExcitationDiagram::default()
+    };
     let plain = computed.draw(&Style::single_column()).unwrap().svg();
-    assert!(plain.contains(">Acceleration (m/s²)<") && plain.contains(">0<") && !plain.contains("measured<"));
+    assert!(plain.contains(">Acceleration (m/s²)<") && plain.contains(">0<") && !plain.contains(">measured<"));
     let measured = ExcitationDiagram { measured: vec![(30.0, 17.0), (70.0, f64::NAN)], ..computed };
     assert!(measured.draw(&Style::single_column()).unwrap().svg().contains(">measured<"));
-    assert!(matches!(
-        ExcitationDiagram::default().draw(&Style::default()),
-        Err(FigureError::Empty { .. })
-    ));
+    assert!(matches!(ExcitationDiagram::default().draw(&Style::default()), Err(FigureError::Empty { .. })));
 }

@@ -17,6 +17,7 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let model = Model::build(&file)?;
     let folder = options.out.as_deref().unwrap_or(&options.results);
     let mut drawn = Drawn::into(folder)?;
+    drawn.resolution = options.resolution;
     let wishes = wishes(options, &file);
     figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
     drop(snapshot);

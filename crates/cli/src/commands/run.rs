@@ -160,7 +160,7 @@ impl Summary<'_> {
                 self.left()
             ));
         }
-        lines.push(format!("figures: {}", figures.join(", ")));
+        lines.push(format!("{} files with figures in {}", figures.len(), self.folder));
         lines.join("\n")
     }
 }

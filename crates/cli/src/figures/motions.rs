@@ -223,3 +223,17 @@ fn places(request: &RequestRecord, dof: usize, attractor: &Attractor) -> Vec<(f6
         _ => Vec::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_reach_half_way_to_the_neighbours_and_end_with_the_series() {
+        let seen = [(10.0, true), (12.0, true), (13.0, false), (20.0, true)];
+        assert_eq!(ranges_of(&seen), [(10.0, 11.0), (11.0, 12.5), (16.5, 20.0)]);
+        assert_eq!(ranges_of(&[(12.0, false), (10.0, true), (12.0, true)]), [(10.0, 11.0), (11.0, 12.0)]);
+        assert!(ranges_of(&[(10.0, true)]).iter().all(|(from, to)| from == to), "one frequency is no range");
+        assert!(ranges_of(&[]).is_empty());
+    }
+}

@@ -26,6 +26,8 @@ const END_HALF: f64 = 11.0;
 /// Thickness of what moves with the support, and distance of dimension lines (pt).
 const BASE: f64 = 5.0;
 const ROW: f64 = 11.0;
+/// Distance of what stands still from what moves (pt).
+const CLEAR: f64 = 7.0;
 /// Most points whose distances are drawn.
 const MEASURED: usize = 3;
 
@@ -173,15 +175,26 @@ impl Place<'_> {
         }
     }
 
+    /// The stops on a side that ride on the support.
+    fn riding(&self, above: bool) -> impl Iterator<Item = &SketchStop> {
+        let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
+        riding.filter(move |stop| self.is_on(stop, above))
+    }
+
+    /// Whether a bar that moves stands on a side.
+    fn has_bar(&self, above: bool) -> bool {
+        let is_needed =
+            self.riding(above).next().is_some() || (!above && self.inner_moving().next().is_some());
+        is_needed && self.diagram.moving.iter().any(|name| self.of(name).is_some())
+    }
+
     /// The bar above or below the beam; false if nothing needs it.
     fn draw_bar(&self, svg: &mut SvgWriter, moving: &[f64], above: bool) -> bool {
-        let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
-        let stops = riding.filter(|stop| self.is_on(stop, above)).filter_map(|stop| self.of(&stop.point));
-        let stops: Vec<f64> = stops.flat_map(|x| [x - 7.0, x + 7.0]).collect();
-        let is_needed = !stops.is_empty() || (!above && self.inner_moving().next().is_some());
-        if !is_needed || moving.is_empty() {
+        if !self.has_bar(above) {
             return false;
         }
+        let stops = self.riding(above).filter_map(|stop| self.of(&stop.point));
+        let stops: Vec<f64> = stops.flat_map(|x| [x - 7.0, x + 7.0]).collect();
         let outer = moving.iter().map(|&x| match x {
             x if x == self.left => x - BASE,
             x if x == self.right => x + BASE,
@@ -287,9 +300,12 @@ impl Place<'_> {
             if !self.is_on(drawn, above) {
                 continue;
             }
-            let (foot, sign) = if above { (self.ceiling, -1.0) } else { (self.floor, 1.0) };
+            let (level, sign) = if above { (self.ceiling, -1.0) } else { (self.floor, 1.0) };
+            // What stands still keeps clear of what moves.
+            let is_still = drawn.carrier == SketchCarrier::Space;
+            let foot = if is_still && self.has_bar(above) { level - sign * CLEAR } else { level };
             stop::draw(svg, drawn.kind, at(x, foot), at(x, self.middle + sign * surface), drawn.has_gap);
-            if drawn.carrier == SketchCarrier::Space {
+            if is_still {
                 let behind = if above { Behind::Above } else { Behind::Below };
                 wall(svg, at(x - 7.0, foot), at(x + 7.0, foot), behind);
             }
@@ -346,7 +362,8 @@ impl Place<'_> {
         let mut y = self.floor + BASE + HATCH + 0.6 * ROW;
         let start = self.floor + BASE + 1.0;
         for at_m in self.measured().into_iter().chain([self.beam.length_m]) {
-            let tops = (start, if at_m == self.beam.length_m { self.middle + 13.0 } else { start });
+            let is_clear = at_m == self.beam.length_m && !self.diagram.moves("right");
+            let tops = (start, if is_clear { self.middle + 13.0 } else { start });
             let text = format!("{} mm", millimetres(at_m));
             dimension(svg, (self.left, self.across(at_m)), y, tops, &text, self.style);
             y += ROW;

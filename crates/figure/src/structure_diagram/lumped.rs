@@ -204,16 +204,16 @@ impl Place<'_> {
             let text = Text::upright(name);
             if text.width(self.style.tick_size) < self.width {
                 let y = 0.5 * (self.top + self.bottom + CAPITAL_HEIGHT * self.style.tick_size);
-                variable(svg, at(x + 0.5 * self.width, y), name, Anchor::Middle, self.style);
+                label(svg, at(x + 0.5 * self.width, y), name, Anchor::Middle, self.style);
             }
             let middle = x + 0.5 * self.width;
-            let y = self.bottom + 7.0;
+            let (y, reach) = (self.bottom + 7.0, (0.5 * self.width).min(9.0));
             if self.diagram.forces.contains(name) {
-                arrow(svg, at(middle - 9.0, y), at(middle + 9.0, y), true);
-                label(svg, at(middle + 12.0, y + 2.4), "F", Anchor::Start, self.style);
+                arrow(svg, at(middle - reach, y), at(middle + reach, y), true);
+                variable(svg, at(middle + 12.0, y + 2.4), "F", Anchor::Start, self.style);
             }
             if self.diagram.moves(name) {
-                arrow(svg, at(middle - 9.0, y), at(middle + 9.0, y), true);
+                arrow(svg, at(middle - reach, y), at(middle + reach, y), true);
                 variable(svg, at(middle + 12.0, y + 2.4), "u", Anchor::Start, self.style);
             }
         }
@@ -234,6 +234,8 @@ impl Place<'_> {
         // Lanes that end at a post stand lowest, so that the post crosses none of the others.
         let mut order: Vec<&Lane> = lanes.iter().collect();
         order.sort_by_key(|lane| lane.ends.iter().any(|foot| *foot != Foot::Mass));
+        let ground = |side: usize| lanes.iter().any(|lane| lane.ends[side] != Foot::Mass);
+        let is_shared = ground(0) && ground(1) && !is_outer[0] && !is_outer[1];
         for (k, lane) in order.into_iter().enumerate() {
             let y = self.top + (k as f64 + 0.5) * pitch;
             let mut ends = [left, right];
@@ -242,9 +244,12 @@ impl Place<'_> {
                 if is_outer[side] {
                     self.draw_wall(svg, ends[side], y, (side == 0, pitch), moves);
                 } else {
-                    let share = if side == 1 { 0.62 } else { 0.38 };
+                    // Two posts stand beside each other, that of the left mass on the left.
+                    let share = if is_shared { 0.12 } else { -0.12 };
+                    let share = if side == 1 { 0.5 - share } else { 0.5 + share };
                     ends[side] = left + share * (right - left);
-                    self.draw_post(svg, at(ends[side], y), moves);
+                    let half = if is_shared { 0.1 * (right - left) } else { 5.0 };
+                    self.draw_post(svg, at(ends[side], y), half.min(5.0), moves);
                 }
             }
             draw_element(svg, lane.element, ends, y);
@@ -271,13 +276,13 @@ impl Place<'_> {
         }
     }
 
-    fn draw_post(&self, svg: &mut SvgWriter, head: Point, moves: bool) {
+    fn draw_post(&self, svg: &mut SvgWriter, head: Point, half: f64, moves: bool) {
         let floor = self.bottom + 3.0;
         line(svg, &[at(head.x, head.y - 4.0), at(head.x, floor)]);
         if moves {
-            block(svg, at(head.x - 5.0, floor), at(head.x + 5.0, floor + THICK));
+            block(svg, at(head.x - half, floor), at(head.x + half, floor + THICK));
         } else {
-            wall(svg, at(head.x - 5.0, floor), at(head.x + 5.0, floor), Behind::Below);
+            wall(svg, at(head.x - half, floor), at(head.x + half, floor), Behind::Below);
         }
     }
 

@@ -10,6 +10,8 @@ use crate::{
 /// Distance drawn for a gap (pt).
 const GAP: f64 = 4.5;
 const RADIUS: f64 = 4.2;
+/// Thickness of a rigid stop (pt).
+const BLOCK: f64 = 8.0;
 
 /// Draws a stop.
 ///
@@ -27,7 +29,9 @@ pub(super) fn draw(svg: &mut SvgWriter, kind: StopKind, foot: Point, tip: Point,
             disc(svg, place(end - RADIUS, 0.0), RADIUS, if loses { INK } else { PAPER });
         }
         StopKind::Rigid => {
-            let corners = [place(0.0, -4.0), place(end, -4.0), place(end, 4.0), place(0.0, 4.0)];
+            let near = (end - BLOCK).max(0.0);
+            line(svg, &[foot, place(near, 0.0)]);
+            let corners = [place(near, -4.0), place(end, -4.0), place(end, 4.0), place(near, 4.0)];
             let data: Vec<String> =
                 corners.iter().map(|corner| format!("{} {}", number(corner.x), number(corner.y))).collect();
             svg.path(

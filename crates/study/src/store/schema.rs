@@ -174,7 +174,14 @@ pub(super) fn check_version(connection: &Connection, folder: &Path) -> Result<()
         .query_row("PRAGMA application_id", [], |row| row.get(0))
         .map_err(|error| not_ours(error, folder))?;
     if id != APPLICATION_ID {
-        return Err(StoreError::NotResults { folder: folder.to_owned() });
+        // A run makes the file and fills it in its first moment.
+        let folder = folder.to_owned();
+        let is_begun = is_empty(connection, &folder)?;
+        return Err(if is_begun {
+            StoreError::NoResults { folder }
+        } else {
+            StoreError::NotResults { folder }
+        });
     }
     for (key, what, expected) in
         [("schema_version", "storage", SCHEMA_VERSION), ("data_version", "data", DATA_VERSION)]

@@ -42,7 +42,7 @@ fn point_words(point: &BeamPoint) -> String {
     let carried = parts.iter().filter(|(value, _)| *value > 0.0);
     let carried: Vec<String> = carried.map(|(value, unit)| format!("{} {unit}", number(*value))).collect();
     let carried = if carried.is_empty() { String::new() } else { format!(", {}", carried.join(", ")) };
-    format!("{}: at {} mm{carried}.", point.name, number(1e3 * point.at_m))
+    format!("{}: at {} mm{carried}.", capital(&point.name), number(1e3 * point.at_m))
 }
 
 fn lumped_words(lumped: &Lumped) -> Vec<String> {
@@ -70,7 +70,7 @@ fn stop_words(stop: &Stop) -> String {
         Place::At { point, fixed_to: FixedTo::Space } => format!("at {point}, fixed in space"),
         Place::Between { first, second } => format!("between {first} and {second}"),
     };
-    let hertz = |stiffness: f64| format!("Hertz contact {} N/m^1.5", number(stiffness));
+    let hertz = |stiffness: f64| format!("Hertz contact {} N/m¹·⁵", number(stiffness));
     let law = match stop.law {
         StopLaw::Hertz { stiffness, approach, side } => {
             format!("{}, {}", hertz(stiffness.value()), rest(approach, side))
@@ -126,10 +126,10 @@ fn excitation_words(study: &Study) -> String {
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
-            format!("motion u of {}, amplitude {} mm", at.join(" and "), number(1e3 * amplitude_m))
+            format!("motion u of the support ({}), {} mm", at.join(", "), number(1e3 * amplitude_m))
         }
         ExcitationKind::Force { at, amplitude_n } => {
-            format!("force F at {at}, amplitude {} N", number(*amplitude_n))
+            format!("force F at {at}, {} N", number(*amplitude_n))
         }
     };
     let order = if excitation.order > 1 { format!(", order {}", excitation.order) } else { String::new() };
