@@ -56,13 +56,17 @@ fn everything_in_a_folder_is_drawn_and_twice_the_same() {
 #[test]
 fn what_is_not_there_is_refused_with_a_sentence() {
     let workshop = motions();
-    let output = workshop.hammerbeam(&["figure", "results", "--kind", "multipliers"]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(
-        stderr(&output).contains("results holds nothing of what was asked for to draw"),
-        "{}",
-        stderr(&output)
-    );
+    for kind in ["multipliers", "response", "vary", "curves", "orbits"] {
+        let output = workshop.hammerbeam(&["figure", "results", "--kind", kind]);
+        assert_eq!(output.status.code(), Some(1));
+        let said = stderr(&output);
+        assert!(said.contains("results holds nothing of what was asked for to draw"), "{kind}: {said}");
+    }
+    fs::create_dir(workshop.path("begun")).unwrap();
+    fs::write(workshop.path("begun/results.db"), "").unwrap();
+    assert_bad_input(&workshop.hammerbeam(&["figure", "begun"]), &["there are no results in begun"]);
+    fs::write(workshop.path("begun/results.db"), "something else").unwrap();
+    assert_bad_input(&workshop.hammerbeam(&["figure", "begun"]), &["was not written by hammerbeam"]);
     assert_bad_input(&workshop.hammerbeam(&["figure", "nowhere"]), &["there are no results in nowhere"]);
 }
 

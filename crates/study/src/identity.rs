@@ -102,6 +102,7 @@ mod tests {
             identity_with("[response]", "[continuation]\nbudget_solutions = 7\n[response]"),
             identity()
         );
+        assert_eq!(identity_with("low_pass_hz = 850.0", "low_pass_hz = 1000.0"), identity());
         assert_eq!(identity_with("gap_m = 0.0", ""), identity());
         assert_eq!(identity_with("2.1e11", "210e9"), identity());
     }
