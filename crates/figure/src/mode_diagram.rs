@@ -17,9 +17,13 @@ use crate::{
 /// Most modes that are drawn, the lowest.
 const MOST: usize = 8;
 /// Height of a band without its heading, and largest displacement in it (pt).
-const BAND: f64 = 30.0;
+const BAND: f64 = 34.0;
 const LARGEST: f64 = 11.0;
 const MARGIN: f64 = 3.0;
+/// Distance of a stop from the largest displacement (pt).
+const CLEAR: f64 = 4.0;
+/// Room beside the outer masses of a lumped structure (pt).
+const OUTER: f64 = 24.0;
 /// Room beside the shape for what holds the ends (pt).
 const SIDE: f64 = 12.0;
 /// Points drawn between two places of a beam.
@@ -91,7 +95,7 @@ impl ModeDiagram {
             let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
             svg.text(at(MARGIN, y), line, lettering(style.label_size, Anchor::Start));
         }
-        self.draw_names(&mut svg, top, height - foot - MARGIN, style);
+        self.draw_names(&mut svg, top, style);
         for (row, (number, mode)) in modes.iter().enumerate() {
             let y = top + row as f64 * (BAND + heading);
             svg.text(
@@ -113,7 +117,8 @@ impl ModeDiagram {
 
     /// Where a place is across the page.
     fn across(&self, place: f64, style: &Style) -> f64 {
-        let (left, right) = (MARGIN + SIDE, points(style.width_mm) - MARGIN - SIDE);
+        let side = MARGIN + SIDE + if self.is_beam { 0.0 } else { OUTER };
+        let (left, right) = (side, points(style.width_mm) - side);
         let (first, last) = (self.places[0], self.places[self.places.len() - 1]);
         if last > first {
             left + (right - left) * (place - first) / (last - first)
@@ -122,15 +127,14 @@ impl ModeDiagram {
         }
     }
 
-    /// Names above the first band, each with a pale line through all; one that would cover another is left out.
-    fn draw_names(&self, svg: &mut SvgWriter, top: f64, bottom: f64, style: &Style) {
+    /// Names above the first band; one that would cover another is left out.
+    fn draw_names(&self, svg: &mut SvgWriter, top: f64, style: &Style) {
         let mut taken = f64::NEG_INFINITY;
         let mut sorted: Vec<&(f64, String)> =
             self.points.iter().filter(|point| point.0.is_finite()).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (place, name) in sorted {
             let x = self.across(*place, style);
-            svg.polyline(&[at(x, top), at(x, bottom)], Stroke { colour: GRID, width: 0.7 });
             let half = 0.5 * Text::upright(name).width(style.tick_size);
             let middle = x.min(points(style.width_mm) - MARGIN - half).max(MARGIN + half);
             if middle - half > taken + 2.0 {
@@ -150,19 +154,26 @@ impl ModeDiagram {
         let up = |value: f64| middle - factor * value;
         let first = self.across(self.places[0], style);
         let last = self.across(self.places[self.places.len() - 1], style);
+        let guide = |place: f64| {
+            let x = self.across(place, style);
+            [at(x, middle - 0.5 * BAND), at(x, middle + 0.5 * BAND)]
+        };
+        let guides: Vec<[Point; 2]> = self.points.iter().map(|(place, _)| guide(*place)).collect();
+        let pale = Stroke { colour: GRID, width: 0.7 };
+        svg.polylines(guides.iter().map(|guide| (guide.as_slice(), None)), pale);
         let rest = Some(Dashes { dash: 1.5, gap: 1.5, offset: 0.0 });
         let ends = if self.is_beam {
             [at(first, middle), at(last, middle)]
         } else {
-            [at(first - 8.0, middle), at(last + 8.0, middle)]
+            [at(first - OUTER, middle), at(last + OUTER, middle)]
         };
         svg.polylines([(ends.as_slice(), rest)], Stroke { colour: PALE_INK, width: style.frame_width });
         for (place, above) in &self.stops {
             let x = self.across(*place, style);
             let (y, shape) = if *above {
-                (middle - LARGEST - 2.0, Shape::TriangleDown)
+                (middle - LARGEST - CLEAR, Shape::TriangleDown)
             } else {
-                (middle + LARGEST + 2.0, Shape::TriangleUp)
+                (middle + LARGEST + CLEAR, Shape::TriangleUp)
             };
             Dot { shape, colour: PALE_INK, full: true, radius: 2.0 }.draw(svg, &[at(x, y)]);
         }

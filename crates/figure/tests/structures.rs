@@ -237,7 +237,9 @@ fn the_amplitude_is_drawn_from_zero_with_what_was_measured_over_it() {
         ..ExcitationDiagram::default()
     };
     let plain = computed.draw(&Style::single_column()).unwrap().svg();
-    assert!(plain.contains(">Acceleration (m/s²)<") && plain.contains(">0<") && !plain.contains(">measured<"));
+    assert!(
+        plain.contains(">Acceleration (m/s²)<") && plain.contains(">0<") && !plain.contains(">measured<")
+    );
     let measured = ExcitationDiagram { measured: vec![(30.0, 17.0), (70.0, f64::NAN)], ..computed };
     assert!(measured.draw(&Style::single_column()).unwrap().svg().contains(">measured<"));
     assert!(matches!(ExcitationDiagram::default().draw(&Style::default()), Err(FigureError::Empty { .. })));

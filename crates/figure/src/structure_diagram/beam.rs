@@ -118,6 +118,15 @@ impl Place<'_> {
             || self.inner_moving().next().is_some()
     }
 
+    /// Whether something stands below the beam so near to a place that a line down from there would cross it.
+    fn is_taken_below(&self, x: f64) -> bool {
+        let stops = self.diagram.stops.iter().filter(|stop| self.is_on(stop, false));
+        let held = self.beam.points.iter().filter(|point| point.has_spring || point.has_damper);
+        let places = stops.filter_map(|stop| self.of(&stop.point));
+        let mut places = places.chain(held.map(|point| self.across(point.at_m)));
+        (x == self.right && self.diagram.moves("right")) || places.any(|place| (place - x).abs() < 9.0)
+    }
+
     /// Points between the ends that follow the support.
     fn inner_moving(&self) -> impl Iterator<Item = f64> + '_ {
         let inner = self.diagram.moving.iter().filter(|name| *name != "left" && *name != "right");
@@ -362,7 +371,7 @@ impl Place<'_> {
         let mut y = self.floor + BASE + HATCH + 0.6 * ROW;
         let start = self.floor + BASE + 1.0;
         for at_m in self.measured().into_iter().chain([self.beam.length_m]) {
-            let is_clear = at_m == self.beam.length_m && !self.diagram.moves("right");
+            let is_clear = at_m == self.beam.length_m && !self.is_taken_below(self.right);
             let tops = (start, if is_clear { self.middle + 13.0 } else { start });
             let text = format!("{} mm", millimetres(at_m));
             dimension(svg, (self.left, self.across(at_m)), y, tops, &text, self.style);

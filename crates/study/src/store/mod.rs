@@ -24,6 +24,8 @@ mod write;
 use std::{
     fs,
     path::{Path, PathBuf},
+    thread,
+    time::{Duration, Instant},
 };
 
 use hammerbeam_orbit::{Side, StopReason};
@@ -45,6 +47,8 @@ use lock::Lock;
 
 /// Name of the database in a results folder.
 pub const DATABASE: &str = "results.db";
+/// How long one waits for another that reads or writes.
+const READER: Duration = Duration::from_secs(5);
 
 /// A results folder, open for reading, or for writing by one run.
 #[derive(Debug)]
@@ -109,13 +113,23 @@ impl Store {
         &self.folder
     }
 
-    /// Leaves one plain file behind and lets the lock go.
+    /// Leaves one plain file behind and lets the lock go. While someone reads the folder (to draw it, say) that cannot be: it waits for the
+    /// reader, and after some seconds leaves the file with its log beside it, which is as good to read.
     ///
     /// # Errors
     /// The disk refuses; everything is stored all the same.
     pub fn finish(self) -> Result<(), StoreError> {
         if self.lock.is_some() {
-            self.connection.pragma_update(None, "journal_mode", "DELETE")?;
+            let begun = Instant::now();
+            while let Err(error) = self.connection.pragma_update(None, "journal_mode", "DELETE") {
+                match error.sqlite_error_code() {
+                    Some(rusqlite::ErrorCode::DatabaseBusy) if begun.elapsed() < READER => {
+                        thread::sleep(Duration::from_millis(50));
+                    }
+                    Some(rusqlite::ErrorCode::DatabaseBusy) => break,
+                    _ => return Err(error.into()),
+                }
+            }
         }
         self.connection.close().map_err(|(_, error)| error)?;
         Ok(())
@@ -262,7 +276,7 @@ fn roll_back(database: &Path) -> Result<(), StoreError> {
 
 fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {
     let connection = Connection::open_with_flags(database, flags | OpenFlags::SQLITE_OPEN_NO_MUTEX)?;
-    connection.busy_timeout(std::time::Duration::from_secs(5))?;
+    connection.busy_timeout(READER)?;
     Ok(connection)
 }
 
