@@ -23,7 +23,7 @@
 //! ```
 //!
 //! # The rooms
-//! Data run from the diagram to the page. [`ResponseDiagram`] and [`CurveDiagram`] draw themselves; every other
+//! Data run from the diagram to the page. [`ResponseDiagram`], [`CurveDiagram`], [`StructureDiagram`] and [`ModeDiagram`] draw themselves; every other
 //! kind is a file that turns its data into a `chart`, panels of layers over one axis:
 //!
 //! | room | what it knows |
@@ -32,6 +32,7 @@
 //! | `scale`, `ticks`, `axis`, `plot` | a linear or logarithmic scale, where its ticks are, a frame with two axes |
 //! | `stretch`, `decimate`, `line` | a branch cut where its stability changes, fewer points for the same line, dashes |
 //! | `chart`, `layer` | panels on top of each other under one legend; lines, dots, intervals, cells, shades, reference lines |
+//! | `sketch` | symbols of mechanics: walls, springs, dampers, arrows, dimension lines |
 //! | `marks`, `dots`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
 //! | `text`, `font` | lines with italic parts, numbers as printed, widths of the glyphs of the bundled font |
 //! | `svg`, `png` | the few elements we need, in points; the renderer with the bundled font alone |
