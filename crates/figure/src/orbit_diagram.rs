@@ -61,20 +61,21 @@ impl OrbitDiagram {
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
     pub fn draw_history(&self, style: &Style) -> Result<Figure, FigureError> {
-        let plain = |quantity, label: &str, points| Panel {
+        let plain = |quantity, label: &str, points, pattern| Panel {
             quantity,
             y: Measure::new(label),
-            layers: vec![Layer::Line { points, pattern: line_pattern(0) }],
+            layers: vec![Layer::Line { points, pattern: line_pattern(pattern) }],
             heading: String::new(),
         };
+        let entry = |k: usize, name| Entry { sample: Sample::Pattern(line_pattern(k)), name };
         let mut panels = vec![
-            plain("displacement", "Displ. (mm)", self.over_time(|sample| 1e3 * sample.displacement_m)),
-            plain("acceleration", "Accel. (m/s²)", self.over_time(|sample| sample.acceleration_m_s2)),
+            plain("displacement", "Displ. (mm)", self.over_time(|sample| 1e3 * sample.displacement_m), 0),
+            plain("acceleration", "Accel. (m/s²)", self.over_time(|sample| sample.acceleration_m_s2), 0),
         ];
         if let Some(filtered) = &self.filtered {
             let heading = format!("acceleration behind a low-pass filter of {} Hz", filtered.cut_off_hz);
             let points = self.closed(&filtered.values_m_s2);
-            panels.push(Panel { heading, ..plain("filtered acceleration", "Accel. (m/s²)", points) });
+            panels.push(Panel { heading, ..plain("filtered acceleration", "Accel. (m/s²)", points, 0) });
         }
         let elements = self.samples.first().map_or(0, |sample| sample.forces_n.len());
         let force = |k: usize| {
@@ -85,15 +86,19 @@ impl OrbitDiagram {
             let (y, layers) = (Measure::new("Local force (N)"), (0..elements).map(force).collect());
             panels.push(Panel { quantity: "force", y, layers, heading: String::new() });
         }
+        let mut legend: Vec<Entry> = (0..elements)
+            .filter(|_| elements > 1)
+            .map(|k| entry(k, format!("local element {}", k + 1)))
+            .collect();
         if self.samples.iter().any(|sample| sample.support_m.is_some()) {
             let points = self.over_time(|sample| sample.support_m.map_or(f64::NAN, |at| 1e3 * at));
-            panels.push(plain("support motion", "Support (mm)", points));
+            // Over the displacement it shows how the contact is reached.
+            let layers = &mut panels[0].layers;
+            layers.push(Layer::Line { points: points.clone(), pattern: line_pattern(1) });
+            panels.push(plain("support motion", "Support (mm)", points, 1));
+            legend.splice(0..0, [entry(0, "response point".to_owned()), entry(1, "support".to_owned())]);
         }
-        let entry = |k: usize| Entry {
-            sample: Sample::Pattern(line_pattern(k)),
-            name: format!("local element {}", k + 1),
-        };
-        let legend = vec![(0..elements).filter(|_| elements > 1).map(entry).collect()];
+        let legend = vec![legend];
         let x = Measure::new("Time over excitation period (–)").between((0.0, self.periods()));
         self.chart("one period of the orbit", x, panels, legend, Some(0.16)).draw(style)
     }

@@ -275,6 +275,15 @@ fn a_filtered_acceleration_has_a_panel_of_its_own_with_the_cut_off() {
     assert!(refused.unwrap_err().to_string().contains("no finite filtered acceleration"));
 }
 
+#[test]
+fn the_support_is_drawn_over_the_displacement_and_named() {
+    let svg = orbit().draw_history(&Style::double_column()).unwrap().svg();
+    assert!(svg.contains(">response point<") && svg.contains(">support<"));
+    let still = |sample: &OrbitSample| OrbitSample { support_m: None, ..sample.clone() };
+    let still = OrbitDiagram { samples: orbit().samples.iter().map(still).collect(), ..orbit() };
+    assert!(!still.draw_history(&Style::double_column()).unwrap().svg().contains(">support<"));
+}
+
 /// Of an orbit of three excitation periods the section has three points, and they stand in the portrait as well.
 #[test]
 fn the_section_of_an_orbit_has_as_many_points_as_excitation_periods() {
