@@ -105,7 +105,7 @@ fn samples(model: &Model, orbit: &PeriodicSolution) -> Result<Vec<OrbitSample>, 
     let frequency_hz = orbit.frequency_hz;
     let refused = |error: MotionError| Failure::NoResult(error.to_string());
     let settings = ExactSettings::default();
-    let mut integrator = ExactIntegrator::new(model.system.clone(), settings.clone()).map_err(refused)?;
+    let mut integrator = ExactIntegrator::new(model.system.clone(), settings).map_err(refused)?;
     // The first node of an orbit need not be at phase 0, where a simulation begins.
     let states = states_at_phase(&mut integrator, orbit, 0.0).map_err(refused)?;
     let first = states.first().map_or(&[][..], Vec::as_slice);

@@ -131,7 +131,7 @@ fn arrange(diagram: &StructureDiagram, lumped: &SketchLumped) -> (Vec<Vec<Lane>>
         match link.between {
             [Some(a), Some(b)] => join(&mut spaces, &mut bridges, [a, b], element),
             [Some(mass), None] | [None, Some(mass)] => {
-                fix(&mut spaces, mass, mass + 1 == count && count > 1, element, ground)
+                fix(&mut spaces, mass, mass + 1 == count && count > 1, element, ground);
             }
             [None, None] => {}
         }
@@ -156,10 +156,10 @@ fn arrange(diagram: &StructureDiagram, lumped: &SketchLumped) -> (Vec<Vec<Lane>>
                     None => fix(&mut spaces, mass, from_left, element, ground),
                 },
                 SketchCarrier::Support => {
-                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: true })
+                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: true });
                 }
                 SketchCarrier::Space => {
-                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: false })
+                    fix(&mut spaces, mass, from_left, element, Foot::Ground { moves: false });
                 }
             }
         }
