@@ -47,6 +47,8 @@ pub enum Command {
     Lyapunov(LyapunovOptions),
     /// Compute which attractor each of a grid of initial states leads to; started again, it goes on where it was
     Basins(BasinsOptions),
+    /// Fit parameters of a study to measured eigenfrequencies, damping ratios and responses
+    Update(UpdateOptions),
     /// Measured or exported time series: filter, spectrum, damping, kind of motion, exponent
     #[command(subcommand)]
     Signal(SignalCommand),
@@ -110,6 +112,27 @@ pub struct OrbitOptions {
     /// Folder, made if it is not there, into which each solution is drawn: over its period, in the phase plane, and its spectrum
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct UpdateOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Data file: the parameters to fit, and what was measured; docs/updating.md has its keys
+    pub data: PathBuf,
+
+    /// Folder, made if it is not there, for the updated study (updated.toml) and the result (update.json)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Probability in percent that an interval holds its parameter
+    #[arg(long, value_name = "PERCENT", default_value_t = 95.0, value_parser = percent)]
+    pub confidence: f64,
+
+    /// Also take intervals from the profile of chi-squared, which holds where the model bends; takes many more fits
+    #[arg(long)]
+    pub profile: bool,
 }
 
 #[derive(Debug, Args)]
@@ -213,6 +236,13 @@ pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
         _ => Err("must be a finite number of hertz, more than 0".to_owned()),
+    }
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (1.0..100.0).contains(&number) => Ok(number),
+        _ => Err("must be a number of percent, from 1 to less than 100".to_owned()),
     }
 }
 

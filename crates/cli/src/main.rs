@@ -35,6 +35,7 @@ fn main() -> ExitCode {
         Command::Sweep(options) => commands::sweep::run(options, output),
         Command::Lyapunov(options) => commands::lyapunov::run(options, output),
         Command::Basins(options) => commands::basins::run(options, output),
+        Command::Update(options) => commands::update::run(options, output),
         Command::Signal(command) => commands::signal::run(command, output),
         Command::Figure(options) => commands::figure::run(options, output),
         Command::Export(options) => commands::export::run(options, output),

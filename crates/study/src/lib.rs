@@ -9,6 +9,7 @@
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
+//! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; sweeps, exponents and basins by request |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
@@ -44,6 +45,7 @@ mod orbit_solver;
 pub mod run;
 pub mod store;
 pub mod summary;
+pub mod update;
 pub mod varied;
 pub mod verify;
 

@@ -12,4 +12,5 @@ pub mod run;
 pub mod signal;
 pub mod simulate;
 pub mod sweep;
+pub mod update;
 pub mod verify;
