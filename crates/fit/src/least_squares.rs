@@ -164,7 +164,7 @@ pub fn fit<P: FitProblem>(
             let trial = search.trial(damping, bounds);
             if trial.is_rounding || damping > MOST_DAMPING {
                 let distance = distance / reference.max(f64::MIN_POSITIVE);
-                let end = if trial.is_rounding || distance <= AT_NOISE {
+                let end = if distance <= AT_NOISE || search.trial(0.0, bounds).is_rounding {
                     FitEnd::Converged { distance }
                 } else {
                     FitEnd::Stalled { distance }
