@@ -65,7 +65,6 @@ fn not_converged(found: &Update) -> Option<String> {
         FitEnd::Converged { .. } => return None,
         FitEnd::Stalled { .. } => "no step improves it".to_owned(),
         FitEnd::OutOfIterations { .. } => format!("it was left after {} iterations", found.iterations),
-        _ => "it ended early".to_owned(),
     };
     let reached: Vec<String> = found
         .parameters

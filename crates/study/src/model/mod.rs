@@ -12,6 +12,7 @@ use hammerbeam_structure::{ModeTables, ReducedModel, StructureError};
 
 pub use drift::Drift;
 pub use parameter::StudyParameter;
+pub(crate) use structure::beam_descriptor;
 
 use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
 

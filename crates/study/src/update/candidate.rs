@@ -28,7 +28,7 @@ pub enum CandidateError {
     Orbit { frequency_hz: f64, source: hammerbeam_orbit::OrbitError },
 }
 
-/// Builds the study with these values of these numbers.
+/// The study with these values of these numbers.
 ///
 /// Ranges of `[[vary]]` and `[[curve]]` have nothing to say here: they hold the values of the study as it is.
 ///
@@ -38,9 +38,17 @@ pub(super) fn candidate(
     study: &StudyFile,
     numbers: &[Number],
     values: &[f64],
-) -> Result<Model, CandidateError> {
+) -> Result<StudyFile, CandidateError> {
     let mut file = with_numbers(study, numbers, values)?;
     file.study.varies.clear();
     file.study.curves.clear();
-    Ok(Model::build(&file)?)
+    Ok(file)
+}
+
+/// Builds the study with these values of these numbers.
+///
+/// # Errors
+/// [`CandidateError::Study`].
+pub(super) fn built(study: &StudyFile, numbers: &[Number], values: &[f64]) -> Result<Model, CandidateError> {
+    Ok(Model::build(&candidate(study, numbers, values)?)?)
 }

@@ -7,7 +7,7 @@
 //! **A candidate is a study.** A number is replaced in the text of the study file, and the text is read and built like any other: whatever the file may say can be fitted, every range is
 //! kept, and the updated study is the file with some numbers changed, comments and all.
 //!
-//! **Derivatives.** Those of the eigenfrequencies of the unreduced structure, supported and with the interface free, are exact: `dw_i/dp = (phi_i^T dK phi_i - w_i^2 phi_i^T dM phi_i)/(2 w_i)` on a mesh that
+//! **Derivatives.** Those of the eigenfrequencies of an unreduced beam, supported and with its moving support let go, are exact: `dw_i/dp = (phi_i^T dK phi_i - w_i^2 phi_i^T dM phi_i)/(2 w_i)` on a mesh that
 //! moves with the parameter. Everything else is taken by central differences with steps of 3e-4 of the parameter: reduced eigenfrequencies, since their basis moves too; damping
 //! ratios; and maxima of responses, whose truncation error is below 1e-6 where they are smooth over a thousandth of the parameter.
 //!
@@ -21,11 +21,13 @@
 //! | `candidate.rs` | the study with other numbers, built |
 //! | `observe.rs` | what the model says to each of the data |
 //! | `response.rs` | orbits that are followed as parameters change |
+//! | `exact.rs` | exact derivatives of eigenfrequencies |
 //! | `problem.rs` | residuals and derivatives for the fit |
 //! | `outcome.rs`, `finding.rs` | what comes out, in numbers and in words |
 
 mod candidate;
 mod data;
+mod exact;
 mod finding;
 mod number;
 mod observe;

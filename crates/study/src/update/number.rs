@@ -17,6 +17,9 @@ const NOT_OF_THE_MODEL: [&str; 6] = ["reduction", "response", "search", "continu
 /// Keys that count or bound.
 const NOT_A_QUANTITY: [&str; 3] = ["elements", "order", "frequency_hz"];
 
+/// Part of a number that stands for next to nothing.
+const SMALL: f64 = 1e-6;
+
 /// A number in the text of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Number {
@@ -93,6 +96,23 @@ pub(crate) fn with_numbers(
     StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
 }
 
+/// Values that the study file allows for a number, as far as they do not hang on others: whether it may be negative or zero, and whether it may exceed one.
+pub(crate) fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
+    let size = if number.value == 0.0 { 1.0 } else { number.value.abs() };
+    let allowed = |value: f64| with_numbers(file, std::slice::from_ref(number), &[value]).is_ok();
+    let low = match (allowed(-SMALL * size), allowed(0.0)) {
+        (true, _) => f64::NEG_INFINITY,
+        (false, true) => 0.0,
+        (false, false) => SMALL * size,
+    };
+    let high = if (0.0..=1.0).contains(&number.value) && allowed(1.0) && !allowed(1.0 + SMALL) {
+        1.0
+    } else {
+        f64::INFINITY
+    };
+    (low, high)
+}
+
 /// The text with other numbers in their places.
 pub(crate) fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String {
     let mut order: Vec<usize> = (0..numbers.len()).collect();
@@ -161,6 +181,21 @@ mod tests {
             .replace("4.5e9            #", "1.25e9            #");
         assert_ne!(expected, STUDY);
         assert_eq!(text, expected);
+    }
+
+    fn limits_of(key: &str) -> (f64, f64) {
+        let (file, all) = (beam(), numbers(&beam()));
+        limits(&file, all.iter().find(|number| number.keys.iter().any(|known| known == key)).unwrap())
+    }
+
+    #[test]
+    fn limits_are_those_of_the_study_file() {
+        assert_eq!(limits_of("structure.point.contact.rotary_inertia_kg_m2"), (0.0, f64::INFINITY));
+        assert_eq!(limits_of("damping.modal_ratio"), (0.0, 1.0));
+        let (low, high) = limits_of("structure.youngs_modulus_pa");
+        assert!(low > 0.0 && high.is_infinite());
+        // The end of the beam is no limit: it may move, too.
+        assert_eq!(limits_of("structure.point.contact.at_m").1, f64::INFINITY);
     }
 
     #[test]

@@ -9,8 +9,9 @@ use hammerbeam_orbit::PeriodicSolution;
 use crate::{Model, StudyFile};
 
 use super::{
-    candidate::{CandidateError, candidate},
-    data::{Datum, Observation, UpdateData},
+    candidate::{CandidateError, built, candidate},
+    data::{Datum, FrequencyTable, Observation, UpdateData},
+    exact::eigenfrequency_derivatives,
     number::Number,
     observe::{damping_ratios, table},
     response::{Orbits, maximum},
@@ -48,7 +49,7 @@ impl<'a> UpdateProblem<'a> {
         let numbers: Vec<Number> = data.parameters.iter().map(|parameter| parameter.number.clone()).collect();
         let parameters: Vec<f64> = data.parameters.iter().map(|parameter| parameter.start).collect();
         let orbits = Orbits::new(&study.study);
-        let model = candidate(study, &numbers, &parameters)?;
+        let model = built(study, &numbers, &parameters)?;
         let found = orbits.seek(&model, data)?;
         let values = values(&data.data, &model, &found)?;
         let anchor = Place { parameters, orbits: found, values };
@@ -87,7 +88,7 @@ impl<'a> UpdateProblem<'a> {
             let next = f64::min(done + step, 1.0);
             let between = |(a, b): (&f64, &f64)| if next == 1.0 { *b } else { a + next * (b - a) };
             let at: Vec<f64> = from.iter().zip(parameters).map(between).collect();
-            let model = candidate(self.study, &self.numbers, &at)?;
+            let model = built(self.study, &self.numbers, &at)?;
             match self.orbits.follow(&model, &orbits) {
                 Ok(found) if next == 1.0 => {
                     let values = values(&self.data.data, &model, &found)?;
@@ -103,6 +104,33 @@ impl<'a> UpdateProblem<'a> {
         }
     }
 
+    /// Derivatives of all values by one parameter: exact where they are known, else by differences.
+    ///
+    /// * `file`: the study at the anchor.
+    fn derivatives(&self, file: &StudyFile, index: usize) -> Result<Vec<f64>, CandidateError> {
+        let (number, value) = (&self.numbers[index], self.anchor.parameters[index]);
+        let mut column: Vec<Option<f64>> = vec![None; self.data.data.len()];
+        for table in [FrequencyTable::Clamped, FrequencyTable::FreeInterface] {
+            let of_table = |datum: &Datum| match datum.observation {
+                Observation::Eigenfrequency(of) if of.table == table => Some(of.mode),
+                _ => None,
+            };
+            if !self.data.data.iter().any(|datum| of_table(datum).is_some()) {
+                continue;
+            }
+            if let Some(exact) = eigenfrequency_derivatives(file, number, value, table)? {
+                for (entry, datum) in column.iter_mut().zip(&self.data.data) {
+                    *entry = of_table(datum).map(|mode| exact[mode]).or(*entry);
+                }
+            }
+        }
+        if column.iter().any(Option::is_none) {
+            let differences = self.differences(index)?;
+            return Ok(column.iter().zip(differences).map(|(exact, by)| exact.unwrap_or(by)).collect());
+        }
+        Ok(column.into_iter().flatten().collect())
+    }
+
     /// Derivatives of all values by one parameter, by differences: central ones, or of three points on the side that exists.
     fn differences(&self, index: usize) -> Result<Vec<f64>, CandidateError> {
         let size = self.anchor.parameters[index].abs().max(1e-3 * self.data.parameters[index].typical);
@@ -110,7 +138,7 @@ impl<'a> UpdateProblem<'a> {
         let at = |steps: f64| -> Result<Vec<f64>, CandidateError> {
             let mut parameters = self.anchor.parameters.clone();
             parameters[index] += steps * step;
-            let model = candidate(self.study, &self.numbers, &parameters)?;
+            let model = built(self.study, &self.numbers, &parameters)?;
             let orbits = self.orbits.follow(&model, &self.anchor.orbits)?;
             values(&self.data.data, &model, &orbits)
         };
@@ -145,8 +173,9 @@ impl FitProblem for UpdateProblem<'_> {
     fn jacobian(&mut self, parameters: &[f64]) -> Result<Mat<f64>, CandidateError> {
         self.anchor = self.place(parameters)?;
         let mut jacobian = Mat::zeros(self.data.data.len(), parameters.len());
+        let file = candidate(self.study, &self.numbers, parameters)?;
         for j in 0..parameters.len() {
-            let column = self.differences(j)?;
+            let column = self.derivatives(&file, j)?;
             for (i, datum) in self.data.data.iter().enumerate() {
                 jacobian[(i, j)] = column[i] / datum.deviation;
             }

@@ -75,7 +75,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, study: &StudyFile) -> Option<R
     let deviations =
         root.optional("deviations").map_or(Some(Deviations::Known), |value| value.choice(&choices));
     let numbers = number::numbers(study);
-    let parameters = read_parameters(root, &numbers);
+    let parameters = read_parameters(root, study, &numbers);
     let mut data = Vec::new();
     for table in root.tables("eigenfrequency") {
         read_eigenfrequencies(table, &mut data);
@@ -130,10 +130,10 @@ fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-fn read_parameters(root: &Table<'_>, numbers: &[Number]) -> Vec<FittedKey> {
+fn read_parameters(root: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> Vec<FittedKey> {
     let mut read: Vec<FittedKey> = Vec::new();
     for table in root.tables("parameter") {
-        let Some(parameter) = read_parameter(&table, numbers) else {
+        let Some(parameter) = read_parameter(&table, study, numbers) else {
             table.finish();
             continue;
         };
@@ -147,7 +147,7 @@ fn read_parameters(root: &Table<'_>, numbers: &[Number]) -> Vec<FittedKey> {
     read
 }
 
-fn read_parameter(table: &Table<'_>, numbers: &[Number]) -> Option<FittedKey> {
+fn read_parameter(table: &Table<'_>, study: &StudyFile, numbers: &[Number]) -> Option<FittedKey> {
     let any = &quantity::ANY;
     let key = table.required("key").and_then(|value| read_key(&value, numbers));
     let start = table.optional("start").map(|value| value.number(any));
@@ -170,6 +170,13 @@ fn read_parameter(table: &Table<'_>, numbers: &[Number]) -> Option<FittedKey> {
     if !typical.is_finite() {
         let help = vec!["allowed: another `start`, or `low` and `high`, which tell its size".into()];
         table.problem("start", format!("`{key}` starts at 0, so that its size is not known"), help);
+        return None;
+    }
+    let (low, high) = number::limits(study, &number);
+    let bounds = Bounds { low: bounds.low.max(low), high: bounds.high.min(high) };
+    if bounds.clamp(start) != start {
+        let help = vec![format!("allowed by the study file: {} to {}", bounds.low, bounds.high)];
+        table.problem("start", format!("`{key}` starts at {start}"), help);
         return None;
     }
     Some(FittedKey { key, number, start, typical, bounds })
