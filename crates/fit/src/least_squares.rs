@@ -57,6 +57,11 @@ pub enum FitEnd {
         /// `|U^T r|`.
         distance: f64,
     },
+    /// The next steps lead to where the model does not exist.
+    Blocked {
+        /// `|U^T r|`.
+        distance: f64,
+    },
     /// There were too many iterations.
     OutOfIterations {
         /// `|U^T r|`.
@@ -77,6 +82,7 @@ impl FitEnd {
         match *self {
             Self::Converged { distance }
             | Self::Stalled { distance }
+            | Self::Blocked { distance }
             | Self::OutOfIterations { distance } => distance,
         }
     }
@@ -160,18 +166,22 @@ pub fn fit<P: FitProblem>(
         if search.iterations >= settings.max_iterations {
             return Ok(search.end(FitEnd::OutOfIterations { distance: distance / reference }));
         }
+        let mut refused = 0;
         loop {
             let trial = search.trial(damping, bounds);
             if trial.is_rounding || damping > MOST_DAMPING {
                 let distance = distance / reference.max(f64::MIN_POSITIVE);
                 let end = if distance <= AT_NOISE || search.trial(0.0, bounds).is_rounding {
                     FitEnd::Converged { distance }
+                } else if refused > 0 {
+                    FitEnd::Blocked { distance }
                 } else {
                     FitEnd::Stalled { distance }
                 };
                 return Ok(search.end(end));
             }
             let residuals = problem.residuals(&trial.parameters).ok();
+            refused += u32::from(residuals.is_none());
             let gained = residuals.as_ref().map_or(f64::NEG_INFINITY, |r| search.sum - sum_of_squares(r));
             if let Some(residuals) = residuals.filter(|_| gained > 0.0) {
                 let ratio = gained / trial.predicted;

@@ -131,6 +131,16 @@ fn derivatives_of_the_wrong_sign_stall() {
     assert!(!found.end.converged(), "{:?}", found.end);
 }
 
+/// The minimum at -2000 lies where the model of these tests does not exist.
+#[test]
+fn a_minimum_behind_the_end_of_the_model_is_out_of_reach() {
+    let straight: Curve = |_, p| (p[0], vec![1.0]);
+    let mut problem = Points { curve: straight, points: vec![(0.0, -2000.0)], deviation: 0.1 };
+    let found = fit(&mut problem, &[1.0], &[Bounds::NONE], &FitSettings::new(Deviations::Known)).unwrap();
+    assert!(matches!(found.end, FitEnd::Blocked { .. }), "{:?}", found.end);
+    assert!((-1000.0..-900.0).contains(&found.parameters[0]), "{:?}", found.parameters);
+}
+
 #[test]
 fn no_model_and_no_numbers_are_errors() {
     let settings = FitSettings::new(Deviations::Known);

@@ -64,6 +64,13 @@ fn not_converged(found: &Update) -> Option<String> {
     let why = match found.end {
         FitEnd::Converged { .. } => return None,
         FitEnd::Stalled { .. } => "no step improves it".to_owned(),
+        FitEnd::Blocked { .. } => {
+            let refusal = found.refusal.as_deref().unwrap_or("it cannot be computed there");
+            format!(
+                "the way leads to where there is no such model ({})",
+                refusal.lines().next().unwrap_or_default()
+            )
+        }
         FitEnd::OutOfIterations { .. } => format!("it was left after {} iterations", found.iterations),
     };
     let reached: Vec<String> = found

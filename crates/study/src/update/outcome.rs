@@ -78,6 +78,8 @@ pub struct Update {
     pub identifiability: Identifiability,
     /// How the fit ended.
     pub end: FitEnd,
+    /// Why a trial was last refused, if one was.
+    pub refusal: Option<String>,
     /// Iterations of the fit.
     pub iterations: u32,
     /// Everything that has to be said about it.
@@ -136,6 +138,7 @@ pub fn update(
         parameters: parameters(data, &found, &inference, &profiles),
         data: fitted_data(data, &found, &at_start),
         end: found.end,
+        refusal: problem.refusal().map(str::to_owned),
         iterations: found.iterations,
         study_text: replaced(&study.text, &numbers, &found.parameters),
         inference,

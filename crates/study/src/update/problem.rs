@@ -30,6 +30,7 @@ pub struct UpdateProblem<'a> {
     numbers: Vec<Number>,
     orbits: Orbits,
     anchor: Place,
+    refusal: Option<String>,
 }
 
 /// Parameters, the orbits there, and what the model says.
@@ -53,7 +54,7 @@ impl<'a> UpdateProblem<'a> {
         let found = orbits.seek(&model, data)?;
         let values = values(&data.data, &model, &found)?;
         let anchor = Place { parameters, orbits: found, values };
-        Ok(Self { study, data, numbers, orbits, anchor })
+        Ok(Self { study, data, numbers, orbits, anchor, refusal: None })
     }
 
     /// Bounds of the parameters.
@@ -74,6 +75,12 @@ impl<'a> UpdateProblem<'a> {
     #[must_use]
     pub fn orbits(&self) -> &[PeriodicSolution] {
         &self.anchor.orbits
+    }
+
+    /// Why the last trial was refused, if one was.
+    #[must_use]
+    pub fn refusal(&self) -> Option<&str> {
+        self.refusal.as_deref()
     }
 
     /// Follows the orbits from the anchor to other parameters, in one step or in several.
@@ -165,7 +172,13 @@ impl FitProblem for UpdateProblem<'_> {
     type Error = CandidateError;
 
     fn residuals(&mut self, parameters: &[f64]) -> Result<Vec<f64>, CandidateError> {
-        let values = self.values(parameters)?;
+        let values = match self.values(parameters) {
+            Ok(values) => values,
+            Err(error) => {
+                self.refusal = Some(error.to_string());
+                return Err(error);
+            }
+        };
         let residual = |(value, datum): (&f64, &Datum)| (value - datum.value) / datum.deviation;
         Ok(values.iter().zip(&self.data.data).map(residual).collect())
     }

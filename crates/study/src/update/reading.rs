@@ -8,6 +8,7 @@ use toml::de::DeTable;
 use crate::{
     Report, StudyFile,
     document::{Problem, Quantity, Reading, Table, Value, place, quantity},
+    file::Structure,
 };
 
 use super::data::{
@@ -75,7 +76,8 @@ fn read_root(root: &Table<'_>, reading: &Reading, study: &StudyFile) -> Option<R
     let deviations =
         root.optional("deviations").map_or(Some(Deviations::Known), |value| value.choice(&choices));
     let numbers = number::numbers(study);
-    let parameters = read_parameters(root, study, &numbers);
+    let mut parameters = read_parameters(root, study, &numbers);
+    keep_points_on_the_beam(&mut parameters, study);
     let mut data = Vec::new();
     for table in root.tables("eigenfrequency") {
         read_eigenfrequencies(table, &mut data);
@@ -196,6 +198,24 @@ fn read_key(value: &Value<'_>, numbers: &[Number]) -> Option<(String, Number)> {
         &names,
     );
     None
+}
+
+/// Points stay on a beam whose length is not fitted, and a beam stays as long as its points ask that are not fitted.
+fn keep_points_on_the_beam(parameters: &mut [FittedKey], study: &StudyFile) {
+    let Structure::Beam(beam) = &study.study.structure else { return };
+    let is = |parameter: &FittedKey, key: &str| parameter.number.keys.last().is_some_and(|last| last == key);
+    let place = |index: usize| format!("structure.point.{}.at_m", index + 1);
+    let fits_length = parameters.iter().any(|parameter| is(parameter, "structure.length_m"));
+    let fixed = |index: &usize| !parameters.iter().any(|parameter| is(parameter, &place(*index)));
+    let farthest =
+        (0..beam.points.len()).filter(fixed).map(|index| beam.points[index].at_m).fold(0.0, f64::max);
+    for parameter in parameters {
+        if is(parameter, "structure.length_m") {
+            parameter.bounds.low = parameter.bounds.low.max(farthest);
+        } else if !fits_length && (0..beam.points.len()).any(|index| is(parameter, &place(index))) {
+            parameter.bounds.high = parameter.bounds.high.min(beam.length_m);
+        }
+    }
 }
 
 /// One number or a list of them.
