@@ -26,6 +26,7 @@ pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
     let settings = UpdateSettings {
         confidence: options.confidence / 100.0,
         profiles: options.profile,
+        further_starts: options.starts,
         ..UpdateSettings::default()
     };
     let found = update(&study, &data, &settings).map_err(failure)?;
@@ -124,6 +125,9 @@ fn document(found: &Update, data: &UpdateData) -> Value {
         "confidence": inference.confidence,
         "quantile": finite(inference.quantile),
         "iterations": found.iterations,
+        "starts": found.starts.tried,
+        "starts_that_led_here": found.starts.led_here,
+        "next_minimum_chi_squared": found.starts.next_chi_squared,
         "parameters": found.parameters.iter().map(parameter).collect::<Vec<_>>(),
         "data": found.data.iter().map(|datum| measured(datum, data)).collect::<Vec<_>>(),
         "chi_squared": inference.chi_squared.value,
@@ -186,6 +190,12 @@ fn text(found: &Update, data: &UpdateData, options: &UpdateOptions) -> String {
     let mut lines = Vec::new();
     let counts = format!("{} parameter(s), {} data", found.parameters.len(), found.data.len());
     lines.push(format!("{}: {counts}, after {} iteration(s)", title(data), found.iterations));
+    if found.starts.tried > 1 {
+        let next = found.starts.next_chi_squared;
+        let other =
+            next.map_or(String::new(), |value| format!("; the next minimum has chi-squared {value:.4e}"));
+        lines.push(format!("{} of {} starts led here{other}", found.starts.led_here, found.starts.tried));
+    }
     lines.push(String::new());
     let percent = 100.0 * inference.confidence;
     let width = found.parameters.iter().map(|parameter| parameter.key.len()).max().unwrap_or(0);

@@ -9,6 +9,9 @@ use super::data::UpdateData;
 /// Probability below which a model does not fit its data.
 const POOR: f64 = 0.01;
 
+/// Factor of the standard deviations beyond which it is told.
+const LARGE: f64 = 10.0;
+
 /// Something that has to be said about a fit.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -42,6 +45,11 @@ pub enum Finding {
         freedoms: usize,
         /// Probability of as much or more.
         probability: f64,
+    },
+    /// The standard deviations come out many times as large as stated.
+    LargeFactor {
+        /// By what factor.
+        factor: f64,
     },
     /// No datum is left to test the model.
     NothingToTest,
@@ -79,6 +87,10 @@ pub(super) fn all(
     if let Some(probability) = test.probability.filter(|probability| *probability < POOR) {
         let (chi_squared, freedoms) = (test.value, test.freedoms);
         findings.push(Finding::PoorFit { chi_squared, freedoms, probability });
+    }
+    let factor = inference.variance.map_or(0.0, f64::sqrt);
+    if factor > LARGE {
+        findings.push(Finding::LargeFactor { factor });
     }
     if test.freedoms == 0 {
         findings.push(Finding::NothingToTest);
@@ -139,6 +151,10 @@ impl fmt::Display for Finding {
                 formatter,
                 "the model does not fit: chi-squared is {chi_squared:.1} with {freedoms} degrees of freedom, which errors of the stated size exceed with a probability of {probability:.1e}; \
                  the intervals count on the model and are too narrow"
+            ),
+            Self::LargeFactor { factor } => write!(
+                formatter,
+                "the residuals are {factor:.0} times as large as stated: the model does not fit, or the fit ended in a minimum that is not the lowest (try another start)"
             ),
             Self::NothingToTest => {
                 write!(

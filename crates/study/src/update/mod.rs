@@ -23,6 +23,7 @@
 //! | `response.rs` | orbits that are followed as parameters change |
 //! | `exact.rs` | exact derivatives of eigenfrequencies |
 //! | `problem.rs` | residuals and derivatives for the fit |
+//! | `starts.rs` | the best of fits from several starts |
 //! | `outcome.rs`, `finding.rs` | what comes out, in numbers and in words |
 
 mod candidate;
@@ -35,6 +36,7 @@ mod outcome;
 mod problem;
 mod reading;
 mod response;
+mod starts;
 
 pub use candidate::CandidateError;
 pub use data::{
@@ -42,5 +44,8 @@ pub use data::{
     Observation, ResponseDatum, UpdateData,
 };
 pub use finding::Finding;
-pub use outcome::{FittedDatum, FittedParameter, Update, UpdateError, UpdateSettings, update};
+pub use outcome::{
+    FURTHER_STARTS, FittedDatum, FittedParameter, Update, UpdateError, UpdateSettings, update,
+};
 pub use problem::UpdateProblem;
+pub use starts::Starts;

@@ -1,7 +1,7 @@
 //! An update: the fit and everything that is known of its result.
 
 use hammerbeam_fit::{
-    Fit, FitEnd, FitError, FitSettings, Identifiability, Inference, Interval, ProfileInterval, fit, profile,
+    Fit, FitEnd, FitError, FitSettings, Identifiability, Inference, Interval, ProfileInterval, profile,
 };
 
 use crate::StudyFile;
@@ -12,7 +12,11 @@ use super::{
     finding::{self, Finding},
     number::{Number, replaced},
     problem::UpdateProblem,
+    starts::{Found, Starts, best},
 };
+
+/// Further starts that are tried where that is quick.
+pub const FURTHER_STARTS: u32 = 12;
 
 /// How an update is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,13 +25,15 @@ pub struct UpdateSettings {
     pub confidence: f64,
     /// Whether intervals are also taken from the profile of `chi^2`, which costs many more fits.
     pub profiles: bool,
+    /// Further starts besides that of the data file; `None` for [`FURTHER_STARTS`] where no response was measured, and none where one was, since its orbits are sought at each.
+    pub further_starts: Option<u32>,
     /// Most iterations of the fit.
     pub max_iterations: u32,
 }
 
 impl Default for UpdateSettings {
     fn default() -> Self {
-        Self { confidence: 0.95, profiles: false, max_iterations: 100 }
+        Self { confidence: 0.95, profiles: false, further_starts: None, max_iterations: 100 }
     }
 }
 
@@ -80,6 +86,8 @@ pub struct Update {
     pub end: FitEnd,
     /// Why a trial was last refused, if one was.
     pub refusal: Option<String>,
+    /// What the starts led to.
+    pub starts: Starts,
     /// Iterations of the fit.
     pub iterations: u32,
     /// Everything that has to be said about it.
@@ -112,13 +120,14 @@ pub fn update(
     data: &UpdateData,
     settings: &UpdateSettings,
 ) -> Result<Update, UpdateError> {
-    let mut problem = UpdateProblem::new(study, data).map_err(|error| at_start(data, error))?;
     let start: Vec<f64> = data.parameters.iter().map(|parameter| parameter.start).collect();
+    let problem = UpdateProblem::new(study, data, &start).map_err(|error| at_start(data, error))?;
     let at_start = problem.values(&start).map_err(UpdateError::Start)?;
     let bounds = problem.bounds();
     let fitting =
         FitSettings { max_iterations: settings.max_iterations, ..FitSettings::new(data.deviations) };
-    let found = fit(&mut problem, &start, &bounds, &fitting)?;
+    let further = settings.further_starts.unwrap_or(if data.orbits.is_empty() { FURTHER_STARTS } else { 0 });
+    let Found { mut problem, fit: found, starts } = best(study, data, problem, further, &fitting)?;
     let inference = Inference::of(&found, data.deviations, settings.confidence);
     let size = |(value, parameter): (&f64, &super::FittedKey)| {
         if *value == 0.0 { parameter.typical } else { value.abs() }
@@ -140,6 +149,7 @@ pub fn update(
         end: found.end,
         refusal: problem.refusal().map(str::to_owned),
         iterations: found.iterations,
+        starts,
         study_text: replaced(&study.text, &numbers, &found.parameters),
         inference,
         identifiability,

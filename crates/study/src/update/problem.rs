@@ -42,13 +42,13 @@ struct Place {
 }
 
 impl<'a> UpdateProblem<'a> {
-    /// At the start of the parameters.
+    /// At these parameters.
     ///
     /// # Errors
-    /// [`CandidateError`]: there is no model at the start, or not what was measured.
-    pub fn new(study: &'a StudyFile, data: &'a UpdateData) -> Result<Self, CandidateError> {
+    /// [`CandidateError`]: there is no model with them, or not what was measured.
+    pub fn new(study: &'a StudyFile, data: &'a UpdateData, start: &[f64]) -> Result<Self, CandidateError> {
         let numbers: Vec<Number> = data.parameters.iter().map(|parameter| parameter.number.clone()).collect();
-        let parameters: Vec<f64> = data.parameters.iter().map(|parameter| parameter.start).collect();
+        let parameters = start.to_vec();
         let orbits = Orbits::new(&study.study);
         let model = built(study, &numbers, &parameters)?;
         let found = orbits.seek(&model, data)?;
