@@ -130,7 +130,7 @@ pub struct UpdateOptions {
     #[arg(long, value_name = "PERCENT", default_value_t = 95.0, value_parser = percent)]
     pub confidence: f64,
 
-    /// Further starts around that of the data file; the lowest minimum is taken [default: 12, or 0 with responses]
+    /// Further starts around that of the data file; the lowest minimum is taken [default: 6, or 0 with responses]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=10_000))]
     pub starts: Option<u32>,
 

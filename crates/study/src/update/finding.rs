@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use hammerbeam_fit::{COLLINEAR, Direction, Fit, Identifiability, Inference, OPEN};
+use hammerbeam_fit::{COLLINEAR, Direction, Fit, Identifiability, Inference, Interval, OPEN};
 
 use super::data::UpdateData;
 
@@ -51,6 +51,13 @@ pub enum Finding {
         /// By what factor.
         factor: f64,
     },
+    /// Other values of the parameters fit about as well.
+    AnotherMinimum {
+        /// Parameters with their values there.
+        values: Vec<(String, f64)>,
+        /// `chi^2` there.
+        chi_squared: f64,
+    },
     /// No datum is left to test the model.
     NothingToTest,
     /// A response that was measured is unstable with the best values.
@@ -63,7 +70,7 @@ pub enum Finding {
 /// All findings of a fit.
 pub(super) fn all(
     data: &UpdateData,
-    found: &Fit,
+    (found, elsewhere): (&Fit, &[Fit]),
     inference: &Inference,
     identifiability: &Identifiability,
     stable: &[bool],
@@ -92,12 +99,36 @@ pub(super) fn all(
     if factor > LARGE {
         findings.push(Finding::LargeFactor { factor });
     }
+    if identifiability.open.is_empty() {
+        findings.extend(another_minimum(data, found, elsewhere, inference));
+    }
     if test.freedoms == 0 {
         findings.push(Finding::NothingToTest);
     }
     let lost = data.orbits.iter().zip(stable).filter(|(_, stable)| !**stable);
     findings.extend(lost.map(|(orbit, _)| Finding::Unstable { frequency_hz: orbit.frequency_hz }));
     findings
+}
+
+/// The lowest of the other minima, if its `chi^2` lies within the level of the intervals and its parameters beyond them.
+fn another_minimum(
+    data: &UpdateData,
+    found: &Fit,
+    elsewhere: &[Fit],
+    inference: &Inference,
+) -> Option<Finding> {
+    let level = found.chi_squared() + inference.variance? * inference.quantile.powi(2);
+    let beyond = |other: &&Fit| {
+        let outside = |(value, interval): (&f64, &Option<Interval>)| {
+            interval.is_some_and(|interval| *value < interval.low || *value > interval.high)
+        };
+        other.chi_squared() <= level && other.parameters.iter().zip(&inference.intervals).any(outside)
+    };
+    let lowest =
+        elsewhere.iter().filter(beyond).min_by(|a, b| a.chi_squared().total_cmp(&b.chi_squared()))?;
+    let values = data.parameters.iter().map(|parameter| parameter.key.clone());
+    let values = values.zip(lowest.parameters.iter().copied()).collect();
+    Some(Finding::AnotherMinimum { values, chi_squared: lowest.chi_squared() })
 }
 
 /// `a +1 %, b -0.5 %`: a step along a direction, the largest part one percent.
@@ -156,6 +187,15 @@ impl fmt::Display for Finding {
                 formatter,
                 "the residuals are {factor:.0} times as large as stated: the model does not fit, or the fit ended in a minimum that is not the lowest (try another start)"
             ),
+            Self::AnotherMinimum { values, chi_squared } => {
+                let values: Vec<String> =
+                    values.iter().map(|(key, value)| format!("{key} = {value:.6e}")).collect();
+                write!(
+                    formatter,
+                    "other values fit about as well: {}, with chi-squared {chi_squared:.4e}; `low` and `high` in the data file exclude what cannot be",
+                    values.join(", ")
+                )
+            }
             Self::NothingToTest => {
                 write!(
                     formatter,

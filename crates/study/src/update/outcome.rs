@@ -16,7 +16,7 @@ use super::{
 };
 
 /// Further starts that are tried where that is quick.
-pub const FURTHER_STARTS: u32 = 12;
+pub const FURTHER_STARTS: u32 = 6;
 
 /// How an update is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -127,7 +127,7 @@ pub fn update(
     let fitting =
         FitSettings { max_iterations: settings.max_iterations, ..FitSettings::new(data.deviations) };
     let further = settings.further_starts.unwrap_or(if data.orbits.is_empty() { FURTHER_STARTS } else { 0 });
-    let Found { mut problem, fit: found, starts } = best(study, data, problem, further, &fitting)?;
+    let Found { mut problem, fit: found, starts, elsewhere } = best(study, data, problem, further, &fitting)?;
     let inference = Inference::of(&found, data.deviations, settings.confidence);
     let size = |(value, parameter): (&f64, &super::FittedKey)| {
         if *value == 0.0 { parameter.typical } else { value.abs() }
@@ -143,7 +143,7 @@ pub fn update(
         .collect();
     let numbers: Vec<Number> = data.parameters.iter().map(|parameter| parameter.number.clone()).collect();
     Ok(Update {
-        findings: finding::all(data, &found, &inference, &identifiability, &stable),
+        findings: finding::all(data, (&found, &elsewhere), &inference, &identifiability, &stable),
         parameters: parameters(data, &found, &inference, &profiles),
         data: fitted_data(data, &found, &at_start),
         end: found.end,

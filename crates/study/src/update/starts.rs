@@ -14,7 +14,7 @@ use super::{candidate::CandidateError, data::UpdateData, problem::UpdateProblem}
 
 /// Largest relative distance of a further start from the one of the data file.
 const SPREAD: f64 = 0.3;
-/// Two minima are the same if their `chi^2` differ by less than this, relatively or in standard deviations.
+/// Two minima are the same if their `chi^2` differ by less than this, relatively or in standard deviations, and their parameters by less than this part.
 const SAME: f64 = 1e-4;
 const BASES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
 
@@ -34,6 +34,8 @@ pub(super) struct Found<'a> {
     pub problem: UpdateProblem<'a>,
     pub fit: Fit,
     pub starts: Starts,
+    /// Other minima that were met.
+    pub elsewhere: Vec<Fit>,
 }
 
 /// Fits from the start of the data file and from `more` others; the smallest `chi^2` of those that converge is taken, or the first fit if none does.
@@ -58,24 +60,25 @@ pub(super) fn best<'a>(
             ends.push((problem, found));
         }
     }
-    let rank = |found: &Fit| (!found.end.converged(), found.chi_squared());
-    let order = |a: &Fit, b: &Fit| {
-        let (a, b) = (rank(a), rank(b));
-        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    let converged = |found: &Fit| found.end.converged();
+    let minima = ends.iter().filter(|(_, found)| converged(found)).map(|(_, found)| found.chi_squared());
+    let least = minima.reduce(f64::min).unwrap_or(f64::INFINITY);
+    let lowest = |found: &Fit| converged(found) && found.chi_squared() - least <= SAME * least.max(1.0);
+    // Of equals the first is taken: the one from the start that was asked for, if it led there.
+    let best = ends.iter().position(|(_, found)| lowest(found)).unwrap_or(0);
+    let (problem, fit) = ends.remove(best);
+    let near = |other: &Fit| {
+        let pairs = other.parameters.iter().zip(&fit.parameters).zip(&data.parameters);
+        lowest(other) && pairs.into_iter().all(|((a, b), p)| (a - b).abs() <= SAME * p.typical)
     };
-    // Of equals the first is taken.
-    let best = (0..ends.len()).min_by(|a, b| order(&ends[*a].1, &ends[*b].1)).unwrap_or(0);
-    let least = ends[best].1.chi_squared();
-    let same = |value: f64| (value - least).abs() <= SAME * least.max(1.0);
-    let minima = ends.iter().filter(|(_, found)| found.end.converged()).map(|(_, found)| found.chi_squared());
-    let (here, elsewhere): (Vec<f64>, Vec<f64>) = minima.partition(|value| same(*value));
+    let others: Vec<Fit> = ends.into_iter().map(|(_, found)| found).filter(converged).collect();
+    let (here, elsewhere): (Vec<Fit>, Vec<Fit>) = others.into_iter().partition(|found| near(found));
     let starts = Starts {
         tried: more + 1,
-        led_here: here.len() as u32,
-        next_chi_squared: elsewhere.into_iter().reduce(f64::min),
+        led_here: here.len() as u32 + u32::from(converged(&fit)),
+        next_chi_squared: elsewhere.iter().map(Fit::chi_squared).reduce(f64::min),
     };
-    let (problem, fit) = ends.swap_remove(best);
-    Ok(Found { problem, fit, starts })
+    Ok(Found { problem, fit, starts, elsewhere })
 }
 
 fn further(data: &UpdateData, bounds: &[Bounds], number: u32) -> Vec<f64> {
