@@ -67,6 +67,27 @@ fn everything_that_the_file_says_is_understood() {
     assert_eq!((force.of, data.data[4].deviation), (Maximum::ContactForce, 10.0));
 }
 
+const PAGE: &str = include_str!("../../../docs/updating.md");
+
+#[test]
+fn every_key_is_documented_and_the_example_is_understood() {
+    let tables = ["", "[[parameter]]", "[[eigenfrequency]]", "[[damping_ratio]]", "[[periodic_response]]"];
+    for table in tables {
+        let message = parse(&format!("{table}\nwrong_key = 1\n")).unwrap_err();
+        let known: Vec<&str> = message
+            .lines()
+            .filter_map(|line| line.split_once("known keys: "))
+            .map(|(_, keys)| keys)
+            .collect();
+        assert!(!known.is_empty(), "{message}");
+        for key in known.iter().flat_map(|keys| keys.split(", ")) {
+            assert!(PAGE.contains(&format!("`{key}`")), "`{key}` is not documented");
+        }
+    }
+    let example = PAGE.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    assert_eq!(parse(example).unwrap().data.len(), 3);
+}
+
 #[test]
 fn the_files_of_the_paper_are_understood() {
     assert_eq!(parse(PRINTED).unwrap().data.len(), 16);
