@@ -102,7 +102,7 @@ fn beta(x: f64, a: f64, b: f64) -> f64 {
         }
         let m = (k / 2) as f64;
         let two = 2.0 * m;
-        let d = if k % 2 == 0 {
+        let d = if k.is_multiple_of(2) {
             m * (b - m) * x / ((a + two - 1.0) * (a + two))
         } else {
             -(a + m) * (a + b + m) * x / ((a + two) * (a + two + 1.0))
