@@ -59,7 +59,7 @@ fn misra1a_has_its_certified_values() {
         let inference = Inference::of(&found, Deviations::UpToFactor, 0.95);
         // Converged to 1e-6 standard errors, which are 1 % of the values.
         let close = |found: f64, certified: f64| {
-            assert!((found / certified - 1.0).abs() < 1e-7, "{found} {certified}")
+            assert!((found / certified - 1.0).abs() < 1e-7, "{found} {certified}");
         };
         close(found.parameters[0], 2.389_421_291_8e2);
         close(found.parameters[1], 5.501_564_318_1e-4);

@@ -40,8 +40,11 @@ fn a_bare_beam_scales_as_its_formula() {
     }
 }
 
+/// A number of a beam: its name, the change by it, and how it is made larger by a part of itself.
+type Number = (&'static str, BeamChange, fn(&mut Beam, f64));
+
 /// All numbers of a beam with everything on it, each as a change of it.
-fn everything() -> (Beam, Vec<(&'static str, BeamChange, fn(&mut Beam, f64))>) {
+fn everything() -> (Beam, Vec<Number>) {
     let contact = BeamPoint { mass: 0.03756, rotary_inertia: 2e-6, ..bare("contact", 0.2432157) };
     let middle = BeamPoint { spring: 2e3, rotational_spring: 3.0, mass: 0.01, ..bare("middle", 0.11) };
     let beam = Beam { points: vec![contact, middle], ..paper_beam() };
@@ -55,7 +58,7 @@ fn everything() -> (Beam, Vec<(&'static str, BeamChange, fn(&mut Beam, f64))>) {
         ..BeamChange::default()
     };
     let none = PointChange::default();
-    let changes: Vec<(&'static str, BeamChange, fn(&mut Beam, f64))> = vec![
+    let changes: Vec<Number> = vec![
         ("length", BeamChange { length: 1.0, ..BeamChange::default() }, |beam, by| beam.length *= 1.0 + by),
         ("modulus", BeamChange { bending_stiffness: moment, ..BeamChange::default() }, |beam, by| {
             beam.youngs_modulus *= 1.0 + by;
@@ -65,7 +68,7 @@ fn everything() -> (Beam, Vec<(&'static str, BeamChange, fn(&mut Beam, f64))>) {
             beam.section = Section::general(area * (1.0 + by), moment).unwrap();
         }),
         ("density", BeamChange { mass_per_length: area, ..BeamChange::default() }, |beam, by| {
-            beam.density *= 1.0 + by
+            beam.density *= 1.0 + by;
         }),
         ("at", first(PointChange { at: 1.0, ..none }), |beam, by| beam.points[0].at *= 1.0 + by),
         ("mass", first(PointChange { mass: 1.0, ..none }), |beam, by| beam.points[0].mass *= 1.0 + by),
