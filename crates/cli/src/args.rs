@@ -197,11 +197,20 @@ pub enum FigureKind {
     Exponents,
     /// Basins of attraction
     Basins,
+    /// One HTML file to look through all of it, page.html
+    Page,
 }
 
 impl FigureKind {
-    pub const ALL: [Self; 6] =
-        [Self::Response, Self::Curves, Self::Multipliers, Self::Sweeps, Self::Exponents, Self::Basins];
+    pub const ALL: [Self; 7] = [
+        Self::Response,
+        Self::Curves,
+        Self::Multipliers,
+        Self::Sweeps,
+        Self::Exponents,
+        Self::Basins,
+        Self::Page,
+    ];
 }
 
 #[derive(Debug, Args)]

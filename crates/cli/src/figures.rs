@@ -3,6 +3,7 @@
 mod motions;
 mod multipliers;
 pub mod orbit;
+mod page;
 
 use std::{fs, path::Path};
 
@@ -12,7 +13,7 @@ use hammerbeam_figure::{
     ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
 use hammerbeam_study::{
-    Store, StoreError, StudyFile,
+    Model, Store, StoreError, StudyFile,
     store::{PieceRecord, Row},
 };
 
@@ -58,6 +59,13 @@ impl<'a> Drawn<'a> {
         Ok(())
     }
 
+    /// Writes a file that is no figure.
+    pub fn write(&mut self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+        replace(&self.folder.join(name), bytes)?;
+        self.files.push(name.to_owned());
+        Ok(())
+    }
+
     /// Says on standard error what could not be drawn.
     pub fn tell_refused(&self) {
         for (name, reason) in &self.refused {
@@ -66,14 +74,15 @@ impl<'a> Drawn<'a> {
     }
 }
 
-/// Draws the response diagrams and the curves of bifurcations into the results folder, each as SVG and PNG.
+/// Draws the response diagrams and the curves of bifurcations into the results folder, each as SVG and PNG, and the page.
 ///
 /// # Returns
 /// Names of the files.
-pub fn draw(store: &Store, range_hz: [f64; 2]) -> anyhow::Result<Vec<String>> {
+pub fn draw(store: &Store, file: &StudyFile, model: &Model) -> anyhow::Result<Vec<String>> {
     let mut drawn = Drawn::into(store.folder())?;
-    draw_response(store, range_hz, FigureScale::Automatic, &mut drawn)?;
+    draw_response(store, file.study.excitation.frequency_hz, FigureScale::Automatic, &mut drawn)?;
     draw_curves(store, &mut drawn)?;
+    page::draw(store, file, model, &mut drawn)?;
     match drawn.refused.first() {
         Some((name, reason)) => anyhow::bail!("cannot draw {name}: {reason}"),
         None => Ok(drawn.files),
@@ -95,6 +104,7 @@ pub fn draw_kind(
         FigureKind::Sweeps => motions::draw_sweeps(store, drawn),
         FigureKind::Exponents => motions::draw_exponents(store, drawn),
         FigureKind::Basins => motions::draw_basins(store, file, drawn),
+        FigureKind::Page => page::draw(store, file, &Model::build(file)?, drawn),
     }
 }
 

@@ -67,7 +67,7 @@ pub use damping::{Damping, ModalRatios};
 pub use error::StructureError;
 pub use lumped::{Connection, GROUND, Lumped, LumpedMass};
 pub use plausible::{PLAUSIBLE_DENSITY, PLAUSIBLE_YOUNGS_MODULUS};
-pub use reduce::Reduced;
+pub use reduce::{OutlinePoint, Reduced};
 pub use reduced_model::{PointOutput, ReducedModel, SupportInput};
 pub use reduction::Reduction;
 pub use section::Section;

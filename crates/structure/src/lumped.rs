@@ -7,7 +7,7 @@ use crate::{
     error::{not_negative, positive},
     names::check_names,
     strain::Strains,
-    structure::{Assembly, Kind, NamedCoordinate},
+    structure::{Assembly, Kind, NamedCoordinate, Place},
 };
 
 /// Name of the surroundings in which springs and dampers may end.
@@ -62,7 +62,8 @@ impl Lumped {
         };
         let held = (0..=count).map(|index| index == count).collect();
         let points = self.names().enumerate().map(|(coordinate, name)| NamedCoordinate { name, coordinate });
-        Ok(Structure::new(Kind::Lumped, assembly, held, points.collect()))
+        let places = (0..count).map(|mass| Place { at: mass as f64, coordinate: mass });
+        Ok(Structure::new(Kind::Lumped, assembly, held, points.collect(), places.collect()))
     }
 
     fn check(&self) -> Result<(), StructureError> {

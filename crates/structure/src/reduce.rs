@@ -11,7 +11,7 @@ use crate::{
     modes::Modes,
     orient::orient,
     reduction::Basis,
-    structure::{Kind, times},
+    structure::{Kind, Place, times},
     tables::{flexibility, frequency_errors, relative_error},
 };
 
@@ -22,6 +22,19 @@ pub struct Reduced {
     pub model: ReducedModel,
     /// Eigenfrequencies of all stages, and the error of the reduction.
     pub tables: ModeTables,
+    /// The shape of the whole structure: of a beam its nodes, of a lumped structure its masses.
+    pub outline: Vec<OutlinePoint>,
+}
+
+/// A place of a structure and how it moves, for drawing the structure as a whole: `y = shape . q + support_ratio u`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutlinePoint {
+    /// Distance from the left end [m]; of a lumped structure the number of the mass, from 0.
+    pub at: f64,
+    /// Displacement in each mode [kg^-1/2], length n.
+    pub shape: Vec<f64>,
+    /// Displacement per unit static support motion [-].
+    pub support_ratio: f64,
 }
 
 impl Structure {
@@ -49,10 +62,21 @@ impl Structure {
         let basis = reduction.basis(self, &full, &coordinates)?;
         let (frequencies, shapes) = self.relative_modes(&full, basis.as_ref())?;
         let shapes = orient(self.over_all(shapes), &coordinates, &self.assembly.translation);
-        let model = self.modal_form(frequencies, &shapes, self.support_shape(&full), damping)?;
+        let support_shape = self.support_shape(&full);
+        let outline = self.outline(&shapes, support_shape.as_ref());
+        let model = self.modal_form(frequencies, &shapes, support_shape, damping)?;
         let mut tables = self.tables(&full, &model, reduction, basis);
         tables.flexibility_errors = self.flexibility_errors(&full, &model, interface);
-        Ok(Reduced { model, tables })
+        Ok(Reduced { model, tables, outline })
+    }
+
+    fn outline(&self, shapes: &Mat<f64>, support_shape: Option<&Mat<f64>>) -> Vec<OutlinePoint> {
+        let point = |place: &Place| OutlinePoint {
+            at: place.at,
+            shape: shapes.row(place.coordinate).iter().copied().collect(),
+            support_ratio: support_shape.map_or(0.0, |shape| shape[(place.coordinate, 0)]),
+        };
+        self.places().iter().map(point).collect()
     }
 
     /// Frequencies and shapes (over the free coordinates) of the motion relative to the support.

@@ -42,11 +42,27 @@ pub struct Structure {
     held: Vec<bool>,
     prescribed: Vec<usize>,
     points: Vec<NamedCoordinate>,
+    places: Vec<Place>,
+}
+
+/// A place of a structure: all of them in their order are its shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Place {
+    /// Distance from the left end [m]; of a lumped structure the number of the mass, from 0.
+    pub at: f64,
+    /// Its transverse displacement.
+    pub coordinate: usize,
 }
 
 impl Structure {
-    pub(crate) fn new(kind: Kind, assembly: Assembly, held: Vec<bool>, points: Vec<NamedCoordinate>) -> Self {
-        Self { kind, assembly, held, prescribed: Vec::new(), points }
+    pub(crate) fn new(
+        kind: Kind,
+        assembly: Assembly,
+        held: Vec<bool>,
+        points: Vec<NamedCoordinate>,
+        places: Vec<Place>,
+    ) -> Self {
+        Self { kind, assembly, held, prescribed: Vec::new(), points, places }
     }
 
     /// Prescribes one support motion `u(t)` of the transverse displacement at each of the named points.
@@ -114,6 +130,11 @@ impl Structure {
     /// Coordinates that follow the support motion.
     pub(crate) fn prescribed(&self) -> &[usize] {
         &self.prescribed
+    }
+
+    /// All places, from left to right.
+    pub(crate) fn places(&self) -> &[Place] {
+        &self.places
     }
 
     /// The named points.

@@ -45,7 +45,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         _ if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
-            let figures = figures::draw(&store, file.study.excitation.frequency_hz)?;
+            let figures = figures::draw(&store, &file, &model)?;
             output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
             Ok(())
         }

@@ -12,7 +12,7 @@ use crate::{
     error::{finite, not_negative, positive},
     names::check_names,
     strain::Strains,
-    structure::{Assembly, Kind, NamedCoordinate},
+    structure::{Assembly, Kind, NamedCoordinate, Place},
 };
 
 /// How an end of a beam is held.
@@ -104,7 +104,9 @@ impl Beam {
             .into_iter()
             .zip(&mesh.nodes)
             .map(|((name, _), &node)| NamedCoordinate { name: name.into(), coordinate: 2 * node });
-        Ok(Structure::new(Kind::Beam, assembly, self.held(mesh.positions.len()), points.collect()))
+        let places = mesh.positions.iter().enumerate().map(|(node, &at)| Place { at, coordinate: 2 * node });
+        let held = self.held(mesh.positions.len());
+        Ok(Structure::new(Kind::Beam, assembly, held, points.collect(), places.collect()))
     }
 
     /// Names and positions of the points, then of the left and the right end.

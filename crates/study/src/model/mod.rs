@@ -8,7 +8,7 @@ mod structure;
 
 use hammerbeam_motion::{System, SystemError};
 use hammerbeam_orbit::Response;
-use hammerbeam_structure::{ModeTables, ReducedModel, StructureError};
+use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureError};
 
 pub use drift::Drift;
 pub use parameter::StudyParameter;
@@ -25,6 +25,8 @@ pub struct Model {
     pub response: Response,
     /// Eigenfrequencies of all stages.
     pub tables: ModeTables,
+    /// The shape of the whole structure.
+    pub outline: Vec<OutlinePoint>,
 }
 
 impl Model {
@@ -43,7 +45,7 @@ impl Model {
         let response = response_point(study, &reduced.model);
         let system =
             System::new(reduced.model, &load, elements).map_err(|error| system_fault(file, &error))?;
-        let model = Self { system, response, tables: reduced.tables };
+        let model = Self { system, response, tables: reduced.tables, outline: reduced.outline };
         model.check_varied(file)?;
         Ok(model)
     }
