@@ -24,6 +24,9 @@ export interface FrameOptions {
     height: () => number;
 }
 
+/** Width and height (CSS pixels) of what lies around a plot. */
+export const MARGINS = { across: 90, up: 58 };
+
 const FONT = "12px system-ui, sans-serif";
 const LABEL_FONT = "13px system-ui, sans-serif";
 

@@ -90,6 +90,17 @@ export class Response {
         });
     }
 
+    /** Zooms about the selected solution where it is seen, else about the middle. */
+    zoomAboutSelected(factor: number): void {
+        const { quantity, log, selected } = this.store.state;
+        const { x, y, logY } = this.range();
+        const [low, high] = logY ? [Math.log10(y[0]), Math.log10(y[1])] : y;
+        const across = ((this.solutions.frequency[selected] ?? NaN) - x[0]) / (x[1] - x[0]);
+        const up = ((this.curves.levels(quantity, log)[selected] ?? NaN) - low) / (high - low);
+        const isSeen = across >= 0 && across <= 1 && up >= 0 && up <= 1;
+        this.zoom([factor, factor], isSeen ? [across, up] : [0.5, 0.5]);
+    }
+
     /** Moves by shares of width and height. */
     pan(by: [number, number]): void {
         this.change((low, high, axis) => [low + by[axis] * (high - low), high + by[axis] * (high - low)]);
