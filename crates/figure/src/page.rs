@@ -2,7 +2,7 @@
 //!
 //! The file holds a short script and the data it shows: what is small as JSON, solutions and orbits as little-endian arrays in base64.
 //! Solutions are decoded when the page opens. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
-//! long as a multiple of three bytes, so that its place in the base64 text is known. Samples are rounded to a 16 384th of the range of their channel.
+//! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to a 4095th of the range of their series.
 //!
 //! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
 //! needs Node; a test says that it is what the sources give.

@@ -1,9 +1,9 @@
 // The table of bifurcations; a row jumps to its point.
 
-import { BRANCH_POINT, FLIP, FOLD, GRAZING, NEIMARK_SACKER, STABLE, type Meta, type Solutions } from "./data";
+import { BRANCH_POINT, FLIP, FOLD, GRAZING, NEIMARK_SACKER, type Meta, type Solutions } from "./data";
 import { button, choice, element, panel, toggle } from "./dom";
 import { digits } from "./format";
-import { eventNames } from "./numbers";
+import { besideStable, eventNames } from "./marks";
 import type { Store } from "./state";
 
 const KINDS = [
@@ -17,12 +17,6 @@ const KINDS = [
 
 /** Rows that are made at a time. */
 const ROWS = 150;
-
-/** Whether a solution is stable, or one beside it on its branch. */
-export function besideStable(solutions: Solutions, k: number): boolean {
-    const isStable = (other: number): boolean => solutions.branch[other] === solutions.branch[k] && ((solutions.flags[other] ?? 0) & STABLE) !== 0;
-    return isStable(k) || isStable(k - 1) || isStable(k + 1);
-}
 
 /** Solutions with an event among the bits. */
 export function eventsOf(solutions: Solutions, bits: number): number[] {

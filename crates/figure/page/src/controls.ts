@@ -6,6 +6,7 @@ import { MEASURES } from "./format";
 import type { Store } from "./state";
 
 export interface Commands {
+    quantity: (quantity: Quantity) => void;
     whole: () => void;
     zoom: (factor: number) => void;
     copyLink: () => void;
@@ -14,7 +15,7 @@ export interface Commands {
 
 export function controls(meta: Meta, store: Store, commands: Commands): HTMLElement {
     const options = (Object.keys(MEASURES) as Quantity[]).map((quantity) => [quantity, MEASURES[quantity].name] as const);
-    const quantity = choice("Show", options, (value) => store.update({ quantity: value, view: null }));
+    const quantity = choice("Show", options, commands.quantity);
     const scale = choice("Scale", [["log", "logarithmic"], ["linear", "linear"]] as const, (value) => store.update({ log: value === "log", view: null }));
     const theme = choice("Colours", [["auto", "as the system"], ["light", "light"], ["dark", "dark"]] as const, (value) => store.update({ theme: value }));
     const marks = toggle("marks", (on) => store.update({ marks: on }));

@@ -15,7 +15,10 @@ export function digits(value: number, count: number): string {
 
 /** Labels of ticks at a distance. */
 export function ticks(splits: readonly (number | null)[], distance: number): string[] {
-    const decimals = Math.min(12, Math.max(0, Math.ceil(-Math.log10(distance) - 1e-9)));
+    let decimals = 0;
+    while (decimals < 12 && Math.abs(distance * 10 ** decimals - Math.round(distance * 10 ** decimals)) > 1e-6) {
+        decimals++;
+    }
     return splits.map((value) => (value === null ? "" : plain(value, decimals)));
 }
 
@@ -39,12 +42,12 @@ export function hertz(value: number): string {
     return `${value.toFixed(6)} Hz`;
 }
 
-/** A complex number. */
+/** A real number, or a complex pair. */
 export function complex(re: number, im: number): string {
     if (im === 0) {
-        return digits(re, 5);
+        return digits(re, 4);
     }
-    return `${digits(re, 5)} ${im < 0 ? "−" : "±"} ${digits(Math.abs(im), 5)}i`;
+    return `${digits(re, 4)} ± ${digits(Math.abs(im), 4)}i`;
 }
 
 export interface Measure {

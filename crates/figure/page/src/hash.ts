@@ -51,8 +51,12 @@ function pair(text: string | null): [number, number] | null {
     return low !== undefined && high !== undefined && Number.isFinite(low) && high > low ? [low, high] : null;
 }
 
-/** The state of a link; what is not there, or makes no sense, is as at the start. */
-export function fromHash(hash: string, meta: Meta, log: boolean): State {
+/**
+ * The state of a link; what is not there, or makes no sense, is as at the start.
+ *
+ * `suits`: whether a logarithmic axis suits a quantity.
+ */
+export function fromHash(hash: string, meta: Meta, suits: (quantity: Quantity) => boolean): State {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
     const [x, y] = [pair(words.get("x")), pair(words.get("y"))];
     const [id, number] = (words.get("at") ?? "").split(":").map(Number);
@@ -62,9 +66,10 @@ export function fromHash(hash: string, meta: Meta, log: boolean): State {
     const theme = words.get("theme");
     const section = Number(words.get("section") ?? 1) - 1;
     const scale = words.get("scale");
+    const quantity = QUANTITIES.find((one) => one === words.get("show")) ?? START.quantity;
     return {
-        quantity: QUANTITIES.find((quantity) => quantity === words.get("show")) ?? START.quantity,
-        log: scale === null ? log : scale === "log",
+        quantity,
+        log: scale === null ? suits(quantity) : scale === "log",
         view: x !== null && y !== null ? { x, y } : null,
         selected: inside ? branch.first + Math.trunc(number) : -1,
         hidden: new Set(hidden.filter((place) => place >= 0)),

@@ -8,6 +8,7 @@ import type { Store } from "./state";
 
 export interface Actions {
     response: Response;
+    quantity: (quantity: Quantity) => void;
     play: () => void;
     copyLink: () => void;
     help: () => void;
@@ -89,7 +90,7 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         "-": () => zoom(1 / 0.6),
         "0": () => store.update({ view: null }),
         " ": actions.play,
-        q: () => store.update({ quantity: QUANTITIES[(QUANTITIES.indexOf(store.state.quantity) + 1) % QUANTITIES.length] ?? "displacement", view: null }),
+        q: () => actions.quantity(QUANTITIES[(QUANTITIES.indexOf(store.state.quantity) + 1) % QUANTITIES.length] ?? "displacement"),
         l: () => store.update({ log: !store.state.log, view: null }),
         m: () => store.update({ marks: !store.state.marks }),
         d: () => store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),

@@ -4,7 +4,7 @@ import { bifurcationTable } from "./bifurcations";
 import { branchList } from "./branch_list";
 import { controls } from "./controls";
 import { Curves } from "./curves";
-import { readMeta, readSolutions } from "./data";
+import { readMeta, readSolutions, type Quantity } from "./data";
 import { element } from "./dom";
 import { fromHash, toHash } from "./hash";
 import { helpDialog, listenToKeys } from "./keys";
@@ -18,7 +18,7 @@ import { Theme } from "./theme";
 const meta = readMeta();
 const solutions = readSolutions(meta.branches);
 const curves = new Curves(solutions);
-const store = new Store(fromHash(location.hash, meta, false));
+const store = new Store(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
 const theme = new Theme(meta, store);
 
 const page = document.getElementById("page") ?? document.body;
@@ -28,6 +28,8 @@ const view = new SolutionView(meta, solutions, store, theme);
 const diagram = element("div", { class: "diagram" });
 const zoom = (factor: number): void => response.zoomAboutSelected(factor);
 const whole = (): void => store.update({ view: null });
+/** Another quantity, with all of it seen on the scale that suits it. */
+const show = (quantity: Quantity): void => store.update({ quantity, log: curves.spansMuch(quantity), view: null });
 const showHelp = (): void => help.showModal();
 
 /** Copies the address of what is shown; where the clipboard is closed it says where the address stands. */
@@ -47,7 +49,7 @@ const subtitle = `${meta.branches.length} branches, ${solutions.count} solutions
 page.append(
     element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle])]),
     ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
-    controls(meta, store, { whole, zoom, copyLink: copy, help: showHelp }),
+    controls(meta, store, { quantity: show, whole, zoom, copyLink: copy, help: showHelp }),
     said,
     diagram,
 );
@@ -67,7 +69,7 @@ if (solutions.count === 0) {
     diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
 }
 view.show();
-listenToKeys(meta, solutions, store, { response, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
+listenToKeys(meta, solutions, store, { response, quantity: show, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
 
 let written = location.hash;
 let planned = 0;
@@ -87,7 +89,7 @@ store.listen(() => {
 });
 window.addEventListener("hashchange", () => {
     if (location.hash !== written) {
-        store.update(fromHash(location.hash, meta, false));
+        store.update(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
     }
 });
 

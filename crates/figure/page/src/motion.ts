@@ -7,7 +7,7 @@ export interface Pose {
     /** Displacement of each place (m). */
     places: number[];
     support: number;
-    /** Force of each local element (N). */
+    /** Largest force of each local element in this step, its magnitude (N). */
     forces: number[];
 }
 
@@ -29,7 +29,10 @@ export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pos
     const places = structure.places.map((place) =>
         modes.reduce((sum, value, mode) => sum + value * (place.shape[mode] ?? 0), place.support * support),
     );
-    const force = (values: Float64Array): number => values[Math.round(share * values.length) % Math.max(1, values.length)] ?? 0;
+    const force = (values: Float64Array): number => {
+        const step = 2 * Math.min(values.length / 2 - 1, Math.floor((share * values.length) / 2));
+        return Math.max(Math.abs(values[step] ?? 0), Math.abs(values[step + 1] ?? 0));
+    };
     return { places, support, forces: orbit.forces.map(force) };
 }
 

@@ -1,13 +1,14 @@
 // Floquet multipliers of an orbit in the complex plane, with the unit circle.
 
 import { element, panel } from "./dom";
-import { complex, digits } from "./format";
+import { complex } from "./format";
 import { Frame, MARGINS } from "./frame";
 import type { Theme } from "./theme";
 
 const HEIGHT = 300;
 /** Largest distance from 0 that is drawn. */
 const FARTHEST = 4;
+/** Entries of the list. */
 const LISTED = 12;
 
 export class Multipliers {
@@ -25,8 +26,9 @@ export class Multipliers {
     show(multipliers: [number, number][]): void {
         this.multipliers = multipliers;
         const far = multipliers.filter((one) => !(modulus(one) <= this.reach()));
-        this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.map(([re, im]) => complex(re, im)).join(", ")}.`;
-        const listed = multipliers.slice(0, LISTED).map(([re, im]) => element("li", {}, [`${im === 0 ? digits(re, 5) : `${digits(re, 5)} ${im < 0 ? "−" : "+"} ${digits(Math.abs(im), 5)}i`}`]));
+        this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.filter(([, im]) => im >= 0).map(([re, im]) => complex(re, im)).join(", ")}.`;
+        // Of a pair the one above the axis stands for both.
+        const listed = multipliers.filter(([, im]) => im >= 0).slice(0, LISTED).map(([re, im]) => element("li", {}, [`${complex(re, im)}`]));
         this.list.replaceChildren(...listed);
         if (this.frame === null) {
             const range = (): { x: [number, number]; y: [number, number]; logY: false } => {

@@ -3,12 +3,7 @@
 import { STABLE, type Meta, type Solutions } from "./data";
 import { element } from "./dom";
 import { complex, digits, hertz, MEASURES, periodName } from "./format";
-import { MARKS } from "./marks";
-
-/** Names of the events at a solution, joined. */
-export function eventNames(flags: number): string {
-    return MARKS.filter((mark) => (flags & mark.bit) !== 0).map((mark) => mark.name).join(", ");
-}
+import { eventNames } from "./marks";
 
 export function isStable(solutions: Solutions, solution: number): boolean {
     return ((solutions.flags[solution] ?? 0) & STABLE) !== 0;

@@ -9,10 +9,15 @@ export interface Orbit {
     period: number;
     displacement: Float64Array;
     velocity: Float64Array;
+    /** Least and largest in each step, in their order in time. */
     acceleration: Float64Array;
+    /** At the instants of the modes. */
     support: Float64Array;
+    /** Least and largest in each step, in their order in time. */
     forces: Float64Array[];
     modes: Float64Array[];
+    /** Common logarithms of the amplitudes of the harmonics of the acceleration. */
+    spectrum: Float64Array;
     multipliers: [number, number][];
 }
 
@@ -49,18 +54,17 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
     const bytes = bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4));
     const view = new DataView(bytes.buffer);
     const count = (k: number): number => view.getUint16(2 * k, true);
-    const [samples, channels, ofMode, modes, multipliers] = [count(0), count(1), count(2), count(3), count(4)];
+    const [samples, elements, ofMode, modes, multipliers, harmonics] = [count(0), count(1), count(2), count(3), count(4), count(5)];
+    const repeated = (length: number, times: number): number[] => new Array<number>(times).fill(length);
+    const lengths = [samples, samples, 2 * samples, ofMode, ...repeated(2 * samples, elements), ...repeated(ofMode, modes), harmonics];
     const ranges = 12;
-    const pairs = ranges + 8 * (channels + modes);
+    const pairs = ranges + 8 * lengths.length;
     let at = pairs + 8 * multipliers;
-    const series: Float64Array[] = [];
-    for (let k = 0; k < channels + modes; k++) {
-        const low = view.getFloat32(ranges + 8 * k, true);
-        const step = view.getFloat32(ranges + 8 * k + 4, true);
-        const values = new Float64Array(k < channels ? samples : ofMode);
-        at = readSeries(bytes, at, values, low, step);
-        series.push(values);
-    }
+    const series = lengths.map((length, k) => {
+        const values = new Float64Array(length);
+        at = readSeries(bytes, at, values, view.getFloat32(ranges + 8 * k, true), view.getFloat32(ranges + 8 * k + 4, true));
+        return values;
+    });
     const pair = (k: number): [number, number] => [
         view.getFloat32(pairs + 8 * k, true),
         view.getFloat32(pairs + 8 * k + 4, true),
@@ -74,8 +78,9 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
         velocity: series[1] ?? none,
         acceleration: series[2] ?? none,
         support: series[3] ?? none,
-        forces: series.slice(4, channels),
-        modes: series.slice(channels),
+        forces: series.slice(4, 4 + elements),
+        modes: series.slice(4 + elements, 4 + elements + modes),
+        spectrum: series.at(-1) ?? none,
         multipliers: Array.from({ length: multipliers }, (_, k) => pair(k)),
     };
 }

@@ -2,15 +2,17 @@
 
 import type { Meta, Solutions } from "./data";
 import { element, panel } from "./dom";
-import { amplitudes } from "./fourier";
 import { ends, LinePlot, type Line, type Plot } from "./line_plot";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
 
-/** Ratio of the largest amplitude of a spectrum to the least that is drawn: what rounding of the samples leaves. */
-const DEPTH = 1e4;
+/** Ratio of the largest amplitude of a spectrum to the least that is drawn. */
+const DEPTH = 1e5;
 const TIME = "Time / excitation period";
 const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]];
+
+/** Instants and values, of which the instants have the first one again behind the last. */
+type Series = [Float64Array, Float64Array];
 
 export class OrbitPlots {
     readonly root: HTMLElement;
@@ -29,7 +31,7 @@ export class OrbitPlots {
         this.root = element("div", { class: "plots" }, [
             panel("Displacement", "displacement", [this.displacement.host, this.support]),
             panel("Acceleration", "acceleration", [this.acceleration.host]),
-            panel("Contact force", "force", [this.force.host, this.elements]),
+            panel("Forces of the local elements", "force", [this.force.host, this.elements]),
             panel("Phase portrait", "phase", [this.phase.host, element("p", { class: "note" }, ["Circles: phase 0 of each excitation period."])]),
             panel("Spectrum of the acceleration", "spectrum", [
                 this.spectrum.host,
@@ -46,17 +48,20 @@ export class OrbitPlots {
     show(orbit: Orbit): void {
         this.orbit = orbit;
         const [first, second] = [this.theme.period(1), this.theme.period(2)];
-        const time = closed(Float64Array.from(orbit.displacement, (_, k) => (k * orbit.period) / orbit.displacement.length), orbit.period);
-        const over = (yLabel: string, series: Float64Array[], factor: number, lines: (k: number) => Pick<Line, "colour" | "dash">): Plot => {
-            const y = series.map((values) => closed(values.map((value) => factor * value)));
-            return { xLabel: TIME, yLabel, range: { x: [0, orbit.period], y: ends(y), logY: false }, lines: y.map((values, k) => ({ x: time, y: values, ...lines(k) })) };
+        const over = (yLabel: string, series: Series[], factor: number, lines: (k: number) => Pick<Line, "colour" | "dash">): Plot => {
+            const y = series.map(([, values]) => closed(values.map((value) => factor * value)));
+            const x = series.map(([time]) => time);
+            return { xLabel: TIME, yLabel, range: { x: [0, orbit.period], y: ends(y), logY: false }, lines: y.map((values, k) => ({ x: x[k] ?? [], y: values, ...lines(k) })) };
         };
+        /** Values at equal steps, or in the middle of each half of them. */
+        const timed = (values: Float64Array, shift = 0): Series =>
+            [closed(values.map((_, k) => ((k + shift) * orbit.period) / values.length), orbit.period + (shift * orbit.period) / values.length), values];
         const isMoved = orbit.support.some((value) => value !== 0);
         this.support.hidden = !isMoved;
-        const moving = isMoved ? [orbit.displacement, orbit.support] : [orbit.displacement];
+        const moving = isMoved ? [timed(orbit.displacement), timed(orbit.support)] : [timed(orbit.displacement)];
         this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: second, dash: [5, 3] })));
-        this.acceleration.show(over("Acceleration (m/s²)", [orbit.acceleration], 1, () => ({ colour: first })));
-        this.force.show(over("Force (N)", orbit.forces, 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
+        this.acceleration.show(over("Acceleration (m/s²)", [timed(orbit.acceleration, 0.5)], 1, () => ({ colour: first })));
+        this.force.show(over("Local force (N)", orbit.forces.map((force) => timed(force, 0.5)), 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
         const names = this.meta.structure?.stops.map((stop) => stop.name) ?? [];
         this.elements.textContent =
             orbit.forces.length === 0 ? "This structure has no local elements." : orbit.forces.length > 1 ? `In their order: ${names.join(", ")}.` : "";
@@ -82,7 +87,7 @@ export class OrbitPlots {
     }
 
     private spectrumPlot(orbit: Orbit, colour: string): Plot {
-        const y = amplitudes(orbit.acceleration);
+        const y = orbit.spectrum.map((level) => 10 ** level);
         const base = (this.solutions.frequency[orbit.solution] ?? 1) / orbit.period;
         const x = y.map((_, k) => (k + 1) * base);
         const eigenfrequencies = this.meta.structure?.eigenfrequencies ?? [];

@@ -5,6 +5,7 @@ import type { Meta, Solutions } from "./data";
 import { element } from "./dom";
 import { MEASURES } from "./format";
 import { Frame, type Range } from "./frame";
+import { markedSolutions } from "./marks";
 import { hoverText } from "./numbers";
 import { paintResponse } from "./response_paint";
 import type { Store, View } from "./state";
@@ -28,6 +29,7 @@ export class Response {
         parent: HTMLElement,
     ) {
         parent.append(this.host, this.tip);
+        const marked = markedSolutions(solutions);
         this.frame = new Frame(
             this.host,
             {
@@ -35,7 +37,7 @@ export class Response {
                 yLabel: () => MEASURES[store.state.quantity].label,
                 range: () => this.range(),
                 paint: (context, frame) => {
-                    const scene = { meta, solutions, curves, state: store.state, theme };
+                    const scene = { meta, solutions, curves, state: store.state, theme, marked };
                     this.host.dataset["branches"] = String(paintResponse(context, frame, scene));
                 },
                 height: () => Math.round(Math.max(320, Math.min(620, 0.58 * window.innerHeight))),

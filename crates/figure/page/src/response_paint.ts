@@ -4,7 +4,7 @@ import { scalesOf, type Curves, type Scales } from "./curves";
 import type { Meta, Solutions } from "./data";
 import { MEASURES } from "./format";
 import type { Frame } from "./frame";
-import { drawMarks, MARKS } from "./marks";
+import { drawMarks, MARKS, type Mark } from "./marks";
 import { linesOf } from "./paths";
 import type { State } from "./state";
 import type { Theme } from "./theme";
@@ -15,15 +15,19 @@ export interface Scene {
     curves: Curves;
     state: State;
     theme: Theme;
+    marked: Map<Mark, number[]>;
 }
 
 /** Draws everything; returns the number of branches of which something was drawn. */
 export function paintResponse(context: CanvasRenderingContext2D, frame: Frame, scene: Scene): number {
     const scales = scalesOf(frame.range(), frame.plot.bbox);
     paintChaos(context, frame, scene);
+    if (scene.state.marks) {
+        paintMarks(context, frame, scene, scales, true);
+    }
     const drawn = paintBranches(context, frame, scene, scales);
     if (scene.state.marks) {
-        paintMarks(context, frame, scene, scales);
+        paintMarks(context, frame, scene, scales, false);
     }
     if (scene.state.measured) {
         paintMeasured(context, frame, scene);
@@ -73,18 +77,15 @@ function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: S
     return drawn;
 }
 
-function paintMarks(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales): void {
-    const { solutions, curves, state, theme } = scene;
+function paintMarks(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales, isBehind: boolean): void {
+    const { solutions, curves, state, theme, marked } = scene;
     const levels = curves.levels(state.quantity, state.log);
     const { left, top, width, height } = scales;
-    for (const mark of MARKS) {
+    for (const mark of MARKS.filter(({ isPale }) => isPale === isBehind)) {
         const places: [number, number][] = [];
-        for (let k = 0; k < solutions.count; k++) {
-            if (((solutions.flags[k] ?? 0) & mark.bit) === 0 || state.hidden.has(solutions.branch[k] ?? 0)) {
-                continue;
-            }
+        for (const k of marked.get(mark) ?? []) {
             const [x, y] = placeOf(solutions, levels, k, scales);
-            if (x >= left && x <= left + width && y >= top && y <= top + height) {
+            if (x >= left && x <= left + width && y >= top && y <= top + height && !state.hidden.has(solutions.branch[k] ?? 0)) {
                 places.push([x, y]);
             }
         }

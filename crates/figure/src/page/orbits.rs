@@ -1,31 +1,38 @@
 //! Orbits as records that are decoded one at a time.
 //!
-//! A record, little-endian: six u16 (samples, channels, samples of a mode, modes, multipliers, 0), then for each channel and each mode its least value and its
-//! step as f32, then the multipliers as pairs of f32, then each channel and each mode, then zeros up to a multiple of three bytes.
-//! The channels are displacement, velocity and acceleration of the response point, displacement of the support, then the force of each local element.
+//! A record, little-endian: six u16 (samples N, local elements E, samples of a mode K, modes M, multipliers, harmonics H), then for each series its least value and its
+//! step as f32, then the multipliers as pairs of f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
+//! velocity (N), acceleration (2 N), displacement of the support (K), the force of each local element (2 N), the coordinate of each mode (K), and the common logarithms of the
+//! amplitudes of the harmonics of the acceleration (H).
 //!
-//! A sample is a whole number `k` of steps above the least value; written are its second differences `k_i - 2 k_(i-1) + k_(i-2)` (with zero
-//! before the first), signs folded (`2 d`, `-2 d - 1`), seven bits to a byte, the lowest first, the highest bit set where another byte follows. Motions are smooth at this
-//! distance of samples, so that most of them take one byte.
+//! Displacement and velocity are smooth at this distance of samples. A contact may be much shorter: of acceleration and forces the least and the largest value
+//! between two samples are carried, in their order in time, so that no peak is lost.
+//!
+//! A value is a whole number `k` of steps above the least one; written are the second differences `k_i - 2 k_(i-1) + k_(i-2)` (with zero
+//! before the first), signs folded (`2 d`, `-2 d - 1`), seven bits to a byte, the lowest first, the highest bit set where another byte follows. Most take one byte.
 
 use std::collections::BTreeMap;
 
-use crate::OrbitSample;
+/// Steps in the range of a series.
+const STEPS: f64 = 4_095.0;
 
-/// Channels that are not forces.
-const PLAIN_CHANNELS: usize = 4;
-/// Steps in the range of a channel: what is drawn is good to 6e-5 of it over 2.
-const CHANNEL_STEPS: f64 = 16_383.0;
-/// Steps in the range of a mode, which only moves a drawing.
-const MODE_STEPS: f64 = 4_095.0;
-
-/// An orbit over its period, from phase 0 of the excitation on.
+/// An orbit over its period, from phase 0 of the excitation on, the end of the period left out. All lengths at most 65 535.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PageOrbit {
-    /// Samples at equal steps, the end of the period left out; at most 65 535.
-    pub samples: Vec<OrbitSample>,
-    /// Modal coordinates (kg^1/2 m) of the modes that are drawn, each at equal steps, the end of the period left out; their number divides that of the samples.
+    /// Displacement of the response point at equal steps (m).
+    pub displacement_m: Vec<f64>,
+    /// Its velocity at the same instants (m/s).
+    pub velocity_m_s: Vec<f64>,
+    /// Least and largest acceleration in each step, in their order in time (m/s²).
+    pub acceleration_m_s2: Vec<[f64; 2]>,
+    /// The same of the force of each local element (N).
+    pub forces_n: Vec<Vec<[f64; 2]>>,
+    /// Displacement of the support (m) at equal steps of its own; as many as those of a mode.
+    pub support_m: Vec<f64>,
+    /// Coordinates (kg^1/2 m) of the modes that are drawn, at the same instants as the support.
     pub modes: Vec<Vec<f64>>,
+    /// Amplitudes of the harmonics 1, 2, ... of the orbit frequency in the acceleration (m/s²).
+    pub spectrum_m_s2: Vec<f64>,
     /// Floquet multipliers.
     pub multipliers: Vec<[f64; 2]>,
 }
@@ -83,43 +90,41 @@ impl OrbitRecords {
 }
 
 fn packed(orbit: &PageOrbit) -> Vec<u8> {
-    let elements = orbit.samples.first().map_or(0, |sample| sample.forces_n.len());
-    let plain: [fn(&OrbitSample) -> f64; PLAIN_CHANNELS] = [
-        |sample| sample.displacement_m,
-        |sample| sample.velocity_m_s,
-        |sample| sample.acceleration_m_s2,
-        |sample| sample.support_m.unwrap_or(0.0),
+    let flat = |pairs: &Vec<[f64; 2]>| pairs.iter().flatten().copied().collect::<Vec<f64>>();
+    let mut series =
+        vec![orbit.displacement_m.clone(), orbit.velocity_m_s.clone(), flat(&orbit.acceleration_m_s2)];
+    series.push(orbit.support_m.clone());
+    series.extend(orbit.forces_n.iter().map(flat));
+    series.extend(orbit.modes.iter().cloned());
+    series.push(orbit.spectrum_m_s2.iter().map(|amplitude| amplitude.log10()).collect());
+    let counts = [
+        orbit.displacement_m.len(),
+        orbit.forces_n.len(),
+        orbit.support_m.len(),
+        orbit.modes.len(),
+        orbit.multipliers.len(),
+        orbit.spectrum_m_s2.len(),
     ];
-    let channel = |value: &dyn Fn(&OrbitSample) -> f64| orbit.samples.iter().map(value).collect::<Vec<f64>>();
-    let mut channels: Vec<Vec<f64>> = plain.iter().map(|value| channel(value)).collect();
-    for element in 0..elements {
-        channels.push(channel(&|sample| sample.forces_n.get(element).copied().unwrap_or(0.0)));
-    }
-    let of_mode = orbit.modes.first().map_or(0, Vec::len);
-    let counts =
-        [orbit.samples.len(), channels.len(), of_mode, orbit.modes.len(), orbit.multipliers.len(), 0];
     let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u16).to_le_bytes()).collect();
-    let channels = channels.iter().map(|values| (values, range(values, CHANNEL_STEPS)));
-    let modes = orbit.modes.iter().map(|values| (values, range(values, MODE_STEPS)));
-    let series: Vec<(&Vec<f64>, [f32; 2])> = channels.chain(modes).collect();
-    bytes.extend(series.iter().flat_map(|(_, range)| range).flat_map(|number| number.to_le_bytes()));
+    let ranges: Vec<[f32; 2]> = series.iter().map(|values| range(values)).collect();
+    bytes.extend(ranges.iter().flatten().flat_map(|number| number.to_le_bytes()));
     bytes.extend(orbit.multipliers.iter().flatten().flat_map(|number| (*number as f32).to_le_bytes()));
-    for (values, range) in &series {
-        write(&mut bytes, values, *range);
+    for (values, range) in series.iter().zip(ranges) {
+        write(&mut bytes, values, range);
     }
     let length = bytes.len().next_multiple_of(3);
     bytes.resize(length, 0);
     bytes
 }
 
-/// Least value and step of a channel.
-fn range(values: &[f64], steps: f64) -> [f32; 2] {
+/// Least value and step of a series.
+fn range(values: &[f64]) -> [f32; 2] {
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
-    if low >= high {
-        [if low == high { low as f32 } else { 0.0 }, 0.0]
-    } else {
-        [low as f32, ((high - low) / steps) as f32]
+    match low.partial_cmp(&high) {
+        Some(std::cmp::Ordering::Less) => [low as f32, ((high - low) / STEPS) as f32],
+        Some(std::cmp::Ordering::Equal) => [low as f32, 0.0],
+        _ => [0.0, 0.0],
     }
 }
 
@@ -145,17 +150,21 @@ fn write(bytes: &mut Vec<u8>, values: &[f64], [low, step]: [f32; 2]) {
 mod tests {
     use super::*;
 
-    /// Reads a record as its description says; channels, then modes.
+    /// Reads a record as its description says.
     fn read(record: &[u8]) -> Vec<Vec<f64>> {
         let count = |k: usize| usize::from(u16::from_le_bytes(record[2 * k..2 * k + 2].try_into().unwrap()));
         let number = |at: usize| f64::from(f32::from_le_bytes(record[at..at + 4].try_into().unwrap()));
-        let (channels, modes) = (count(1), count(3));
-        let mut at = 12 + 8 * (channels + modes + count(4));
+        let [n, elements, of_mode, modes, multipliers, harmonics] = std::array::from_fn(count);
+        let mut lengths = vec![n, n, 2 * n, of_mode];
+        lengths.extend(vec![2 * n; elements]);
+        lengths.extend(vec![of_mode; modes]);
+        lengths.push(harmonics);
+        let mut at = 12 + 8 * (lengths.len() + multipliers);
         let mut series = Vec::new();
-        for k in 0..channels + modes {
+        for (k, length) in lengths.into_iter().enumerate() {
             let (low, step) = (number(12 + 8 * k), number(16 + 8 * k));
             let (mut last, mut slope, mut values) = (0_i64, 0_i64, Vec::new());
-            for _ in 0..if k < channels { count(0) } else { count(2) } {
+            for _ in 0..length {
                 let (mut folded, mut shift) = (0_i64, 0);
                 loop {
                     let byte = record[at];
@@ -177,34 +186,46 @@ mod tests {
     }
 
     fn orbit(samples: usize) -> PageOrbit {
-        let sample = |k: usize| OrbitSample {
-            displacement_m: 1e-3 * (0.3 * k as f64).sin(),
-            velocity_m_s: if k % 2 == 0 { -1e4 } else { 1e4 },
-            forces_n: vec![k as f64, f64::NAN],
-            ..OrbitSample::default()
-        };
+        let times = || (0..samples).map(|k| k as f64);
         PageOrbit {
-            samples: (0..samples).map(sample).collect(),
+            displacement_m: times().map(|t| 1e-3 * (0.3 * t).sin()).collect(),
+            velocity_m_s: times().map(|t| if t % 2.0 == 0.0 { -1e4 } else { 1e4 }).collect(),
+            acceleration_m_s2: times().map(|t| [-t, t]).collect(),
+            forces_n: vec![times().map(|t| [t, 0.0]).collect(), vec![[f64::NAN, 0.0]; samples]],
+            support_m: vec![0.25; samples / 2],
             modes: vec![(0..samples / 2).map(|k| (k as f64).cos()).collect()],
+            spectrum_m_s2: vec![100.0, 0.0, 1e-3],
             multipliers: vec![[f64::INFINITY, 0.0]; 2],
         }
     }
 
     #[test]
-    fn samples_are_good_to_half_a_step() {
+    fn values_are_good_to_half_a_step() {
         let orbit = orbit(200);
         let series = read(&packed(&orbit));
-        assert_eq!((series.len(), series[6].len()), (7, 100));
-        // Half a step, and the rounding of 16 383 steps as f32.
-        let good = 0.5 / CHANNEL_STEPS + 1e-7;
-        for (k, sample) in orbit.samples.iter().enumerate() {
-            assert!((series[0][k] - sample.displacement_m).abs() < good * 2e-3, "{k}");
-            assert!((series[1][k] - sample.velocity_m_s).abs() < good * 2e4, "{k}");
-            assert!((series[4][k] - sample.forces_n[0]).abs() < good * 199.0, "{k}");
-            assert_eq!((series[3][k], series[5][k]), (0.0, 0.0));
-        }
-        for (found, meant) in series[6].iter().zip(&orbit.modes[0]) {
-            assert!((found - meant).abs() < 2.0 * (0.5 / MODE_STEPS + 1e-7));
+        assert_eq!(series.len(), 8);
+        // Half a step, and the rounding of 4095 steps as f32.
+        let good = 0.5 / STEPS + 1e-7;
+        let near = |found: &[f64], meant: &[f64], range: f64| {
+            assert_eq!(found.len(), meant.len());
+            for (found, meant) in found.iter().zip(meant) {
+                assert!((found - meant).abs() < good * range, "{found} {meant}");
+            }
+        };
+        near(&series[0], &orbit.displacement_m, 2e-3);
+        near(&series[1], &orbit.velocity_m_s, 2e4);
+        near(&series[2], &orbit.acceleration_m_s2.concat(), 398.0);
+        near(&series[3], &orbit.support_m, 1.0);
+        near(&series[4], &orbit.forces_n[0].concat(), 199.0);
+        near(&series[5], &vec![0.0; 400], 1.0);
+        near(&series[6], &orbit.modes[0], 2.0);
+    }
+
+    #[test]
+    fn spectra_are_logarithms_and_no_amplitude_is_the_least_one() {
+        let spectrum = read(&packed(&orbit(10))).pop().unwrap();
+        for (found, meant) in spectrum.iter().zip([2.0, -3.0, -3.0]) {
+            assert!((found - meant).abs() < 5.0 * (0.5 / STEPS + 1e-7));
         }
     }
 
