@@ -25,7 +25,7 @@ export interface FrameOptions {
 }
 
 /** Width and height (CSS pixels) of what lies around a plot. */
-export const MARGINS = { across: 90, up: 58 };
+export const MARGINS = { across: 96, up: 58 };
 
 const FONT = "12px system-ui, sans-serif";
 const LABEL_FONT = "13px system-ui, sans-serif";
@@ -111,7 +111,7 @@ export class Frame {
             ...this.size(),
             ms: 1e-3,
             pxAlign: false,
-            padding: [8, 12, 0, 0],
+            padding: [8, 18, 0, 0],
             legend: { show: false },
             cursor: { show: false },
             scales: {

@@ -51,8 +51,8 @@ export class LinePlot {
     private frame: Frame | null = null;
     private readonly pointer: HTMLElement;
 
-    constructor(private readonly theme: Theme, private readonly height: number, private readonly isPlane = false) {
-        this.pointer = element("div", { class: isPlane ? "dot" : "instant" });
+    constructor(private readonly theme: Theme, private readonly height: number, private readonly pointed: "instant" | "place" | "nothing" = "instant") {
+        this.pointer = element("div", { class: pointed });
     }
 
     show(plot: Plot): void {
@@ -69,8 +69,8 @@ export class LinePlot {
                 },
                 this.theme,
             );
-            this.frame.whenMade(() => this.frame?.plot.over.append(this.pointer));
-            this.frame.plot.over.append(this.pointer);
+            const { frame } = this;
+            frame.whenMade(() => frame.plot.over.append(this.pointer));
         } else {
             this.frame.redraw();
         }
@@ -79,8 +79,8 @@ export class LinePlot {
     /** Moves the pointer to a value; in a plane to a place. */
     point(x: number, y = 0): void {
         const plot = this.frame?.plot;
-        if (plot !== undefined) {
-            const down = this.isPlane ? plot.valToPos(y, "y") : 0;
+        if (plot !== undefined && this.pointed !== "nothing") {
+            const down = this.pointed === "place" ? plot.valToPos(y, "y") : 0;
             this.pointer.style.transform = `translate(${plot.valToPos(x, "x")}px, ${down}px)`;
         }
     }

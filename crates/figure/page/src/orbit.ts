@@ -88,15 +88,24 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
 /** Fills a series from its second differences; returns where the next one begins. */
 function readSeries(bytes: Uint8Array, begin: number, values: Float64Array, low: number, step: number): number {
     let at = begin;
-    let [last, slope] = [0, 0];
-    for (let k = 0; k < values.length; k++) {
-        let [folded, shift, byte] = [0, 0, 0x80];
+    const next = (): number => {
+        let [found, shift, byte] = [0, 0, 0x80];
         while (byte >= 0x80) {
             byte = bytes[at++] ?? 0;
-            folded |= (byte & 0x7f) << shift;
+            found |= (byte & 0x7f) << shift;
             shift += 7;
         }
-        slope += (folded >>> 1) ^ -(folded & 1);
+        return found;
+    };
+    let [last, slope, zeros] = [0, 0, 0];
+    for (let k = 0; k < values.length; k++) {
+        if (zeros > 0) {
+            zeros--;
+        } else {
+            const folded = next();
+            zeros = folded === 0 ? next() : 0;
+            slope += (folded >>> 1) ^ -(folded & 1);
+        }
         last += slope;
         values[k] = low + step * last;
     }

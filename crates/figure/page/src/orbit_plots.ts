@@ -27,7 +27,7 @@ export class OrbitPlots {
 
     constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly theme: Theme) {
         [this.displacement, this.acceleration, this.force] = [new LinePlot(theme, 210), new LinePlot(theme, 210), new LinePlot(theme, 210)];
-        [this.phase, this.spectrum] = [new LinePlot(theme, 300, true), new LinePlot(theme, 300)];
+        [this.phase, this.spectrum] = [new LinePlot(theme, 300, "place"), new LinePlot(theme, 300, "nothing")];
         this.root = element("div", { class: "plots" }, [
             panel("Displacement", "displacement", [this.displacement.host, this.support]),
             panel("Acceleration", "acceleration", [this.acceleration.host]),

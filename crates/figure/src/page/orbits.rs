@@ -9,7 +9,8 @@
 //! between two samples are carried, in their order in time, so that no peak is lost.
 //!
 //! A value is a whole number `k` of steps above the least one; written are the second differences `k_i - 2 k_(i-1) + k_(i-2)` (with zero
-//! before the first), signs folded (`2 d`, `-2 d - 1`), seven bits to a byte, the lowest first, the highest bit set where another byte follows. Most take one byte.
+//! before the first), signs folded (`2 d`, `-2 d - 1`), seven bits to a byte, the lowest first, the highest bit set where another byte follows; behind a zero stands, in the same way, how many more of them follow. Most take one byte.
+//! Modes have one step in common, that of the mode that moves most, since all of them move the same drawing.
 
 use std::collections::BTreeMap;
 
@@ -106,7 +107,10 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
         orbit.spectrum_m_s2.len(),
     ];
     let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u16).to_le_bytes()).collect();
-    let ranges: Vec<[f32; 2]> = series.iter().map(|values| range(values)).collect();
+    let mut ranges: Vec<[f32; 2]> = series.iter().map(|values| range(values)).collect();
+    let modes = &mut ranges[4 + orbit.forces_n.len()..4 + orbit.forces_n.len() + orbit.modes.len()];
+    let coarsest = modes.iter().fold(0.0_f32, |most, [_, step]| most.max(*step));
+    modes.iter_mut().for_each(|[_, step]| *step = coarsest);
     bytes.extend(ranges.iter().flatten().flat_map(|number| number.to_le_bytes()));
     bytes.extend(orbit.multipliers.iter().flatten().flat_map(|number| (*number as f32).to_le_bytes()));
     for (values, range) in series.iter().zip(ranges) {
@@ -130,20 +134,36 @@ fn range(values: &[f64]) -> [f32; 2] {
 
 /// Writes the second differences of a series; what is not finite has the least value.
 fn write(bytes: &mut Vec<u8>, values: &[f64], [low, step]: [f32; 2]) {
-    let [mut last, mut slope] = [0_i32; 2];
+    let [mut last, mut slope, mut zeros] = [0_i32; 3];
     for value in values {
         let count = if step > 0.0 { (value - f64::from(low)) / f64::from(step) } else { 0.0 };
         let count = count.round() as i32; // not a number becomes 0
         let change = count - last;
         let bend = change - slope;
         (last, slope) = (count, change);
-        let mut left = ((bend << 1) ^ (bend >> 31)).cast_unsigned();
-        while left >= 0x80 {
-            bytes.push(left as u8 | 0x80);
-            left >>= 7;
+        if bend == 0 {
+            zeros += 1;
+        } else {
+            write_zeros(bytes, std::mem::take(&mut zeros));
+            write_number(bytes, ((bend << 1) ^ (bend >> 31)).cast_unsigned());
         }
-        bytes.push(left as u8);
     }
+    write_zeros(bytes, zeros);
+}
+
+fn write_zeros(bytes: &mut Vec<u8>, zeros: i32) {
+    if zeros > 0 {
+        bytes.push(0);
+        write_number(bytes, (zeros - 1).cast_unsigned());
+    }
+}
+
+fn write_number(bytes: &mut Vec<u8>, mut left: u32) {
+    while left >= 0x80 {
+        bytes.push(left as u8 | 0x80);
+        left >>= 7;
+    }
+    bytes.push(left as u8);
 }
 
 #[cfg(test)]
@@ -163,19 +183,27 @@ mod tests {
         let mut series = Vec::new();
         for (k, length) in lengths.into_iter().enumerate() {
             let (low, step) = (number(12 + 8 * k), number(16 + 8 * k));
-            let (mut last, mut slope, mut values) = (0_i64, 0_i64, Vec::new());
-            for _ in 0..length {
-                let (mut folded, mut shift) = (0_i64, 0);
+            let (mut last, mut slope, mut zeros, mut values) = (0_i64, 0_i64, 0_i64, Vec::new());
+            let mut next = || {
+                let (mut found, mut shift) = (0_i64, 0);
                 loop {
                     let byte = record[at];
                     at += 1;
-                    folded |= i64::from(byte & 0x7f) << shift;
+                    found |= i64::from(byte & 0x7f) << shift;
                     shift += 7;
                     if byte < 0x80 {
-                        break;
+                        return found;
                     }
                 }
-                slope += if folded % 2 == 0 { folded / 2 } else { -(folded + 1) / 2 };
+            };
+            for _ in 0..length {
+                if zeros > 0 {
+                    zeros -= 1;
+                } else {
+                    let folded = next();
+                    zeros = if folded == 0 { next() } else { 0 };
+                    slope += if folded % 2 == 0 { folded / 2 } else { -(folded + 1) / 2 };
+                }
                 last += slope;
                 values.push(low + step * last as f64);
             }
@@ -193,7 +221,9 @@ mod tests {
             acceleration_m_s2: times().map(|t| [-t, t]).collect(),
             forces_n: vec![times().map(|t| [t, 0.0]).collect(), vec![[f64::NAN, 0.0]; samples]],
             support_m: vec![0.25; samples / 2],
-            modes: vec![(0..samples / 2).map(|k| (k as f64).cos()).collect()],
+            modes: [1.0, 1e-2]
+                .map(|size| (0..samples / 2).map(|k| size * (k as f64).cos()).collect())
+                .to_vec(),
             spectrum_m_s2: vec![100.0, 0.0, 1e-3],
             multipliers: vec![[f64::INFINITY, 0.0]; 2],
         }
@@ -203,7 +233,7 @@ mod tests {
     fn values_are_good_to_half_a_step() {
         let orbit = orbit(200);
         let series = read(&packed(&orbit));
-        assert_eq!(series.len(), 8);
+        assert_eq!(series.len(), 9);
         // Half a step, and the rounding of 4095 steps as f32.
         let good = 0.5 / STEPS + 1e-7;
         let near = |found: &[f64], meant: &[f64], range: f64| {
@@ -219,6 +249,7 @@ mod tests {
         near(&series[4], &orbit.forces_n[0].concat(), 199.0);
         near(&series[5], &vec![0.0; 400], 1.0);
         near(&series[6], &orbit.modes[0], 2.0);
+        near(&series[7], &orbit.modes[1], 2.0);
     }
 
     #[test]

@@ -1,38 +1,66 @@
 //! Which orbits a page carries: in which order they are taken until it is full.
 //!
-//! First the ends of every branch and the bifurcations, since a reader goes there; then every 2^k-th solution of all branches end to end, with smaller and
-//! smaller k, so that wherever the page is full the orbits are spread evenly along the branches.
+//! First the ends of every branch and the bifurcations of stable solutions, since a reader goes there. Then every 2^k-th solution of all branches end to end, with smaller and
+//! smaller k, so that wherever the page is full the orbits are spread evenly along the branches; among them, one to three, the other bifurcations.
 
 use super::Placed;
 
 /// Most of the orbits that a page carries.
-pub const MOST: usize = 6000;
+const MOST: usize = 6000;
+/// Orbits that are spread to each bifurcation among them.
+const SPREAD: usize = 3;
 
 /// Numbers of solutions, counted over all branches end to end, in the order in which their orbits are wanted.
 pub fn order(branches: &[Vec<Placed>]) -> Vec<u32> {
     let count: usize = branches.iter().map(Vec::len).sum();
-    let mut taken = vec![false; count];
-    let mut order = Vec::new();
-    let mut take = |number: usize| {
-        if order.len() < MOST && !std::mem::replace(&mut taken[number], true) {
-            order.push(number as u32);
-        }
-    };
+    let mut first_of_all = Vec::new();
+    let mut others = Vec::new();
     let mut first = 0;
     for branch in branches {
         for (place, placed) in branch.iter().enumerate() {
             let events = &placed.row.events;
             let is_bifurcation = events.fold || events.flip || events.neimark_sacker || events.branch_point;
-            if place == 0 || place + 1 == branch.len() || is_bifurcation {
-                take(first + place);
+            let is_stable = |place: usize| branch.get(place).is_some_and(|placed| placed.row.stable);
+            let beside_stable = is_stable(place) || is_stable(place.wrapping_sub(1)) || is_stable(place + 1);
+            let is_end = place == 0 || place + 1 == branch.len();
+            if is_end || is_bifurcation && beside_stable {
+                first_of_all.push(first + place);
+            } else if is_bifurcation {
+                others.push(first + place);
             }
         }
         first += branch.len();
     }
-    let mut step = count.next_power_of_two();
-    while step > 0 {
-        (0..count).step_by(step).for_each(&mut take);
-        step /= 2;
+    let mut wanted = Wanted { taken: vec![false; count], order: Vec::new() };
+    for number in first_of_all {
+        wanted.take(number);
     }
-    order
+    let mut others = others.into_iter();
+    let mut spread = 0;
+    for exponent in (0..=count.max(1).next_power_of_two().ilog2()).rev() {
+        for number in (0..count).step_by(1 << exponent) {
+            spread += usize::from(wanted.take(number));
+            if spread == SPREAD {
+                spread = 0;
+                others.next().map(|other| wanted.take(other));
+            }
+        }
+    }
+    wanted.order
+}
+
+struct Wanted {
+    taken: Vec<bool>,
+    order: Vec<u32>,
+}
+
+impl Wanted {
+    /// Takes a number that is not taken yet, while there is room; says whether it did.
+    fn take(&mut self, number: usize) -> bool {
+        let is_new = self.order.len() < MOST && !std::mem::replace(&mut self.taken[number], true);
+        if is_new {
+            self.order.push(number as u32);
+        }
+        is_new
+    }
 }

@@ -21,7 +21,7 @@ const DRAWN_MODES: usize = 8;
 /// Harmonics that are carried at most.
 const MOST_HARMONICS: usize = 300;
 /// Relative size from which a mode is worth drawing.
-const VISIBLE: f64 = 1e-4;
+const VISIBLE: f64 = 1e-3;
 
 /// Orbits of the solutions that are wanted most, as many as fit.
 ///
