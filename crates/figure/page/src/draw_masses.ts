@@ -6,6 +6,8 @@ import { hatched, spring, type Sketch } from "./sketch";
 
 const SIZE = 44;
 const WALL = 14;
+/** Room of the walls to move in. */
+const EDGE = 16;
 
 export interface Rows {
     /** Where each mass rests (CSS pixels from the left). */
@@ -16,8 +18,8 @@ export interface Rows {
 
 export function rowsOf(structure: Structure, width: number): Rows {
     const count = structure.places.length;
-    const spacing = (width - 2 * WALL) / (count + 1);
-    return { rest: structure.places.map((_, k) => WALL + (k + 1) * spacing), room: Math.max(6, 0.5 * (spacing - SIZE) * 0.8) };
+    const spacing = (width - 2 * (WALL + EDGE)) / (count + 1);
+    return { rest: structure.places.map((_, k) => WALL + EDGE + (k + 1) * spacing), room: Math.max(6, 0.4 * (spacing - SIZE)) };
 }
 
 export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, perMetre: number): void {
@@ -25,11 +27,11 @@ export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, per
     const { rest } = rowsOf(structure, width);
     const middle = height / 2;
     const x = (place: number): number => (rest[place] ?? 0) + perMetre * (pose.places[place] ?? 0);
-    const ground = perMetre * pose.support;
+    const ground = Math.max(-EDGE, Math.min(EDGE, perMetre * pose.support));
     const last = structure.places.length - 1;
-    hatched(sketch, [ground, middle - 60, WALL, 120], theme.look.ink);
+    hatched(sketch, [EDGE + ground, middle - 60, WALL, 120], theme.look.ink);
     if (structure.links.some((ends) => ends.includes(null) && ends.includes(last) && last > 0)) {
-        hatched(sketch, [width - WALL + ground, middle - 60, WALL, 120], theme.look.ink);
+        hatched(sketch, [width - WALL - EDGE + ground, middle - 60, WALL, 120], theme.look.ink);
     }
     context.lineWidth = 1.4;
     context.strokeStyle = theme.look.ink;
@@ -41,10 +43,10 @@ export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, per
         seen.set(key, level + 1);
         const right = b ?? 0;
         if (a === null && right === last && last > 0) {
-            spring(sketch, x(right) + SIZE / 2, width - WALL + ground, middle - 10 + 16 * level);
+            spring(sketch, x(right) + SIZE / 2, width - WALL - EDGE + ground, middle - 10 + 16 * level);
         } else {
             const isFar = right - (a ?? -1) > 1;
-            const from = a === null || a === undefined ? WALL + ground : x(a) + SIZE / 2;
+            const from = a === null || a === undefined ? WALL + EDGE + ground : x(a) + SIZE / 2;
             spring(sketch, from, x(right) - SIZE / 2, isFar ? middle + 46 + 14 * level : middle - 10 + 16 * level);
         }
     }

@@ -8,8 +8,11 @@ export function digits(value: number, count: number): string {
         return Number.isNaN(value) ? "–" : value > 0 ? "∞" : "−∞";
     }
     const size = Math.abs(value);
+    if (size === 0) {
+        return "0";
+    }
     const text =
-        size !== 0 && (size < 1e-3 || size >= 1e6) ? value.toExponential(count - 1) : value.toPrecision(count);
+        size < 1e-3 || size >= 1e6 ? value.toExponential(count - 1) : value.toPrecision(count);
     return text.replace("e+", "e").replaceAll("-", "−");
 }
 

@@ -1,20 +1,21 @@
 // What lines, colours and marks of the response diagram mean.
 
-import type { Meta } from "./data";
+import type { Meta, Solutions } from "./data";
 import { element } from "./dom";
-import { MARKS } from "./marks";
+import { markedSolutions } from "./marks";
 import type { Theme } from "./theme";
 
 const SIZE = 16;
 
 /** A line of samples with their names; drawn anew when the colours change. */
-export function legend(meta: Meta, theme: Theme): HTMLElement {
+export function legend(meta: Meta, solutions: Solutions, theme: Theme): HTMLElement {
+    const marks = [...markedSolutions(solutions)].filter(([, found]) => found.length > 0).map(([mark]) => mark);
     const root = element("div", { class: "legend", "aria-label": "Legend" });
     const fill = (): void => {
         const periods = [...new Set(meta.branches.map((branch) => branch.period))].sort((a, b) => a - b);
         const items = periods.map((period) => lineItem(`period ${period}`, theme.period(period), []));
         items.push(lineItem("stable", theme.look.ink, []), lineItem("unstable", theme.look.ink, [4, 3]));
-        items.push(...MARKS.map((mark) => item(mark.name, (context) => {
+        items.push(...marks.map((mark) => item(mark.name, (context) => {
             const path = new Path2D();
             mark.outline(path, SIZE / 2 + 4, SIZE / 2, mark.radius);
             context.fillStyle = mark.isFilled ? theme.look.ink : theme.look.paper;

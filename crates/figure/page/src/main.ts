@@ -9,10 +9,11 @@ import { element } from "./dom";
 import { fromHash, toHash } from "./hash";
 import { helpDialog, listenToKeys } from "./keys";
 import { legend } from "./legend";
+import type { Orbit } from "./orbit";
 import { Response } from "./response";
 import { sectionPanel } from "./sections";
 import { SolutionView } from "./solution_view";
-import { Store } from "./state";
+import { Store, type State } from "./state";
 import { Theme } from "./theme";
 
 const meta = readMeta();
@@ -45,7 +46,8 @@ async function copyLink(): Promise<void> {
 }
 
 const copy = (): void => void copyLink();
-const subtitle = `${meta.branches.length} branches, ${solutions.count} solutions, ${meta.range[0]} to ${meta.range[1]} Hz; response of ${meta.point}`;
+const counted = (count: number, one: string, several: string): string => `${count} ${count === 1 ? one : several}`;
+const subtitle = `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${meta.range[0]} to ${meta.range[1]} Hz; response of ${meta.point}`;
 page.append(
     element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle])]),
     ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
@@ -64,7 +66,7 @@ lists.append(
     bifurcationTable(meta, solutions, store, jump),
     ...[sectionPanel(meta, store, theme)].filter((part) => part !== null),
 );
-page.append(legend(meta, theme), view.root, lists, help);
+page.append(legend(meta, solutions, theme), view.root, lists, help);
 if (solutions.count === 0) {
     diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
 }
@@ -93,10 +95,22 @@ window.addEventListener("hashchange", () => {
     }
 });
 
-// For benchmarks: how long one drawing of the diagram takes.
+// For tests and benchmarks.
 declare global {
     interface Window {
-        hammerbeam: { redraw: () => void; zoom: (factor: number) => void };
+        hammerbeam: {
+            redraw: () => void;
+            zoom: (factor: number) => void;
+            placeOf: (solution: number) => [number, number];
+            state: () => State;
+            orbit: () => Orbit | null;
+        };
     }
 }
-window.hammerbeam = { redraw: () => response.redraw(), zoom: (factor) => response.zoom([factor, factor]) };
+window.hammerbeam = {
+    redraw: () => response.redraw(),
+    zoom: (factor) => response.zoom([factor, factor]),
+    placeOf: (solution) => response.placeOf(solution),
+    state: () => store.state,
+    orbit: () => view.orbit,
+};

@@ -68,6 +68,15 @@ export class Response {
         this.frame.redraw();
     }
 
+    /** Where a solution is drawn (CSS pixels of the window). */
+    placeOf(solution: number): [number, number] {
+        const { quantity, log } = this.store.state;
+        const level = this.curves.levels(quantity, log)[solution] ?? NaN;
+        const box = this.frame.plot.over.getBoundingClientRect();
+        const x = this.frame.plot.valToPos(this.solutions.frequency[solution] ?? NaN, "x");
+        return [box.left + x, box.top + this.frame.plot.valToPos(log ? 10 ** level : level, "y")];
+    }
+
     private range(): Range {
         const { quantity, log, view, hidden } = this.store.state;
         const whole = this.whole();

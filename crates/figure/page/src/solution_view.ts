@@ -6,7 +6,7 @@ import { element, panel } from "./dom";
 import { hertz } from "./format";
 import { Multipliers } from "./multipliers";
 import { numbersOf } from "./numbers";
-import { nearestOrbit, readOrbit } from "./orbit";
+import { nearestOrbit, readOrbit, type Orbit } from "./orbit";
 import { OrbitPlots } from "./orbit_plots";
 import type { Store } from "./state";
 import type { Theme } from "./theme";
@@ -20,6 +20,8 @@ export class SolutionView {
     private readonly multipliers: Multipliers;
     private readonly orbitParts: HTMLElement[];
     private text: string | null = null;
+    /** The orbit that is shown. */
+    orbit: Orbit | null = null;
 
     constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly store: Store, theme: Theme) {
         this.plots = new OrbitPlots(meta, solutions, theme);
@@ -38,6 +40,7 @@ export class SolutionView {
 
     show(): void {
         const { selected } = this.store.state;
+        this.orbit = null;
         if (selected < 0) {
             this.numbers.replaceChildren();
             this.which.textContent = this.solutions.count === 0 ? "No periodic solution is stored." : "Click on a solution of the diagram, or press an arrow key.";
@@ -56,6 +59,7 @@ export class SolutionView {
         }
         this.text ??= orbitText();
         const orbit = readOrbit(this.meta, this.solutions, this.text, place);
+        this.orbit = orbit;
         this.which.textContent = this.whichOrbit(selected, orbit.solution);
         this.multipliers.show(orbit.multipliers);
         this.plots.show(orbit);

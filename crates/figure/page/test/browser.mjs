@@ -4,7 +4,7 @@
 // first needed. Where none starts the reason is told: the test says that it was skipped, or fails where HAMMERBEAM_REQUIRE_BROWSER=1.
 
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, renameSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { delimiter, join } from "node:path";
 
@@ -25,9 +25,28 @@ async function* candidates() {
     }
     const packed = await import("@sparticuz/chromium").catch(() => null);
     if (packed !== null) {
-        packed.default.setGraphicsMode = false;
-        yield await packed.default.executablePath();
+        yield await unpacked(packed.default);
     }
+}
+
+/** The browser of the package, unpacked beside it once; a half-finished one is never used. */
+async function unpacked(packed) {
+    const cache = join(import.meta.dirname, "..", "node_modules", ".cache");
+    const [done, doing] = [join(cache, "chromium"), join(cache, `unpacking-${process.pid}`)];
+    if (!existsSync(join(done, "chromium"))) {
+        mkdirSync(doing, { recursive: true });
+        const before = process.env.TMPDIR;
+        process.env.TMPDIR = doing; // where the package unpacks
+        packed.setGraphicsMode = false;
+        await packed.executablePath();
+        before === undefined ? delete process.env.TMPDIR : (process.env.TMPDIR = before);
+        try {
+            renameSync(doing, done);
+        } catch {
+            rmSync(doing, { recursive: true, force: true }); // another process was faster
+        }
+    }
+    return join(done, "chromium");
 }
 
 /** Starts a browser; throws with the reasons where none can be had. */

@@ -5,8 +5,12 @@
 
 use super::Placed;
 
-/// Most of the orbits that a page carries.
-const MOST: usize = 6000;
+/// Most of the orbits that a page carries,
+const MOST: usize = 4000;
+/// solutions to each of them, where there are more than a few hundred,
+const SOLUTIONS_TO_AN_ORBIT: usize = 4;
+/// and how many a page carries of few solutions.
+const FEW: usize = 300;
 /// Orbits that are spread to each bifurcation among them.
 const SPREAD: usize = 3;
 
@@ -31,7 +35,8 @@ pub fn order(branches: &[Vec<Placed>]) -> Vec<u32> {
         }
         first += branch.len();
     }
-    let mut wanted = Wanted { taken: vec![false; count], order: Vec::new() };
+    let most = (count / SOLUTIONS_TO_AN_ORBIT).clamp(FEW, MOST);
+    let mut wanted = Wanted { taken: vec![false; count], order: Vec::new(), most };
     for number in first_of_all {
         wanted.take(number);
     }
@@ -52,12 +57,13 @@ pub fn order(branches: &[Vec<Placed>]) -> Vec<u32> {
 struct Wanted {
     taken: Vec<bool>,
     order: Vec<u32>,
+    most: usize,
 }
 
 impl Wanted {
     /// Takes a number that is not taken yet, while there is room; says whether it did.
     fn take(&mut self, number: usize) -> bool {
-        let is_new = self.order.len() < MOST && !std::mem::replace(&mut self.taken[number], true);
+        let is_new = self.order.len() < self.most && !std::mem::replace(&mut self.taken[number], true);
         if is_new {
             self.order.push(number as u32);
         }
