@@ -10,6 +10,8 @@ import { delimiter, join } from "node:path";
 
 const NAMES = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome-headless-shell", "chromium-headless-shell"];
 const PATIENCE_MS = 60_000;
+/** A hint about reading pixels, which a test does and the page does not. */
+const OF_THE_TEST = /readback operations using getImageData/;
 
 /** Paths of browsers, those to be tried first at first. */
 async function* candidates() {
@@ -167,7 +169,7 @@ class Tab {
                 this.complaints.push(`${text} ${exception?.description ?? ""}`);
             } else if (method === "Runtime.consoleAPICalled" && ["error", "warning", "assert"].includes(params.type)) {
                 this.complaints.push(params.args.map((argument) => argument.value ?? argument.description).join(" "));
-            } else if (method === "Log.entryAdded" && ["error", "warning"].includes(params.entry.level)) {
+            } else if (method === "Log.entryAdded" && ["error", "warning"].includes(params.entry.level) && !OF_THE_TEST.test(params.entry.text)) {
                 this.complaints.push(params.entry.text);
             } else if (method === "Page.loadEventFired") {
                 this.#loaded.splice(0).forEach((resolve) => resolve());

@@ -193,6 +193,7 @@ test("dark where the system is dark or the reader wants it, light on paper", opt
     const { data } = await tab.send("Page.printToPDF", { landscape: true });
     assert.ok(Buffer.from(data, "base64").subarray(0, 4).equals(Buffer.from("%PDF")));
     await tab.send("Emulation.setEmulatedMedia", { media: "screen", features: DARK });
+    await tab.until(`${brightness} < 150`);
     await tab.press("d");
     await tab.until(`${brightness} > 700`);
     assert.deepEqual(tab.complaints, []);
