@@ -141,16 +141,20 @@ export class Frame {
         };
     }
 
+    /** The state of the context is left as it was: uPlot remembers what it has set. */
     private paint(plot: uPlot): void {
         const { ctx: context, bbox } = plot;
         context.save();
         context.beginPath();
         context.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+        context.save();
         context.clip();
         this.options.paint(context, this);
         context.restore();
         context.strokeStyle = this.theme.look.pale;
         context.lineWidth = this.density;
+        context.setLineDash([]);
         context.strokeRect(bbox.left, bbox.top, bbox.width, bbox.height);
+        context.restore();
     }
 }

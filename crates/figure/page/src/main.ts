@@ -47,7 +47,7 @@ async function copyLink(): Promise<void> {
 
 const copy = (): void => void copyLink();
 const counted = (count: number, one: string, several: string): string => `${count} ${count === 1 ? one : several}`;
-const subtitle = `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${meta.range[0]} to ${meta.range[1]} Hz; response of ${meta.point}`;
+const subtitle = `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${meta.range[0]} to ${meta.range[1]} Hz${meta.point === "" ? "" : `; response of ${meta.point}`}`;
 page.append(
     element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle])]),
     ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
