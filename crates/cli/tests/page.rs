@@ -73,7 +73,11 @@ fn a_folder_without_anything_to_show_is_refused() {
     database.close().unwrap();
     let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "drawn"]);
     assert_eq!(drawn.status.code(), Some(1));
-    assert!(stderr(&drawn).contains("results holds nothing of what was asked for to draw"), "{}", stderr(&drawn));
+    assert!(
+        stderr(&drawn).contains("results holds nothing of what was asked for to draw"),
+        "{}",
+        stderr(&drawn)
+    );
 }
 
 /// Pages that no run gives: each with what it has to say.
@@ -98,9 +102,27 @@ fn odd_pages(workshop: &Workshop) -> Value {
         ..Page::default()
     };
     let pages = [
-        ("a branch of one point", lone, 2, vec!["& <nothing> else", "Click on a solution"], "No orbit of this branch"),
-        ("an empty page", empty, 0, vec!["No periodic solution is stored.", "The run was not finished"], "No periodic solution"),
-        ("everything at once", everything(), 1, vec!["measured", "chaotic motion", "Poincare section", "0.2500 ± 0.010"], "the orbit of"),
+        (
+            "a branch of one point",
+            lone,
+            2,
+            vec!["& <nothing> else", "Click on a solution"],
+            "No orbit of this branch",
+        ),
+        (
+            "an empty page",
+            empty,
+            0,
+            vec!["No periodic solution is stored.", "The run was not finished"],
+            "No periodic solution",
+        ),
+        (
+            "everything at once",
+            everything(),
+            1,
+            vec!["measured", "chaotic motion", "Poincare section", "0.2500 ± 0.010"],
+            "the orbit of",
+        ),
     ];
     let write = |(name, page, branches, says, orbit): (&str, Page, usize, Vec<&str>, &str)| {
         let path = workshop.path(&format!("{}.html", name.replace(' ', "-")));
@@ -164,7 +186,10 @@ fn everything() -> Page {
         structure: Some(PageStructure {
             is_beam: false,
             places: vec![place("first", 0.0, [1.0, 0.0]), place("second", 1.0, [0.0, 1.0])],
-            stops: vec![stop(0, Some(1), vec![(5e-4, true)]), stop(1, None, vec![(1e-3, true), (-1e-3, false)])],
+            stops: vec![
+                stop(0, Some(1), vec![(5e-4, true)]),
+                stop(1, None, vec![(1e-3, true), (-1e-3, false)]),
+            ],
             links: vec![[Some(0), None], [Some(0), Some(1)], [None, Some(1)]],
             eigenfrequencies_hz: vec![12.0, 25.0],
         }),
@@ -189,7 +214,10 @@ fn everything() -> Page {
 fn in_a_browser(pages: &Value) {
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../figure/page");
     let skip = |reason: &str| {
-        assert!(std::env::var("HAMMERBEAM_REQUIRE_BROWSER").as_deref() != Ok("1"), "no browser test: {reason}");
+        assert!(
+            std::env::var("HAMMERBEAM_REQUIRE_BROWSER").as_deref() != Ok("1"),
+            "no browser test: {reason}"
+        );
         eprintln!("the page was not opened in a browser: {reason}");
     };
     let version = Command::new("node").arg("--version").output();

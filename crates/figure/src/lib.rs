@@ -92,7 +92,7 @@ pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{OrbitDiagram, OrbitSample};
 pub use page::{
     OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure,
+    PageSolution, PageStop, PageStructure, room_for_orbits,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};

@@ -5,7 +5,7 @@ mod orbits;
 mod shape;
 
 use hammerbeam_attractor::Class;
-use hammerbeam_figure::{Page, PageBranch, PageMotion, PageSection, PageSolution};
+use hammerbeam_figure::{Page, PageBranch, PageMotion, PageSection, PageSolution, room_for_orbits};
 use hammerbeam_orbit::Side;
 use hammerbeam_study::{
     Model, Store, StoreError, StudyFile,
@@ -16,13 +16,6 @@ use super::{Drawn, motions};
 
 /// Name of the file.
 pub const NAME: &str = "page.html";
-
-/// Length of solutions and orbits together before they are text (bytes): a page of 14 MB.
-const MOST_BYTES: usize = 10_400_000;
-/// What orbits get at least.
-const LEAST_ORBIT_BYTES: usize = 2_000_000;
-/// Bytes of a solution.
-const SOLUTION_BYTES: usize = 36;
 
 /// Draws the page, unless nothing of what it shows is stored.
 pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
@@ -39,7 +32,7 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
         stored.push(places);
     }
     let solutions: usize = stored.iter().map(Vec::len).sum();
-    let most = MOST_BYTES.saturating_sub(SOLUTION_BYTES * solutions).max(LEAST_ORBIT_BYTES);
+    let most = room_for_orbits(solutions);
     let [low, high] = file.study.excitation.frequency_hz;
     let page = Page {
         title: store.about("title")?,

@@ -14,8 +14,21 @@
 
 use std::collections::BTreeMap;
 
+use super::columns::BYTES_OF_A_SOLUTION;
+
 /// Steps in the range of a series.
 const STEPS: f64 = 4_095.0;
+
+/// Length of solutions and orbits together before they are text (bytes): a page of 14 MB.
+const MOST_BYTES: usize = 10_400_000;
+/// What orbits get at least, however many solutions there are (bytes).
+const LEAST_ORBIT_BYTES: usize = 2_000_000;
+
+/// Length of the records of orbits (bytes) for which a page of so many solutions has room.
+#[must_use]
+pub fn room_for_orbits(solutions: usize) -> usize {
+    MOST_BYTES.saturating_sub(BYTES_OF_A_SOLUTION * solutions).max(LEAST_ORBIT_BYTES)
+}
 
 /// An orbit over its period, from phase 0 of the excitation on, the end of the period left out. All lengths at most 65 535.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -132,12 +145,12 @@ fn range(values: &[f64]) -> [f32; 2] {
     }
 }
 
-/// Writes the second differences of a series; what is not finite has the least value.
+/// Writes the second differences of a series; an infinite value is the least or the largest one, what is not a number the least.
 fn write(bytes: &mut Vec<u8>, values: &[f64], [low, step]: [f32; 2]) {
     let [mut last, mut slope, mut zeros] = [0_i32; 3];
     for value in values {
         let count = if step > 0.0 { (value - f64::from(low)) / f64::from(step) } else { 0.0 };
-        let count = count.round() as i32; // not a number becomes 0
+        let count = count.round().clamp(0.0, STEPS) as i32; // not a number becomes 0
         let change = count - last;
         let bend = change - slope;
         (last, slope) = (count, change);
