@@ -195,7 +195,7 @@ fn everything() -> Page {
         }),
         motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 5e-3 }],
         chaotic_ranges_hz: vec![(14.0, 16.0)],
-        sections: vec![PageSection {
+        sections: vec![PageSection { points: vec![(1e-3, 0.1), (1e-3 + 1e-19, 0.1)], ..PageSection::default() }, PageSection {
             frequency_hz: 15.0,
             exponent_per_s: Some((0.25, 0.01)),
             dimension: Some(f64::NAN),

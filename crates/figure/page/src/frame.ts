@@ -24,8 +24,14 @@ export interface FrameOptions {
     height: () => number;
 }
 
-/** Width and height (CSS pixels) of what lies around a plot. */
+/** Width of the labels of a vertical axis at least (CSS pixels). */
+const NARROW = 58;
+
+/** Width and height (CSS pixels) of what lies around a plot whose labels are short. */
 export const MARGINS = { across: 96, up: 58 };
+
+/** Least width of an axis, relative to its values: its ticks have to differ. */
+export const NARROWEST = 1e-10;
 
 const FONT = "12px system-ui, sans-serif";
 const LABEL_FONT = "13px system-ui, sans-serif";
@@ -81,8 +87,11 @@ export class Frame {
     range(): Range {
         const range = this.options.range();
         const { x, y } = range;
-        const widen = ([low, high]: [number, number]): [number, number] =>
-            high > low ? [low, high] : [low - (Math.abs(low) * 0.01 || 1), low + (Math.abs(low) * 0.01 || 1)];
+        const widen = ([low, high]: [number, number]): [number, number] => {
+            const size = Math.max(Math.abs(low), Math.abs(high));
+            const margin = 1e-3 * size || 1;
+            return high - low > NARROWEST * size ? [low, high] : [low - margin, high + margin];
+        };
         return { ...range, x: widen(x), y: widen(y) };
     }
 
@@ -132,7 +141,7 @@ export class Frame {
                     ...common,
                     label: this.options.yLabel(),
                     labelSize: 20,
-                    size: 58,
+                    size: (_, labels) => Math.max(NARROW, 12 + 7.2 * Math.max(0, ...(labels ?? []).map((label) => label.length))),
                     space: 36,
                     values: (_, splits, __, ___, distance) => (logY ? logTicks(splits) : ticks(splits, distance)),
                 },

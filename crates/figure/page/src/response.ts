@@ -4,7 +4,7 @@ import { scalesOf, type Curves } from "./curves";
 import type { Meta, Solutions } from "./data";
 import { element } from "./dom";
 import { MEASURES } from "./format";
-import { Frame, type Range } from "./frame";
+import { Frame, NARROWEST, type Range } from "./frame";
 import { markedSolutions } from "./marks";
 import { hoverText } from "./numbers";
 import { paintResponse } from "./response_paint";
@@ -137,7 +137,7 @@ export class Response {
         const across = of(x[0], x[1], 0);
         const up = logY ? of(Math.log10(y[0]), Math.log10(y[1]), 1) : of(y[0], y[1], 1);
         const view: View = { x: across, y: logY ? [10 ** up[0], 10 ** up[1]] : up };
-        const enough = (low: number, high: number): boolean => high - low > 1e-11 * Math.max(Math.abs(low), Math.abs(high));
+        const enough = (low: number, high: number): boolean => high - low > 2 * NARROWEST * Math.max(Math.abs(low), Math.abs(high));
         if (enough(...view.x) && enough(...view.y) && across[1] - across[0] < 1e6) {
             this.store.update({ view });
         }

@@ -44,8 +44,10 @@ export function sectionPanel(meta: Meta, store: Store, theme: Theme): HTMLElemen
             height: () => 300,
             paint: (context, at) => {
                 context.fillStyle = theme.period(1);
-                for (const [x, y] of points()) {
-                    context.fillRect(at.toX(x) - at.density, at.toY(y) - at.density, 2 * at.density, 2 * at.density);
+                const found = points();
+                const half = (found.length > 1000 ? 1 : 1.7) * at.density;
+                for (const [x, y] of found) {
+                    context.fillRect(at.toX(x) - half, at.toY(y) - half, 2 * half, 2 * half);
                 }
             },
         }, theme);

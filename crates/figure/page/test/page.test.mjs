@@ -212,6 +212,9 @@ for (const page of pages.odd ?? []) {
     test(`${page.name} is shown`, options, async () => {
         const tab = await open(page);
         assert.equal(await tab.value(`document.querySelector(".response").dataset.branches`), String(page.branches));
+        for (const option of await tab.value(`[...document.querySelectorAll("#section option")].map((one) => one.value)`)) {
+            await tab.value(`(() => { const one = document.querySelector("#section select"); one.value = "${option}"; one.dispatchEvent(new Event("change")); })()`);
+        }
         for (const sentence of page.says) {
             assert.ok((await tab.value(`document.body.innerText`)).includes(sentence), sentence);
         }
