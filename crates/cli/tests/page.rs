@@ -3,6 +3,7 @@
 //! The browser is driven by a script of the page (`crates/figure/page/test`). It needs Node; its packages, a browser among them, are installed from the lock file
 //! where they are missing. Where that cannot be had the test says so and passes, unless `HAMMERBEAM_REQUIRE_BROWSER=1`.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::print_stderr, reason = "it has to say that it was skipped")]
 
 mod common;
 
@@ -33,7 +34,7 @@ fn results() -> (Workshop, Value) {
 }
 
 #[test]
-fn a_run_writes_the_page_and_the_figures_write_the_same_again() {
+fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missing() {
     let (workshop, document) = results();
     let first = fs::read(workshop.path("results/page.html")).unwrap();
     let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "again"]);
@@ -51,6 +52,7 @@ fn a_run_writes_the_page_and_the_figures_write_the_same_again() {
     let odd = odd_pages(&workshop);
     in_a_browser(&json!({ "run": run, "odd": odd }));
     while_a_run_writes(&workshop);
+    without_anything(&workshop);
 }
 
 /// A walk that has not ended is told on the page.
@@ -64,20 +66,15 @@ fn while_a_run_writes(workshop: &Workshop) {
     assert!(html.contains(notice));
 }
 
-#[test]
-fn a_folder_without_anything_to_show_is_refused() {
-    let workshop = Workshop::changed(common::BEAM, "frequency_hz = [19.0, 110.0]", RANGE);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--jobs", "1"]));
+/// Nothing is left to show.
+fn without_anything(workshop: &Workshop) {
     let database = Connection::open(workshop.path("results/results.db")).unwrap();
     database.execute_batch("DELETE FROM solution; DELETE FROM walk; DELETE FROM start;").unwrap();
     database.close().unwrap();
     let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "drawn"]);
     assert_eq!(drawn.status.code(), Some(1));
-    assert!(
-        stderr(&drawn).contains("results holds nothing of what was asked for to draw"),
-        "{}",
-        stderr(&drawn)
-    );
+    let message = stderr(&drawn);
+    assert!(message.contains("results holds nothing of what was asked for to draw"), "{message}");
 }
 
 /// Pages that no run gives: each with what it has to say.
@@ -195,12 +192,15 @@ fn everything() -> Page {
         }),
         motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 5e-3 }],
         chaotic_ranges_hz: vec![(14.0, 16.0)],
-        sections: vec![PageSection { points: vec![(1e-3, 0.1), (1e-3 + 1e-19, 0.1)], ..PageSection::default() }, PageSection {
-            frequency_hz: 15.0,
-            exponent_per_s: Some((0.25, 0.01)),
-            dimension: Some(f64::NAN),
-            points: wave(200, 1e-3).into_iter().zip(wave(200, 0.1)).chain([(f64::NAN, 0.0)]).collect(),
-        }],
+        sections: vec![
+            PageSection { points: vec![(1e-3, 0.1), (1e-3 + 1e-19, 0.1)], ..PageSection::default() },
+            PageSection {
+                frequency_hz: 15.0,
+                exponent_per_s: Some((0.25, 0.01)),
+                dimension: Some(f64::NAN),
+                points: wave(200, 1e-3).into_iter().zip(wave(200, 0.1)).chain([(f64::NAN, 0.0)]).collect(),
+            },
+        ],
         measured: vec![PageMeasured {
             name: "sweep up".to_owned(),
             displacement: vec![(12.0, 2e-3), (13.0, f64::INFINITY)],

@@ -31,6 +31,17 @@ export function legend(meta: Meta, solutions: Solutions, theme: Theme): HTMLElem
                 context.strokeRect(0.5, 0.5, 23, SIZE - 1);
             }));
         }
+        if (meta.sections.length > 0) {
+            items.push(item("the Poincare section shown", (context) => {
+                context.strokeStyle = theme.look.pale;
+                context.lineWidth = 1.5;
+                context.setLineDash([2, 3]);
+                context.beginPath();
+                context.moveTo(12, 0);
+                context.lineTo(12, SIZE);
+                context.stroke();
+            }));
+        }
         if (meta.motions.length > 0) {
             items.push(item("motion that does not repeat", (context) => {
                 context.fillStyle = theme.look.pale;

@@ -46,7 +46,7 @@ export class Response {
         );
         this.frame.whenMade(() => this.attach());
         store.listen((_, changed) => {
-            if (["quantity", "log", "view", "selected", "hidden", "marks", "measured"].some((key) => changed.has(key as never))) {
+            if (["quantity", "log", "view", "selected", "hidden", "marks", "measured", "section"].some((key) => changed.has(key as never))) {
                 this.plan();
             }
         });

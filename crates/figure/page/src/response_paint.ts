@@ -36,12 +36,23 @@ export function paintResponse(context: CanvasRenderingContext2D, frame: Frame, s
     return drawn;
 }
 
-function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, theme }: Scene): void {
+/** Chaotic ranges, and the frequency of the section that is shown. */
+function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
     const { top, height } = frame.plot.bbox;
     context.fillStyle = theme.look.shade;
     for (const [low, high] of meta.chaos) {
         const left = frame.toX(low);
         context.fillRect(left, top, Math.max(frame.density, frame.toX(high) - left), height);
+    }
+    const section = meta.sections[state.section];
+    if (section !== undefined) {
+        context.strokeStyle = theme.look.pale;
+        context.lineWidth = 1.5 * frame.density;
+        context.setLineDash([2 * frame.density, 3 * frame.density]);
+        context.beginPath();
+        context.moveTo(frame.toX(section.frequency), top);
+        context.lineTo(frame.toX(section.frequency), top + height);
+        context.stroke();
     }
 }
 
