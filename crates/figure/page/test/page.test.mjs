@@ -39,6 +39,9 @@ async function open(page, hash = "", { width = 1400, height = 1000, features = L
     return tab;
 }
 
+/** Waits until everything that was asked for is drawn. */
+const drawn = (tab) => tab.value(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))`);
+
 const orbitIsOpen = `document.querySelector(".solution").dataset.orbit !== ""`;
 const motion = `(() => { const c = document.querySelector("#motion canvas"); return c.width + ":" + c.toDataURL(); })()`;
 const meta = `JSON.parse(document.getElementById("meta").textContent)`;
@@ -64,7 +67,7 @@ test("the page opens without a complaint and draws every branch where its soluti
     assert.equal(branches.length, pages.run.branches);
     await tab.value(`document.querySelector(".controls input[type=checkbox]").click()`); // marks off
     await tab.until(`hammerbeam.state().marks === false`);
-    await new Promise((resolve) => setTimeout(resolve, 200));
+    await drawn(tab);
     for (const { first, count, period } of branches) {
         const colour = look.light.periods[(period - 1) % look.light.periods.length];
         const places = [0.3, 0.5, 0.7].map((share) => first + Math.floor(share * (count - 1)));
@@ -119,7 +122,7 @@ test("the structure moves, and stands still when it is paused", options, async (
     await tab.until(`${motion} !== ${JSON.stringify(first)}`);
     await tab.press(" ");
     await tab.until(`[...document.querySelectorAll("#motion button")].some((one) => one.textContent === "Play")`);
-    await new Promise((resolve) => setTimeout(resolve, 100));
+    await drawn(tab);
     const paused = await tab.value(motion);
     await new Promise((resolve) => setTimeout(resolve, 300));
     assert.ok((await tab.value(motion)) === paused);
@@ -142,7 +145,8 @@ test("keys step along the branch, zoom and show the list of keys; the wheel zoom
     const [x, y] = await tab.value(`hammerbeam.placeOf(${selected})`);
     await tab.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -300, button: "none" });
     await tab.until(`hammerbeam.state().view !== null`);
-    const [stillX] = await tab.value(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(hammerbeam.placeOf(${selected})))))`);
+    await drawn(tab);
+    const [stillX] = await tab.value(`hammerbeam.placeOf(${selected})`);
     assert.ok(Math.abs(stillX - x) < 1.5, `${stillX} ${x}`);
     await tab.press("?");
     assert.equal(await tab.value(`document.querySelector("dialog").open`), true);
@@ -153,7 +157,7 @@ test("a row of the bifurcation table jumps to its point", options, async () => {
     const tab = await open(pages.run);
     const solution = await tab.value(`(() => { const row = document.querySelectorAll("#bifurcations tbody tr")[2]; row.querySelector("button").click(); return +row.dataset.solution; })()`);
     assert.equal(await tab.value(`hammerbeam.state().selected`), solution);
-    await tab.value(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))`);
+    await drawn(tab);
     const [x] = await tab.value(`hammerbeam.placeOf(${solution})`);
     const box = await tab.value(`(() => { const { left, width } = document.querySelector(".response .u-over").getBoundingClientRect(); return { left, width }; })()`);
     assert.ok(Math.abs(x - box.left - box.width / 2) < 2, "in the middle of the view");
@@ -183,7 +187,7 @@ test("dark where the system is dark or the reader wants it, light on paper", opt
     const brightness = `getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).reduce((sum, part) => sum + +part, 0)`;
     assert.ok((await tab.value(brightness)) < 150);
     await tab.until(orbitIsOpen);
-    await new Promise((resolve) => setTimeout(resolve, 200));
+    await drawn(tab);
     if (pictures !== "") {
         writeFileSync(join(pictures, "page-dark.png"), await tab.picture());
     }
@@ -221,7 +225,7 @@ for (const page of pages.odd ?? []) {
         await tab.press("ArrowRight");
         const sentence = await tab.value(`document.querySelector(".which").textContent`);
         assert.ok(sentence.includes(page.orbit), sentence);
-        await new Promise((resolve) => setTimeout(resolve, 200));
+        await drawn(tab);
         if (pictures !== "") {
             writeFileSync(join(pictures, `page-${page.name.replaceAll(" ", "-")}.png`), await tab.picture());
         }
