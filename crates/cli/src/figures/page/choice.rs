@@ -7,10 +7,10 @@ use super::Placed;
 
 /// Most of the orbits that a page carries,
 const MOST: usize = 4000;
-/// solutions to each of them, where there are more than a few hundred,
+/// solutions to each of them, where there are more than a few,
 const SOLUTIONS_TO_AN_ORBIT: usize = 4;
 /// and how many a page carries of few solutions.
-const FEW: usize = 300;
+const FEW: usize = 100;
 /// Orbits that are spread to each bifurcation among them.
 const SPREAD: usize = 3;
 
