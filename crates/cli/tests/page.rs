@@ -62,7 +62,7 @@ fn while_a_run_writes(workshop: &Workshop) {
     database.close().unwrap();
     assert_success(&workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "unfinished"]));
     let html = fs::read_to_string(workshop.path("unfinished/page.html")).unwrap();
-    let notice = "The run was not finished when this page was drawn: 1 sides of branches were under way";
+    let notice = "The run was not finished when this page was drawn; sides of branches under way: 1; ";
     assert!(html.contains(notice));
 }
 

@@ -107,9 +107,8 @@ fn notice(store: &Store, records: &[BranchRecord]) -> Result<String, StoreError>
     if open == 0 && left == 0 {
         return Ok(String::new());
     }
-    Ok(format!(
-        "The run was not finished when this page was drawn: {open} sides of branches were under way, {left} searches, flips and branch points were left."
-    ))
+    let (walks, jobs) = ("sides of branches under way", "searches, flips and branch points left");
+    Ok(format!("The run was not finished when this page was drawn; {walks}: {open}; {jobs}: {left}."))
 }
 
 /// Motions of sweeps that do not repeat.

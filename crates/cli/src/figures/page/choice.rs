@@ -70,3 +70,48 @@ impl Wanted {
         is_new
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use hammerbeam_orbit::{Events, OrbitMaxima, Side};
+    use hammerbeam_study::store::Row;
+
+    use super::*;
+
+    /// A branch that is stable in its first half, with flips at these places.
+    fn branch(count: usize, flips: &[usize]) -> Vec<Placed> {
+        let row = |place: usize| Row {
+            frequency_hz: 20.0,
+            maxima: OrbitMaxima::default(),
+            events: Events { flip: flips.contains(&place), ..Events::default() },
+            stable: place < count / 2,
+            leading_multiplier: [0.5, 0.0],
+            residual: 0.0,
+            error_estimate: 0.0,
+        };
+        (0..count).map(|place| Placed { side: Side::Up, number: place as u32, row: row(place) }).collect()
+    }
+
+    #[test]
+    fn ends_and_bifurcations_of_stable_solutions_come_first() {
+        let order = order(&[branch(1000, &[300, 800]), branch(1, &[]), Vec::new(), branch(999, &[])]);
+        assert_eq!(order[..6], [0, 300, 999, 1000, 1001, 1999]);
+        assert!(order.contains(&800), "that of unstable solutions is among the others");
+    }
+
+    #[test]
+    fn no_orbit_comes_twice_and_all_are_spread() {
+        let mut order = order(&[branch(1000, &[]), branch(3000, &[])]);
+        assert_eq!(order.len(), 4000 / SOLUTIONS_TO_AN_ORBIT);
+        order.sort_unstable();
+        // Every fourth solution at least would be 4 apart; the last halving of the step is not complete.
+        assert!(order.windows(2).all(|pair| (1..=8).contains(&(pair[1] - pair[0]))));
+    }
+
+    #[test]
+    fn of_few_solutions_and_of_none_nothing_is_left_out() {
+        assert_eq!(order(&[branch(70, &[5])]).len(), 70);
+        assert_eq!(order(&[]), Vec::<u32>::new());
+        assert_eq!(order(&[Vec::new()]).len(), 0);
+    }
+}

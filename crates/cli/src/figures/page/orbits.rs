@@ -16,6 +16,8 @@ use crate::{initial, ticker::Ticker};
 
 /// Orbits that are computed between two looks at whether the page is full.
 const ROUND: usize = 512;
+/// Orbits that one integrator computes one after the other; a round of them is work for eight threads.
+const PART: usize = 64;
 /// Modes whose coordinates are carried: what is seen of a structure in motion.
 const DRAWN_MODES: usize = 8;
 /// Harmonics that are carried at most.
@@ -86,13 +88,13 @@ impl<'m> Drawing<'m> {
         Self { model, is_moved: model.system.model().support.is_some(), highest_hz }
     }
 
-    /// Orbits of solutions, on all cores, in their order; `None` where the motion cannot be computed.
+    /// Orbits of solutions, in their order; `None` where the motion cannot be computed.
+    ///
+    /// Each part of them has a thread and an integrator of its own. An integrator remembers what it did last, so that the parts do not depend on the number of cores.
     fn orbits(&self, solutions: &[PeriodicSolution]) -> Vec<Option<PageOrbit>> {
-        let threads = thread::available_parallelism().map_or(1, usize::from);
-        let share = solutions.len().div_ceil(threads).max(1);
         thread::scope(|scope| {
             let work = |part| move || self.part(part);
-            let workers: Vec<_> = solutions.chunks(share).map(|part| scope.spawn(work(part))).collect();
+            let workers: Vec<_> = solutions.chunks(PART).map(|part| scope.spawn(work(part))).collect();
             workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect()
         })
     }
