@@ -117,7 +117,7 @@ fn odd_pages(workshop: &Workshop) -> Value {
             "everything at once",
             everything(),
             1,
-            vec!["measured", "chaotic motion", "Poincare section", "0.2500 ± 0.010"],
+            vec!["measured: sweep up", "chaotic motion", "Poincare section", "0.2500 ± 0.010"],
             "the orbit of",
         ),
     ];

@@ -54,8 +54,9 @@ export interface Section {
 
 export interface Measured {
     name: string;
-    displacement: [number, number][];
-    acceleration: [number, number][];
+    /** Frequencies and values; null where a value is not finite. */
+    displacement: [number | null, number | null][];
+    acceleration: [number | null, number | null][];
 }
 
 export interface Motion {

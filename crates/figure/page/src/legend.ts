@@ -51,7 +51,7 @@ export function legend(meta: Meta, solutions: Solutions, theme: Theme): HTMLElem
             }));
         }
         if (meta.measured.length > 0) {
-            items.push(item("measured", (context) => {
+            items.push(item(`measured: ${meta.measured.map((series) => series.name).join(", ")}`, (context) => {
                 context.strokeStyle = theme.look.ink;
                 context.beginPath();
                 context.moveTo(8, 4);

@@ -127,7 +127,11 @@ function paintMeasured(context: CanvasRenderingContext2D, frame: Frame, { meta, 
     context.beginPath();
     for (const series of meta.measured) {
         const points = state.quantity === "displacement" ? series.displacement : state.quantity === "acceleration" ? series.acceleration : [];
-        points.forEach(([frequency, value]) => cross(frame.toX(frequency), frame.toY(factor * value), 3 * density));
+        for (const [frequency, value] of points) {
+            if (frequency !== null && value !== null) {
+                cross(frame.toX(frequency), frame.toY(factor * value), 3 * density);
+            }
+        }
     }
     context.stroke();
     if (state.quantity === "displacement") {
