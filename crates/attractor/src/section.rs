@@ -139,7 +139,7 @@ impl SectionMap for SystemMap {
     }
 
     fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
-        let flow = self.integrator.flow(&self.stretch(section), state)?;
+        let flow = self.integrator.flow_onwards(&self.stretch(section), state)?;
         Ok((flow.state, flow.by_state))
     }
 

@@ -73,7 +73,7 @@
 //!
 //! # Limits
 //! No friction. A rigid stop is not held while another element has a force. A stretch cannot start in a contact whose law remembers its impact, since a state `[q; q']` does not tell how the
-//! contact began; states alone go on from the stretch before (`exact`), flows with sensitivities do not. Such laws say nothing of a contact that is pressed on without
+//! contact began; motions and tangent vectors go on from the stretch before (`exact`). Such laws say nothing of a contact that is pressed on without
 //! an impact. Where such a contact closes in the very instant in which one with a damper does, the speed that it remembers has no derivative; that for
 //! one order of the two is given.
 

@@ -76,6 +76,7 @@ use std::{collections::HashMap, sync::Arc};
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
+pub use memory::ContactMemory;
 pub use trace::{ContactPiece, Touchdown, Trace};
 
 use block::{Blocks, Propagator};
@@ -198,7 +199,9 @@ pub struct ExactIntegrator {
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
     by_damping: Option<Box<by_damping::ByDamping>>,
-    memory: Option<memory::Memory>,
+    memory: Option<ContactMemory>,
+    /// Whether flows go on within contacts from the stretch before.
+    goes_on: bool,
     /// The present stretch.
     stretch: Stretch,
     /// The held structure in use, and others that were.
@@ -273,6 +276,7 @@ impl ExactIntegrator {
             parameter: None,
             by_damping: None,
             memory: None,
+            goes_on: false,
             stretch,
             holding: None,
             known_held: Vec::new(),
