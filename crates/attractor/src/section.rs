@@ -12,6 +12,9 @@ use hammerbeam_motion::{
 
 use crate::AttractorError;
 
+/// How far behind a rigid stop a state counts as on it, relative to the displacement there.
+const ON_THE_STOP: f64 = 1e-9;
+
 /// A motion that is advanced section by section.
 pub trait SectionMap {
     /// Length of a state.
@@ -105,6 +108,19 @@ impl SystemMap {
     pub fn divergence(&self) -> f64 {
         let damping = &self.integrator.system().model().damping;
         -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
+    }
+
+    /// The first rigid stop that a state at phase 0 lies behind, where no motion comes, and how far [m].
+    #[must_use]
+    pub fn behind_rigid_stop(&self, state: &[f64]) -> Option<(&str, f64)> {
+        let system = self.integrator.system();
+        system.elements().iter().enumerate().find_map(|(number, element)| {
+            let level = element.law.rigid()?.level();
+            let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
+            // A state on the stop may have come from a motion, with its rounding.
+            let depth = r - level;
+            (depth > ON_THE_STOP * r.abs().max(level.abs())).then_some((element.name.as_str(), depth))
+        })
     }
 
     fn stretch(&self, section: u64) -> Stretch {

@@ -39,7 +39,15 @@ pub fn state(
             let stretch = Stretch { frequency_hz: map.frequency_hz(), start: 0.0, end: 1.0 };
             Ok(map.integrator().steady_state(&stretch))
         }
-        numbers => numbers_of(numbers, size),
+        numbers => {
+            let state = numbers_of(numbers, size)?;
+            match map.behind_rigid_stop(&state) {
+                Some((stop, depth)) => Err(Failure::BadInput(format!(
+                    "--initial: the state lies {depth:.3e} m behind the rigid stop {stop:?}, where no motion comes"
+                ))),
+                None => Ok(state),
+            }
+        }
     }
 }
 

@@ -395,6 +395,7 @@ fn options_that_make_no_sense_are_refused() {
         (&basins, &["q1=2..1", "--y", "v1=0..1"], "the range 2..1 is empty"),
         (&basins, &["q3=0..1", "--y", "v1=0..1"], "found the coordinate \"q3\"; allowed: q1 to q2, v1 to v2"),
         (&basins, &["q1=0..1", "--y", "q1=0..1"], "two different ones are needed"),
+        (&basins, &["displacement=0..1", "--y", "q1=0..1"], "are the same coordinate"),
         (&basins, &["q1=0..1", "--y", "v1=0..1", "--grid", "0"], "0 is not in 1..="),
         (&basins, &["q1=0..1", "--y", "v1=0..1", "--results", "nowhere"], "there are no results in nowhere"),
     ] {

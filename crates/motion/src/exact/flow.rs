@@ -184,7 +184,10 @@ impl ExactIntegrator {
             Boundary::Closes if self.laws[touch.element].rigid().is_some() => {
                 self.strike_rigid(run, touch)?;
             }
-            Boundary::Closes => self.strike(run, touch),
+            Boundary::Closes => {
+                self.check_impact(run, touch)?;
+                self.strike(run, touch);
+            }
         }
         match run.stuck.first() {
             Some(&element) if self.forces_act(run) => Err(self.sticks_under_forces(run, element)),

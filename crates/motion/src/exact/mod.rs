@@ -107,6 +107,11 @@ pub enum MotionError {
         "{element} is closed at the start of a stretch, at the phase of {phase} cycles, and its law needs to know how fast it closed"
     )]
     StartsInContact { element: String, phase: f64 },
+    /// A contact begins without any speed and is pressed on, and its law loses in proportion to one over that speed: as from rest against a stop without a gap.
+    #[error(
+        "{element} is pressed on without an impact, {time:.6e} s after the start of the stretch, and its law needs the speed of one; a motion that begins away from the stop has it"
+    )]
+    PressedWithoutImpact { element: String, time: f64 },
     /// No force step, however short, reached the tolerance.
     #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
     StepTooShort { time: f64, step: f64 },

@@ -332,7 +332,7 @@ fn a_stop_without_a_law_is_one_fault() {
 #[test]
 fn laws_that_lose_energy_refuse_what_they_cannot_be() {
     let refused = |keys: &str, words: &[&str]| assert_refused(law_with(keys), words);
-    refused("law = \"hunt-crossley\"", &["`loss_s_m` is missing"]);
+    refused("law = \"hunt-crossley\"", &["`loss_s_m` is missing", "`restitution`"]);
     refused("law = \"hunt-crossley\"\nloss_s_m = -1.0", &["`loss_s_m`", "-1", "allowed: 0 to"]);
     refused(
         "law = \"hunt-crossley\"\nloss_s_m = 0.1\nrestitution = 0.9",
