@@ -91,6 +91,14 @@ impl StoredBranches {
                     orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
                 }
             }
+            // Between rows the higher end counts; a branch that ends at the frequency and lies above it has no such pair there.
+            for (end, beside) in [(rows.first(), rows.get(1)), (rows.last(), rows.iter().rev().nth(1))] {
+                let Some((end, beside)) = end.zip(beside) else { continue };
+                if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
+                    let guess = self.store.solution(record.start, end.side, end.number)?;
+                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
+                }
+            }
         }
         Ok(orbits)
     }
