@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::{judge::RecordError, read::ReadError};
+use crate::{judge::RecordError, points::PointsError, read::ReadError};
 
 /// Why there is nothing to give.
 #[derive(Debug, thiserror::Error)]
@@ -15,6 +15,9 @@ pub enum SignalError {
     /// The file is not what it should be.
     #[error("{path}: {source}")]
     Read { path: PathBuf, source: ReadError },
+    /// The file is no table of measured points.
+    #[error("{path}: {source}")]
+    Points { path: PathBuf, source: PointsError },
     /// What is in the file is no usable record.
     #[error(transparent)]
     Record(#[from] RecordError),

@@ -22,6 +22,7 @@
 //! | `unit.rs` | units as people write them |
 //! | `raw.rs`, `record.rs` | what a file says; what is worked with |
 //! | `read/` | CSV, universal files, WAV, NumPy, MATLAB |
+//! | `points/` | tables of measured points: maxima over the excitation frequency |
 //! | `judge/`, `finding.rs` | is the sampling even, is anything missing or suspicious; what may be repaired |
 //! | `filter/` | Butterworth filters, causal and without phase |
 //! | `resample/` | by rational factors, by the spectrum, at any place |
@@ -45,6 +46,7 @@ pub mod filter;
 mod finding;
 mod fourier;
 pub mod judge;
+pub mod points;
 pub mod random;
 pub mod raw;
 pub mod read;

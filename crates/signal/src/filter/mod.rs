@@ -21,8 +21,10 @@
 //! the beginning of forward-backward filters (the simpler variant with the steady state of the first value is used here, as in SciPy's `sosfiltfilt`).
 
 mod butterworth;
+mod periodic;
 mod sections;
 mod zero_phase;
 
 pub use butterworth::{Band, butterworth};
+pub use periodic::{low_pass_response, periodic_low_pass};
 pub use sections::{Section, Sections};

@@ -28,6 +28,14 @@ const DIALECTS: [Dialect; 7] = [
 const LOOKED_AT: usize = 200;
 
 impl Dialect {
+    /// That of a table whose titles are known: the separator that stands in them most often. A decimal comma is read wherever it does not separate.
+    pub(super) fn of_titles(titles: &str) -> Self {
+        let count = |separator: char| titles.matches(separator).count();
+        let most = ['\t', ';', ','].into_iter().rev().max_by_key(|separator| count(*separator));
+        let separator = most.filter(|separator| count(*separator) > 0);
+        Self { separator, decimal_comma: separator != Some(',') }
+    }
+
     /// Fields of a row, without their quotation marks.
     pub(super) fn split<'a>(self, line: &'a str) -> Vec<Cow<'a, str>> {
         match self.separator {

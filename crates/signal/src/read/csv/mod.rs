@@ -21,6 +21,32 @@ use crate::{
 /// A line of text with its number, from 1 on.
 pub(crate) type Line<'a> = (usize, &'a str);
 
+/// How the fields of a table with words in it are separated.
+pub(crate) struct TextTable(Dialect);
+
+impl TextTable {
+    /// By its line of titles.
+    pub(crate) fn of_titles(titles: &str) -> Self {
+        Self(Dialect::of_titles(titles))
+    }
+
+    /// Fields of a line.
+    pub(crate) fn fields(&self, line: &str) -> Vec<String> {
+        self.0.split(line).iter().map(|field| field.to_string()).collect()
+    }
+
+    /// Value of a field: NaN if it is empty or says that there is nothing, `None` if it is no number.
+    pub(crate) fn number(&self, field: &str) -> Option<f64> {
+        number::parse(field, self.0.decimal_comma)
+    }
+}
+
+/// Lines that are neither empty nor comments.
+pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
+    let numbered = text.lines().enumerate().map(|(k, line)| (k + 1, line));
+    numbered.filter(|(_, line)| !line.trim().is_empty() && !is_comment(line))
+}
+
 /// A column as it was read.
 struct Column {
     name: String,
@@ -54,7 +80,7 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
 }
 
 /// Text of the file: UTF-8, UTF-16 with its mark, or else Latin-1.
-fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, ReadError> {
+pub(crate) fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, ReadError> {
     let wide = |order: fn([u8; 2]) -> u16| {
         let units: Vec<u16> = bytes[2..].chunks_exact(2).map(|pair| order([pair[0], pair[1]])).collect();
         String::from_utf16_lossy(&units)
