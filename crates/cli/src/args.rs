@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hammerbeam_study::verify::TOLERANCE;
 
 use crate::{
+    compare_args::CompareOptions,
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
     signal_args::SignalCommand,
 };
@@ -52,6 +53,8 @@ pub enum Command {
     /// Measured or exported time series: filter, spectrum, damping, kind of motion, exponent
     #[command(subcommand)]
     Signal(SignalCommand),
+    /// Hold measured points against computed branches
+    Compare(CompareOptions),
     /// Draw everything that a results folder holds, as SVG and PNG
     Figure(FigureOptions),
     /// Write stored results for other programs

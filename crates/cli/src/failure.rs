@@ -3,7 +3,12 @@
 use std::process::ExitCode;
 
 use hammerbeam_signal::SignalError;
-use hammerbeam_study::{Report, StoreError, StudyError, export::ExportError, run::RunError};
+use hammerbeam_study::{
+    Report, StoreError, StudyError,
+    comparison::{ComparisonError, ObservationError},
+    export::ExportError,
+    run::RunError,
+};
 
 /// Why a command does not end well.
 #[derive(Debug)]
@@ -81,6 +86,24 @@ impl From<ExportError> for Failure {
             ExportError::Store(error) => error.into(),
             // The user named the folder; the message has the cause already.
             other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
+impl From<ComparisonError> for Failure {
+    fn from(error: ComparisonError) -> Self {
+        match error {
+            ComparisonError::TooFewPoints { .. } => Self::NoResult(error.to_string()),
+            other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
+impl From<ObservationError> for Failure {
+    fn from(error: ObservationError) -> Self {
+        match error {
+            ObservationError::Store(error) => error.into(),
+            other => Self::Other(other.into()),
         }
     }
 }

@@ -216,6 +216,7 @@ fn diagram(store: &Store, [low, high]: [f64; 2]) -> anyhow::Result<ResponseDiagr
         curves,
         frequency_range_hz: Some((low, high)),
         chaotic_ranges_hz: motions::chaotic_ranges(store)?,
+        measured: Vec::new(),
     })
 }
 
@@ -234,7 +235,7 @@ fn point(row: &Row) -> ResponsePoint {
 }
 
 /// Writes a file so that it is there complete or not at all.
-fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let unfinished = path.with_extension("part");
     fs::write(&unfinished, bytes)
         .and_then(|()| fs::rename(&unfinished, path))

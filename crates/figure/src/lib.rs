@@ -95,7 +95,9 @@ pub use page::{
     PageSolution, PageStop, PageStructure, room_for_orbits,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
-pub use response_diagram::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
+pub use response_diagram::{
+    MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
+};
 pub use scale::ScaleChoice;
 pub use style::Style;
 pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};

@@ -6,7 +6,11 @@
 mod drawing;
 mod panel;
 
-use crate::{Figure, FigureError, ScaleChoice, Style};
+use crate::{
+    Figure, FigureError, ScaleChoice, Style,
+    dots::{Dot, Shape},
+    style::INK,
+};
 
 /// Branches of periodic solutions over the excitation frequency.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -19,6 +23,53 @@ pub struct ResponseDiagram {
     pub frequency_range_hz: Option<(f64, f64)>,
     /// Ranges of the frequency in which a chaotic motion was found (Hz), shaded behind everything.
     pub chaotic_ranges_hz: Vec<(f64, f64)>,
+    /// Measured points, on top of everything.
+    pub measured: Vec<MeasuredMark>,
+}
+
+/// A measured point, laid over the branches as it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredMark {
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Largest absolute displacement (m), if it was measured.
+    pub displacement_m: Option<f64>,
+    /// Largest absolute acceleration (m/s²), if it was measured.
+    pub acceleration_m_s2: Option<f64>,
+    /// What was measured.
+    pub motion: MeasuredMotion,
+}
+
+/// Kind of a measured motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeasuredMotion {
+    /// It repeats: an open square.
+    Periodic,
+    /// It does not: a full square.
+    Aperiodic,
+    /// Not known or doubtful: an open circle.
+    Unknown,
+}
+
+impl MeasuredMotion {
+    pub(crate) const ALL: [Self; 3] = [Self::Periodic, Self::Aperiodic, Self::Unknown];
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Periodic => "measured, periodic",
+            Self::Aperiodic => "measured, aperiodic",
+            Self::Unknown => "measured, kind unknown",
+        }
+    }
+
+    pub(crate) const fn dot(self, radius: f64) -> Dot {
+        let (shape, full) = match self {
+            Self::Periodic => (Shape::Square, false),
+            Self::Aperiodic => (Shape::Square, true),
+            Self::Unknown => (Shape::Circle, false),
+        };
+        Dot { shape, colour: INK, full, radius }
+    }
 }
 
 /// A branch of periodic solutions.
@@ -112,6 +163,14 @@ impl Quantity {
         match self {
             Self::Displacement => "maximum displacement",
             Self::Acceleration => "maximum acceleration",
+        }
+    }
+
+    /// The value of a measured point in the unit of the axis; NaN if it was not measured.
+    fn measured(self, mark: &MeasuredMark) -> f64 {
+        match self {
+            Self::Displacement => mark.displacement_m.map_or(f64::NAN, |value| 1e3 * value),
+            Self::Acceleration => mark.acceleration_m_s2.unwrap_or(f64::NAN),
         }
     }
 

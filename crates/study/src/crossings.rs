@@ -67,6 +67,18 @@ impl StoredBranches {
         &self.branches
     }
 
+    /// The stored solution of a row.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn solution(
+        &self,
+        branch: &StoredBranch,
+        placed: &PlacedRow,
+    ) -> Result<PeriodicSolution, StoreError> {
+        self.store.solution(branch.record.start, placed.side, placed.number)
+    }
+
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the state is interpolated and then
     /// corrected at the frequency.
     ///

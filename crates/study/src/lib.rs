@@ -12,6 +12,7 @@
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; sweeps, exponents and basins by request |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
+//! | [`comparison`] | measured points held against stored branches |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
 //!
@@ -35,6 +36,7 @@
 //! assert!(fault.to_string().contains("mass_kg"), "{fault}");
 //! ```
 
+pub mod comparison;
 mod crossings;
 mod document;
 pub mod export;

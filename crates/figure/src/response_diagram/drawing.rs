@@ -1,6 +1,6 @@
 //! The page: title, legend and panels put together.
 
-use super::{Quantity, ResponseDiagram, ResponseSettings, panel::Panel};
+use super::{MeasuredMotion, Quantity, ResponseDiagram, ResponseSettings, panel::Panel};
 use crate::{
     Figure, FigureError,
     axis::Axis,
@@ -149,6 +149,11 @@ impl<'a> Page<'a> {
             let ranges: Vec<String> = self.diagram.chaotic_ranges_hz.iter().map(words).collect();
             description.push_str(&format!("; chaotic motion found at {}", ranges.join(", ")));
         }
+        for panel in self.panels {
+            for (motion, count) in panel.measured() {
+                description.push_str(&format!("; {}: {count} of {}", motion.name(), panel.quantity.name()));
+            }
+        }
         for (panel, plot) in self.panels.iter().zip(&self.plots) {
             for (mark, places) in panel.marks(plot, self.style) {
                 let (all, drawn) = (panel.count(mark), places.len());
@@ -195,7 +200,14 @@ fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
     let is_shaded = !diagram.chaotic_ranges_hz.is_empty();
     let shade =
         is_shaded.then(|| Entry { sample: Sample::Cell(SHADE), name: "chaotic motion found".to_owned() });
-    vec![colours.chain(lines).collect(), marks.chain(shade).collect()]
+    let is_measured = |motion: &MeasuredMotion| {
+        panels.iter().any(|panel| panel.measured().any(|(drawn, _)| drawn == *motion))
+    };
+    let measured = MeasuredMotion::ALL
+        .into_iter()
+        .filter(is_measured)
+        .map(|motion| Entry { sample: Sample::Dot(motion.dot(0.0)), name: motion.name().to_owned() });
+    vec![colours.chain(lines).collect(), marks.chain(shade).collect(), measured.collect()]
 }
 
 fn period_name(multiple: u32) -> String {

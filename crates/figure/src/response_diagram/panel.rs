@@ -1,6 +1,6 @@
 //! One panel: the data of one quantity, made ready for the page.
 
-use super::{Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
+use super::{MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
 use crate::{
     FigureError, ScaleChoice,
     decimate::decimate,
@@ -20,6 +20,7 @@ pub(super) struct Panel {
     pub(super) scale: Scale,
     lines: Vec<Line>,
     events: Vec<(Mark, Vec<(f64, f64)>)>,
+    measured: Vec<(MeasuredMotion, Vec<(f64, f64)>)>,
 }
 
 /// The stretches of a branch.
@@ -40,10 +41,15 @@ impl Panel {
         let lines: Vec<Line> =
             diagram.curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect();
         let vertices = lines.iter().flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
-        let ends = extent(vertices.map(|vertex| vertex.y)).ok_or_else(|| empty(diagram, quantity))?;
+        let measured =
+            MeasuredMotion::ALL.map(|motion| (motion, measured(diagram, quantity, kind, range_hz, motion)));
+        let measured: Vec<_> = measured.into_iter().filter(|(_, places)| !places.is_empty()).collect();
+        let over = measured.iter().flat_map(|(_, places)| places).map(|&(_, value)| value);
+        let values = vertices.map(|vertex| vertex.y).chain(over);
+        let ends = extent(values).ok_or_else(|| empty(diagram, quantity))?;
         let events = Mark::ALL.map(|mark| (mark, events(diagram, quantity, kind, range_hz, mark)));
         let events = events.into_iter().filter(|(_, places)| !places.is_empty()).collect();
-        Ok(Self { quantity, scale: Scale::around(kind, ends), lines, events })
+        Ok(Self { quantity, scale: Scale::around(kind, ends), lines, events, measured })
     }
 
     /// What the vertical axis shows.
@@ -87,6 +93,15 @@ impl Panel {
         for (mark, places) in marks.iter().filter(|(mark, _)| !mark.is_behind()) {
             mark.draw(svg, places, style.mark_radius);
         }
+        for (motion, places) in &self.measured {
+            let places: Vec<Point> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
+            motion.dot(1.1 * style.mark_radius).draw(svg, &places);
+        }
+    }
+
+    /// Kinds of measured points that are drawn, each with their number.
+    pub(super) fn measured(&self) -> impl Iterator<Item = (MeasuredMotion, usize)> {
+        self.measured.iter().map(|(motion, places)| (*motion, places.len()))
     }
 
     fn draw_lines(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style, stable: bool) {
@@ -169,6 +184,19 @@ fn events(
             .collect()
     };
     diagram.curves.iter().flat_map(|curve| of_curve(&curve.points)).collect()
+}
+
+/// Places of the measured points of a kind.
+fn measured(
+    diagram: &ResponseDiagram,
+    quantity: Quantity,
+    kind: ScaleKind,
+    (from, to): (f64, f64),
+    motion: MeasuredMotion,
+) -> Vec<(f64, f64)> {
+    let marks = diagram.measured.iter().filter(|mark| mark.motion == motion);
+    let places = marks.map(|mark| (mark.frequency_hz, quantity.measured(mark)));
+    places.filter(|&(x, y)| (from..=to).contains(&x) && kind.shows(y)).collect()
 }
 
 /// Whether the point with this index has that mark. Flips and Neimark-Sacker points between unstable solutions change nothing that can be

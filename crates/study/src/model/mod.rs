@@ -50,6 +50,19 @@ impl Model {
         Ok(model)
     }
 
+    /// Displacement, velocity and acceleration of the response point at a phase of the excitation.
+    ///
+    /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    #[must_use]
+    pub fn response_motion(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
+        let n = self.system.dof();
+        let rate = self.system.rate(frequency_hz, phase, state);
+        let support = self.system.support_motion(frequency_hz, phase);
+        let parts = [&state[..n], &state[n..], &rate[n..]];
+        let dot = |values: &[f64]| self.response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
+        std::array::from_fn(|k| dot(parts[k]) + self.response.support_ratio * support[k])
+    }
+
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they are followed.
     fn check_varied(&self, file: &StudyFile) -> Result<(), StudyError> {
         let study = &file.study;
