@@ -33,7 +33,7 @@ pub struct Hit {
     pub period_multiple: u32,
     /// Value between the two solutions about the frequency.
     pub value: f64,
-    /// Whether both are stable.
+    /// Whether the nearer one is stable.
     pub stable: bool,
     /// Row of the nearer one, from 1 on.
     pub row: usize,
@@ -96,12 +96,13 @@ impl Curves {
                 return None;
             }
             let share = (frequency_hz - a.frequency_hz) / (b.frequency_hz - a.frequency_hz);
+            let nearer = if share < 0.5 { a } else { b };
             Some(Hit {
                 branch: branch.branch,
                 period_multiple: branch.period_multiple,
                 value: a.value + share * (b.value - a.value),
-                stable: a.stable && b.stable,
-                row: if share < 0.5 { a.row } else { b.row },
+                stable: nearer.stable,
+                row: nearer.row,
             })
         });
         hits.collect()

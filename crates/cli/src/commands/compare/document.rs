@@ -14,9 +14,9 @@ pub fn document(
     compared: &[Compared],
     (folder, files): (&Path, &[String]),
 ) -> Value {
-    let findings = measured.findings.iter().map(|(file, finding)| {
-        json!({ "file": file, "kind": finding.kind(), "message": finding.to_string() })
-    });
+    let findings = measured.findings.iter().map(
+        |(file, finding)| json!({ "file": file, "kind": finding.kind(), "message": finding.to_string() }),
+    );
     json!({
         "results": options.results,
         "measured": options.measured,

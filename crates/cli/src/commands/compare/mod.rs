@@ -13,10 +13,6 @@ use hammerbeam_study::{
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
 };
 
-pub use document::{comparison_document, point_document};
-pub use figure::mark;
-pub use table::write_points;
-
 use crate::{
     compare_args::{CompareOptions, QuantityName},
     failure::Failure,
@@ -29,9 +25,9 @@ const SPACING_HZ: f64 = 0.05;
 const SAMPLES: usize = 4096;
 
 /// A quantity with its curves and what came of it.
-pub struct Compared {
-    pub curves: Curves,
-    pub comparison: Comparison,
+struct Compared {
+    curves: Curves,
+    comparison: Comparison,
 }
 
 pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
@@ -46,8 +42,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let results = options.results.display();
         return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
     }
-    let filter =
-        options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
+    let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
     let mut compared = Vec::new();
     for quantity in quantities {
         let filter = filter.filter(|_| quantity != Quantity::Force);
@@ -60,7 +55,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let mut drawn = Drawn::into(&folder)?;
     for one in &compared {
         let name = format!("points_{}.csv", one.comparison.quantity.word());
-        write_points(&folder, &name, &one.comparison)?;
+        table::write_points(&folder, &name, &one.comparison)?;
         drawn.files.push(name);
         figure::draw(&file, one, &mut drawn)?;
     }

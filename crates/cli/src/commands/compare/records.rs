@@ -31,8 +31,7 @@ pub fn reduce(path: &Path, reference: Option<&str>) -> Result<(MeasuredPoint, Ve
         other => other,
     };
     let (raw, _) = read_raw(path).map_err(told)?;
-    let reference =
-        reference.map(|text| raw.channel_name(text).map(str::to_owned)).transpose();
+    let reference = reference.map(|text| raw.channel_name(text).map(str::to_owned)).transpose();
     let reference = reference.map_err(SignalError::from).map_err(told)?;
     let record = raw.judge(&Terms::default()).map_err(SignalError::from).map_err(told)?;
     let reference = reference.map(|name| record.find(&name)).transpose();
@@ -79,7 +78,9 @@ fn point(
     let found =
         classify(&first.samples, record.sampling_rate_hz, frequency_hz, &ClassifySettings::default())?;
     let kind = match found.motion {
-        Motion::Periodic { period_multiple } => Kind::Periodic { period_multiple: Some(period_multiple as u32) },
+        Motion::Periodic { period_multiple } => {
+            Kind::Periodic { period_multiple: Some(period_multiple as u32) }
+        }
         Motion::Aperiodic => Kind::Aperiodic,
         Motion::Doubtful { .. } => Kind::Doubtful,
     };

@@ -86,7 +86,8 @@ pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Optio
     if means.len() < 2 {
         return Ok(None);
     }
-    let mut text = format!("# Measured amplitudes of the excitation, for [excitation] of a study file.\n{key} = [\n");
+    let mut text =
+        format!("# Measured amplitudes of the excitation, for [excitation] of a study file.\n{key} = [\n");
     for (frequency_hz, sum, count) in means {
         text.push_str(&format!("    [{frequency_hz}, {:.6e}],\n", sum / f64::from(count)));
     }

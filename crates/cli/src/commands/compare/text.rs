@@ -19,10 +19,7 @@ pub fn text(
     let mut lines =
         vec![format!("{} measured point(s) over {}", measured.points.len(), options.results.display())];
     if let Some(cut_off) = options.low_pass {
-        lines.push(format!(
-            "branches behind a low-pass filter of {cut_off} Hz, order {}",
-            options.order
-        ));
+        lines.push(format!("branches behind a low-pass filter of {cut_off} Hz, order {}", options.order));
     }
     compared.iter().for_each(|one| lines.extend(comparison(&one.comparison)));
     lines.extend(measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
