@@ -77,6 +77,7 @@
 //! an impact. Where such a contact closes in the very instant in which one with a damper does, the speed that it remembers has no derivative; that for
 //! one order of the two is given.
 
+mod amplitude;
 pub mod exact;
 pub mod general;
 mod instant;
@@ -86,6 +87,7 @@ mod parameter;
 mod stretch;
 mod system;
 
+pub use amplitude::{AmplitudeCurve, AmplitudeError};
 pub use law::{Contact, Force, Law, LawError};
 pub use load::{Harmonic, HarmonicForce, Load};
 pub use parameter::{Parameter, ParameterError};
