@@ -101,11 +101,8 @@ fn standard_errors_are_what_they_say() {
 #[test]
 fn given_numbers_are_kept_and_the_residual_is_told_before_and_after() {
     let points = measured(1.06, 7.0, 0.0, 1);
-    let settings = FitSettings {
-        frequency: Fixed::Given(1.06),
-        amplitude: Fixed::Given(7.0),
-        ..FitSettings::default()
-    };
+    let settings =
+        FitSettings { frequency: Fixed::Given(1.06), amplitude: Fixed::Given(7.0), ..FitSettings::default() };
     let found = held(&points, &settings);
     assert_eq!((found.fit.frequency.value, found.fit.frequency.standard_error), (1.06, None));
     assert!((found.fit.amplitude.value - 7.0).abs() < 1e-12 && found.fit.correlation.is_none());
@@ -134,11 +131,8 @@ fn each_point_has_its_verdict() {
     odd(Kind::Doubtful, 60.0, 100.0);
     odd(Kind::Unknown, 66.0, value(2, 66.0));
     odd(Kind::Periodic { period_multiple: Some(1) }, 25.0, value(3, 25.0));
-    let fixed = FitSettings {
-        frequency: Fixed::Given(1.0),
-        amplitude: Fixed::Given(1.0),
-        ..FitSettings::default()
-    };
+    let fixed =
+        FitSettings { frequency: Fixed::Given(1.0), amplitude: Fixed::Given(1.0), ..FitSettings::default() };
     let found = held(&points, &fixed).points.split_off(count);
     let verdicts: Vec<&str> = found.iter().map(|point| point.verdict.word()).collect();
     assert_eq!(

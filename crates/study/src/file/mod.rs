@@ -4,6 +4,7 @@
 //! its keys; `docs/study-file.md` lists them all. What needs the assembled model (a cut-off below the first mode, the
 //! number of modal damping ratios) is checked when the model is built, see [`crate::Model`].
 
+mod amplitude;
 mod beam;
 mod continuation;
 mod damping;
@@ -21,6 +22,7 @@ mod structure;
 mod study;
 mod vary;
 
+pub use amplitude::Amplitude;
 pub use beam::{Beam, BeamPoint, End, Section};
 pub use continuation::{Continuation, Segments};
 pub use damping::{Damping, ModalRatio};

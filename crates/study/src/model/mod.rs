@@ -43,8 +43,12 @@ impl Model {
         let load = load::load(study, &reduced.model);
         let elements = element::elements(file, &reduced.model, &load)?;
         let response = response_point(study, &reduced.model);
-        let system =
-            System::new(reduced.model, &load, elements).map_err(|error| system_fault(file, &error))?;
+        let driven = load::over_frequency(study, &reduced.model);
+        let system = System::new(reduced.model, &load, elements).and_then(|system| match driven {
+            Some((load, curve)) => system.with_amplitude_over_frequency(&load, curve),
+            None => Ok(system),
+        });
+        let system = system.map_err(|error| system_fault(file, &error))?;
         let model = Self { system, response, tables: reduced.tables, outline: reduced.outline };
         model.check_varied(file)?;
         Ok(model)
@@ -122,11 +126,12 @@ fn check_magnitudes(file: &StudyFile) -> Result<(), StudyError> {
     else {
         return Ok(());
     };
-    if *amplitude_m <= beam.length_m {
+    let amplitude = amplitude_m.largest();
+    if amplitude <= beam.length_m {
         return Ok(());
     }
     let help = format!("allowed: at most {} m, the length of the beam; is the unit m?", beam.length_m);
-    Err(file.fault("excitation.amplitude_m", format!("`amplitude_m` is {amplitude_m} m"), vec![help]))
+    Err(file.fault("excitation.amplitude_m", format!("`amplitude_m` is {amplitude} m"), vec![help]))
 }
 
 /// The fault of a structure at the key that is to blame.
