@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hammerbeam_study::verify::TOLERANCE;
 
 use crate::{
-    compare_args::CompareOptions,
+    compare_args::{CompareOptions, RigOptions},
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
     signal_args::SignalCommand,
 };
@@ -55,6 +55,8 @@ pub enum Command {
     Signal(SignalCommand),
     /// Hold measured points against computed branches
     Compare(CompareOptions),
+    /// Measure a virtual rig, another model than that of the study, and hold it against the study's branches
+    Rig(RigOptions),
     /// Draw everything that a results folder holds, as SVG and PNG
     Figure(FigureOptions),
     /// Write stored results for other programs

@@ -1,4 +1,4 @@
-//! Options of the commands that hold measurements against branches: compare.
+//! Options of the commands that hold measurements against branches: compare, rig.
 
 use std::path::PathBuf;
 
@@ -54,6 +54,20 @@ pub struct CompareOptions {
     /// Folder to write into [default: RESULTS/compare]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub struct RigOptions {
+    /// Study file with a table [rig]
+    pub study: PathBuf,
+
+    /// Results folder, made if it is not there; branches of the same study that it holds are taken as they are
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Number of threads [default: all cores]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
 }
 
 /// A quantity that is compared.

@@ -7,6 +7,7 @@ use hammerbeam_study::{
     Report, StoreError, StudyError,
     comparison::{ComparisonError, ObservationError},
     export::ExportError,
+    rig::RigError,
     run::RunError,
 };
 
@@ -104,6 +105,21 @@ impl From<ObservationError> for Failure {
         match error {
             ObservationError::Store(error) => error.into(),
             other => Self::Other(other.into()),
+        }
+    }
+}
+
+impl From<RigError> for Failure {
+    fn from(error: RigError) -> Self {
+        match error {
+            RigError::Study(error) => error.into(),
+            RigError::Store(error) => error.into(),
+            RigError::Observation(error) => error.into(),
+            RigError::NoRig { .. } | RigError::Changes { .. } => Self::BadInput(error.to_string()),
+            RigError::Interrupted => Self::Interrupted(
+                "interrupted; the branches are kept, the measurement begins anew".to_owned(),
+            ),
+            other => Self::NoResult(other.to_string()),
         }
     }
 }

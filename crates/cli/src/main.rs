@@ -39,6 +39,7 @@ fn main() -> ExitCode {
         Command::Update(options) => commands::update::run(options, output),
         Command::Signal(command) => commands::signal::run(command, output),
         Command::Compare(options) => commands::compare::run(options, output),
+        Command::Rig(options) => commands::rig::run(options, output),
         Command::Figure(options) => commands::figure::run(options, output),
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),

@@ -13,6 +13,7 @@
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; sweeps, exponents and basins by request |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`comparison`] | measured points held against stored branches |
+//! | [`rig`] | a measurement made with another model |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
 //!
@@ -44,6 +45,7 @@ pub mod file;
 mod identity;
 mod model;
 mod orbit_solver;
+pub mod rig;
 pub mod run;
 pub mod store;
 pub mod summary;

@@ -41,6 +41,7 @@ use hammerbeam_signal::{
 pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
 pub use fit::{Estimate, Fit, FitSettings, Fixed};
 pub use judge::{Match, PointOutcome, Verdict};
+pub(crate) use observed::thinned;
 pub use observed::{Filter, Observation, ObservationError, curves, curves_of};
 
 /// Why there is no comparison.

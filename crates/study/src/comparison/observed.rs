@@ -139,7 +139,7 @@ fn empty(branch: &StoredBranch) -> BranchCurve {
 const CHANGE: f64 = 0.05;
 
 /// Solutions that are far enough apart in frequency or value, where stability changes, and both ends.
-fn thinned(branch: &StoredBranch, spacing_hz: f64) -> Vec<(usize, &PlacedRow)> {
+pub(crate) fn thinned(branch: &StoredBranch, spacing_hz: f64) -> Vec<(usize, &PlacedRow)> {
     let mut kept: Vec<(usize, &PlacedRow)> = Vec::new();
     let count = branch.rows.len();
     for (index, placed) in branch.rows.iter().enumerate() {

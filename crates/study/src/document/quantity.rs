@@ -196,6 +196,8 @@ pub(crate) const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Inclu
 pub(crate) const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Time that a run may take.
 pub(crate) const TIME: Quantity = Quantity::new("s", Excluding(0.0), Including(1e10));
+/// Standard deviation of the noise of a sensor, in its unit.
+pub(crate) const NOISE: Quantity = Quantity::new("", Including(0.0), Including(1e9));
 /// Tolerance of the solver.
 pub(crate) const TOLERANCE: Quantity = Quantity::new("", Including(1e-13), Including(1e-4));
 /// Any finite number.

@@ -13,9 +13,9 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Curve, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Search, Stop,
+    Continuation, Curve, Damping, Excitation, ExcitationKind, Load, Reduction, Response, Rig, Search, Stop,
     Structure, Vary, continuation, damping, excitation, load, names::Names, parameter::Variable, reduction,
-    response, search, stop, structure, vary,
+    response, rig, search, stop, structure, vary,
 };
 
 /// Everything a study says.
@@ -48,6 +48,9 @@ pub struct Study {
     /// Curves of bifurcations; no part of the identity.
     #[serde(skip)]
     pub curves: Vec<Curve>,
+    /// A virtual rig; no part of the identity.
+    #[serde(skip)]
+    pub rig: Option<Rig>,
 }
 
 impl Study {
@@ -153,6 +156,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         Some(Variable { excitation, damping, loads: loads.as_deref()?, stops: stops.as_deref()? })
     })();
     let varied = vary::read(root, reading, variable);
+    let rig = rig::read(root);
     let varied = varied?;
     Some(Study {
         title: title?.to_owned(),
@@ -167,5 +171,6 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         continuation: continuation?,
         varies: varied.0,
         curves: varied.1,
+        rig: rig?,
     })
 }

@@ -14,7 +14,7 @@ use super::Compared;
 use crate::figures::Drawn;
 
 /// Draws a comparison, if its quantity has a response diagram.
-pub fn draw(file: &StudyFile, compared: &Compared, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
     let quantity = compared.comparison.quantity;
     let drawing = match quantity {
         Quantity::Displacement => Drawing::Displacement,
@@ -30,7 +30,7 @@ pub fn draw(file: &StudyFile, compared: &Compared, drawn: &mut Drawn<'_>) -> any
         measured: compared.comparison.points.iter().map(|point| mark(point, quantity)).collect(),
     };
     let figure = diagram.draw_with(&[drawing], &ResponseSettings::default());
-    drawn.add(&format!("compare_{}", quantity.word()), figure)
+    drawn.add(&format!("compare_{}", name.trim_start_matches("compare_")), figure)
 }
 
 fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {
@@ -48,7 +48,7 @@ fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {
 }
 
 /// A shifted point.
-pub fn mark(outcome: &PointOutcome, quantity: Quantity) -> MeasuredMark {
+fn mark(outcome: &PointOutcome, quantity: Quantity) -> MeasuredMark {
     let value = |wanted: Quantity| (quantity == wanted).then_some(outcome.shifted_value);
     MeasuredMark {
         frequency_hz: outcome.shifted_hz,

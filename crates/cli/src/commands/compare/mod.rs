@@ -13,6 +13,10 @@ use hammerbeam_study::{
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
 };
 
+pub use document::comparison_document;
+pub use figure::draw;
+pub use table::write_points;
+
 use crate::{
     compare_args::{CompareOptions, QuantityName},
     failure::Failure,
@@ -25,9 +29,9 @@ const SPACING_HZ: f64 = 0.05;
 const SAMPLES: usize = 4096;
 
 /// A quantity with its curves and what came of it.
-struct Compared {
-    curves: Curves,
-    comparison: Comparison,
+pub struct Compared {
+    pub curves: Curves,
+    pub comparison: Comparison,
 }
 
 pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
@@ -55,9 +59,10 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let mut drawn = Drawn::into(&folder)?;
     for one in &compared {
         let name = format!("points_{}.csv", one.comparison.quantity.word());
-        table::write_points(&folder, &name, &one.comparison)?;
+        write_points(&folder, &name, &one.comparison)?;
         drawn.files.push(name);
-        figure::draw(&file, one, &mut drawn)?;
+        let name = format!("compare_{}", one.comparison.quantity.word());
+        draw(&file, one, &name, &mut drawn)?;
     }
     if let Some(name) = table::write_amplitudes(&folder, &measured.points)? {
         drawn.files.push(name);
