@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_signal::{
-    Channel, Quantity, Record,
+    Channel, Quantity, Record, SignalError,
     chain::{MeasuringChain, Motion},
     decay::{DecaySettings, free_decay},
     filter::{Band, butterworth},
@@ -17,9 +17,9 @@ use crate::{Model, file::Rig};
 
 /// Displacement of the response point from which it is let go [m].
 const PULLED: f64 = 5e-3;
-/// Length of the record [s], and what goes before it, in which the filter settles.
-const DURATION_S: f64 = 4.0;
-const LEAD_IN_S: f64 = 0.02;
+/// Length of the record in periods of the lowest mode, and what goes before it, in which the filter settles, in periods of its cut-off.
+const PERIODS: f64 = 70.0;
+const LEAD_IN: f64 = 15.0;
 /// Rate of the motion before the chain, as a multiple of the sampling rate.
 const FINER: usize = 4;
 
@@ -35,11 +35,14 @@ pub struct MeasuredMode {
 /// Eigenfrequencies and damping as a decay shows them, below half of the filter's cut-off.
 ///
 /// # Returns
-/// Nothing where dampers couple the modes, or the structure has a rigid mode.
+/// Nothing where dampers couple the modes, the structure has a rigid mode, or the decay drowns in noise.
 /// # Errors
 /// [`RigError::Signal`].
 pub fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, RigError> {
-    let Some(acceleration) = decay(model, rig.sampling_hz * FINER as f64) else { return Ok(Vec::new()) };
+    let lead_in_s = LEAD_IN / rig.low_pass_hz;
+    let Some(acceleration) = decay(model, rig.sampling_hz * FINER as f64, lead_in_s) else {
+        return Ok(Vec::new());
+    };
     let fine_hz = rig.sampling_hz * FINER as f64;
     let band = Band::LowPass { cut_off_hz: rig.low_pass_hz };
     let chain = MeasuringChain {
@@ -54,10 +57,14 @@ pub fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, Rig
     let channel = Channel { name: "decay".to_owned(), unit: None, quantity, samples: acceleration };
     let record =
         Record { sampling_rate_hz: fine_hz, start_s: 0.0, channels: vec![channel], findings: Vec::new() };
-    let measured = chain.measure(&record, Motion::Stretch)?.part(LEAD_IN_S, f64::INFINITY)?;
+    let measured = chain.measure(&record, Motion::Stretch)?.part(lead_in_s, f64::INFINITY)?;
     let settings =
         DecaySettings { band_hz: (0.0, 0.6 * rig.low_pass_hz), most: 4, ..DecaySettings::default() };
-    let found = free_decay(&measured.channels[0].samples, rig.sampling_hz, &settings)?;
+    let found = match free_decay(&measured.channels[0].samples, rig.sampling_hz, &settings) {
+        // A structure whose decay drowns in the noise shows nothing; that is no fault.
+        Err(SignalError::NoDecay) => return Ok(Vec::new()),
+        found => found?,
+    };
     let mode = |mode: &hammerbeam_signal::decay::DecayMode| MeasuredMode {
         frequency_hz: (mode.frequency_hz.value, mode.frequency_hz.half_width),
         damping_ratio: (mode.damping_ratio.value, mode.damping_ratio.half_width),
@@ -65,7 +72,7 @@ pub fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, Rig
     Ok(found.modes.iter().map(mode).collect())
 }
 
-fn decay(model: &Model, rate_hz: f64) -> Option<Vec<f64>> {
+fn decay(model: &Model, rate_hz: f64, lead_in_s: f64) -> Option<Vec<f64>> {
     let (reduced, shape) = (model.system.model(), &model.response.shape);
     let n = model.system.dof();
     let coupled = (0..n).any(|i| (0..n).any(|j| i != j && reduced.damping[(i, j)] != 0.0));
@@ -75,7 +82,8 @@ fn decay(model: &Model, rate_hz: f64) -> Option<Vec<f64>> {
     let rates = &reduced.natural_frequencies;
     let flexibility: f64 = shape.iter().zip(rates).map(|(phi, w)| (phi / w).powi(2)).sum();
     let force = PULLED / flexibility;
-    let count = ((LEAD_IN_S + DURATION_S) * rate_hz) as usize;
+    let slowest = rates.iter().copied().fold(f64::INFINITY, f64::min);
+    let count = ((lead_in_s + PERIODS * TAU / slowest) * rate_hz) as usize;
     let mut acceleration = vec![0.0; count];
     for i in 0..n {
         let (w, d) = (rates[i], 0.5 * reduced.damping[(i, i)]);

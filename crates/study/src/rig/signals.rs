@@ -17,7 +17,7 @@ use hammerbeam_signal::{
 
 use super::{
     RigError, RigPoint,
-    sweep::{FINE_HZ, LEAD_IN, record, settled},
+    sweep::{FINER, LEAD_IN, record, settled},
 };
 use crate::{
     Model, StoredBranches,
@@ -31,8 +31,8 @@ use crate::{
 /// Samples in an excitation period: of the waveforms, and of an orbit before the filter.
 const SHOWN: usize = 512;
 const SAMPLES: usize = 4096;
-/// Distance of orbits that are tried [Hz], and the part of the frequency within which they lie.
-const SPACING_HZ: f64 = 0.05;
+/// Distance of orbits that are tried and how far off they may be, as parts of the frequency.
+const SPACING: f64 = 1e-3;
 const NEAR: f64 = 0.08;
 
 /// A measured signal and the computed one that is most alike.
@@ -135,7 +135,7 @@ fn measure(
     let rest = vec![0.0; 2 * model.system.dof()];
     let state = nearest.map_or(rest.as_slice(), |point| point.state.as_slice());
     let (mut simulation, _) = settled(rig, model, frequency_hz, state)?;
-    let samples = (FINE_HZ / frequency_hz).ceil() as usize;
+    let samples = (FINER * rig.sampling_hz / frequency_hz).ceil() as usize;
     let course = follow(model, &mut simulation, frequency_hz, LEAD_IN + rig.recorded_periods, samples)?;
     let seed = u64::from(rig.seed) ^ frequency_hz.to_bits();
     let source = (samples as f64 * frequency_hz, seed);
@@ -164,7 +164,7 @@ fn candidates(
 ) -> Result<Vec<(u32, usize, PeriodicSolution)>, RigError> {
     let mut orbits = Vec::new();
     for branch in branches.branches().iter().filter(|b| b.record.period_multiple == period_multiple) {
-        for (index, placed) in thinned(branch, SPACING_HZ) {
+        for (index, placed) in thinned(branch, SPACING * frequency_hz) {
             let near = (placed.row.frequency_hz - frequency_hz).abs() <= NEAR * frequency_hz;
             if near && placed.row.stable {
                 orbits.push((branch.record.id, index + 1, branches.solution(branch, placed)?));

@@ -19,8 +19,8 @@ use crate::{
     file::Rig,
 };
 
-/// Rate at which a motion is gone over before the chain [Hz]: twelve microseconds, a contact lasts fifty or more.
-pub(super) const FINE_HZ: f64 = 80_000.0;
+/// Rate at which a motion is gone over before the chain, over the sampling rate: at 10 kHz twelve microseconds, where a contact lasts fifty or more.
+pub(super) const FINER: f64 = 8.0;
 /// Excitation periods that go before a record, in which the causal filter settles.
 pub(super) const LEAD_IN: u32 = 4;
 /// Distance of states, relative to their size, up to which a motion has come back.
@@ -137,7 +137,7 @@ fn at(
     state: &[f64],
 ) -> Result<RigPoint, RigError> {
     let (mut simulation, begun_anew) = settled(rig, model, frequency_hz, state)?;
-    let samples = (FINE_HZ / frequency_hz).ceil() as usize;
+    let samples = (FINER * rig.sampling_hz / frequency_hz).ceil() as usize;
     let mut states = Vec::new();
     let mut course = Course::default();
     for _ in 0..LEAD_IN + rig.recorded_periods {

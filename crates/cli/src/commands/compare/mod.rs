@@ -24,8 +24,8 @@ use crate::{
     output::Output,
 };
 
-/// Distance of orbits that are computed again [Hz], and their samples in an excitation period.
-const SPACING_HZ: f64 = 0.05;
+/// Distance of orbits that are computed again as a part of the middle of the frequency range, and their samples in an excitation period.
+const SPACING: f64 = 1e-3;
 const SAMPLES: usize = 4096;
 
 /// A quantity with its curves and what came of it.
@@ -47,10 +47,12 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
     }
     let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
+    let [low, high] = file.study.excitation.frequency_hz;
+    let spacing_hz = SPACING * 0.5 * (low + high);
     let mut compared = Vec::new();
     for quantity in quantities {
         let filter = filter.filter(|_| quantity != Quantity::Force);
-        let observation = Observation { quantity, filter, spacing_hz: SPACING_HZ, samples: SAMPLES };
+        let observation = Observation { quantity, filter, spacing_hz, samples: SAMPLES };
         let curves = curves(&branches, &model, &observation)?;
         let comparison = compare(&measured.points, &curves, quantity, &settings(options))?;
         compared.push(Compared { curves, comparison });

@@ -25,8 +25,8 @@ use crate::{
     progress::Terminal,
 };
 
-/// Distance of orbits that are put behind filters [Hz], and their samples in an excitation period.
-const SPACING_HZ: f64 = 0.05;
+/// Distance of orbits that are put behind filters as a part of the middle of the frequency range, and their samples in an excitation period.
+const SPACING: f64 = 1e-3;
 const SAMPLES: usize = 4096;
 
 /// Everything that came of a rig.
@@ -61,11 +61,13 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     anstream::eprintln!("sweeping the rig");
     let points = sweep(&rig, &rig_model, threads, stop)?;
     let modes = measured_modes(&rig, &rig_model)?;
+    let [low, high] = file.study.excitation.frequency_hz;
+    let spacing_hz = SPACING * 0.5 * (low + high);
     let cut_offs = std::iter::once(rig.low_pass_hz).chain(rig.other_low_pass_hz.iter().copied());
     let order = rig.low_pass_order as usize;
     let filters: Vec<Filter> = cut_offs.map(|cut_off_hz| Filter { order, cut_off_hz }).collect();
     anstream::eprintln!("putting the branches behind filters");
-    let filtered = filtered_branches(&stored, &model, &filters, (SPACING_HZ, SAMPLES), threads, stop)?;
+    let filtered = filtered_branches(&stored, &model, &filters, (spacing_hz, SAMPLES), threads, stop)?;
     let comparisons = comparisons(&stored, &model, &points, &filtered)?;
     let factor = comparisons[0].2.fit.frequency.value;
     let signal = |&wanted: &(f64, u32)| {
@@ -139,7 +141,8 @@ fn comparisons(
 ) -> Result<Vec<(&'static str, Curves, Comparison)>, Failure> {
     let measured: Vec<MeasuredPoint> = points.iter().map(|point| point.point.clone()).collect();
     let stored_curves = |quantity: Quantity| {
-        let observation = Observation { quantity, filter: None, spacing_hz: SPACING_HZ, samples: SAMPLES };
+        // Stored maxima need no orbit, and so no spacing.
+        let observation = Observation { quantity, filter: None, spacing_hz: 0.0, samples: SAMPLES };
         curves(stored, model, &observation)
     };
     let all = [
