@@ -60,7 +60,7 @@ pub struct Fit {
     pub frequency: Estimate,
     /// Factor on values.
     pub amplitude: Estimate,
-    /// Points within the reach, which the fit goes by.
+    /// Points that the fit goes by.
     pub points: usize,
     /// Correlation of the errors of both numbers, where both were fitted.
     pub correlation: Option<f64>,
@@ -126,9 +126,11 @@ const AMPLITUDE_STEP: f64 = 0.02;
 /// Part of the frequency over which a slope is taken, to each side.
 const SECANT: f64 = 0.0025;
 const ITERATIONS: usize = 40;
+/// Logarithm of the ratio up to which a point pulls, over that up to which it is explained.
+const PULL: f64 = 2.0;
 
 pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
-    let problem = Problem { used, curves, offset: settings.offset, reach: settings.reach.ln() };
+    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln() };
     let free = [settings.frequency, settings.amplitude].map(|fixed| matches!(fixed, Fixed::Fitted { .. }));
     let fitted = usize::from(free[0]) + usize::from(free[1]);
     let begin = problem.best_trial(settings);

@@ -12,7 +12,8 @@
 //! subharmonic: a factor is the usual choice, and the paper's (+6 %). An offset describes a wrong reading of the frequency.
 //!
 //! **The fit** minimises `sum min(r_i^2, R^2)` over what is not given, where a point that no stable branch of its period meets counts `R^2` too: points farther off than the factor
-//! `exp(R)` pull at nothing, and no shift is rewarded for losing points. It has many minima, since branches have many peaks; so all shifts of a grid are tried first, and
+//! `exp(R)` pull at nothing, and no shift is rewarded for losing points. `R` is twice the logarithm of the reach within which a branch explains a point: with the reach itself, a shift that happens to fit
+//! half of the points closely may win over one that fits all of them fairly. It has many minima, since branches have many peaks; so all shifts of a grid are tried first, and
 //! the best is refined by Gauss and Newton with the branches as they are matched there. With `n` points nearer than `R`, `p` fitted numbers and `J = dr/dp`, standard errors are the
 //! roots of the diagonal of `(J^T J)^-1 sum r_i^2 / (n - p)`. Slopes of branches in `J` are secants over 0.5 % of the frequency: at a fold the tangent says nothing of
 //! where points will lie. The errors hold for the matching that was found, and for differences that are independent; a model that is wrong makes them too small.

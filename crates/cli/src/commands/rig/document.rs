@@ -68,6 +68,7 @@ fn signal((index, signal): (usize, &hammerbeam_study::rig::SignalPair)) -> Value
             "branch": orbit.branch,
             "row": orbit.row,
             "correlation": orbit.correlation,
+            "lag_cycles": orbit.lag,
             "max_acceleration_m_s2": orbit.largest,
             "max_filtered_acceleration_m_s2": orbit.largest_filtered,
         })

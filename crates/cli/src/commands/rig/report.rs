@@ -173,26 +173,27 @@ fn what(name: &str) -> &str {
 }
 
 fn signals(text: &mut String, found: &Found) {
-    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (index, signal) in found.signals.iter().enumerate() {
         let classified = classified(&signal.classification);
         let name = tables::figure_name(index);
         let _ = match &signal.computed {
             Some(orbit) => writeln!(
                 text,
-                "| {name} | {} | {} | {classified} | {:.3} | {:.4} | {:.4} | {:.0} | {:.0} | {:.0} |",
+                "| {name} | {} | {} | {classified} | {:.3} | {:.4} | {:.4} | {:+.3} | {:.0} | {:.0} | {:.0} |",
                 signal.measured_hz,
                 signal.period_multiple,
                 orbit.frequency_hz,
                 orbit.frequency_hz / signal.measured_hz,
                 orbit.correlation,
+                orbit.lag,
                 signal.largest_measured,
                 orbit.largest,
                 orbit.largest_filtered,
             ),
             None => writeln!(
                 text,
-                "| {name} | {} | {} | {classified} | no stable orbit of this period is near | | | {:.0} | | |",
+                "| {name} | {} | {} | {classified} | no stable orbit of this period is near | | | | {:.0} | | |",
                 signal.measured_hz, signal.period_multiple, signal.largest_measured,
             ),
         };
