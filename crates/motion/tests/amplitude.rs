@@ -126,7 +126,8 @@ fn the_general_integrator_agrees() {
         for support_ratio in [0.0, 0.7] {
             let system = driven(law, support_ratio);
             let exact = flow(&system, 6.0, 1e-12);
-            let general = advance(&system, &STRETCH, &STATE, &GeneralSettings::with_tolerance(1e-12)).unwrap();
+            let general =
+                advance(&system, &STRETCH, &STATE, &GeneralSettings::with_tolerance(1e-12)).unwrap();
             for (a, b, size) in
                 exact.state.iter().zip(&general.flow.state).map(|(a, b)| (a, b, 1.0)).chain(
                     exact.by_frequency.iter().zip(&general.flow.by_frequency).map(|(a, b)| (a, b, 10.0)),
