@@ -21,7 +21,13 @@ fn with_restitution(e: f64) -> Rig {
 
 /// Largest displacement [mm] of the stable harmonic orbit at a frequency.
 fn peak(rig: &Rig, frequency_hz: f64) -> f64 {
-    let orbit = find_start(&rig.system, &rig.response, frequency_hz, 1, &OrbitSettings::default()).unwrap();
+    subharmonic_peak(rig, frequency_hz, 1)
+}
+
+/// The same of an orbit of that many periods.
+fn subharmonic_peak(rig: &Rig, frequency_hz: f64, period_multiple: u32) -> f64 {
+    let settings = OrbitSettings::default();
+    let orbit = find_start(&rig.system, &rig.response, frequency_hz, period_multiple, &settings).unwrap();
     assert!(orbit.stable());
     1e3 * orbit.maxima.displacement
 }
@@ -38,5 +44,22 @@ fn contact_damping_brings_the_main_peak_down_to_that_of_five_times_the_modal_dam
     for (found, expected) in found {
         // Four digits are printed, and the peaks are flat.
         assert!((found / expected - 1.0).abs() < 2e-4, "{found} mm, not {expected} mm");
+    }
+}
+
+/// The same coefficient brings the main peaks of the 1/2 and the 1/3 subharmonic branch down to those of five times the modal damping, too, where they would be more than twice as high.
+#[test]
+fn the_same_coefficient_does_it_for_the_subharmonic_peaks() {
+    let elastic = |ratio| paper_beam_with(ratio, &[(-1.0, hertz(4.5e9, 0.0))]);
+    let found = [
+        (subharmonic_peak(&elastic(0.015), 72.2089, 2), 9.285),
+        (subharmonic_peak(&elastic(0.003), 72.0386, 2), 21.10),
+        (subharmonic_peak(&with_restitution(0.6), 72.0834, 2), 9.250),
+        (subharmonic_peak(&elastic(0.015), 108.0475, 3), 16.26),
+        (subharmonic_peak(&elastic(0.003), 108.0180, 3), 36.08),
+        (subharmonic_peak(&with_restitution(0.6), 108.0854, 3), 16.27),
+    ];
+    for (found, expected) in found {
+        assert!((found / expected - 1.0).abs() < 5e-4, "{found} mm, not {expected} mm");
     }
 }

@@ -101,7 +101,7 @@ impl Sampler<'_> {
         let relative = read(&element.shape, q);
         let force = element.law.force(relative, 0.0).value;
         let omega = TAU * self.orbit.frequency_hz;
-        let u = self.rig.system.support_amplitudes()[0].re * (TAU * phase).cos();
+        let u = self.rig.system.support_motion(1.0, 0.0)[0] * (TAU * phase).cos();
         let inertia = &model.support.as_ref().unwrap().inertia;
         let rate = |i: usize| {
             let damping: f64 = (0..n).map(|j| model.damping[(i, j)] * v[j]).sum();

@@ -29,6 +29,10 @@ const SAME: f64 = 1e-5;
 const PROBES: u64 = 64;
 /// Part of them that has to lie among the others.
 const MOST: f64 = 0.5;
+/// States of an attractor without a period whose distances from the others are taken.
+const SAMPLED: usize = 100;
+/// The golden section: its multiples are spread evenly over the states, and over every band of them.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Cells in a round.
 const ROUND: usize = 256;
 
@@ -58,7 +62,7 @@ enum Destination {
     Known(usize),
     /// To one that was not known when its round began.
     New(Attractor),
-    /// The motion cannot be computed.
+    /// The motion cannot be computed, or the state lies behind a rigid stop.
     Lost,
 }
 
@@ -67,7 +71,7 @@ enum Destination {
 pub struct Round {
     /// The first cell of the round.
     pub first: usize,
-    /// Number of the attractor of each of its cells, counted from 1; 0 where the motion cannot be computed.
+    /// Number of the attractor of each of its cells, counted from 1; 0 where the motion cannot be computed, or begins behind a rigid stop.
     pub cells: Vec<u32>,
     /// Attractors that are new; the first one has the number `known + 1`.
     pub found: Vec<Attractor>,
@@ -153,6 +157,9 @@ impl Basins {
         let scales = map.scales();
         let mut patience = self.effort.patience;
         let mut state = self.grid.state(cell);
+        if map.behind_rigid_stop(&state).is_some() {
+            return Ok(Destination::Lost);
+        }
         loop {
             let mut arrived = None;
             let settled = settle_unless(map, 1, &state, patience, |states| {
@@ -237,10 +244,12 @@ fn is_among(scales: &[f64], known: &Attractor, states: &[Vec<f64>]) -> bool {
         let others = known.states.iter().enumerate().filter(|(k, _)| Some(*k) != but);
         others.map(|(_, other)| distance(scales, other, state)).fold(f64::INFINITY, f64::min)
     };
-    // How far the states of the attractor lie from one another: exceeded by one in twenty.
-    let every = (known.states.len() / 100).max(1);
+    // How far the states of the attractor lie from one another: exceeded by one in twenty. Chaos may visit bands in turn, which lie differently close: equal steps through the states would see
+    // some bands only.
+    let count = known.states.len();
+    let place = |i: usize| ((i as f64 * GOLDEN).fract() * count as f64) as usize;
     let mut own: Vec<f64> =
-        (0..known.states.len()).step_by(every).map(|k| nearest(&known.states[k], Some(k))).collect();
+        (0..count.min(SAMPLED)).map(place).map(|k| nearest(&known.states[k], Some(k))).collect();
     own.sort_by(f64::total_cmp);
     let usual = own[own.len() * 19 / 20];
     let inside = states.iter().filter(|state| nearest(state, None) <= usual).count();

@@ -8,13 +8,16 @@
 //! | exponent | `-2/N <= L <= 10/N` | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
-//! (the tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink). Where both agree the motion is quasi-periodic or
+//! and, of a motion that both call regular, its returns: the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is no period, and
+//! falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of the N periods to the last, for any n, the motion is still settling.
+//!
+//! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink). Where both agree the motion is quasi-periodic or
 //! chaotic; where they do not it is doubtful, with the reason. A motion whose largest exponent is below zero is on its way to a periodic one: it is given
 //! time once more, and then called doubtful.
 
 use crate::{
     AttractorError, Estimate, Lyapunov, LyapunovSettings, SectionMap,
-    settle::{Patience, Settled, settle},
+    settle::{Patience, Settled, distance, settle},
     zero_one,
 };
 
@@ -25,6 +28,8 @@ const CHAOTIC_ABOVE: f64 = 0.8;
 const ZERO: f64 = 10.0;
 /// The same below zero.
 const SHRINKING: f64 = 2.0;
+/// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks by `1/N` in a period has 0.5.
+const STEADY: f64 = 0.8;
 
 /// How much is spent on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -199,8 +204,24 @@ pub fn examine(
     let largest = spectrum.exponents[0];
     let period = map.duration() * parts as f64;
     let zero_one = zero_one(&liveliest(&states, &map.scales()));
-    let class = judge(largest, period, states.len(), zero_one);
+    let mut class = judge(largest, period, states.len(), zero_one);
+    if class == Class::QuasiPeriodic && settles(&states, &map.scales(), effort.patience.longest) {
+        class = Class::Doubtful(Doubt::NotSettled);
+    }
     Ok(Classified { class, states, largest_exponent: Some(largest), zero_one })
+}
+
+/// Whether the returns after some number of periods, up to the longest, come closer and closer.
+fn settles(states: &[Vec<f64>], scales: &[f64], longest: usize) -> bool {
+    let mean = |pairs: &[Vec<f64>], n: usize| {
+        let all = pairs.iter().zip(&pairs[n..]).map(|(before, now)| distance(scales, before, now));
+        all.sum::<f64>() / (pairs.len() - n) as f64
+    };
+    let quarter = states.len() / 4;
+    (1..=longest.min(quarter / 2)).any(|n| {
+        let last = mean(&states[states.len() - quarter..], n);
+        last < STEADY * mean(&states[..quarter], n)
+    })
 }
 
 /// The entry of the states that moves most, in the scales.

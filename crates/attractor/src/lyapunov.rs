@@ -222,10 +222,11 @@ const PILOT: u64 = 4;
 /// # Errors
 /// The motion cannot be computed.
 pub fn sections_needed(map: &mut SystemMap, state: &[f64]) -> Result<u64, AttractorError> {
-    let given = map.parts();
+    let (given, memory) = (map.parts(), map.integrator().memory());
     let mut parts = 1;
     loop {
         map.set_parts(parts);
+        map.integrator().set_memory(memory.clone());
         let mut tangents = Tangents::new(map, 0, state)?;
         let mut spread = 0.0_f64;
         for _ in 0..PILOT * parts {
@@ -244,6 +245,7 @@ pub fn sections_needed(map: &mut SystemMap, state: &[f64]) -> Result<u64, Attrac
         }
         if spread <= SPREAD || parts >= 64 {
             map.set_parts(given);
+            map.integrator().set_memory(memory);
             return Ok(parts);
         }
         parts *= 2;

@@ -12,6 +12,9 @@ use hammerbeam_motion::{
 
 use crate::AttractorError;
 
+/// How far behind a rigid stop a state counts as on it, relative to the displacement there.
+const ON_THE_STOP: f64 = 1e-9;
+
 /// A motion that is advanced section by section.
 pub trait SectionMap {
     /// Length of a state.
@@ -107,6 +110,19 @@ impl SystemMap {
         -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
     }
 
+    /// The first rigid stop that a state at phase 0 lies behind, where no motion comes, and how far [m].
+    #[must_use]
+    pub fn behind_rigid_stop(&self, state: &[f64]) -> Option<(&str, f64)> {
+        let system = self.integrator.system();
+        system.elements().iter().enumerate().find_map(|(number, element)| {
+            let level = element.law.rigid()?.level();
+            let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
+            // A state on the stop may have come from a motion, with its rounding.
+            let depth = r - level;
+            (depth > ON_THE_STOP * r.abs().max(level.abs())).then_some((element.name.as_str(), depth))
+        })
+    }
+
     fn stretch(&self, section: u64) -> Stretch {
         let (part, parts) = ((section % self.parts) as f64, self.parts as f64);
         Stretch { frequency_hz: self.frequency_hz, start: part / parts, end: (part + 1.0) / parts }
@@ -139,7 +155,7 @@ impl SectionMap for SystemMap {
     }
 
     fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
-        let flow = self.integrator.flow(&self.stretch(section), state)?;
+        let flow = self.integrator.flow_onwards(&self.stretch(section), state)?;
         Ok((flow.state, flow.by_state))
     }
 

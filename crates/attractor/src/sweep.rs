@@ -92,6 +92,19 @@ impl Sweeper {
         self.observe(frequency_hz, classified)
     }
 
+    /// Whether a motion can begin at a state at phase 0 that this sweeper has not come to itself: in no contact whose law remembers its impact.
+    #[must_use]
+    pub fn can_begin(&mut self, state: &[f64]) -> bool {
+        let frequency_hz = self.map.frequency_hz();
+        let system = self.map.integrator().system();
+        let of_law =
+            system.elements().iter().enumerate().filter(|(_, element)| element.law.remembers_impact());
+        !of_law.into_iter().any(|(number, element)| {
+            let [r, ..] = system.relative_motion(number, frequency_hz, 0.0, state);
+            element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) > 0.0)
+        })
+    }
+
     fn observe(&mut self, frequency_hz: f64, classified: Classified) -> Result<SweepPoint, AttractorError> {
         let periods = match classified.class {
             Class::Periodic { period } => period,
@@ -101,6 +114,8 @@ impl Sweeper {
         let mut state = classified.states.last().cloned().unwrap_or_default();
         let support = self.map.integrator().system().support_motion(frequency_hz, 0.0)[0];
         let (mut samples, mut largest, mut touches) = (Vec::with_capacity(periods), 0.0_f64, 0);
+        // Of a state within a contact the map knows how that began.
+        self.watching.set_memory(self.map.integrator().memory());
         for _ in 0..periods {
             let elastic: f64 = self.observable.shape.iter().zip(&state).map(|(a, b)| a * b).sum();
             samples.push(elastic + self.observable.support_ratio * support);
@@ -112,6 +127,7 @@ impl Sweeper {
             touches += maxima.contacts();
             state = next?;
         }
+        self.map.integrator().set_memory(self.watching.memory());
         Ok(SweepPoint {
             frequency_hz,
             class: classified.class,

@@ -13,7 +13,7 @@ use hammerbeam_motion::{
     Law, Stretch, System,
     exact::ExactSettings,
     general::{GeneralSettings, advance},
-    law::CubicSpring,
+    law::{CubicSpring, RigidStop},
 };
 
 const FREQUENCY_HZ: f64 = 0.25;
@@ -121,6 +121,34 @@ fn a_chaotic_attractor_is_recognised_from_every_cell() {
     assert_eq!(attractors.len(), 1, "{:?}", attractors.iter().map(|a| a.class).collect::<Vec<_>>());
     assert_eq!(attractors[0].class, Class::Chaotic);
     assert!(cells.iter().all(|&number| number == 1));
+}
+
+fn impact_oscillator() -> System {
+    let stop = element(&[1.0], 0.0, Law::Rigid(RigidStop::with_gap(0.8, 0.0).unwrap()));
+    oscillator(1.0, 0.04, 0.4, vec![stop])
+}
+
+/// Chaos of an impact oscillator at 0.48 Hz in two bands that are visited in turn, one of them near the origin, beside an orbit of two periods: as many cells as lead to it, it is one.
+#[test]
+fn chaos_in_bands_is_one_attractor() {
+    let axis =
+        |direction: [f64; 2], low: f64, high: f64| Axis { direction: direction.into(), low, high, count: 14 };
+    let grid = Grid { base: vec![0.0; 2], x: axis([1.0, 0.0], -1.0, 0.0), y: axis([0.0, 1.0], -1.0, 1.0) };
+    let (cells, attractors) = all(basins(impact_oscillator(), 0.48, grid), 2);
+    let classes: Vec<Class> = attractors.iter().map(|attractor| attractor.class).collect();
+    assert_eq!(classes.iter().filter(|class| **class == Class::Chaotic).count(), 1, "{classes:?}");
+    assert_eq!(classes.len(), 2, "{classes:?}");
+    assert!(cells.iter().all(|&number| number > 0));
+}
+
+/// A motion cannot begin behind a rigid stop.
+#[test]
+fn cells_behind_a_rigid_stop_belong_to_no_attractor() {
+    let axis = |direction: [f64; 2]| Axis { direction: direction.into(), low: -1.0, high: 1.0, count: 4 };
+    let grid = Grid { base: vec![0.0; 2], x: axis([1.0, 0.0]), y: axis([0.0, 1.0]) };
+    let behind: Vec<bool> = (0..16).map(|cell| grid.state(cell)[0] > 0.0).collect();
+    let (cells, _) = all(basins(impact_oscillator(), 0.6, grid), 1);
+    assert_eq!(cells.iter().map(|&number| number == 0).collect::<Vec<_>>(), behind);
 }
 
 /// Of 4 cells with 1 and 3: fractions 1/4 and 3/4, each with the standard error `sqrt(3/16/4)`.

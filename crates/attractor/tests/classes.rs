@@ -100,3 +100,27 @@ fn motion_that_still_settles_is_doubtful() {
     let found = classify(&mut map, 1, &[3.0, 0.0], &impatient).unwrap();
     assert_eq!(found.class, Class::Doubtful(Doubt::NotSettled), "{:?}", found.largest_exponent);
 }
+
+/// A motion that settles ever so slowly, on either side of its fixed point in turn or turning about it, looks regular to both indicators: its exponents are within rounding of zero and its series has two
+/// frequencies at most. That its returns come closer tells it from a torus.
+#[test]
+fn motion_that_settles_too_slowly_for_the_exponents_is_doubtful() {
+    let impatient =
+        Effort { patience: Patience { skipped: 1, periods: 5, longest: 8 }, aligning: 1, averaged: 1000 };
+    for turn in [0.5, 0.125, 0.382] {
+        let mut map = StepMap::new(2, move |z: &[f64]| {
+            let (sin, cos) = (TAU * turn).sin_cos();
+            let matrix = 0.999 * faer::mat![[cos, -sin], [sin, cos]];
+            let [x, y] = [z[0] - 1.0, z[1] - 1.0];
+            let next = vec![
+                1.0 + matrix[(0, 0)] * x + matrix[(0, 1)] * y,
+                1.0 + matrix[(1, 0)] * x + matrix[(1, 1)] * y,
+            ];
+            (next, matrix)
+        });
+        let found = classify(&mut map, 1, &[1.3, 1.1], &impatient).unwrap();
+        let largest = found.largest_exponent.unwrap();
+        assert!((largest.value - 0.999_f64.ln()).abs() < 1e-9, "above -2/1000: {largest:?}");
+        assert_eq!(found.class, Class::Doubtful(Doubt::NotSettled), "{turn}: {:?}", found.zero_one);
+    }
+}

@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hammerbeam_study::{file::DrawnOrbit, verify::TOLERANCE};
 
 use crate::{
+    compare_args::{CompareOptions, RigOptions},
     figures::RESOLUTION,
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
     signal_args::SignalCommand,
@@ -48,9 +49,15 @@ pub enum Command {
     Lyapunov(LyapunovOptions),
     /// Compute which attractor each of a grid of initial states leads to; started again, it goes on where it was
     Basins(BasinsOptions),
+    /// Fit parameters of a study to measured eigenfrequencies, damping ratios and responses
+    Update(UpdateOptions),
     /// Measured or exported time series: filter, spectrum, damping, kind of motion, exponent
     #[command(subcommand)]
     Signal(SignalCommand),
+    /// Hold measured points against computed branches
+    Compare(CompareOptions),
+    /// Measure a virtual rig, another model than that of the study, and hold it against the study's branches
+    Rig(RigOptions),
     /// Draw everything that a results folder holds, as SVG and PNG
     Figure(FigureOptions),
     /// Write stored results for other programs
@@ -115,6 +122,31 @@ pub struct OrbitOptions {
     /// Draw the acceleration behind a low-pass filter as well [default: that of the study]
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true, requires = "out")]
     pub low_pass: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+pub struct UpdateOptions {
+    /// Study file
+    pub study: PathBuf,
+
+    /// Data file: the parameters to fit, and what was measured; docs/updating.md has its keys
+    pub data: PathBuf,
+
+    /// Folder, made if it is not there, for the updated study (updated.toml) and the result (update.json)
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Probability in percent that an interval holds its parameter
+    #[arg(long, value_name = "PERCENT", default_value_t = 95.0, value_parser = percent)]
+    pub confidence: f64,
+
+    /// Further starts around that of the data file; the lowest minimum is taken [default: 6, or 0 with responses]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=10_000))]
+    pub starts: Option<u32>,
+
+    /// Also take intervals from the profile of chi-squared, which holds where the model bends; takes many more fits
+    #[arg(long)]
+    pub profile: bool,
 }
 
 #[derive(Debug, Args)]
@@ -193,10 +225,12 @@ pub enum FigureKind {
     Exponents,
     /// Basins of attraction
     Basins,
+    /// One HTML file to look through all of it, page.html
+    Page,
 }
 
 impl FigureKind {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Structure,
         Self::Response,
         Self::Vary,
@@ -206,6 +240,7 @@ impl FigureKind {
         Self::Sweeps,
         Self::Exponents,
         Self::Basins,
+        Self::Page,
     ];
 }
 
@@ -264,6 +299,13 @@ fn orbit(text: &str) -> Result<DrawnOrbit, String> {
             Ok(DrawnOrbit { frequency_hz, period_multiple })
         }
         _ => Err("must be a frequency, or a frequency and a whole number from 1 to 64: 53:2".to_owned()),
+    }
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (1.0..100.0).contains(&number) => Ok(number),
+        _ => Err("must be a number of percent, from 1 to less than 100".to_owned()),
     }
 }
 

@@ -3,7 +3,13 @@
 use std::process::ExitCode;
 
 use hammerbeam_signal::SignalError;
-use hammerbeam_study::{Report, StoreError, StudyError, export::ExportError, run::RunError};
+use hammerbeam_study::{
+    Report, StoreError, StudyError,
+    comparison::{ComparisonError, ObservationError},
+    export::ExportError,
+    rig::RigError,
+    run::RunError,
+};
 
 /// Why a command does not end well.
 #[derive(Debug)]
@@ -81,6 +87,39 @@ impl From<ExportError> for Failure {
             ExportError::Store(error) => error.into(),
             // The user named the folder; the message has the cause already.
             other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
+impl From<ComparisonError> for Failure {
+    fn from(error: ComparisonError) -> Self {
+        match error {
+            ComparisonError::TooFewPoints { .. } => Self::NoResult(error.to_string()),
+            other => Self::BadInput(other.to_string()),
+        }
+    }
+}
+
+impl From<ObservationError> for Failure {
+    fn from(error: ObservationError) -> Self {
+        match error {
+            ObservationError::Store(error) => error.into(),
+            other => Self::Other(other.into()),
+        }
+    }
+}
+
+impl From<RigError> for Failure {
+    fn from(error: RigError) -> Self {
+        match error {
+            RigError::Study(error) => error.into(),
+            RigError::Store(error) => error.into(),
+            RigError::Observation(error) => error.into(),
+            RigError::NoRig { .. } | RigError::Changes { .. } => Self::BadInput(error.to_string()),
+            RigError::Interrupted => Self::Interrupted(
+                "interrupted; the branches are kept, the measurement begins anew".to_owned(),
+            ),
+            other => Self::NoResult(other.to_string()),
         }
     }
 }

@@ -4,6 +4,7 @@ mod linear;
 mod motions;
 mod multipliers;
 pub mod orbit;
+mod page;
 mod structure;
 mod varied;
 
@@ -61,6 +62,13 @@ impl Wishes {
             low_pass_hz: figures.low_pass_hz,
         }
     }
+
+    /// What a run draws at its end: all but the multipliers, two figures for each branch, which take longer than all the others.
+    pub fn of_run(file: &StudyFile) -> Self {
+        let mut wishes = Self::of(file);
+        wishes.kinds.retain(|kind| *kind != FigureKind::Multipliers);
+        wishes
+    }
 }
 
 /// Files as they are drawn, and what cannot be.
@@ -115,6 +123,13 @@ impl<'a> Drawn<'a> {
         self.refused.push((name.to_owned(), reason));
     }
 
+    /// Writes a file that is no figure.
+    pub fn write(&mut self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+        replace(&self.folder.join(name), bytes)?;
+        self.files.push(name.to_owned());
+        Ok(())
+    }
+
     /// Says on standard error what could not be drawn.
     pub fn tell_refused(&self) {
         for (name, reason) in &self.refused {
@@ -155,6 +170,7 @@ fn draw_kind(
         FigureKind::Sweeps => motions::draw_sweeps(store, drawn)?,
         FigureKind::Exponents => motions::draw_exponents(store, drawn)?,
         FigureKind::Basins => motions::draw_basins(store, (file, model), drawn)?,
+        FigureKind::Page => page::draw(store, file, model, drawn)?,
     }
     Ok(())
 }

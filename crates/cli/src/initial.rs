@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_attractor::{AttractorError, SectionMap, SystemMap};
-use hammerbeam_motion::{Stretch, System};
+use hammerbeam_motion::Stretch;
 use hammerbeam_orbit::states_at_phase;
 use hammerbeam_study::{Model, StoredBranches, StudyFile};
 
@@ -39,7 +39,15 @@ pub fn state(
             let stretch = Stretch { frequency_hz: map.frequency_hz(), start: 0.0, end: 1.0 };
             Ok(map.integrator().steady_state(&stretch))
         }
-        numbers => numbers_of(numbers, size),
+        numbers => {
+            let state = numbers_of(numbers, size)?;
+            match map.behind_rigid_stop(&state) {
+                Some((stop, depth)) => Err(Failure::BadInput(format!(
+                    "--initial: the state lies {depth:.3e} m behind the rigid stop {stop:?}, where no motion comes"
+                ))),
+                None => Ok(state),
+            }
+        }
     }
 }
 
@@ -91,11 +99,5 @@ fn of_branch(
 
 /// Displacement, velocity and acceleration of the response point at a phase.
 pub fn response(model: &Model, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
-    let system: &System = &model.system;
-    let n = system.dof();
-    let rate = system.rate(frequency_hz, phase, state);
-    let support = system.support_motion(frequency_hz, phase);
-    let parts = [&state[..n], &state[n..], &rate[n..]];
-    let dot = |values: &[f64]| model.response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
-    std::array::from_fn(|k| dot(parts[k]) + model.response.support_ratio * support[k])
+    model.response_motion(frequency_hz, phase, state)
 }

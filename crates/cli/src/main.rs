@@ -2,6 +2,7 @@
 
 mod args;
 mod commands;
+mod compare_args;
 mod drift;
 mod failure;
 mod figures;
@@ -35,7 +36,10 @@ fn main() -> ExitCode {
         Command::Sweep(options) => commands::sweep::run(options, output),
         Command::Lyapunov(options) => commands::lyapunov::run(options, output),
         Command::Basins(options) => commands::basins::run(options, output),
+        Command::Update(options) => commands::update::run(options, output),
         Command::Signal(command) => commands::signal::run(command, output),
+        Command::Compare(options) => commands::compare::run(options, output),
+        Command::Rig(options) => commands::rig::run(options, output),
         Command::Figure(options) => commands::figure::run(options, output),
         Command::Export(options) => commands::export::run(options, output),
         Command::Verify(options) => commands::verify::run(options, output),

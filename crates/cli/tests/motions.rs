@@ -76,6 +76,13 @@ fn simulate_begins_where_it_is_told() {
         let other = again["final_modal_state"][k].as_f64().unwrap();
         assert!((entry - other).abs() < 1e-7, "after three more periods: {entry} {other}");
     }
+    // Both ends of the branch, which are those of the range, belong to it.
+    for end_hz in ["0.08", "0.3"] {
+        let at_end = ["simulate", "study.toml", "--frequency", end_hz, "--periods", "1", "--json"];
+        let found =
+            document(&workshop, &[&at_end[..], &["--initial", "branch:1", "--results", "results"]].concat());
+        assert!(found["max_abs_sampled_displacement_m"].as_f64().unwrap() > 0.0);
+    }
     let linear = of(&["linear"]);
     assert!(linear["max_abs_sampled_displacement_m"].as_f64().unwrap() > 0.0);
 }
@@ -395,12 +402,64 @@ fn options_that_make_no_sense_are_refused() {
         (&basins, &["q1=2..1", "--y", "v1=0..1"], "the range 2..1 is empty"),
         (&basins, &["q3=0..1", "--y", "v1=0..1"], "found the coordinate \"q3\"; allowed: q1 to q2, v1 to v2"),
         (&basins, &["q1=0..1", "--y", "q1=0..1"], "two different ones are needed"),
+        (&basins, &["displacement=0..1", "--y", "q1=0..1"], "are the same coordinate"),
         (&basins, &["q1=0..1", "--y", "v1=0..1", "--grid", "0"], "0 is not in 1..="),
         (&basins, &["q1=0..1", "--y", "v1=0..1", "--results", "nowhere"], "there are no results in nowhere"),
     ] {
         assert_bad_input(&workshop.hammerbeam(&[command, options].concat()), &[part]);
     }
     assert_eq!(workshop.listing(), before, "something was written");
+}
+
+const IMPACT_OSCILLATOR: &str = include_str!("../../../studies/impact-oscillator.toml");
+/// The same with a stop that remembers its impacts and has no gap.
+fn remembering() -> String {
+    let law = "law = \"flores\"\nstiffness_n_m15 = 1e3\nrestitution = 0.8\ngap_m = 0.0";
+    IMPACT_OSCILLATOR.replace("law = \"rigid\"\nrestitution = 0.8\ngap_m = 1.0", law)
+}
+
+#[test]
+fn states_in_which_no_motion_begins_are_refused_by_name() {
+    let rigid = Workshop::with(IMPACT_OSCILLATOR);
+    let memory = Workshop::with(&remembering());
+    for (workshop, initial, code, part) in [
+        (&rigid, "1.5,0", 2, "the state lies 5.000e-1 m behind the rigid stop \"stop\""),
+        (&memory, "0.1,0", 1, "its law needs to know how fast it closed"),
+        // The force pushes the mass against the stop at which it rests.
+        (&memory, "rest", 1, "stop is pressed on without an impact"),
+    ] {
+        let arguments = ["simulate", "study.toml", "--frequency", "0.3", "--initial", initial];
+        let output = workshop.hammerbeam(&arguments);
+        assert_eq!(output.status.code(), Some(code), "{initial}: {}", stderr(&output));
+        assert!(stderr(&output).contains(part), "{initial}: {}", stderr(&output));
+    }
+}
+
+/// A sweep whose motions are in contact at phase 0, which their states do not tell all of: killed and taken up again it has the same bytes.
+#[test]
+fn a_sweep_within_contacts_that_remember_goes_on_with_the_same_bytes() {
+    let study = remembering();
+    let whole = Workshop::with(&study);
+    let sweep =
+        ["sweep", "study.toml", "--from", "0.3", "--to", "0.5", "--step", "0.001", "--initial", "-0.1,0"];
+    let sweep = [&sweep[..], &["--down", "--out", "out"]].concat();
+    let begun = Instant::now();
+    assert_success(&whole.hammerbeam(&sweep));
+    let duration = begun.elapsed();
+    let samples = column(&table(&whole, "out/sweep_samples.csv"), "displacement_m");
+    assert!(samples.iter().filter(|displacement| **displacement > 0.0).count() > 10, "some are in contact");
+    let workshop = Workshop::with(&study);
+    for _ in 0..3 {
+        let mut child = spawn(&workshop, &sweep);
+        sleep(duration.mul_f64(0.3));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert_success(&workshop.hammerbeam(&sweep));
+    for name in ["sweep.csv", "sweep_samples.csv"] {
+        let of = |workshop: &Workshop| fs::read(workshop.path("out").join(name)).unwrap();
+        assert!(of(&whole) == of(&workshop), "{name}");
+    }
 }
 
 /// Faults of a study are refused in the same words by every command, see `bad_input.rs`.

@@ -35,6 +35,7 @@
 //! | `sketch` | symbols of mechanics: walls, springs, dampers, arrows, dimension lines |
 //! | `marks`, `dots`, `legend` | one mark for each kind of event, thinned where they overlap; samples with their names |
 //! | `text`, `font` | lines with italic parts, numbers as printed, widths of the glyphs of the bundled font |
+//! | `page` | the page that shows a whole results folder: what it is given, how that is packed, the HTML file; its script is TypeScript, in `page/` of this crate |
 //! | `svg`, `png` | the few elements we need, in points; the renderer with the bundled font alone |
 //!
 //! # Decisions
@@ -70,6 +71,7 @@ mod motion;
 mod motion_section;
 mod multiplier_diagram;
 mod orbit_diagram;
+mod page;
 mod plot;
 mod png;
 mod reduction_diagram;
@@ -95,6 +97,10 @@ pub use motion::MotionKind;
 pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitSample};
+pub use page::{
+    OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
+    PageSolution, PageStop, PageStructure, room_for_orbits,
+};
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
     MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,

@@ -59,6 +59,21 @@ pub(crate) fn period_colour(period_multiple: u32) -> &'static str {
     PERIOD_COLOURS[(period_multiple.max(1) as usize - 1) % PERIOD_COLOURS.len()]
 }
 
+/// Colours of period multiples on a dark page, in the same order: the same hues, lighter.
+const PERIOD_COLOURS_DARK: [&str; 6] = ["#8db4ff", "#ff9a5e", "#56d6b8", "#d58cf0", "#e6bf4a", "#a9d4f7"];
+
+/// Colours of the page by their names in its script.
+pub(crate) fn page_colours(dark: bool) -> serde_json::Value {
+    let (periods, ink, pale, grid, paper, panel, shade) = if dark {
+        (PERIOD_COLOURS_DARK, "#e6e6e6", "#9a9a9a", "#33373d", "#15181c", "#1d2126", "#3a3120")
+    } else {
+        (PERIOD_COLOURS, INK, PALE_INK, GRID, PAPER, "#f6f7f8", SHADE)
+    };
+    serde_json::json!({
+        "periods": periods, "ink": ink, "pale": pale, "grid": grid, "paper": paper, "panel": panel, "shade": shade,
+    })
+}
+
 /// Colour and dashes of a line; `None` for a solid one, else the lengths of a dash and of the gap behind it (pt).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pattern {
@@ -161,6 +176,13 @@ mod tests {
         }
         for colour in PERIOD_COLOURS {
             assert!(lightness(colour) < 72.0, "{colour} is too pale for a thin line");
+        }
+    }
+
+    #[test]
+    fn every_colour_of_a_period_stands_out_on_a_dark_page() {
+        for colour in PERIOD_COLOURS_DARK {
+            assert!(lightness(colour) > 65.0, "{colour} is too dark for a thin line");
         }
     }
 

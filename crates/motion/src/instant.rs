@@ -19,14 +19,34 @@ impl System {
     #[must_use]
     pub fn support_motion(&self, frequency_hz: f64, phase: f64) -> [f64; 3] {
         let mut motion = [0.0; 3];
-        for (amplitude, &order) in self.support_amplitudes().iter().zip(self.orders()) {
-            let value = *amplitude * rotation(order, phase);
+        for (index, &order) in self.orders().iter().enumerate() {
+            let value = self.support_amplitude(index, TAU * frequency_hz).0 * rotation(order, phase);
             let rate = TAU * f64::from(order) * frequency_hz;
             motion[0] += value.re;
             motion[1] -= rate * value.im;
             motion[2] -= rate * rate * value.re;
         }
         motion
+    }
+
+    /// Derivatives of the support displacement and of its first two derivatives by time, by the frequency at a fixed phase.
+    ///
+    /// # Returns
+    /// `[u, u', u'']` by `f` [m/Hz, m/s/Hz, m/s^2/Hz].
+    #[must_use]
+    pub fn support_motion_by_frequency(&self, frequency_hz: f64, phase: f64) -> [f64; 3] {
+        let mut change = [0.0; 3];
+        for (index, &order) in self.orders().iter().enumerate() {
+            let turned = rotation(order, phase);
+            let (amplitude, by_circular) = self.support_amplitude(index, TAU * frequency_hz);
+            let (value, slope) = (amplitude * turned, by_circular * TAU * turned);
+            let per_hertz = TAU * f64::from(order);
+            let rate = per_hertz * frequency_hz;
+            change[0] += slope.re;
+            change[1] -= per_hertz * value.im + rate * slope.im;
+            change[2] -= 2.0 * per_hertz * rate * value.re + rate * rate * slope.re;
+        }
+        change
     }
 
     /// Rate `[q'; q'']` of a state at a phase, by the equations of motion. A law that remembers its impact is taken without loss: a state does not tell it.

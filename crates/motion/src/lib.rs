@@ -73,10 +73,11 @@
 //!
 //! # Limits
 //! No friction. A rigid stop is not held while another element has a force. A stretch cannot start in a contact whose law remembers its impact, since a state `[q; q']` does not tell how the
-//! contact began; states alone go on from the stretch before (`exact`), flows with sensitivities do not. Such laws say nothing of a contact that is pressed on without
+//! contact began; motions and tangent vectors go on from the stretch before (`exact`). Such laws say nothing of a contact that is pressed on without
 //! an impact. Where such a contact closes in the very instant in which one with a damper does, the speed that it remembers has no derivative; that for
 //! one order of the two is given.
 
+mod amplitude;
 pub mod exact;
 pub mod general;
 mod instant;
@@ -86,6 +87,7 @@ mod parameter;
 mod stretch;
 mod system;
 
+pub use amplitude::{AmplitudeCurve, AmplitudeError};
 pub use law::{Contact, Force, Law, LawError};
 pub use load::{Harmonic, HarmonicForce, Load};
 pub use parameter::{Parameter, ParameterError};

@@ -1,12 +1,15 @@
 //! A reduced structure with its load and its local elements: the equations of motion.
 //!
 //! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`,
-//! `r_e = phi_e . q + s_e u`, with the circular excitation frequency `W = 2 pi f`.
+//! `r_e = phi_e . q + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u` and `b_m`, besides the
+//! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
+
+use std::f64::consts::TAU;
 
 use faer::c64;
 use hammerbeam_structure::ReducedModel;
 
-use crate::{Harmonic, Law, Load, ParameterError};
+use crate::{AmplitudeCurve, Harmonic, Law, Load, ParameterError};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,6 +26,9 @@ pub enum SystemError {
     #[error("{what} holds {found}, must be finite")]
     #[expect(missing_docs, reason = "the message names its fields")]
     NotFinite { what: String, found: f64 },
+    /// A constant load has no amplitude over the frequency.
+    #[error("a load of order 0 cannot have an amplitude over the frequency")]
+    ConstantOverFrequency,
 }
 
 /// A local element: a law between two points, or between a point and its surroundings.
@@ -48,10 +54,20 @@ pub struct System {
     forces: Vec<Vec<c64>>,
     /// The load as given: support and forces at the scale one.
     unscaled: (Vec<c64>, Vec<Vec<c64>>),
+    /// Harmonics whose amplitude depends on the frequency.
+    driven: Option<Driven>,
     excitation_scale: f64,
     added_damping_ratio: f64,
     /// Diagonal of the damping matrix as given.
     given_damping: Vec<f64>,
+}
+
+/// Harmonics that a curve of the frequency is a factor of: support motion and forces, by the orders of the system.
+#[derive(Debug, Clone)]
+struct Driven {
+    support: Vec<c64>,
+    forces: Vec<Vec<c64>>,
+    curve: AmplitudeCurve,
 }
 
 /// Modal load of one order and its derivative by the circular frequency.
@@ -78,17 +94,7 @@ impl System {
             .collect();
         orders.sort_unstable();
         orders.dedup();
-        let of_order =
-            |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
-        let support: Vec<c64> = orders
-            .iter()
-            .map(|&order| load.support.iter().map(|harmonic| of_order(order, harmonic)).sum())
-            .collect();
-        let force_of = |order: u32, mode: usize| {
-            load.forces.iter().map(|force| of_order(order, &force.harmonic) * force.shape[mode]).sum()
-        };
-        let forces: Vec<Vec<c64>> =
-            orders.iter().map(|&order| (0..model.dof()).map(|i| force_of(order, i)).collect()).collect();
+        let (support, forces) = by_orders(&orders, load, model.dof());
         let unscaled = (support.clone(), forces.clone());
         let given_damping = (0..model.dof()).map(|i| model.damping[(i, i)]).collect();
         Ok(Self {
@@ -98,10 +104,50 @@ impl System {
             support,
             forces,
             unscaled,
+            driven: None,
             excitation_scale: 1.0,
             added_damping_ratio: 0.0,
             given_damping,
         })
+    }
+
+    /// Adds a load of which a curve of the frequency is a factor: the amplitude of a shaker that does not keep it.
+    ///
+    /// * `load`: its amplitudes, which the curve multiplies; no constant part. A load that was added before is replaced.
+    ///
+    /// # Errors
+    /// See [`SystemError`].
+    pub fn with_amplitude_over_frequency(
+        mut self,
+        load: &Load,
+        curve: AmplitudeCurve,
+    ) -> Result<Self, SystemError> {
+        check(&self.model, load, &[])?;
+        let harmonics = || load.support.iter().chain(load.forces.iter().map(|force| &force.harmonic));
+        if harmonics().any(|harmonic| harmonic.order == 0) {
+            return Err(SystemError::ConstantOverFrequency);
+        }
+        let mut orders = self.orders.clone();
+        orders.extend(harmonics().map(|harmonic| harmonic.order));
+        orders.sort_unstable();
+        orders.dedup();
+        let (zero, n) = (c64::new(0.0, 0.0), self.dof());
+        let before = |order: &u32| self.orders.iter().position(|other| other == order);
+        let moved = |support: &[c64]| -> Vec<c64> {
+            orders.iter().map(|order| before(order).map_or(zero, |index| support[index])).collect()
+        };
+        let pushed = |forces: &[Vec<c64>]| -> Vec<Vec<c64>> {
+            orders
+                .iter()
+                .map(|order| before(order).map_or_else(|| vec![zero; n], |index| forces[index].clone()))
+                .collect()
+        };
+        let (support, forces) = (moved(&self.support), pushed(&self.forces));
+        let unscaled = (moved(&self.unscaled.0), pushed(&self.unscaled.1));
+        let driven = by_orders(&orders, load, n);
+        self.driven = Some(Driven { support: driven.0, forces: driven.1, curve });
+        (self.orders, self.support, self.forces, self.unscaled) = (orders, support, forces, unscaled);
+        Ok(self)
     }
 
     /// Factor of the harmonics of order 1 and above, see [`Parameter::ExcitationScale`](crate::Parameter::ExcitationScale).
@@ -176,10 +222,24 @@ impl System {
         &self.orders
     }
 
-    /// Complex amplitude of the support displacement [m] for each of [`System::orders`].
+    /// Complex amplitude of the support displacement [m] of the order with that index in [`System::orders`] at the circular frequency `W` [rad/s], and its derivative by `W`.
     #[must_use]
-    pub fn support_amplitudes(&self) -> &[c64] {
-        &self.support
+    pub fn support_amplitude(&self, order_index: usize, circular_frequency: f64) -> (c64, c64) {
+        let given = self.support[order_index];
+        match self.driven_at(circular_frequency) {
+            None => (given, c64::new(0.0, 0.0)),
+            Some((driven, factor, slope)) => {
+                let support = driven.support[order_index];
+                (given + support * factor, support * slope)
+            }
+        }
+    }
+
+    /// What the frequency drives, its factor with the scale of the excitation, and the derivative of that by the circular frequency.
+    fn driven_at(&self, circular_frequency: f64) -> Option<(&Driven, f64, f64)> {
+        let driven = self.driven.as_ref()?;
+        let (factor, slope) = driven.curve.at(circular_frequency / TAU);
+        Some((driven, self.excitation_scale * factor, self.excitation_scale * slope / TAU))
     }
 
     /// Modal load of the order with that index in [`System::orders`], at the circular frequency `W` [rad/s].
@@ -189,20 +249,41 @@ impl System {
     pub fn modal_load(&self, order_index: usize, circular_frequency: f64) -> ModalLoad {
         let mut amplitude = self.forces[order_index].clone();
         let mut by_frequency = vec![c64::new(0.0, 0.0); self.dof()];
+        if let Some((driven, factor, slope)) = self.driven_at(circular_frequency) {
+            for (mode, force) in driven.forces[order_index].iter().enumerate() {
+                amplitude[mode] += force * factor;
+                by_frequency[mode] += force * slope;
+            }
+        }
         if let Some(support) = &self.model.support {
             let order = f64::from(self.orders[order_index]);
-            let u = self.support[order_index];
+            let (u, u_w) = self.support_amplitude(order_index, circular_frequency);
             let i = c64::new(0.0, 1.0);
             for mode in 0..self.dof() {
                 let (inertia, damping) = (support.inertia[mode], support.damping[mode]);
-                let velocity = i * order * u * damping;
-                amplitude[mode] +=
-                    u * (order * circular_frequency).powi(2) * inertia - velocity * circular_frequency;
-                by_frequency[mode] = u * 2.0 * order * order * circular_frequency * inertia - velocity;
+                let velocity = i * order * damping;
+                let rate = (order * circular_frequency).powi(2) * inertia - velocity * circular_frequency;
+                amplitude[mode] += u * rate;
+                let rate_w = 2.0 * order * order * circular_frequency * inertia - velocity;
+                by_frequency[mode] += u * rate_w + u_w * rate;
             }
         }
         ModalLoad { amplitude, by_frequency }
     }
+}
+
+/// Support motion and forces of a load for each order.
+fn by_orders(orders: &[u32], load: &Load, n: usize) -> (Vec<c64>, Vec<Vec<c64>>) {
+    let of_order = |order: u32, h: &Harmonic| if h.order == order { complex(h) } else { c64::new(0.0, 0.0) };
+    let support = orders
+        .iter()
+        .map(|&order| load.support.iter().map(|harmonic| of_order(order, harmonic)).sum())
+        .collect();
+    let force_of = |order: u32, mode: usize| {
+        load.forces.iter().map(|force| of_order(order, &force.harmonic) * force.shape[mode]).sum()
+    };
+    let forces = orders.iter().map(|&order| (0..n).map(|i| force_of(order, i)).collect()).collect();
+    (support, forces)
 }
 
 fn complex(harmonic: &Harmonic) -> c64 {

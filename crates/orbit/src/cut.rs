@@ -1,11 +1,11 @@
-//! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began.
+//! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began, and off the impacts on rigid stops, at which the state jumps.
 //!
 //! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of
 //! it, in the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, so that whole cycles can be added to them without rounding: a motion that is
-//! followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0.
+//! followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid stop may hold the structure at the begin, and all the time.
 
 use hammerbeam_motion::{
-    Stretch,
+    Law, Stretch, System,
     exact::{ExactIntegrator, MotionError},
 };
 
@@ -58,7 +58,17 @@ impl Gap {
     }
 }
 
-/// Times of contacts whose laws remember their impact, in cycles since the phase `start`, in their order, over `cycles` of the motion.
+/// Whether the state of an orbit cannot be told, or jumps, at contacts of this law.
+fn keeps_away(law: &Law) -> bool {
+    law.remembers_impact() || law.rigid().is_some()
+}
+
+/// Whether orbits of a system have to begin away from its contacts.
+pub(crate) fn begins_with_care(system: &System) -> bool {
+    system.elements().iter().any(|element| keeps_away(&element.law))
+}
+
+/// Times of contacts from which an orbit has to begin away, in cycles since the phase `start`, in their order, over `cycles` of the motion.
 pub(crate) fn contacts(
     integrator: &mut ExactIntegrator,
     (start, cycles): (f64, f64),
@@ -76,7 +86,7 @@ fn closed_times(
     (frequency_hz, cycles): (f64, f64),
 ) -> Vec<Gap> {
     let elements = integrator.system().elements();
-    let of_law = contacts.iter().filter(|contact| elements[contact.element].law.remembers_impact());
+    let of_law = contacts.iter().filter(|contact| keeps_away(&elements[contact.element].law));
     let mut times: Vec<Gap> = of_law
         .map(|contact| Gap {
             begin: contact.begin.as_ref().map_or(0.0, |begin| begin.time * frequency_hz),
@@ -124,8 +134,9 @@ pub(crate) fn search_cut(
     state: &[f64],
     (frequency_hz, period_multiple): (f64, u32),
 ) -> Result<(Begin, Option<Vec<f64>>), OrbitError> {
-    if !integrator.system().remembers_impacts() {
-        return Ok((Begin { phase: 0.0, state: state.to_vec() }, None));
+    let at_zero = || Begin { phase: 0.0, state: state.to_vec() };
+    if !begins_with_care(integrator.system()) {
+        return Ok((at_zero(), None));
     }
     let cycles = f64::from(period_multiple + 1);
     let phases: Vec<f64> = (0..=(cycles * GRID) as u32).map(|k| f64::from(k) / GRID).collect();
@@ -133,6 +144,9 @@ pub(crate) fn search_cut(
     let trace = integrator.trace(&stretch, state, &phases)?;
     let contacts = closed_times(integrator, &trace.contacts, (frequency_hz, cycles));
     let gap = longest_gap(&contacts, (0.0, cycles));
+    if gap.length() < SHORTEST && !integrator.system().remembers_impacts() {
+        return Ok((at_zero(), None));
+    }
     if gap.length() < SHORTEST {
         let element = trace.contacts.first().map_or(0, |contact| contact.element);
         let element = integrator.system().elements()[element].name.clone();

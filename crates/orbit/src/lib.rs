@@ -10,7 +10,7 @@
 //! | `shooting.rs` | the equations of multiple shooting, condensed to the first node; made for the path crate |
 //! | `continuation_parameter.rs`, `state_scale.rs` | what varies along a branch; in which units states are measured |
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
-//! | `start.rs`, `reach.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere |
+//! | `start.rs`, `reach.rs`, `neighbour.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere; from the orbit of a slightly different system |
 //! | `find.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, the orbits known, Newton's method from many states, where branches cross the frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
@@ -78,6 +78,7 @@ mod find;
 mod free;
 mod located;
 mod matching;
+mod neighbour;
 mod noise;
 mod reach;
 mod recompute;
@@ -106,6 +107,7 @@ pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
 pub use located::{ContactChange, EventStatus, LocatedEvent};
 pub use matching::{Matcher, states_at_phase};
+pub use neighbour::neighbouring_orbit;
 pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};

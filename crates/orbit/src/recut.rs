@@ -1,4 +1,5 @@
-//! Moving the phase at which the orbits of a walk begin, before a contact comes to lie over it whose law remembers how it began.
+//! Moving the phase at which the orbits of a walk begin, before a contact comes to lie over it whose law remembers how it began, or an impact on a rigid stop, where the state
+//! jumps.
 //!
 //! Before each step the contacts of the present orbit are looked at (`cut.rs`). If one is near the phase, the orbit is cut anew in the middle of its longest time without contact: the state and
 //! its tangent are carried there by the flow, `t' = dZ/dz t + dZ/df t_f`. Where a step fails all the same, as at a contact that appears by grazing just at the phase, the present phase counts as a
@@ -14,7 +15,7 @@ use hammerbeam_path::{ContinuationPoint, Node};
 
 use crate::{
     BranchWalk, OrbitError,
-    cut::{contacts, longest_of_orbit},
+    cut::{begins_with_care, contacts, longest_of_orbit},
     shooting::ShootingProblem,
 };
 
@@ -33,7 +34,7 @@ pub(crate) struct Origin {
 impl BranchWalk {
     /// Whether its orbits may have to begin at another phase.
     pub(crate) fn moves_phase(&self) -> bool {
-        self.problem.system().remembers_impacts() && self.problem.segments() == 1
+        begins_with_care(self.problem.system()) && self.problem.segments() == 1
     }
 
     /// Keeps the phase away from contacts, and brings back the start where it can be.
@@ -50,7 +51,8 @@ impl BranchWalk {
 
     /// Moves the phase although no contact is near it: a step has failed; false if it does not go.
     pub(crate) fn flee_phase(&mut self) -> bool {
-        self.moves_phase() && self.offset(true).is_some_and(|offset| self.move_phase(offset))
+        let remembers = self.problem.system().remembers_impacts();
+        remembers && self.moves_phase() && self.offset(true).is_some_and(|offset| self.move_phase(offset))
     }
 
     /// By how much the phase should move [cycles].

@@ -9,6 +9,7 @@ use crate::{
     BranchRow, Crossing, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side,
     StopReason,
     continuation_parameter::ContinuationParameter,
+    cut::begins_with_care,
     density::{LastRows, Place},
     located,
     recut::Origin,
@@ -417,11 +418,11 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
 }
 
 /// Segments of an orbit: more where the largest multiplier would carry a guess away within the period, and a whole number of them per excitation period, so
-/// that an orbit of shorter period is known when it is met. Nodes must not lie in contacts whose laws remember how they began: then there is one.
+/// that an orbit of shorter period is known when it is met. Nodes must not lie in contacts whose laws remember how they began, nor on impacts: then there is one.
 fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
     match settings.segments {
         Segments::Fixed(count) => count.max(1),
-        Segments::Automatic if system.remembers_impacts() => 1,
+        Segments::Automatic if begins_with_care(system) => 1,
         Segments::Automatic => {
             let largest = start.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
             let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;

@@ -62,7 +62,7 @@ mod strain;
 mod structure;
 mod tables;
 
-pub use beam::{Beam, BeamPoint, End};
+pub use beam::{Beam, BeamChange, BeamPoint, Boundary, End, PointChange};
 pub use damping::{Damping, ModalRatios};
 pub use error::StructureError;
 pub use lumped::{Connection, GROUND, Lumped, LumpedMass};

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use common::{bare, lumped, paper_beam, unit_beam};
-use hammerbeam_structure::{BeamPoint, Damping, End, Reduced, Reduction, Structure};
+use hammerbeam_structure::{BeamPoint, Damping, End, OutlinePoint, Reduced, Reduction, Structure};
 
 const METHODS: [fn(f64) -> Reduction; 2] = [
     |cut_off_hz| Reduction::FreeInterface { cut_off_hz },
@@ -185,4 +185,45 @@ fn same_input_gives_the_same_bits() {
     let (one, two) = (model(), model());
     assert_eq!(one.natural_frequencies, two.natural_frequencies);
     assert_eq!(one.points, two.points);
+}
+
+/// The outline of a structure passes through its named points, and goes from one end to the other.
+#[test]
+fn the_outline_passes_through_the_points() {
+    for structure in zoo() {
+        let Reduced { model, outline, .. } = reduce(&structure, METHODS[0](20.0), &["mass", "spring"]);
+        assert!(outline.windows(2).all(|places| places[0].at < places[1].at));
+        for (name, place) in [("left", outline.first().unwrap()), ("right", outline.last().unwrap())] {
+            let point = model.point(name).unwrap();
+            assert_eq!((&point.shape, point.support_ratio), (&place.shape, place.support_ratio), "{name}");
+        }
+        for point in &model.points {
+            let is_there = |place: &OutlinePoint| {
+                place.shape == point.shape && place.support_ratio == point.support_ratio
+            };
+            assert!(outline.iter().any(is_there), "{}", point.name);
+        }
+    }
+}
+
+/// First mode of a clamped-free beam: `w(x) / w(L)` is half of `cosh kx - cos kx - s (sinh kx - sin kx)`, `k L = 1.87510407`, `s = 0.73409551`.
+#[test]
+fn the_outline_of_a_cantilever_has_the_shape_of_its_first_mode() {
+    let beam = unit_beam(16, End::Clamped, End::Free, Vec::new());
+    let outline = reduce(&beam.structure().unwrap(), Reduction::None, &[]).outline;
+    let tip = outline.last().unwrap();
+    for place in &outline {
+        let kx = 1.875_104_07 * place.at / tip.at;
+        let meant = 0.5 * (kx.cosh() - kx.cos() - 0.734_095_51 * (kx.sinh() - kx.sin()));
+        // Cubic elements: the error of the shape is of the order of (k h)^4 = 2e-4 times its fourth derivative's share, 1/720.
+        assert_relative_eq!(place.shape[0] / tip.shape[0], meant, epsilon = 1e-6);
+    }
+}
+
+/// Masses of a lumped structure, without the ground.
+#[test]
+fn the_outline_of_masses_is_one_place_each() {
+    let structure = lumped(&[("a", 1.0), ("b", 2.0)], &[("a", "ground", 1.0), ("a", "b", 3.0)], &[]);
+    let outline = reduce(&structure.structure().unwrap(), Reduction::None, &[]).outline;
+    assert_eq!(outline.iter().map(|place| place.at).collect::<Vec<_>>(), [0.0, 1.0]);
 }

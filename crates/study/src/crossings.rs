@@ -67,6 +67,18 @@ impl StoredBranches {
         &self.branches
     }
 
+    /// The stored solution of a row.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn solution(
+        &self,
+        branch: &StoredBranch,
+        placed: &PlacedRow,
+    ) -> Result<PeriodicSolution, StoreError> {
+        self.store.solution(branch.record.start, placed.side, placed.number)
+    }
+
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the state is interpolated and then
     /// corrected at the frequency.
     ///
@@ -88,6 +100,14 @@ impl StoredBranches {
                 if (a < frequency_hz) != (b < frequency_hz) {
                     let share = (frequency_hz - a) / (b - a);
                     let guess = self.between(record, pair, share, frequency_hz)?;
+                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
+                }
+            }
+            // Between rows the higher end counts; a branch that ends at the frequency and lies above it has no such pair there.
+            for (end, beside) in [(rows.first(), rows.get(1)), (rows.last(), rows.iter().rev().nth(1))] {
+                let Some((end, beside)) = end.zip(beside) else { continue };
+                if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
+                    let guess = self.store.solution(record.start, end.side, end.number)?;
                     orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
                 }
             }

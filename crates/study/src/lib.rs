@@ -9,8 +9,11 @@
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
+//! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
 //! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; sweeps, exponents and basins by request |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
+//! | [`comparison`] | measured points held against stored branches |
+//! | [`rig`] | a measurement made with another model |
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
 //!
@@ -34,6 +37,7 @@
 //! assert!(fault.to_string().contains("mass_kg"), "{fault}");
 //! ```
 
+pub mod comparison;
 mod crossings;
 mod document;
 pub mod export;
@@ -41,9 +45,11 @@ pub mod file;
 mod identity;
 mod model;
 mod orbit_solver;
+pub mod rig;
 pub mod run;
 pub mod store;
 pub mod summary;
+pub mod update;
 pub mod varied;
 pub mod verify;
 

@@ -76,21 +76,19 @@ fn request(options: &BasinsOptions) -> Vec<String> {
 }
 
 fn grid(options: &BasinsOptions, model: &Model) -> Result<Grid, Failure> {
-    if options.x.name == options.y.name {
-        return Err(Failure::BadInput(format!(
-            "--x and --y are both {:?}; two different ones are needed",
-            options.x.name
-        )));
-    }
     let axis = |option: &AxisOption, flag: &str| {
         let direction = direction(&option.name, flag, model)?;
         Ok::<_, Failure>(Axis { direction, low: option.low, high: option.high, count: options.grid as usize })
     };
-    Ok(Grid {
-        base: vec![0.0; 2 * model.system.dof()],
-        x: axis(&options.x, "--x")?,
-        y: axis(&options.y, "--y")?,
-    })
+    let (x, y) = (axis(&options.x, "--x")?, axis(&options.y, "--y")?);
+    // Each coordinate is one entry of the state, under one name or another.
+    if x.direction.iter().zip(&y.direction).any(|(x, y)| x * y != 0.0) {
+        return Err(Failure::BadInput(format!(
+            "--x and --y, {:?} and {:?}, are the same coordinate; two different ones are needed",
+            options.x.name, options.y.name
+        )));
+    }
+    Ok(Grid { base: vec![0.0; 2 * model.system.dof()], x, y })
 }
 
 /// What one unit of a coordinate adds to the modal state.
@@ -198,7 +196,10 @@ impl Outcome<'_> {
             ));
         }
         if self.lost() > 0 {
-            lines.push(format!("  the motion from {} cell(s) could not be computed", self.lost()));
+            lines.push(format!(
+                "  {} cell(s) begin behind a rigid stop, or their motion could not be computed",
+                self.lost()
+            ));
         }
         if let Some(folder) = &self.options.out {
             lines.push(format!("basins.csv and attractors.csv are in {}", folder.display()));

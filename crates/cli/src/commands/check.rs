@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile,
     file::{
-        Approach, Beam, ExcitationKind, FixedTo, Load, Lumped, Place, Reduction, ReductionMethod, Side, Stop,
-        StopLaw, Structure,
+        Amplitude, Approach, Beam, ExcitationKind, FixedTo, Load, Lumped, Place, Reduction, ReductionMethod,
+        Side, Stop, StopLaw, Structure,
     },
 };
 use serde_json::{Value, json};
@@ -113,14 +113,27 @@ fn reduction_text(reduction: &Reduction, dof: usize) -> String {
     }
 }
 
+fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
+    match amplitude {
+        Amplitude::Constant(value) => format!("{value} {unit}"),
+        Amplitude::OverFrequency(points) => {
+            let values = || points.iter().map(|point| point[1]);
+            let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
+            format!("{low} to {high} {unit} over the frequency ({} points)", points.len())
+        }
+    }
+}
+
 fn excitation_text(study: &Study) -> String {
     let excitation = &study.excitation;
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
-            format!("support motion at {}, amplitude {amplitude_m} m", at.join(", "))
+            format!("support motion at {}, amplitude {}", at.join(", "), amplitude_text(amplitude_m, "m"))
         }
-        ExcitationKind::Force { at, amplitude_n } => format!("force at {at}, amplitude {amplitude_n} N"),
+        ExcitationKind::Force { at, amplitude_n } => {
+            format!("force at {at}, amplitude {}", amplitude_text(amplitude_n, "N"))
+        }
     };
     format!("{what}, {low} to {high} Hz, order {}, phase {} rad", excitation.order, excitation.phase_rad)
 }

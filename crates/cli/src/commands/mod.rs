@@ -2,14 +2,17 @@
 
 pub mod basins;
 pub mod check;
+pub mod compare;
 pub mod export;
 pub mod figure;
 pub mod lyapunov;
 pub mod modes;
 pub mod new;
 pub mod orbit;
+pub mod rig;
 pub mod run;
 pub mod signal;
 pub mod simulate;
 pub mod sweep;
+pub mod update;
 pub mod verify;

@@ -50,7 +50,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
             let mut drawn = Drawn::into(&options.out)?;
-            figures::draw(&store, (&file, &model), &Wishes::of(&file), &mut drawn)?;
+            figures::draw(&store, (&file, &model), &Wishes::of_run(&file), &mut drawn)?;
             drawn.tell_refused();
             if summary.branches.is_empty() {
                 Err(Failure::NoResult(summary.nothing()))

@@ -127,7 +127,7 @@ impl Work<'_> {
         pieces: &[(&'static str, f64)],
         initial: Vec<f64>,
     ) -> Result<(), Failure> {
-        let mut state = self.found.last().map_or(initial, |last| last.point.state.clone());
+        let mut state = self.last_state(sweeper, pieces, initial)?;
         let mut ticker = Ticker::new(pieces.len() as u64, "frequencies");
         for (piece, (direction, frequency_hz)) in (0..).zip(pieces).skip(self.kept.done as usize) {
             if self.interrupt.raised() {
@@ -151,6 +151,23 @@ impl Work<'_> {
         }
         ticker.clear();
         Ok(())
+    }
+
+    /// The state that the motions found so far have come to. Within a contact whose law remembers its impact it does not tell how that began: then the sweep is gone over once more from the last
+    /// state that does.
+    fn last_state(
+        &self,
+        sweeper: &mut Sweeper,
+        pieces: &[(&'static str, f64)],
+        initial: Vec<f64>,
+    ) -> Result<Vec<f64>, Failure> {
+        let mut states = self.found.iter().map(|motion| &motion.point.state).enumerate().rev();
+        let last = states.find(|(_, state)| sweeper.can_begin(state));
+        let (known, mut state) = last.map_or((0, initial), |(k, state)| (k + 1, state.clone()));
+        for (_, frequency_hz) in pieces.iter().take(self.found.len()).skip(known) {
+            state = sweeper.at(*frequency_hz, &state)?.state;
+        }
+        Ok(state)
     }
 
     /// From the same states at every frequency; motions that cannot be computed are left out and told.
@@ -192,8 +209,12 @@ fn branch(branches: &StoredBranches, model: &Model, point: &SweepPoint) -> Resul
     let Class::Periodic { period } = point.class else { return Ok(None) };
     let mut map = SystemMap::new(model.system.clone(), point.frequency_hz, 1, ExactSettings::default())?;
     let mut states = vec![point.state.clone()];
-    for k in 1..period {
-        states.push(hammerbeam_attractor::SectionMap::advance(&mut map, 0, &states[k - 1])?);
+    while states.len() < period {
+        // A state within a contact that remembers its impact cannot be gone on from; one of its states is enough.
+        match hammerbeam_attractor::SectionMap::advance(&mut map, 0, &states[states.len() - 1]) {
+            Ok(next) => states.push(next),
+            Err(_) => states.resize(period, point.state.clone()),
+        }
     }
     Ok(branches.branch_of(model, point.frequency_hz, &states)?)
 }

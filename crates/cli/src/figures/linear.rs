@@ -128,10 +128,10 @@ pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
 
 /// Amplitude of the acceleration of the support (m/s²), `A (2 pi m f)²`, or of the force (N).
 fn amplitude(excitation: &Excitation, frequency_hz: f64) -> f64 {
-    match excitation.kind {
+    match &excitation.kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => {
-            amplitude_m * (TAU * f64::from(excitation.order) * frequency_hz).powi(2)
+            amplitude_m.at(frequency_hz) * (TAU * f64::from(excitation.order) * frequency_hz).powi(2)
         }
-        ExcitationKind::Force { amplitude_n, .. } => amplitude_n,
+        ExcitationKind::Force { amplitude_n, .. } => amplitude_n.at(frequency_hz),
     }
 }

@@ -182,7 +182,7 @@ fn exponent(record: &ExponentRecord) -> ExponentPoint {
     }
 }
 
-fn kind(class: Class) -> MotionKind {
+pub fn kind(class: Class) -> MotionKind {
     match class {
         Class::Periodic { period } => MotionKind::Periodic { period: period as u32 },
         Class::QuasiPeriodic => MotionKind::QuasiPeriodic,

@@ -68,25 +68,29 @@ impl Drive {
     fn add_order(&mut self, system: &System, blocks: &Blocks, outputs: &[Output], index: usize, order: f64) {
         let load = system.modal_load(index, self.circular_frequency);
         let (state, state_by_frequency) = self.steady(blocks, blocks.count(), (&load, order));
-        self.push(outputs, (order, system.support_amplitudes()[index]), state, state_by_frequency);
+        let support = system.support_amplitude(index, self.circular_frequency);
+        self.push(outputs, (order, support), state, state_by_frequency);
     }
 
     /// Adds an order of a held structure (`held.rs`): `load` drives the blocks that move, the others are `prescribed`, and what acts on the pressing forces, the last outputs,
-    /// directly is `forces`, with its derivative by the circular frequency.
+    /// directly is `forces`. Support, prescribed blocks and forces come with their derivatives by the circular frequency.
     pub fn add_held(
         &mut self,
         blocks: &Blocks,
         outputs: &[Output],
-        (order, support): (f64, c64),
-        (load, prescribed): (&ModalLoad, &[c64]),
+        (order, support): (f64, (c64, c64)),
+        (load, prescribed): (&ModalLoad, &[(c64, c64)]),
         forces: &[(c64, c64)],
     ) {
         let (n, moving) = (blocks.count(), blocks.count() - prescribed.len());
         let (mut state, mut state_by_frequency) = self.steady(blocks, moving, (load, order));
-        for (j, value) in prescribed.iter().enumerate() {
+        let rate = c64::new(0.0, order * self.circular_frequency);
+        for (j, (value, by_circular)) in prescribed.iter().enumerate() {
+            let slope = *by_circular * TAU;
             state[moving + j] = *value;
-            state[n + moving + j] = *value * c64::new(0.0, order * self.circular_frequency);
-            state_by_frequency[n + moving + j] = *value * c64::new(0.0, order * TAU);
+            state[n + moving + j] = *value * rate;
+            state_by_frequency[moving + j] = slope;
+            state_by_frequency[n + moving + j] = *value * c64::new(0.0, order * TAU) + slope * rate;
         }
         self.push(outputs, (order, support), state, state_by_frequency);
         let last = self.orders.last_mut().into_iter().flat_map(|order| order.outputs.iter_mut().rev());
@@ -146,13 +150,14 @@ impl Drive {
     fn push(
         &mut self,
         outputs: &[Output],
-        (order, support): (f64, c64),
+        (order, (support, by_circular)): (f64, (c64, c64)),
         state: Vec<c64>,
         state_by_frequency: Vec<c64>,
     ) {
         let amplitude = |output: &Output| {
             let read = |values: &[c64]| output.row.iter().zip(values).map(|(r, v)| *v * *r).sum::<c64>();
-            (read(&state) + support * output.support_ratio, read(&state_by_frequency))
+            let slope = by_circular * (TAU * output.support_ratio);
+            (read(&state) + support * output.support_ratio, read(&state_by_frequency) + slope)
         };
         let outputs = outputs.iter().map(amplitude).collect();
         self.orders.push(Order { order, state, state_by_frequency, outputs });

@@ -51,6 +51,9 @@ impl ExactIntegrator {
         self.run = run;
         let flow = flow?;
         self.remember_end(stretch, &flow.state);
+        if self.goes_on {
+            self.remember_speeds(&flow.by_state);
+        }
         Ok(flow)
     }
 
@@ -88,8 +91,8 @@ impl ExactIntegrator {
             sensitivity
         });
         self.forget_impacts();
-        if !sensitivities {
-            self.recall_impacts(stretch, state);
+        if !sensitivities || self.goes_on {
+            self.recall_impacts(stretch, state, run.sensitivity.as_mut());
         }
         run.closed.clear();
         run.parted.clear();
@@ -181,7 +184,10 @@ impl ExactIntegrator {
             Boundary::Closes if self.laws[touch.element].rigid().is_some() => {
                 self.strike_rigid(run, touch)?;
             }
-            Boundary::Closes => self.strike(run, touch),
+            Boundary::Closes => {
+                self.check_impact(run, touch)?;
+                self.strike(run, touch);
+            }
         }
         match run.stuck.first() {
             Some(&element) if self.forces_act(run) => Err(self.sticks_under_forces(run, element)),

@@ -126,24 +126,31 @@ impl Held {
             let index = index.filter(|_| !levels_alone);
             let m = f64::from(order);
             let rate = c64::new(0.0, m * drive.circular_frequency());
-            let support = index.map_or(zero, |index| system.support_amplitudes()[index]);
-            let prescribed: Vec<c64> = (0..s)
+            let circular = drive.circular_frequency();
+            let support = index.map_or((zero, zero), |index| system.support_amplitude(index, circular));
+            let prescribed: Vec<(c64, c64)> = (0..s)
                 .map(|j| {
                     let level = if order == 0 { levels[j] } else { 0.0 };
-                    c64::new(level, 0.0) - support * system.elements()[self.elements[j]].support_ratio
+                    let ratio = system.elements()[self.elements[j]].support_ratio;
+                    (c64::new(level, 0.0) - support.0 * ratio, -support.1 * ratio)
                 })
                 .collect();
             let mut load = index.map_or_else(
                 || crate::ModalLoad { amplitude: vec![zero; n], by_frequency: vec![zero; n] },
-                |index| system.modal_load(index, drive.circular_frequency()),
+                |index| system.modal_load(index, circular),
             );
-            let forces = self.direct_forces(system, &load, (support, m, drive.circular_frequency()));
-            let static_shape: Vec<c64> =
-                (0..n).map(|i| (0..s).map(|j| prescribed[j] * self.lift[(i, j)]).sum()).collect();
+            let forces = self.direct_forces(system, &load, (support, m, circular));
+            let lifted = |of: fn(&(c64, c64)) -> c64| -> Vec<c64> {
+                (0..n).map(|i| (0..s).map(|j| of(&prescribed[j]) * self.lift[(i, j)]).sum()).collect()
+            };
+            let (shape, by_circular) = (lifted(|value| value.0), lifted(|value| value.1));
             for i in 0..n {
-                let damped: c64 = (0..n).map(|k| static_shape[k] * model.damping[(i, k)]).sum();
-                load.amplitude[i] -= static_shape[i] * model.natural_frequencies[i].powi(2) + rate * damped;
-                load.by_frequency[i] -= c64::new(0.0, m) * damped;
+                let damped = |shape: &[c64]| (0..n).map(|k| shape[k] * model.damping[(i, k)]).sum::<c64>();
+                let stiffness = model.natural_frequencies[i].powi(2);
+                load.amplitude[i] -= shape[i] * stiffness + rate * damped(&shape);
+                load.by_frequency[i] -= c64::new(0.0, m) * damped(&shape)
+                    + by_circular[i] * stiffness
+                    + rate * damped(&by_circular);
             }
             drive.add_held(blocks, outputs, (m, support), (&load, &prescribed), &forces);
         }
@@ -155,17 +162,19 @@ impl Held {
         &self,
         system: &System,
         load: &crate::ModalLoad,
-        (support, m, frequency): (c64, f64, f64),
+        (support, m, frequency): ((c64, c64), f64, f64),
     ) -> Vec<(c64, c64)> {
         let (n, s) = (self.lift.nrows(), self.elements.len());
         let gram = self.inverse_gram();
         let of = |j: usize, values: &[c64]| (0..n).map(|i| values[i] * self.lift[(i, j)]).sum::<c64>();
         let force = |j: usize| {
             let ratio = |k: usize| system.elements()[self.elements[k]].support_ratio;
-            let carried = support * (0..s).map(|k| gram[j][k] * ratio(k)).sum::<f64>();
+            let share = (0..s).map(|k| gram[j][k] * ratio(k)).sum::<f64>();
+            let (carried, by_circular) = (support.0 * share, support.1 * share);
+            let square = (m * frequency).powi(2);
             (
-                of(j, &load.amplitude) - carried * (m * frequency).powi(2),
-                of(j, &load.by_frequency) - carried * (2.0 * m * m * frequency),
+                of(j, &load.amplitude) - carried * square,
+                of(j, &load.by_frequency) - carried * (2.0 * m * m * frequency) - by_circular * square,
             )
         };
         (0..s).map(force).collect()

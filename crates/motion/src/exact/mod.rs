@@ -76,6 +76,7 @@ use std::{collections::HashMap, sync::Arc};
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
+pub use memory::ContactMemory;
 pub use trace::{ContactPiece, Touchdown, Trace};
 
 use block::{Blocks, Propagator};
@@ -106,6 +107,11 @@ pub enum MotionError {
         "{element} is closed at the start of a stretch, at the phase of {phase} cycles, and its law needs to know how fast it closed"
     )]
     StartsInContact { element: String, phase: f64 },
+    /// A contact begins without any speed and is pressed on, and its law loses in proportion to one over that speed: as from rest against a stop without a gap.
+    #[error(
+        "{element} is pressed on without an impact, {time:.6e} s after the start of the stretch, and its law needs the speed of one; a motion that begins away from the stop has it"
+    )]
+    PressedWithoutImpact { element: String, time: f64 },
     /// No force step, however short, reached the tolerance.
     #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
     StepTooShort { time: f64, step: f64 },
@@ -198,7 +204,9 @@ pub struct ExactIntegrator {
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
     by_damping: Option<Box<by_damping::ByDamping>>,
-    memory: Option<memory::Memory>,
+    memory: Option<ContactMemory>,
+    /// Whether flows go on within contacts from the stretch before.
+    goes_on: bool,
     /// The present stretch.
     stretch: Stretch,
     /// The held structure in use, and others that were.
@@ -273,6 +281,7 @@ impl ExactIntegrator {
             parameter: None,
             by_damping: None,
             memory: None,
+            goes_on: false,
             stretch,
             holding: None,
             known_held: Vec::new(),

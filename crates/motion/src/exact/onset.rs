@@ -12,8 +12,11 @@
 //! forces of the other elements (its own begins with zero). While the contact lasts, its force has the direct part `f_v dv`
 //! (`damped_step.rs`). Towards grazing `dv` grows like `1/r'`, but the force goes like `r'^3`, so their product vanishes.
 
-use super::{ExactIntegrator, collocation::NODES, flight::Touch, run::Run};
+use super::{ExactIntegrator, MotionError, collocation::NODES, flight::Touch, run::Run};
 use crate::Parameter;
+
+/// Speed that stands for none [m/s].
+const LEAST_SPEED: f64 = 1.5e-154;
 
 impl ExactIntegrator {
     /// Lets the sensitivities jump as a contact closes; nothing where its force is continuous.
@@ -28,6 +31,19 @@ impl ExactIntegrator {
         }
     }
 
+    /// A law that remembers its impact cannot begin a contact that has no speed at all and is pressed on. One that turns by itself has next to no force.
+    pub(super) fn check_impact(&self, run: &Run, touch: Touch) -> Result<(), MotionError> {
+        let element = touch.element;
+        let jet = self.jet_with_forces(run, element);
+        let sign = self.laws[element].contacts()[touch.contact].sign;
+        let pressed = jet.slope.abs() < LEAST_SPEED && sign * jet.curvature > 0.0;
+        if pressed && self.laws[element].remembers_impact() {
+            let element = self.system.elements()[element].name.clone();
+            return Err(MotionError::PressedWithoutImpact { element, time: run.time });
+        }
+        Ok(())
+    }
+
     /// Puts the speed of an impact, and its sensitivities, in memory for the contact that begins; nothing for a law without memory.
     pub(super) fn remember_impact(&mut self, run: &mut Run, touch: Touch) {
         let element = touch.element;
@@ -36,7 +52,7 @@ impl ExactIntegrator {
         }
         let jet = self.jet_with_forces(run, element);
         // A touch within the rounding margin may have no speed at all.
-        let speed = jet.slope.abs().max(f64::MIN_POSITIVE.sqrt());
+        let speed = jet.slope.abs().max(LEAST_SPEED);
         self.laws[element] = self.laws[element].struck_at(speed);
         let displacement = self.displacement_sensitivity(run, touch);
         let mut row = self.velocity_sensitivity(run, element);

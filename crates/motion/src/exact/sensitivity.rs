@@ -128,6 +128,13 @@ impl Sensitivity {
         self.impact_speeds[element] = row;
     }
 
+    /// The same for a contact that began before, by the initial states alone.
+    pub fn recall_impact(&mut self, element: usize, by_state: &[f64]) {
+        let mut row = by_state.to_vec();
+        row.resize(self.columns, 0.0);
+        self.remember_impact(element, row);
+    }
+
     /// Sensitivities of the speed with which the present contact of an element began, if it is remembered.
     pub fn impact_speed(&self, element: usize) -> Option<&[f64]> {
         self.impact_speeds.get(element).map(Vec::as_slice).filter(|row| !row.is_empty())

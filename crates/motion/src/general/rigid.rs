@@ -101,16 +101,15 @@ impl SystemField<'_> {
         }
     }
 
-    /// The same for what the frequency changes at a fixed state and phase: `u''` goes with `f^2`.
+    /// The same for what the frequency changes at a fixed state and phase.
     pub(super) fn hold_by_frequency(&self, phase: f64, change: &mut [f64]) {
         let held = &self.rigid.held;
         if held.is_empty() {
             return;
         }
-        let u = self.support_motion(phase);
+        let u = self.support_by_frequency(phase);
         let ratio = |e: usize| self.system.elements()[e].support_ratio;
-        let rate = 2.0 * self.period * self.period;
-        let targets: Vec<f64> = held.iter().map(|&e| -rate * ratio(e) * u[2]).collect();
+        let targets: Vec<f64> = held.iter().map(|&e| -self.period * ratio(e) * u[2]).collect();
         self.constrain(held, &targets, change);
     }
 
@@ -268,8 +267,9 @@ impl SystemField<'_> {
         self.rigid.impacts.push(Impact { element: e, speed, impulse: -factor * speed, sticks: false, depth });
         let last = columns.len() / (2 * n);
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
-            let displacement = dot(&shape, &column[..n]);
-            let velocity = dot(&shape, &column[n..]) + self.support_rate(e, time, index + 1 == last);
+            let [moved, rate] = self.support_change(e, time, index + 1 == last);
+            let displacement = dot(&shape, &column[..n]) + moved;
+            let velocity = dot(&shape, &column[n..]) + rate;
             let delay = -displacement / (speed * self.period);
             for i in 0..2 * n {
                 column[i] += (before[i] - after[i]) * delay;
@@ -279,10 +279,11 @@ impl SystemField<'_> {
         }
     }
 
-    /// `s u'/f`, what the column of the frequency has besides in a relative velocity.
-    fn support_rate(&self, e: usize, time: f64, of_frequency: bool) -> f64 {
+    /// What the column of the frequency has besides in a relative displacement and velocity.
+    fn support_change(&self, e: usize, time: f64, of_frequency: bool) -> [f64; 2] {
         let ratio = self.system.elements()[e].support_ratio;
-        if of_frequency { ratio * self.support_motion(time)[1] * self.period } else { 0.0 }
+        let [u, v, _] = if of_frequency { self.support_by_frequency(time) } else { [0.0; 3] };
+        [ratio * u, ratio * v]
     }
 
     /// Holds an element: `r` is its level and `r'` zero from now on.
@@ -305,12 +306,15 @@ impl SystemField<'_> {
         let last = columns.len() / (2 * n);
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
             // The limit of an impact without restitution: the damping acts on what the velocity was for the time of the delay.
-            let displacement = dot(&shape, &column[..n]);
-            add_scaled(&mut column[n..], displacement / mobility, &damped);
             let of_frequency = index + 1 == last;
-            let targets: Vec<f64> = held.iter().map(|&h| -self.support_rate(h, time, of_frequency)).collect();
-            self.constrain(&held, &vec![0.0; held.len()], &mut column[..n]);
-            self.constrain(&held, &targets, &mut column[n..]);
+            let displacement = dot(&shape, &column[..n]) + self.support_change(e, time, of_frequency)[0];
+            add_scaled(&mut column[n..], displacement / mobility, &damped);
+            let of = |k: usize| -> Vec<f64> {
+                held.iter().map(|&h| -self.support_change(h, time, of_frequency)[k]).collect()
+            };
+            let (displacements, velocities) = (of(0), of(1));
+            self.constrain(&held, &displacements, &mut column[..n]);
+            self.constrain(&held, &velocities, &mut column[n..]);
         }
     }
 }

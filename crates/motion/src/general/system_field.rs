@@ -33,6 +33,8 @@ pub(super) struct SystemField<'a> {
     length: f64,
     /// `exp(i 2 pi m x)` for each order at the last point.
     rotations: Vec<c64>,
+    /// Amplitudes of the support displacement.
+    support: Vec<c64>,
     /// `df_e/dr` and `df_e/dr'` at the last point.
     slopes: Vec<(f64, f64)>,
     /// The laws, with the speeds of impact that they remember.
@@ -60,9 +62,10 @@ impl<'a> SystemField<'a> {
             damping: Damping::of(system),
             stiffness: system.model().natural_frequencies.iter().map(|w| w * w).collect(),
             rotations: vec![c64::new(0.0, 0.0); loads.len()],
+            support: (0..loads.len()).map(|k| system.support_amplitude(k, TAU * frequency_hz).0).collect(),
             loads,
             switches: system.elements().iter().map(switches_of).sum(),
-            length: 1e-3 * shortest_length(system),
+            length: 1e-3 * shortest_length(system, frequency_hz),
             slopes: vec![(0.0, 0.0); system.elements().len()],
             laws: system.elements().iter().map(|element| element.law).collect(),
             impacts: vec![(0.0, Vec::new()); system.elements().len()],
@@ -114,10 +117,15 @@ impl<'a> SystemField<'a> {
         self.support_motion(phase)[0]
     }
 
+    /// Their derivatives by the frequency at a fixed phase.
+    pub(super) fn support_by_frequency(&self, phase: f64) -> [f64; 3] {
+        self.system.support_motion_by_frequency(self.period.recip(), phase)
+    }
+
     /// `u`, `u'` and `u''`.
     pub(super) fn support_motion(&self, phase: f64) -> [f64; 3] {
         let mut motion = [0.0; 3];
-        for (amplitude, &order) in self.system.support_amplitudes().iter().zip(self.system.orders()) {
+        for (amplitude, &order) in self.support.iter().zip(self.system.orders()) {
             let (sin, cos) = (TAU * (f64::from(order) * phase.fract()).fract()).sin_cos();
             let (real, imaginary) =
                 (amplitude.re * cos - amplitude.im * sin, amplitude.re * sin + amplitude.im * cos);
@@ -186,22 +194,28 @@ impl SystemField<'_> {
     /// What the frequency changes in the rates of the velocities at a fixed state and phase, apart from the length of time.
     fn add_change_of_forces(&self, at: Point<'_>, sum: &mut [f64]) {
         self.add_load(|load| &load.by_frequency, TAU * self.period, sum);
-        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
-            if damping != 0.0 && element.support_ratio != 0.0 {
-                let by_frequency = element.support_ratio * self.support_motion(at.time)[1] * self.period;
-                add_scaled(sum, self.period * damping * by_frequency, &element.shape);
+        for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
+            if (slope != 0.0 || damping != 0.0) && element.support_ratio != 0.0 {
+                let [u, v, _] = self.support_by_frequency(at.time);
+                let force = element.support_ratio * (slope * u + damping * v);
+                add_scaled(sum, self.period * force, &element.shape);
             }
         }
     }
 
     /// Lets the sensitivities jump with the force of a contact that closes.
-    fn jump_at_onset(&self, element: &LocalElement, columns: &mut [f64]) {
+    fn jump_at_onset(&self, element: &LocalElement, time: f64, columns: &mut [f64]) {
         let (n, damping) = (self.system.dof(), element.law.onset_damping());
         if damping == 0.0 {
             return;
         }
-        for column in columns.chunks_exact_mut(2 * n) {
-            let impulse = -damping * dot(&element.shape, &column[..n]);
+        let last = columns.len() / (2 * n);
+        for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
+            let mut displacement = dot(&element.shape, &column[..n]);
+            if index + 1 == last {
+                displacement += element.support_ratio * self.support_by_frequency(time)[0];
+            }
+            let impulse = -damping * displacement;
             add_scaled(&mut column[n..], impulse, &element.shape);
         }
     }
@@ -221,10 +235,13 @@ impl SystemField<'_> {
         let last = columns.len() / (2 * n);
         let row = columns.chunks_exact(2 * n).enumerate().map(|(index, column)| {
             let mut change = dot(&element.shape, &column[n..]);
+            let mut displacement = dot(&element.shape, &column[..n]);
             if index + 1 == last {
-                change += element.support_ratio * support[1] * self.period;
+                let by_frequency = self.support_by_frequency(at.time);
+                displacement += element.support_ratio * by_frequency[0];
+                change += element.support_ratio * by_frequency[1];
             }
-            (change - acceleration * dot(&element.shape, &column[..n]) / speed) * speed.signum()
+            (change - acceleration * displacement / speed) * speed.signum()
         });
         self.impacts[e].1 = row.collect();
         self.laws[e] = self.laws[e].struck_at(speed.abs());
@@ -312,7 +329,7 @@ impl VectorField for SystemField<'_> {
                 continue;
             }
             self.remember_impact(e, at, columns);
-            self.jump_at_onset(element, columns);
+            self.jump_at_onset(element, at.time, columns);
         }
     }
 
@@ -356,8 +373,9 @@ pub(super) fn switches_of(element: &LocalElement) -> usize {
 
 /// Shortest modal displacement among those that take an element from rest to its contact, or as far as the support moves it; zero
 /// if there are none.
-fn shortest_length(system: &System) -> f64 {
-    let support: f64 = system.support_amplitudes().iter().map(|u| u.norm()).sum();
+fn shortest_length(system: &System, frequency_hz: f64) -> f64 {
+    let amplitude = |k: usize| system.support_amplitude(k, TAU * frequency_hz).0.norm();
+    let support: f64 = (0..system.orders().len()).map(amplitude).sum();
     let lengths = system.elements().iter().flat_map(|element| {
         let moved = (element.support_ratio * support).abs();
         let levels = element.law.contacts().iter().map(move |contact| contact.level.abs().max(moved));

@@ -43,6 +43,12 @@ impl RigidStop {
         self.restitution
     }
 
+    /// The relative displacement that is not passed [m].
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        self.contact[0].level
+    }
+
     /// The same stop with another coefficient of restitution.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! A contact that is touched with zero velocity: conditions at the node where the orbit is cut.
 //!
 //! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit. Their derivatives: by the state `phi`; by the phase `r'/f` and
-//! `r''/f` as far as `u` has them; by the frequency `s u'/f` in `r'`; by the excitation scale `a` those of `u` over `a`; by the gap `-1` in the first.
+//! `r''/f` as far as `u` has them; by the frequency those of `s u` and `s u'` at a fixed phase; by the excitation scale `a` those of `u` over `a`; by the gap `-1` in the first.
 
 use hammerbeam_motion::{Parameter, Stretch};
 
@@ -58,7 +58,9 @@ impl Touch {
             rows[0][i] = sign * element.shape[i] * scales[i] / length;
             rows[1][n + i] = sign * element.shape[i] * scales[n + i] / unit;
         }
-        rows[1][nodes] = sign * ratio * u[1] / f / unit;
+        let by_frequency = system.support_motion_by_frequency(f, place.phase);
+        rows[0][nodes] = sign * ratio * by_frequency[0] / length;
+        rows[1][nodes] = sign * ratio * by_frequency[1] / unit;
         rows[0][nodes + 2] = sign * ratio * u[1] / f / length;
         rows[1][nodes + 2] = sign * ratio * u[2] / f / unit;
         match shooting.parameter {

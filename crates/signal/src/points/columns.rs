@@ -38,11 +38,11 @@ pub(super) fn roles(titles: &[String], findings: &mut Vec<Finding>) -> Result<Ve
         let reason = "it is neither a frequency, a maximum, an excitation, a kind nor a period".to_owned();
         findings.push(Finding::LeftOut { name: column.title.clone(), reason });
     }
-    refuse_doubles(&columns)?;
     let all = || titles.iter().map(|title| format!("\"{title}\"")).collect::<Vec<_>>().join(", ");
     if !columns.iter().any(|column| matches!(column.role, Role::Frequency(_))) {
         return Err(PointsError::NoFrequency { titles: all() });
     }
+    refuse_doubles(&columns)?;
     if !columns.iter().any(|column| matches!(column.role, Role::Maximum(_))) {
         return Err(PointsError::NoMaximum { titles: all() });
     }

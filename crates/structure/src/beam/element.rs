@@ -20,6 +20,19 @@ pub(crate) fn bending_strains(bending_stiffness: f64, length: f64) -> [[f64; 4];
     [[0.0, -symmetric, 0.0, symmetric], [slope, antisymmetric, -slope, antisymmetric]]
 }
 
+/// Derivative of the bending strains.
+///
+/// * `rates`: derivatives of the bending stiffness and of the length.
+pub(crate) fn bending_strain_rates(bending_stiffness: f64, length: f64, rates: (f64, f64)) -> [[f64; 4]; 2] {
+    let longer = rates.1 / length;
+    let rate = 0.5 * (rates.0 / bending_stiffness - longer);
+    let [symmetric, antisymmetric] = bending_strains(bending_stiffness, length);
+    let [w_1, theta_1, w_2, theta_2] = antisymmetric;
+    // The slope (w_2 - w_1)/l has the length once more.
+    let slope = rate - longer;
+    [symmetric.map(|entry| rate * entry), [slope * w_1, rate * theta_1, slope * w_2, rate * theta_2]]
+}
+
 /// Consistent mass matrix of an element.
 ///
 /// * `mass_per_length`: `rho A` [kg/m].
@@ -33,6 +46,18 @@ pub(crate) fn consistent_mass(mass_per_length: f64, length: f64) -> Mat<f64> {
         [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
     ];
     Mat::from_fn(4, 4, |row, column| mass_per_length * l / 420.0 * shape[row][column])
+}
+
+/// Derivative of the consistent mass matrix by the length of the element.
+pub(crate) fn consistent_mass_rate(mass_per_length: f64, length: f64) -> Mat<f64> {
+    let l = length;
+    let shape = [
+        [156.0, 44.0 * l, 54.0, -26.0 * l],
+        [44.0 * l, 12.0 * l * l, 26.0 * l, -9.0 * l * l],
+        [54.0, 26.0 * l, 156.0, -44.0 * l],
+        [-26.0 * l, -9.0 * l * l, -44.0 * l, 12.0 * l * l],
+    ];
+    Mat::from_fn(4, 4, |row, column| mass_per_length / 420.0 * shape[row][column])
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! Uniform Euler-Bernoulli beams with points.
 
+mod change;
 mod element;
 mod mesh;
 
+pub use change::{BeamChange, Boundary, PointChange};
 use faer::Mat;
 
 use crate::{
@@ -92,21 +94,29 @@ impl Beam {
     /// Numbers out of their range, points off the beam, names used twice or reserved, too few elements.
     pub fn structure(&self) -> Result<Structure, StructureError> {
         self.check()?;
-        let mut places: Vec<(&str, f64)> =
-            self.points.iter().map(|point| (point.name.as_str(), point.at)).collect();
-        places.extend([("left", 0.0), ("right", self.length)]);
-        let mesh = mesh::divide(self.length, self.elements, &places)?;
+        let mesh = self.mesh()?;
         let mut assembly = self.elements_between(&mesh.positions);
         for (point, &node) in self.points.iter().zip(&mesh.nodes) {
             attach(&mut assembly, point, 2 * node);
         }
-        let points = places
-            .iter()
+        let points = self
+            .places()
+            .into_iter()
             .zip(&mesh.nodes)
-            .map(|(&(name, _), &node)| NamedCoordinate { name: name.into(), coordinate: 2 * node });
+            .map(|((name, _), &node)| NamedCoordinate { name: name.into(), coordinate: 2 * node });
         let places = mesh.positions.iter().enumerate().map(|(node, &at)| Place { at, coordinate: 2 * node });
         let held = self.held(mesh.positions.len());
         Ok(Structure::new(Kind::Beam, assembly, held, points.collect(), places.collect()))
+    }
+
+    /// Names and positions of the points, then of the left and the right end.
+    fn places(&self) -> Vec<(&str, f64)> {
+        let points = self.points.iter().map(|point| (point.name.as_str(), point.at));
+        points.chain([("left", 0.0), ("right", self.length)]).collect()
+    }
+
+    fn mesh(&self) -> Result<mesh::Mesh, StructureError> {
+        mesh::divide(self.length, self.elements, &self.places())
     }
 
     fn check(&self) -> Result<(), StructureError> {

@@ -196,8 +196,20 @@ pub(crate) const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Inclu
 pub(crate) const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Time that a run may take.
 pub(crate) const TIME: Quantity = Quantity::new("s", Excluding(0.0), Including(1e10));
+/// Standard deviation of the noise of a sensor, in its unit.
+pub(crate) const NOISE: Quantity = Quantity::new("", Including(0.0), Including(1e9));
 /// Tolerance of the solver.
 pub(crate) const TOLERANCE: Quantity = Quantity::new("", Including(1e-13), Including(1e-4));
+/// Any finite number.
+pub(crate) const ANY: Quantity = Quantity::new("", Open, Open);
+/// A standard deviation relative to its value.
+pub(crate) const RELATIVE_DEVIATION: Quantity = Quantity::new("", Excluding(0.0), Including(10.0))
+    .hints("a standard deviation is more than 0", "1 % is 0.01");
+/// A measured damping ratio, or its standard deviation.
+pub(crate) const MEASURED_RATIO: Quantity = Quantity::new("", Excluding(0.0), Excluding(1.0))
+    .hints("a measured number is more than 0", "1 % is 0.01");
+/// A maximum of a response, or its standard deviation, in the unit of its key.
+pub(crate) const MAXIMUM: Quantity = Quantity::new("", Excluding(0.0), Open);
 
 #[cfg(test)]
 mod tests {

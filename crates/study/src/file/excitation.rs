@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Table, Value, quantity};
 
-use super::names::Names;
+use super::{Amplitude, amplitude, names::Names};
 
 /// The harmonic excitation `amplitude cos(2 pi order f t + phase)` and the range of `f`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -28,14 +28,14 @@ pub enum ExcitationKind {
         /// Supports that move together.
         at: Vec<String>,
         /// Amplitude [m].
-        amplitude_m: f64,
+        amplitude_m: Amplitude,
     },
     /// A force acts.
     Force {
         /// Point.
         at: String,
         /// Amplitude [N].
-        amplitude_n: f64,
+        amplitude_n: Amplitude,
     },
 }
 
@@ -46,6 +46,15 @@ impl Excitation {
         match &self.kind {
             ExcitationKind::SupportMotion { at, .. } => at,
             ExcitationKind::Force { .. } => &[],
+        }
+    }
+
+    /// Amplitude [m or N].
+    #[must_use]
+    pub fn amplitude(&self) -> &Amplitude {
+        match &self.kind {
+            ExcitationKind::SupportMotion { amplitude_m, .. } => amplitude_m,
+            ExcitationKind::Force { amplitude_n, .. } => amplitude_n,
         }
     }
 }
@@ -67,13 +76,17 @@ pub(super) fn read(root: &Table<'_>, names: &Names) -> Option<Excitation> {
     let phase = table.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
     let order = table.optional("order").map_or(Some(1), |value| value.whole(1, 1000));
     let range = table.required("frequency_hz").and_then(|value| read_range(&value));
+    if let (Some(kind), Some([low, high])) = (&kind, range) {
+        check_table(&table, kind, [low, high]);
+    }
     table.finish();
     Some(Excitation { kind: kind?, phase_rad: phase?, order: order?, frequency_hz: range? })
 }
 
 fn read_support_motion(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
     let at = table.required("at").and_then(|value| read_supports(&value, names));
-    let amplitude = table.required("amplitude_m").and_then(|value| value.number(&quantity::AMPLITUDE));
+    let amplitude =
+        table.required("amplitude_m").and_then(|value| amplitude::read(&value, &quantity::AMPLITUDE));
     Some(ExcitationKind::SupportMotion { at: at?, amplitude_m: amplitude? })
 }
 
@@ -98,8 +111,23 @@ fn read_supports(value: &Value<'_>, names: &Names) -> Option<Vec<String>> {
 
 fn read_force(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {
     let at = table.required("at").and_then(|value| names.point(&value));
-    let amplitude = table.required("amplitude_n").and_then(|value| value.number(&quantity::FORCE));
+    let amplitude = table.required("amplitude_n").and_then(|value| amplitude::read(&value, &quantity::FORCE));
     Some(ExcitationKind::Force { at: at?, amplitude_n: amplitude? })
+}
+
+/// A table has to cover the range of the frequency: what a shaker does beyond is not known.
+fn check_table(table: &Table<'_>, kind: &ExcitationKind, [low, high]: [f64; 2]) {
+    let (key, amplitude) = match kind {
+        ExcitationKind::SupportMotion { amplitude_m, .. } => ("amplitude_m", amplitude_m),
+        ExcitationKind::Force { amplitude_n, .. } => ("amplitude_n", amplitude_n),
+    };
+    if let Some([first, last]) = amplitude.ends()
+        && (first > low || last < high)
+    {
+        let message =
+            format!("`{key}` is told from {first} to {last} Hz, the excitation runs from {low} to {high} Hz");
+        table.problem(key, message, vec!["allowed: a table that covers `frequency_hz`".to_owned()]);
+    }
 }
 
 fn read_range(value: &Value<'_>) -> Option<[f64; 2]> {

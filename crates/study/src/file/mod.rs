@@ -4,6 +4,7 @@
 //! its keys; `docs/study-file.md` lists them all. What needs the assembled model (a cut-off below the first mode, the
 //! number of modal damping ratios) is checked when the model is built, see [`crate::Model`].
 
+mod amplitude;
 mod beam;
 mod continuation;
 mod damping;
@@ -15,6 +16,7 @@ mod names;
 mod parameter;
 mod reduction;
 mod response;
+mod rig;
 mod search;
 mod stop;
 mod stop_law;
@@ -22,6 +24,7 @@ mod structure;
 mod study;
 mod vary;
 
+pub use amplitude::Amplitude;
 pub use beam::{Beam, BeamPoint, End, Section};
 pub use continuation::{Continuation, Segments};
 pub use damping::{Damping, ModalRatio};
@@ -32,6 +35,7 @@ pub use lumped::{Damper, Lumped, Mass, Spring};
 pub use parameter::{ParameterKind, VariedParameter};
 pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;
+pub use rig::Rig;
 pub use search::Search;
 pub use stop::{FixedTo, Place, Stop};
 pub use stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};

@@ -274,7 +274,11 @@ fn read_rigid(table: &Table<'_>) -> Option<StopLaw> {
 fn read_hunt_crossley(table: &Table<'_>) -> Option<StopLaw> {
     if !table.has("restitution") {
         let stiffness = read_hertz(table);
-        let loss = required(table, "loss_s_m", &quantity::LOSS);
+        if !table.has("loss_s_m") {
+            let help = vec!["allowed: one of `loss_s_m` and `restitution`".into()];
+            table.problem("loss_s_m", "`loss_s_m` is missing in this stop".into(), help);
+        }
+        let loss = table.optional("loss_s_m").and_then(|value| value.number(&quantity::LOSS));
         let (approach, side) = read_one_sided(table);
         return Some(StopLaw::HuntCrossley {
             stiffness: stiffness?,

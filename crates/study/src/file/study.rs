@@ -13,9 +13,9 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Curve, Damping, Excitation, ExcitationKind, Figures, Load, Reduction, Response, Search,
-    Stop, Structure, Vary, continuation, damping, excitation, figures, load, names::Names,
-    parameter::Variable, reduction, response, search, stop, structure, vary,
+    Continuation, Curve, Damping, Excitation, ExcitationKind, Figures, Load, Reduction, Response, Rig,
+    Search, Stop, Structure, Vary, continuation, damping, excitation, figures, load, names::Names,
+    parameter::Variable, reduction, response, rig, search, stop, structure, vary,
 };
 
 /// Everything a study says.
@@ -51,6 +51,9 @@ pub struct Study {
     /// What the figures show besides; no part of the identity.
     #[serde(skip)]
     pub figures: Figures,
+    /// A virtual rig; no part of the identity.
+    #[serde(skip)]
+    pub rig: Option<Rig>,
 }
 
 impl Study {
@@ -157,6 +160,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
     })();
     let varied = vary::read(root, reading, variable);
     let figures = figures::read(root, reading);
+    let rig = rig::read(root);
     let varied = varied?;
     Some(Study {
         title: title?.to_owned(),
@@ -172,5 +176,6 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
         varies: varied.0,
         curves: varied.1,
         figures: figures?,
+        rig: rig?,
     })
 }

@@ -332,7 +332,7 @@ fn a_stop_without_a_law_is_one_fault() {
 #[test]
 fn laws_that_lose_energy_refuse_what_they_cannot_be() {
     let refused = |keys: &str, words: &[&str]| assert_refused(law_with(keys), words);
-    refused("law = \"hunt-crossley\"", &["`loss_s_m` is missing"]);
+    refused("law = \"hunt-crossley\"", &["`loss_s_m` is missing", "`restitution`"]);
     refused("law = \"hunt-crossley\"\nloss_s_m = -1.0", &["`loss_s_m`", "-1", "allowed: 0 to"]);
     refused(
         "law = \"hunt-crossley\"\nloss_s_m = 0.1\nrestitution = 0.9",
@@ -398,4 +398,45 @@ fn a_rigid_stop_is_read_and_refuses_what_it_cannot_be() {
         parse(&preloaded),
         &["`preload_n` is given, but a rigid stop has no stiffness to press with"],
     );
+}
+
+const TABLE: &str = "amplitude_m = [[19.0, 0.50e-3], [60.0, 0.45e-3], [110.0, 0.38e-3]]";
+
+#[test]
+fn an_amplitude_may_be_a_table_over_the_frequency() {
+    let study = paper_with("amplitude_m = 0.5015e-3", TABLE).unwrap();
+    let amplitude = study.excitation.amplitude();
+    assert_eq!((amplitude.constant(), amplitude.ends()), (None, Some([19.0, 110.0])));
+    assert_eq!((amplitude.at(60.0), amplitude.largest()), (0.45e-3, 0.5e-3));
+    let other = paper_with("amplitude_m = 0.5015e-3", &TABLE.replace("0.45e-3", "0.46e-3")).unwrap();
+    assert_ne!(study.identity(), other.identity(), "the table is part of what the study is");
+}
+
+#[test]
+fn tables_of_amplitudes_that_make_no_sense_are_refused() {
+    for (table, part) in [
+        ("[[19.0, 0.5e-3]]", "needs two points"),
+        ("[[19.0, 0.5e-3], [19.0, 0.4e-3], [110.0, 0.4e-3]]", "frequencies must rise"),
+        (
+            "[[20.0, 0.5e-3], [110.0, 0.4e-3]]",
+            "told from 20 to 110 Hz, the excitation runs from 19 to 110 Hz",
+        ),
+        ("[[19.0, 0.5e-3], [110.0, 0.0]]", "is 0"),
+        ("[[19.0, 0.5e-3], [110.0]]", "has 1 entries"),
+        ("[[19.0, 0.5e-3], 3.0]", "must be a list"),
+        ("\"shaker.csv\"", "must be a number"),
+        ("[[19.0, 0.5], [110.0, 0.4]]", "at most 0.2579822 m"),
+    ] {
+        let study = paper_with("amplitude_m = 0.5015e-3", &format!("amplitude_m = {table}"));
+        let message = match study {
+            Err(message) => message,
+            // Lengths are compared with the beam when the model is built.
+            Ok(_) => {
+                let text = PAPER.replacen("amplitude_m = 0.5015e-3", &format!("amplitude_m = {table}"), 1);
+                let file = StudyFile::parse("study.toml", text).unwrap();
+                crate::Model::build(&file).unwrap_err().to_string()
+            }
+        };
+        assert!(message.contains(part), "{table}: {message}");
+    }
 }

@@ -1,6 +1,6 @@
 //! Excitation and loads of a study as harmonics over the modes.
 
-use hammerbeam_motion::{Harmonic, HarmonicForce, Load};
+use hammerbeam_motion::{AmplitudeCurve, Harmonic, HarmonicForce, Load};
 use hammerbeam_structure::ReducedModel;
 
 use crate::file::{self, ExcitationKind, Study, StudyError, StudyFile};
@@ -24,21 +24,31 @@ pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyE
     Ok(())
 }
 
-/// All that drives the structure.
+/// All that drives the structure with amplitudes that the frequency does not change.
 pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
-    let excitation = &study.excitation;
-    let mut load = Load::default();
-    let harmonic = |amplitude| Harmonic { order: excitation.order, amplitude, phase: excitation.phase_rad };
-    match &excitation.kind {
-        ExcitationKind::SupportMotion { amplitude_m, .. } => load.support.push(harmonic(*amplitude_m)),
-        ExcitationKind::Force { at, amplitude_n } => {
-            load.forces.push(HarmonicForce { shape: shape(model, at), harmonic: harmonic(*amplitude_n) });
-        }
-    }
+    let amplitude = study.excitation.amplitude().constant();
+    let mut load = amplitude.map_or_else(Load::default, |amplitude| excitation(study, model, amplitude));
     for further in &study.loads {
         add(&mut load, further, model);
     }
     load
+}
+
+/// The excitation at amplitude 1 and its amplitude, where that is a table over the frequency.
+pub(super) fn over_frequency(study: &Study, model: &ReducedModel) -> Option<(Load, AmplitudeCurve)> {
+    Some((excitation(study, model, 1.0), study.excitation.amplitude().curve()?))
+}
+
+fn excitation(study: &Study, model: &ReducedModel, amplitude: f64) -> Load {
+    let excitation = &study.excitation;
+    let harmonic = Harmonic { order: excitation.order, amplitude, phase: excitation.phase_rad };
+    match &excitation.kind {
+        ExcitationKind::SupportMotion { .. } => Load { support: vec![harmonic], forces: Vec::new() },
+        ExcitationKind::Force { at, .. } => {
+            let force = HarmonicForce { shape: shape(model, at), harmonic };
+            Load { support: Vec::new(), forces: vec![force] }
+        }
+    }
 }
 
 fn add(load: &mut Load, further: &file::Load, model: &ReducedModel) {

@@ -12,6 +12,7 @@ use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureErro
 
 pub use drift::Drift;
 pub use parameter::StudyParameter;
+pub(crate) use structure::beam_descriptor;
 
 use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
 
@@ -42,11 +43,28 @@ impl Model {
         let load = load::load(study, &reduced.model);
         let elements = element::elements(file, &reduced.model, &load)?;
         let response = response_point(study, &reduced.model);
-        let system =
-            System::new(reduced.model, &load, elements).map_err(|error| system_fault(file, &error))?;
+        let driven = load::over_frequency(study, &reduced.model);
+        let system = System::new(reduced.model, &load, elements).and_then(|system| match driven {
+            Some((load, curve)) => system.with_amplitude_over_frequency(&load, curve),
+            None => Ok(system),
+        });
+        let system = system.map_err(|error| system_fault(file, &error))?;
         let model = Self { system, response, tables: reduced.tables, outline: reduced.outline };
         model.check_varied(file)?;
         Ok(model)
+    }
+
+    /// Displacement, velocity and acceleration of the response point at a phase of the excitation.
+    ///
+    /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    #[must_use]
+    pub fn response_motion(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
+        let n = self.system.dof();
+        let rate = self.system.rate(frequency_hz, phase, state);
+        let support = self.system.support_motion(frequency_hz, phase);
+        let parts = [&state[..n], &state[n..], &rate[n..]];
+        let dot = |values: &[f64]| self.response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
+        std::array::from_fn(|k| dot(parts[k]) + self.response.support_ratio * support[k])
     }
 
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they are followed.
@@ -108,11 +126,12 @@ fn check_magnitudes(file: &StudyFile) -> Result<(), StudyError> {
     else {
         return Ok(());
     };
-    if *amplitude_m <= beam.length_m {
+    let amplitude = amplitude_m.largest();
+    if amplitude <= beam.length_m {
         return Ok(());
     }
     let help = format!("allowed: at most {} m, the length of the beam; is the unit m?", beam.length_m);
-    Err(file.fault("excitation.amplitude_m", format!("`amplitude_m` is {amplitude_m} m"), vec![help]))
+    Err(file.fault("excitation.amplitude_m", format!("`amplitude_m` is {amplitude} m"), vec![help]))
 }
 
 /// The fault of a structure at the key that is to blame.

@@ -3,7 +3,7 @@
 use hammerbeam_motion::Parameter;
 
 use super::Model;
-use crate::file::{Damping, ExcitationKind, ModalRatio, ParameterKind, Study, VariedParameter};
+use crate::file::{Damping, ModalRatio, ParameterKind, Study, VariedParameter};
 
 /// A parameter of the system whose value in the study is `factor value + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,9 +37,8 @@ impl Model {
         let plain = |parameter| StudyParameter { parameter, factor: 1.0, offset: 0.0 };
         match varied.kind {
             ParameterKind::Amplitude => {
-                let factor = match study.excitation.kind {
-                    ExcitationKind::SupportMotion { amplitude_m, .. } => amplitude_m,
-                    ExcitationKind::Force { amplitude_n, .. } => amplitude_n,
+                let Some(factor) = study.excitation.amplitude().constant() else {
+                    return Err(format!("{} is a table over the frequency", varied.name));
                 };
                 Ok(StudyParameter { factor, ..plain(Parameter::ExcitationScale) })
             }

@@ -17,7 +17,8 @@ pub(super) fn reduce(study: &Study, interface: &[String]) -> Result<Reduced, Str
     supported.reduce(&reduction(study), &damping(&study.damping), &interface)
 }
 
-fn beam_descriptor(beam: &Beam) -> Result<linear::Beam, StructureError> {
+/// A beam in the terms of the structure crate.
+pub(crate) fn beam_descriptor(beam: &Beam) -> Result<linear::Beam, StructureError> {
     let points = beam.points.iter().map(|point| linear::BeamPoint {
         name: point.name.clone(),
         at: point.at_m,

@@ -93,7 +93,8 @@ fn driven(system: &System, frequency_hz: f64) -> f64 {
         let orders = system.orders().iter().enumerate().map(|(index, &order)| {
             let load = system.modal_load(index, circular).amplitude;
             let modal: faer::c64 = load.iter().zip(&element.shape).map(|(b, phi)| *b * *phi).sum();
-            let support = system.support_amplitudes()[index].norm() * (f64::from(order) * circular).powi(2);
+            let support =
+                system.support_amplitude(index, circular).0.norm() * (f64::from(order) * circular).powi(2);
             modal.norm() + element.support_ratio.abs() * support
         });
         orders.sum()

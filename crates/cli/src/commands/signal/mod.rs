@@ -8,6 +8,8 @@ mod input;
 mod lyapunov;
 mod spectrum;
 
+pub use input::largest;
+
 use crate::{failure::Failure, output::Output, signal_args::SignalCommand};
 
 pub fn run(command: &SignalCommand, output: Output) -> Result<(), Failure> {

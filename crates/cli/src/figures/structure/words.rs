@@ -3,8 +3,8 @@
 use hammerbeam_study::{
     Study,
     file::{
-        Approach, Beam, BeamPoint, ExcitationKind, FixedTo, GapMeasured, Load, Lumped, Place, Side, Stop,
-        StopLaw, Structure,
+        Amplitude, Approach, Beam, BeamPoint, ExcitationKind, FixedTo, GapMeasured, Load, Lumped, Place,
+        Side, Stop, StopLaw, Structure,
     },
 };
 
@@ -126,14 +126,25 @@ fn excitation_words(study: &Study) -> String {
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
-            format!("motion u of the support ({}), {} mm", at.join(", "), number(1e3 * amplitude_m))
+            format!("motion u of the support ({}), {} mm", at.join(", "), amplitude_words(amplitude_m, 1e3))
         }
         ExcitationKind::Force { at, amplitude_n } => {
-            format!("force F at {at}, {} N", number(*amplitude_n))
+            format!("force F at {at}, {} N", amplitude_words(amplitude_n, 1.0))
         }
     };
     let order = if excitation.order > 1 { format!(", order {}", excitation.order) } else { String::new() };
     format!("Excitation: {what}, {} to {} Hz{order}.", number(low), number(high))
+}
+
+/// One amplitude, or the least and the largest of a table.
+fn amplitude_words(amplitude: &Amplitude, factor: f64) -> String {
+    match amplitude {
+        Amplitude::Constant(amplitude) => number(factor * amplitude),
+        Amplitude::OverFrequency(points) => {
+            let least = points.iter().map(|point| point[1]).fold(f64::INFINITY, f64::min);
+            format!("{} to {}", number(factor * least), number(factor * amplitude.largest()))
+        }
+    }
 }
 
 fn load_words(load: &Load) -> String {

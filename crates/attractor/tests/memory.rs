@@ -1,0 +1,87 @@
+//! Laws that remember their impact, where a contact lies over phase 0: the motion is the one whose load has another phase, which has no contact there.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{element, model};
+use hammerbeam_attractor::{
+    Class, Effort, LyapunovSettings, Observable, SectionMap, SweepSettings, Sweeper, SystemMap, lyapunov,
+    sections_needed,
+};
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    law::{HertzStop, RestitutionModel, RestitutionStop},
+};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, find_start};
+
+const FREQUENCY_HZ: f64 = 0.18;
+/// With this phase of the load no contact comes near phase 0.
+const PLAIN: f64 = -2.2;
+
+/// Unit mass on a spring, `w = 1`, damping 0.04, with a stop after Lankarani and Nikravesh.
+fn oscillator(phase: f64) -> System {
+    let harmonic = Harmonic { order: 1, amplitude: 0.2, phase };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let elastic = HertzStop::with_gap(20.0, 0.5).unwrap();
+    let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.7).unwrap();
+    let stop = element(&[1.0], 0.0, Law::Restitution(law));
+    System::new(model(&[1.0], faer::mat![[0.04]]), &load, vec![stop]).unwrap()
+}
+
+/// The orbit with [`PLAIN`], and the phase of the load that puts the middle of its contact at phase 0.
+fn orbit() -> (PeriodicSolution, f64) {
+    let system = oscillator(PLAIN);
+    let response = Response { shape: vec![1.0], support_ratio: 0.0 };
+    let orbit = find_start(&system, &response, FREQUENCY_HZ, 1, &OrbitSettings::default()).unwrap();
+    let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
+    let stretch = Stretch { frequency_hz: FREQUENCY_HZ, start: 0.0, end: 1.0 };
+    let touch = &integrator.trace(&stretch, &orbit.nodes[0], &[]).unwrap().contacts[0];
+    let middle = 0.5 * FREQUENCY_HZ * (touch.begin.as_ref().unwrap().time + touch.end.unwrap());
+    (orbit, PLAIN + TAU * middle)
+}
+
+#[test]
+fn exponents_are_those_of_the_multipliers_whatever_lies_over_the_sections() {
+    let (orbit, phase) = orbit();
+    let [[a, b], [c, d]] = [orbit.floquet_multipliers[0], orbit.floquet_multipliers[1]];
+    let expected = (a * c - b * d).ln() * FREQUENCY_HZ;
+    for phase in [PLAIN, phase] {
+        for parts in [1, 8] {
+            let mut map =
+                SystemMap::new(oscillator(phase), FREQUENCY_HZ, 1, ExactSettings::default()).unwrap();
+            let mut state = vec![0.0; 2];
+            for period in 0..300 {
+                state = map.advance(period, &state).unwrap();
+            }
+            assert!(sections_needed(&mut map, &state).unwrap() >= 1);
+            map.set_parts(parts);
+            let settings = LyapunovSettings { aligning: 20 * parts, averaged: 100 * parts };
+            let found = lyapunov(&mut map, &state, settings).unwrap();
+            // The orbit is good to 1e-10, the motion has settled to rounding.
+            assert!((found.sum / expected - 1.0).abs() < 1e-7, "{phase} {parts}: {} {expected}", found.sum);
+        }
+    }
+}
+
+#[test]
+fn a_sweep_goes_on_from_within_a_contact() {
+    let (orbit, phase) = orbit();
+    let observable = Observable { shape: vec![1.0], support_ratio: 0.0 };
+    let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion: ExactSettings::default() };
+    let mut sweeper = Sweeper::new(&oscillator(phase), &observable, settings).unwrap();
+    let first = sweeper.at(FREQUENCY_HZ - 0.001, &[0.0, 0.0]).unwrap();
+    assert!(!sweeper.can_begin(&first.state), "phase 0 lies within the contact");
+    let found = sweeper.at(FREQUENCY_HZ, &first.state).unwrap();
+    assert_eq!(found.class, Class::Periodic { period: 1 });
+    // The motion has repeated to 1e-8.
+    assert!((found.max_abs_displacement / orbit.maxima.displacement - 1.0).abs() < 1e-7);
+    assert!(
+        Sweeper::new(&oscillator(phase), &observable, settings)
+            .unwrap()
+            .at(FREQUENCY_HZ, &first.state)
+            .is_err()
+    );
+}

@@ -1,0 +1,101 @@
+//! A comparison as a document.
+
+use std::path::Path;
+
+use hammerbeam_study::comparison::{Comparison, Estimate, PointOutcome, Residual, Verdict};
+use serde_json::{Value, json};
+
+use super::{Compared, measured::Measured};
+use crate::compare_args::CompareOptions;
+
+pub fn document(
+    options: &CompareOptions,
+    measured: &Measured,
+    compared: &[Compared],
+    (folder, files): (&Path, &[String]),
+) -> Value {
+    let findings = measured.findings.iter().map(
+        |(file, finding)| json!({ "file": file, "kind": finding.kind(), "message": finding.to_string() }),
+    );
+    json!({
+        "results": options.results,
+        "measured": options.measured,
+        "low_pass_hz": options.low_pass,
+        "order": options.low_pass.map(|_| options.order),
+        "reach": options.reach,
+        "findings": findings.collect::<Vec<_>>(),
+        "comparisons": compared.iter().map(|one| comparison_document(&one.comparison)).collect::<Vec<_>>(),
+        "folder": folder,
+        "files": files,
+    })
+}
+
+/// A comparison of one quantity.
+pub fn comparison_document(comparison: &Comparison) -> Value {
+    let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
+    let unexplained = comparison.points.iter().filter(|point| point.verdict.is_unexplained());
+    json!({
+        "quantity": comparison.quantity.word(),
+        "unit": comparison.quantity.symbol(),
+        "frequency_shift": if comparison.fit.offset { "offset" } else { "factor" },
+        "frequency_factor": (!comparison.fit.offset).then(|| estimate(comparison.fit.frequency)),
+        "frequency_offset_hz": comparison.fit.offset.then(|| estimate(comparison.fit.frequency)),
+        "amplitude_factor": estimate(comparison.fit.amplitude),
+        "correlation": comparison.fit.correlation.filter(|value| value.is_finite()),
+        "fitted_points": comparison.fit.points,
+        "residual_before": residual(comparison.before),
+        "residual_after": residual(comparison.after),
+        "explained": count("explained"),
+        "too_far": count("too-far"),
+        "no_branch": count("no-branch"),
+        "aperiodic": count("aperiodic"),
+        "doubtful": count("doubtful"),
+        "unexplained": unexplained.map(point_document).collect::<Vec<_>>(),
+        "points": comparison.points.iter().map(point_document).collect::<Vec<_>>(),
+    })
+}
+
+fn estimate(estimate: Estimate) -> Value {
+    let error = estimate.standard_error.filter(|error| error.is_finite());
+    json!({ "value": estimate.value, "standard_error": error, "given": estimate.standard_error.is_none() })
+}
+
+fn residual(residual: Residual) -> Value {
+    json!({
+        "points": residual.met,
+        "within_reach": residual.within,
+        "log_rms": residual.rms,
+        "log_rms_within_reach": residual.rms_within,
+    })
+}
+
+/// A point.
+pub fn point_document(outcome: &PointOutcome) -> Value {
+    let nearest = outcome.nearest.map(|nearest| {
+        json!({
+            "branch": nearest.hit.branch,
+            "period_multiple": nearest.hit.period_multiple,
+            "stable": nearest.hit.stable,
+            "row": nearest.hit.row,
+            "value": nearest.hit.value,
+            "log_difference": nearest.difference,
+        })
+    });
+    let nearest_hz = match outcome.verdict {
+        Verdict::NoBranch { nearest_hz } => nearest_hz,
+        _ => None,
+    };
+    json!({
+        "origin": outcome.point.origin,
+        "kind": outcome.point.kind.word(),
+        "period_multiple": outcome.point.kind.period_multiple(),
+        "frequency_hz": outcome.point.frequency_hz,
+        "value": outcome.value,
+        "shifted_frequency_hz": outcome.shifted_hz,
+        "shifted_value": outcome.shifted_value,
+        "verdict": outcome.verdict.word(),
+        "nearest": nearest,
+        "nearest_stable_hz": nearest_hz,
+        "stable_periods_there": outcome.stable_periods,
+    })
+}

@@ -1,0 +1,64 @@
+//! The response diagram with the measured points over it, shifted as the comparison has it: figure 6 of the paper.
+
+use hammerbeam_figure::{
+    MeasuredMark, MeasuredMotion, Quantity as Drawing, ResponseCurve, ResponseDiagram, ResponsePoint,
+    ResponseSettings,
+};
+use hammerbeam_signal::{Quantity, points::Kind};
+use hammerbeam_study::{
+    StudyFile,
+    comparison::{BranchCurve, PointOutcome},
+};
+
+use super::Compared;
+use crate::figures::Drawn;
+
+/// Draws a comparison, if its quantity has a response diagram.
+pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+    let quantity = compared.comparison.quantity;
+    let drawing = match quantity {
+        Quantity::Displacement => Drawing::Displacement,
+        Quantity::Acceleration => Drawing::Acceleration,
+        _ => return Ok(()),
+    };
+    let [low, high] = file.study.excitation.frequency_hz;
+    let diagram = ResponseDiagram {
+        title: file.study.title.clone(),
+        parameter: String::new(),
+        curves: compared.curves.branches().iter().map(|branch| curve(branch, quantity)).collect(),
+        frequency_range_hz: Some((low, high)),
+        chaotic_ranges_hz: Vec::new(),
+        measured: compared.comparison.points.iter().map(|point| mark(point, quantity)).collect(),
+    };
+    let figure = diagram.draw_with(&[drawing], &ResponseSettings::default());
+    drawn.add(&format!("compare_{}", name.trim_start_matches("compare_")), figure)
+}
+
+fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {
+    let point = |point: &hammerbeam_study::comparison::CurvePoint| ResponsePoint {
+        frequency_hz: point.frequency_hz,
+        displacement_m: if quantity == Quantity::Displacement { point.value } else { f64::NAN },
+        acceleration_m_s2: if quantity == Quantity::Acceleration { point.value } else { f64::NAN },
+        stable: point.stable,
+        ..ResponsePoint::default()
+    };
+    ResponseCurve {
+        period_multiple: branch.period_multiple,
+        points: branch.points.iter().map(point).collect(),
+    }
+}
+
+/// A shifted point.
+fn mark(outcome: &PointOutcome, quantity: Quantity) -> MeasuredMark {
+    let value = |wanted: Quantity| (quantity == wanted).then_some(outcome.shifted_value);
+    MeasuredMark {
+        frequency_hz: outcome.shifted_hz,
+        displacement_m: value(Quantity::Displacement),
+        acceleration_m_s2: value(Quantity::Acceleration),
+        motion: match outcome.point.kind {
+            Kind::Periodic { .. } => MeasuredMotion::Periodic,
+            Kind::Aperiodic => MeasuredMotion::Aperiodic,
+            Kind::Doubtful | Kind::Unknown => MeasuredMotion::Unknown,
+        },
+    }
+}

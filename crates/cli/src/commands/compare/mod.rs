@@ -1,0 +1,122 @@
+//! `hammerbeam compare`: measured points over computed branches.
+
+mod document;
+mod figure;
+mod measured;
+mod records;
+mod table;
+mod text;
+
+use hammerbeam_signal::Quantity;
+use hammerbeam_study::{
+    Model, Store, StoredBranches, StudyFile,
+    comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
+};
+
+pub use document::comparison_document;
+pub use figure::draw;
+pub use table::write_points;
+
+use crate::{
+    compare_args::{CompareOptions, QuantityName},
+    failure::Failure,
+    figures::Drawn,
+    output::Output,
+};
+
+/// Distance of orbits that are computed again as a part of the middle of the frequency range, and their samples in an excitation period.
+const SPACING: f64 = 1e-3;
+const SAMPLES: usize = 4096;
+
+/// A quantity with its curves and what came of it.
+pub struct Compared {
+    pub curves: Curves,
+    pub comparison: Comparison,
+}
+
+pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
+    let store = Store::open(&options.results)?;
+    let file = StudyFile::parse("study.toml", store.about("study")?)?;
+    drop(store);
+    let model = Model::build(&file)?;
+    let measured = measured::read(&options.measured, options.reference.as_deref())?;
+    let quantities = quantities(options, &measured.points)?;
+    let branches = StoredBranches::open(&options.results, &file)?;
+    if branches.branches().is_empty() {
+        let results = options.results.display();
+        return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
+    }
+    let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
+    let [low, high] = file.study.excitation.frequency_hz;
+    let spacing_hz = SPACING * 0.5 * (low + high);
+    let mut compared = Vec::new();
+    for quantity in quantities {
+        let filter = filter.filter(|_| quantity != Quantity::Force);
+        let observation = Observation { quantity, filter, spacing_hz, samples: SAMPLES };
+        let curves = curves(&branches, &model, &observation)?;
+        let comparison = compare(&measured.points, &curves, quantity, &settings(options))?;
+        compared.push(Compared { curves, comparison });
+    }
+    let folder = options.out.clone().unwrap_or_else(|| options.results.join("compare"));
+    let mut drawn = Drawn::into(&folder)?;
+    for one in &compared {
+        let name = format!("points_{}.csv", one.comparison.quantity.word());
+        write_points(&folder, &name, &one.comparison)?;
+        drawn.files.push(name);
+        let name = format!("compare_{}", one.comparison.quantity.word());
+        draw(&file, one, &name, &mut drawn)?;
+    }
+    if let Some(name) = table::write_amplitudes(&folder, &measured.points)? {
+        drawn.files.push(name);
+    }
+    drawn.tell_refused();
+    let files = drawn.files;
+    let document = document::document(options, &measured, &compared, (&folder, &files));
+    output.give(&document, || text::text(options, &measured, &compared, (&folder, &files)));
+    Ok(())
+}
+
+/// How the comparison is done.
+fn settings(options: &CompareOptions) -> FitSettings {
+    let usual = FitSettings::default();
+    let offset = options.fit_offset || options.frequency_offset.is_some();
+    let frequency = match (options.frequency_factor, options.frequency_offset) {
+        (Some(given), _) | (_, Some(given)) => Fixed::Given(given),
+        (None, None) if offset => Fixed::Fitted { low: -6.0, high: 6.0 },
+        (None, None) => usual.frequency,
+    };
+    let amplitude = options.amplitude_factor.map_or(usual.amplitude, Fixed::Given);
+    FitSettings { offset, frequency, amplitude, reach: options.reach }
+}
+
+/// Those asked for, else those measured.
+fn quantities(
+    options: &CompareOptions,
+    points: &[hammerbeam_signal::points::MeasuredPoint],
+) -> Result<Vec<Quantity>, Failure> {
+    let all = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
+    let is_measured = |quantity: &Quantity| points.iter().any(|p| p.maxima.of(*quantity).is_some());
+    if options.quantity.is_empty() {
+        return Ok(all.into_iter().filter(is_measured).collect());
+    }
+    let asked: Vec<Quantity> = options.quantity.iter().map(|name| (*name).into()).collect();
+    match asked.iter().find(|quantity| !is_measured(quantity)) {
+        Some(missing) => {
+            let found: Vec<&str> = all.iter().filter(|q| is_measured(q)).map(|q| q.word()).collect();
+            let (missing, found) = (missing.word(), found.join(", "));
+            Err(Failure::BadInput(format!("--quantity: no {missing} was measured; there is {found}")))
+        }
+        None => Ok(asked),
+    }
+}
+
+impl From<QuantityName> for Quantity {
+    fn from(name: QuantityName) -> Self {
+        match name {
+            QuantityName::Displacement => Self::Displacement,
+            QuantityName::Velocity => Self::Velocity,
+            QuantityName::Acceleration => Self::Acceleration,
+            QuantityName::Force => Self::Force,
+        }
+    }
+}

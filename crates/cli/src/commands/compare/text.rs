@@ -1,0 +1,93 @@
+//! A comparison in words.
+
+use std::path::Path;
+
+use hammerbeam_study::comparison::{Comparison, Estimate, PointOutcome, Residual, Verdict};
+
+use super::{Compared, measured::Measured};
+use crate::compare_args::CompareOptions;
+
+/// Unexplained points that are listed; all are in the table.
+const LISTED: usize = 20;
+
+pub fn text(
+    options: &CompareOptions,
+    measured: &Measured,
+    compared: &[Compared],
+    (folder, files): (&Path, &[String]),
+) -> String {
+    let mut lines =
+        vec![format!("{} measured point(s) over {}", measured.points.len(), options.results.display())];
+    if let Some(cut_off) = options.low_pass {
+        lines.push(format!("branches behind a low-pass filter of {cut_off} Hz, order {}", options.order));
+    }
+    compared.iter().for_each(|one| lines.extend(comparison(&one.comparison)));
+    lines.extend(measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
+    lines.push(format!("in {}: {}", folder.display(), files.join(", ")));
+    lines.join("\n")
+}
+
+fn comparison(comparison: &Comparison) -> Vec<String> {
+    let (fit, quantity) = (&comparison.fit, comparison.quantity);
+    let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
+    let frequency = if fit.offset { "frequency offset (Hz)" } else { "frequency factor" };
+    let mut lines = vec![
+        format!("\n{} [{}]", quantity.word(), quantity.symbol()),
+        format!("  {frequency:<22} {}", estimate(fit.frequency)),
+        format!("  {:<22} {}", "amplitude factor", estimate(fit.amplitude)),
+        format!("  residual before         {}", residual(comparison.before)),
+        format!("  residual after          {}", residual(comparison.after)),
+        format!(
+            "  explained {}, too far {}, no branch {}; aperiodic {}, doubtful {}",
+            count("explained"),
+            count("too-far"),
+            count("no-branch"),
+            count("aperiodic"),
+            count("doubtful")
+        ),
+    ];
+    if fit.correlation.is_some_and(|value| value.abs() > 0.95 || !value.is_finite()) {
+        lines.push("  note: the points hardly tell shift and factor apart".to_owned());
+    }
+    let unexplained: Vec<&PointOutcome> =
+        comparison.points.iter().filter(|point| point.verdict.is_unexplained()).collect();
+    lines.extend(unexplained.iter().take(LISTED).map(|point| unexplained_text(point)));
+    if unexplained.len() > LISTED {
+        lines.push(format!("  ... and {} more", unexplained.len() - LISTED));
+    }
+    lines
+}
+
+fn estimate(estimate: Estimate) -> String {
+    match estimate.standard_error {
+        None => format!("{:.6} (given)", estimate.value),
+        Some(error) => format!("{:.6}, standard error {error:.6}", estimate.value),
+    }
+}
+
+fn residual(residual: Residual) -> String {
+    format!(
+        "{:.4} over {} point(s); {} of them within the reach, {:.4}",
+        residual.rms, residual.met, residual.within, residual.rms_within
+    )
+}
+
+fn unexplained_text(outcome: &PointOutcome) -> String {
+    let period = outcome.point.kind.period_multiple().map_or_else(String::new, |n| format!(" of period {n}"));
+    let why = match (outcome.verdict, outcome.nearest) {
+        (Verdict::NoBranch { nearest_hz: Some(hz) }, _) => {
+            format!("no stable branch{period} there; the nearest at {hz:.4} Hz")
+        }
+        (Verdict::NoBranch { nearest_hz: None }, _) => format!("no stable branch{period} anywhere"),
+        (_, Some(nearest)) => format!(
+            "{:.3} times the nearest stable branch{period}, number {}",
+            nearest.difference.exp(),
+            nearest.hit.branch
+        ),
+        _ => String::new(),
+    };
+    format!(
+        "  unexplained: {} at {:.4} Hz ({:.4} Hz shifted): {why}",
+        outcome.point.origin, outcome.point.frequency_hz, outcome.shifted_hz
+    )
+}

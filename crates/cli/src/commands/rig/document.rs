@@ -1,0 +1,119 @@
+//! A rig as a document.
+
+use hammerbeam_study::rig::{FilteredBranch, FilteredRatio};
+use serde_json::{Value, json};
+
+use super::{Found, tables};
+use crate::commands::compare::comparison_document;
+
+pub fn document(found: &Found) -> Value {
+    let comparisons: Vec<Value> = found
+        .comparisons
+        .iter()
+        .map(|(name, _, comparison)| {
+            let mut document = comparison_document(comparison);
+            document["name"] = json!(name);
+            document
+        })
+        .collect();
+    let [right, wrong, doubtful] = tables::agreement(found);
+    json!({
+        "study": found.file.name,
+        "title": found.file.study.title,
+        "solutions": found.solutions,
+        "eigenfrequencies": modes(found),
+        "sweep": {
+            "from_hz": found.rig.sweep_hz[0],
+            "to_hz": found.rig.sweep_hz[1],
+            "step_hz": found.rig.step_hz,
+            "low_pass_hz": found.rig.low_pass_hz,
+            "low_pass_order": found.rig.low_pass_order,
+            "sampling_hz": found.rig.sampling_hz,
+            "noise_m_s2": found.rig.noise_m_s2,
+            "noise_m": found.rig.noise_m,
+            "seed": found.rig.seed,
+            "points": found.points.len(),
+            "begun_anew": found.points.iter().filter(|point| point.begun_anew).count(),
+            "max_displacement_m": tables::largest_displacement(found),
+        },
+        "classification": { "as_the_states": right, "not_as_the_states": wrong, "doubtful": doubtful },
+        "comparisons": comparisons,
+        "signals": found.signals.iter().enumerate().map(signal).collect::<Vec<_>>(),
+        "filters": filters(found),
+    })
+}
+
+fn modes(found: &Found) -> Vec<Value> {
+    let rates = &found.model.system.model().natural_frequencies;
+    let of_rig = &found.rig_model.system.model().natural_frequencies;
+    let hertz = |rate: Option<&f64>| rate.map(|rate| rate / std::f64::consts::TAU);
+    let mode = |(index, mode): (usize, &hammerbeam_study::rig::MeasuredMode)| {
+        json!({
+            "measured_hz": mode.frequency_hz.0,
+            "measured_half_width_hz": mode.frequency_hz.1,
+            "measured_damping_ratio": mode.damping_ratio.0,
+            "measured_damping_ratio_half_width": mode.damping_ratio.1,
+            "model_hz": hertz(rates.get(index)),
+            "rig_hz": hertz(of_rig.get(index)),
+        })
+    };
+    found.modes.iter().enumerate().map(mode).collect()
+}
+
+fn signal((index, signal): (usize, &hammerbeam_study::rig::SignalPair)) -> Value {
+    let computed = signal.computed.as_ref().map(|orbit| {
+        json!({
+            "frequency_hz": orbit.frequency_hz,
+            "over_measured": orbit.frequency_hz / signal.measured_hz,
+            "branch": orbit.branch,
+            "row": orbit.row,
+            "correlation": orbit.correlation,
+            "lag_cycles": orbit.lag,
+            "max_acceleration_m_s2": orbit.largest,
+            "max_filtered_acceleration_m_s2": orbit.largest_filtered,
+        })
+    });
+    json!({
+        "table": tables::figure_name(index),
+        "measured_hz": signal.measured_hz,
+        "period_multiple": signal.period_multiple,
+        "measured_as": super::report::classified(&signal.classification),
+        "max_measured_acceleration_m_s2": signal.largest_measured,
+        "computed": computed,
+    })
+}
+
+fn filters(found: &Found) -> Vec<Value> {
+    let one = |(index, filter): (usize, &hammerbeam_study::comparison::Filter)| {
+        let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
+        let branch = |branch: &&FilteredBranch| {
+            json!({
+                "branch": branch.branch,
+                "period_multiple": branch.period_multiple,
+                "acceleration": ratio(FilteredBranch::ratio(&[branch], index, false, false)),
+                "displacement": ratio(FilteredBranch::ratio(&[branch], index, true, false)),
+            })
+        };
+        json!({
+            "cut_off_hz": filter.cut_off_hz,
+            "order": filter.order,
+            "acceleration_stable": ratio(FilteredBranch::ratio(&all, index, false, true)),
+            "acceleration_all": ratio(FilteredBranch::ratio(&all, index, false, false)),
+            "displacement_stable": ratio(FilteredBranch::ratio(&all, index, true, true)),
+            "displacement_all": ratio(FilteredBranch::ratio(&all, index, true, false)),
+            "branches": all.iter().map(branch).collect::<Vec<_>>(),
+        })
+    };
+    found.filters.iter().enumerate().map(one).collect()
+}
+
+fn ratio(ratio: FilteredRatio) -> Value {
+    json!({
+        "solutions": ratio.solutions,
+        "median": ratio.median,
+        "largest": ratio.largest.0,
+        "largest_at_hz": ratio.largest.1,
+        "smallest": ratio.smallest.0,
+        "smallest_at_hz": ratio.smallest.1,
+    })
+}

@@ -1,0 +1,159 @@
+//! `hammerbeam rig`: a measurement made with another model, and the whole comparison of it with the branches of a study.
+
+mod document;
+mod report;
+mod tables;
+
+use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+use hammerbeam_study::{
+    Model, OrbitSolver, Store, StoredBranches, StudyFile,
+    comparison::{Comparison, Curves, Filter, FitSettings, Observation, compare, curves},
+    file::Rig,
+    rig::{
+        FilteredBranch, MeasuredMode, RigError, RigPoint, SignalPair, acceleration_curves, changed_study,
+        compare_signal, filtered_branches, measured_modes, sweep,
+    },
+    run::{Plan, RunOutcome},
+};
+
+use super::{
+    compare::{Compared, draw},
+    run::threads,
+};
+use crate::{
+    compare_args::RigOptions, drift, failure::Failure, figures::Drawn, interrupt::Interrupt, output::Output,
+    progress::Terminal,
+};
+
+/// Distance of orbits that are put behind filters as a part of the middle of the frequency range, and their samples in an excitation period.
+const SPACING: f64 = 1e-3;
+const SAMPLES: usize = 4096;
+
+/// Everything that came of a rig.
+struct Found {
+    file: StudyFile,
+    rig: Rig,
+    rig_model: Model,
+    model: Model,
+    modes: Vec<MeasuredMode>,
+    points: Vec<RigPoint>,
+    filters: Vec<Filter>,
+    filtered: Vec<FilteredBranch>,
+    /// Name, what it compares, and what came of it.
+    comparisons: Vec<(&'static str, Curves, Comparison)>,
+    signals: Vec<SignalPair>,
+    solutions: u64,
+}
+
+pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
+    let file = StudyFile::read(&options.study)?;
+    let Some(rig) = file.study.rig.clone() else {
+        return Err(RigError::NoRig { name: file.name }.into());
+    };
+    let rig_file = changed_study(&file)?;
+    let (model, rig_model) = (Model::build(&file)?, Model::build(&rig_file)?);
+    drift::heed(&model)?;
+    let interrupt = Interrupt::listen()?;
+    let threads = threads(options.jobs);
+    let solutions = branches(options, &file, &model, threads, &interrupt)?;
+    let stored = StoredBranches::open(&options.out, &file)?;
+    let stop = interrupt.flag();
+    anstream::eprintln!("sweeping the rig");
+    let points = sweep(&rig, &rig_model, threads, stop)?;
+    let modes = measured_modes(&rig, &rig_model)?;
+    let [low, high] = file.study.excitation.frequency_hz;
+    let spacing_hz = SPACING * 0.5 * (low + high);
+    let cut_offs = std::iter::once(rig.low_pass_hz).chain(rig.other_low_pass_hz.iter().copied());
+    let order = rig.low_pass_order as usize;
+    let filters: Vec<Filter> = cut_offs.map(|cut_off_hz| Filter { order, cut_off_hz }).collect();
+    anstream::eprintln!("putting the branches behind filters");
+    let filtered = filtered_branches(&stored, &model, &filters, (spacing_hz, SAMPLES), threads, stop)?;
+    let comparisons = comparisons(&stored, &model, &points, &filtered)?;
+    let factor = comparisons[0].2.fit.frequency.value;
+    let signal = |&wanted: &(f64, u32)| {
+        let (rig_side, model_side) = ((&rig_model, points.as_slice()), (&model, &stored));
+        compare_signal(&rig, rig_side, model_side, wanted, factor, (threads, stop))
+    };
+    anstream::eprintln!("comparing signals");
+    let signals = rig.signals.iter().map(signal).collect::<Result<Vec<_>, _>>()?;
+    let found = Found {
+        file,
+        rig,
+        rig_model,
+        model,
+        modes,
+        points,
+        filters,
+        filtered,
+        comparisons,
+        signals,
+        solutions,
+    };
+    let mut drawn = Drawn::into(&options.out)?;
+    tables::write(&options.out, &found, &mut drawn.files)?;
+    for (name, curves, comparison) in &found.comparisons {
+        let compared = Compared { curves: curves.clone(), comparison: comparison.clone() };
+        draw(&found.file, &compared, name, &mut drawn)?;
+    }
+    let document = document::document(&found);
+    report::write(&options.out, &found, &document, &mut drawn.files)?;
+    drawn.tell_refused();
+    let mut document = document;
+    document["folder"] = serde_json::json!(options.out);
+    document["files"] = serde_json::json!(drawn.files);
+    output.give(&document, || report::text(&found, &options.out, &drawn.files));
+    Ok(())
+}
+
+/// Computes the branches of the study into the folder, or what is left of them.
+fn branches(
+    options: &RigOptions,
+    file: &StudyFile,
+    model: &Model,
+    threads: usize,
+    interrupt: &Interrupt,
+) -> Result<u64, Failure> {
+    let mut store = Store::open_for_run(&options.out, file)?;
+    let solver = OrbitSolver::new(model, &file.study);
+    let mut terminal = Terminal::new(interrupt.clone());
+    let plan = Plan::of(&file.study);
+    let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
+    terminal.clear();
+    let outcome = outcome?;
+    let solutions = hammerbeam_study::summary::summarise(&store)?.iter().map(|branch| branch.solutions).sum();
+    store.finish()?;
+    match outcome {
+        RunOutcome::Interrupted => {
+            let message = "interrupted; the branches computed so far are kept, the same command goes on";
+            Err(Failure::Interrupted(message.to_owned()))
+        }
+        _ if solutions == 0 => Err(Failure::NoResult("no branch was found to compare with".to_owned())),
+        _ => Ok(solutions),
+    }
+}
+
+/// The paper's comparison (filtered accelerations over computed ones), the same over branches behind the filter, and displacements.
+fn comparisons(
+    stored: &StoredBranches,
+    model: &Model,
+    points: &[RigPoint],
+    filtered: &[FilteredBranch],
+) -> Result<Vec<(&'static str, Curves, Comparison)>, Failure> {
+    let measured: Vec<MeasuredPoint> = points.iter().map(|point| point.point.clone()).collect();
+    let stored_curves = |quantity: Quantity| {
+        // Stored maxima need no orbit, and so no spacing.
+        let observation = Observation { quantity, filter: None, spacing_hz: 0.0, samples: SAMPLES };
+        curves(stored, model, &observation)
+    };
+    let all = [
+        ("acceleration", Quantity::Acceleration, stored_curves(Quantity::Acceleration)?),
+        ("filtered_acceleration", Quantity::Acceleration, acceleration_curves(filtered, 0)),
+        ("displacement", Quantity::Displacement, stored_curves(Quantity::Displacement)?),
+    ];
+    let settings = FitSettings::default();
+    let one = |(name, quantity, curves): (&'static str, Quantity, Curves)| {
+        let comparison = compare(&measured, &curves, quantity, &settings)?;
+        Ok((name, curves, comparison))
+    };
+    all.into_iter().map(one).collect()
+}

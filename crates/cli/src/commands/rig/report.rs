@@ -1,0 +1,288 @@
+//! The report of a rig, in words.
+
+use std::{fmt::Write, path::Path};
+
+use hammerbeam_signal::classify::{Classification, Motion};
+use hammerbeam_study::{
+    comparison::{Estimate, PointOutcome, Verdict},
+    rig::{FilteredBranch, FilteredRatio},
+};
+use serde_json::Value;
+
+use super::{Found, tables};
+use crate::{failure::Failure, figures::replace};
+
+/// Solutions that a branch has at least to stand in the report on its own.
+const SHOWN: usize = 20;
+
+/// Writes `report.md` and `report.json`.
+pub fn write(folder: &Path, found: &Found, document: &Value, files: &mut Vec<String>) -> Result<(), Failure> {
+    let json = format!("{document:#}\n");
+    for (name, text) in [("report.md", markdown(found)), ("report.json", json)] {
+        replace(&folder.join(name), text.as_bytes())?;
+        files.push(name.to_owned());
+    }
+    Ok(())
+}
+
+/// The kind of a motion in a word.
+pub fn classified(classification: &Classification) -> String {
+    match classification.motion {
+        Motion::Periodic { period_multiple } => format!("periodic, {period_multiple}"),
+        Motion::Aperiodic => "aperiodic".to_owned(),
+        Motion::Doubtful { .. } => "doubtful".to_owned(),
+    }
+}
+
+/// What the terminal shows.
+pub fn text(found: &Found, folder: &Path, files: &[String]) -> String {
+    let mut lines = vec![format!(
+        "{} points of the rig over {} solutions of {}",
+        found.points.len(),
+        found.solutions,
+        found.file.name
+    )];
+    for (name, _, comparison) in &found.comparisons {
+        lines.push(format!(
+            "  {name:<22} frequency factor {}, amplitude factor {}, residual {:.3} -> {:.3}",
+            estimate(comparison.fit.frequency, 4),
+            estimate(comparison.fit.amplitude, 3),
+            comparison.before.rms,
+            comparison.after.rms
+        ));
+    }
+    for (index, filter) in found.filters.iter().enumerate() {
+        let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
+        let ratio = FilteredBranch::ratio(&all, index, false, true);
+        lines.push(format!(
+            "  {} Hz lowers maximum accelerations of stable solutions by the factor {:.2} (median), at most {:.2}",
+            filter.cut_off_hz, ratio.median, ratio.largest.0
+        ));
+    }
+    lines.push(format!(
+        "report.md, report.json and {} more files are in {}",
+        files.len() - 2,
+        folder.display()
+    ));
+    lines.join("\n")
+}
+
+fn markdown(found: &Found) -> String {
+    let mut text = format!("# {}: a virtual rig\n\n", found.file.study.title);
+    let rig = &found.rig;
+    let _ = writeln!(
+        text,
+        "Swept from {} to {} Hz and back in steps of {} Hz; accelerations behind a low-pass filter of {} Hz, order {}, sampled at {} Hz, with noise of {} m/s² (displacements: {} m), seed {}. \
+         Each motion settled for {} excitation periods and was recorded for {}. The branches are {} periodic solutions of `{}`.\n",
+        rig.sweep_hz[0],
+        rig.sweep_hz[1],
+        rig.step_hz,
+        rig.low_pass_hz,
+        rig.low_pass_order,
+        rig.sampling_hz,
+        rig.noise_m_s2,
+        rig.noise_m,
+        rig.seed,
+        rig.settling_periods,
+        rig.recorded_periods,
+        found.solutions,
+        found.file.name,
+    );
+    modes(&mut text, found);
+    excitation(&mut text, found);
+    comparisons(&mut text, found);
+    signals(&mut text, found);
+    filters(&mut text, found);
+    points(&mut text, found);
+    text
+}
+
+fn modes(text: &mut String, found: &Found) {
+    if found.modes.is_empty() {
+        return;
+    }
+    text.push_str("## Eigenfrequencies and damping, from a free decay without the stop\n\n| measured (Hz) | model (Hz) | model over measured | damping ratio |\n|---|---|---|---|\n");
+    let rates = &found.model.system.model().natural_frequencies;
+    for (mode, rate) in found.modes.iter().zip(rates) {
+        let (hz, half) = mode.frequency_hz;
+        let (ratio, ratio_half) = mode.damping_ratio;
+        let model = rate / std::f64::consts::TAU;
+        let _ = writeln!(
+            text,
+            "| {hz:.3} ± {half:.3} | {model:.3} | {:.4} | {ratio:.5} ± {ratio_half:.5} |",
+            model / hz
+        );
+    }
+    text.push('\n');
+}
+
+fn excitation(text: &mut String, found: &Found) {
+    text.push_str("## Figure 2: acceleration of the table\n\nAll frequencies are in `figure_02.csv`.\n\n| frequency (Hz) | computed (m/s²) | measured (m/s²) | measured over computed |\n|---|---|---|---|\n");
+    let up: Vec<_> = found.points.iter().filter(|point| point.direction.word() == "up").collect();
+    for point in up.iter().step_by((up.len() / 10).max(1)) {
+        let hz = point.point.frequency_hz;
+        let computed = tables::table_acceleration(found, hz);
+        if let Some((_, measured)) = point.point.excitation {
+            let _ =
+                writeln!(text, "| {hz:.2} | {computed:.2} | {measured:.2} | {:.3} |", measured / computed);
+        }
+    }
+    text.push('\n');
+}
+
+fn comparisons(text: &mut String, found: &Found) {
+    text.push_str(
+        "## Figure 6: measured points over the branches\n\nPoints are shifted by a factor of the frequency and a factor of the value. Residuals are root mean squares of natural logarithms; 0.1 is about 10 %.\n\n\
+         | what | frequency factor | amplitude factor | residual before | after | within reach | explained | too far | no branch | aperiodic | doubtful |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (name, _, comparison) in &found.comparisons {
+        let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {:.3} ({}) | {:.3} ({}) | {:.3} ({}) | {} | {} | {} | {} | {} |",
+            what(name),
+            estimate(comparison.fit.frequency, 4),
+            estimate(comparison.fit.amplitude, 3),
+            comparison.before.rms,
+            comparison.before.met,
+            comparison.after.rms,
+            comparison.after.met,
+            comparison.after.rms_within,
+            comparison.after.within,
+            count("explained"),
+            count("too-far"),
+            count("no-branch"),
+            count("aperiodic"),
+            count("doubtful"),
+        );
+    }
+    let [right, wrong, doubtful] = tables::agreement(found);
+    let _ = writeln!(
+        text,
+        "\nIn brackets: periodic points that meet a stable branch of their period.\n\n\
+         The records tell what the states themselves do (known here, unlike on a rig) at {right} points, something else at {wrong}, and leave {doubtful} in doubt.\n",
+    );
+}
+
+fn what(name: &str) -> &str {
+    match name {
+        "acceleration" => "filtered accelerations over computed ones (the paper's way)",
+        "filtered_acceleration" => "filtered accelerations over computed ones behind the same filter",
+        other => other,
+    }
+}
+
+fn signals(text: &mut String, found: &Found) {
+    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    for (index, signal) in found.signals.iter().enumerate() {
+        let classified = classified(&signal.classification);
+        let name = tables::figure_name(index);
+        let _ = match &signal.computed {
+            Some(orbit) => writeln!(
+                text,
+                "| {name} | {} | {} | {classified} | {:.3} | {:.4} | {:.4} | {:+.3} | {:.0} | {:.0} | {:.0} |",
+                signal.measured_hz,
+                signal.period_multiple,
+                orbit.frequency_hz,
+                orbit.frequency_hz / signal.measured_hz,
+                orbit.correlation,
+                orbit.lag,
+                signal.largest_measured,
+                orbit.largest,
+                orbit.largest_filtered,
+            ),
+            None => writeln!(
+                text,
+                "| {name} | {} | {} | {classified} | no stable orbit of this period is near | | | | {:.0} | | |",
+                signal.measured_hz, signal.period_multiple, signal.largest_measured,
+            ),
+        };
+    }
+    text.push('\n');
+}
+
+fn filters(text: &mut String, found: &Found) {
+    text.push_str("## What filters leave of the computed maxima\n\nRatio of the maximum without the filter to that behind it. Every solution is in `figure_06_branches.csv`.\n\n| cut-off (Hz) | solutions | accelerations: median | largest | smallest | displacements: median | largest |\n|---|---|---|---|---|---|---|\n");
+    let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
+    for (index, filter) in found.filters.iter().enumerate() {
+        for (stable, name) in [(true, "stable"), (false, "all")] {
+            let acceleration = FilteredBranch::ratio(&all, index, false, stable);
+            let displacement = FilteredBranch::ratio(&all, index, true, stable);
+            let _ = writeln!(
+                text,
+                "| {} | {} {name} | {} | {:.4} | {:.4} |",
+                filter.cut_off_hz,
+                acceleration.solutions,
+                ratio(acceleration),
+                displacement.median,
+                displacement.largest.0,
+            );
+        }
+    }
+    let _ = writeln!(
+        text,
+        "\nBy branches, {} Hz, stable and unstable solutions:\n\n| branch | period | solutions | accelerations: median | largest | smallest | displacements: median |\n|---|---|---|---|---|---|---|",
+        found.rig.low_pass_hz
+    );
+    for branch in found.filtered.iter().filter(|branch| branch.points.len() >= SHOWN) {
+        let acceleration = FilteredBranch::ratio(&[branch], 0, false, false);
+        let displacement = FilteredBranch::ratio(&[branch], 0, true, false);
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {:.4} |",
+            branch.branch,
+            branch.period_multiple,
+            acceleration.solutions,
+            ratio(acceleration),
+            displacement.median
+        );
+    }
+    text.push('\n');
+}
+
+fn ratio(ratio: FilteredRatio) -> String {
+    format!(
+        "{:.2} | {:.2} at {:.2} Hz | {:.2} at {:.2} Hz",
+        ratio.median, ratio.largest.0, ratio.largest.1, ratio.smallest.0, ratio.smallest.1
+    )
+}
+
+fn points(text: &mut String, found: &Found) {
+    text.push_str("## Each point, filtered accelerations over computed ones\n\n| point | kind | period | of the states | measured (m/s²) | shifted (Hz) | shifted (m/s²) | verdict | branch | difference |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    let Some((_, _, comparison)) = found.comparisons.first() else { return };
+    for (point, outcome) in found.points.iter().zip(&comparison.points) {
+        let period = |period: Option<u32>| period.map_or_else(|| "-".to_owned(), |n| n.to_string());
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {:.0} | {:.3} | {:.0} | {} |",
+            outcome.point.origin,
+            outcome.point.kind.word(),
+            period(outcome.point.kind.period_multiple()),
+            period(point.period_of_states),
+            outcome.value,
+            outcome.shifted_hz,
+            outcome.shifted_value,
+            verdict(outcome),
+        );
+    }
+}
+
+fn verdict(outcome: &PointOutcome) -> String {
+    let nearest = outcome.nearest.map_or_else(
+        || "- | -".to_owned(),
+        |nearest| format!("{} | {:+.3}", nearest.hit.branch, nearest.difference),
+    );
+    match outcome.verdict {
+        Verdict::NoBranch { nearest_hz: Some(hz) } => {
+            format!("no branch, the nearest at {hz:.2} Hz | {nearest}")
+        }
+        other => format!("{} | {nearest}", other.word()),
+    }
+}
+
+fn estimate(estimate: Estimate, digits: usize) -> String {
+    match estimate.standard_error {
+        None => format!("{:.digits$}", estimate.value),
+        Some(error) => format!("{:.digits$} ± {error:.digits$}", estimate.value),
+    }
+}

@@ -1,0 +1,194 @@
+//! Tables of a rig: figures 2 and 6 to 14 of the paper in numbers, and the filter's part.
+
+use std::path::Path;
+
+use hammerbeam_signal::{Quantity, points::Kind};
+use hammerbeam_study::{
+    export::{Table, header, number},
+    rig::{FilteredBranch, SignalPair},
+};
+
+use super::Found;
+use crate::{commands::compare::write_points, failure::Failure};
+
+pub fn write(folder: &Path, found: &Found, files: &mut Vec<String>) -> Result<(), Failure> {
+    points(folder, found)?;
+    figure_2(folder, found)?;
+    branches(folder, found)?;
+    files.extend(["measured.csv", "figure_02.csv", "figure_06_branches.csv"].map(str::to_owned));
+    for (name, _, comparison) in &found.comparisons {
+        let file = if *name == "acceleration" {
+            "figure_06_points.csv".to_owned()
+        } else {
+            format!("points_{name}.csv")
+        };
+        write_points(folder, &file, comparison)?;
+        files.push(file);
+    }
+    for (index, signal) in found.signals.iter().enumerate() {
+        let file = figure_name(index);
+        write_signal(folder, &file, signal)?;
+        files.push(file);
+    }
+    Ok(())
+}
+
+/// Name of the table of a signal: the figures of the paper begin with number 7.
+pub fn figure_name(index: usize) -> String {
+    format!("figure_{:02}.csv", index + 7)
+}
+
+/// The measurement, as `hammerbeam compare` reads it.
+fn points(folder: &Path, found: &Found) -> Result<(), Failure> {
+    let titles = [
+        "frequency_hz",
+        "max_acceleration_m_s2",
+        "max_displacement_m",
+        "table_acceleration_m_s2",
+        "kind",
+        "period",
+        "sweep",
+        "period_of_states",
+        "unfiltered",
+        "begun_anew",
+    ];
+    let mut table = Table::begin(folder, "measured.csv", &header(&titles))?;
+    for point in &found.points {
+        let measured = &point.point;
+        let period = |period: Option<u32>| period.map_or_else(String::new, |period| period.to_string());
+        table.row(&[
+            number(measured.frequency_hz),
+            number(measured.maxima.acceleration),
+            number(measured.maxima.displacement),
+            number(measured.excitation.map(|(_, amplitude)| amplitude)),
+            measured.kind.word().to_owned(),
+            period(measured.kind.period_multiple()),
+            point.direction.word().to_owned(),
+            period(point.period_of_states),
+            number(point.unfiltered),
+            point.begun_anew.to_string(),
+        ])?;
+    }
+    table.finish()?;
+    Ok(())
+}
+
+/// Amplitude of the table's acceleration: that of the study, and as measured.
+fn figure_2(folder: &Path, found: &Found) -> Result<(), Failure> {
+    let titles = ["sweep", "frequency_hz", "computed_m_s2", "measured_m_s2", "measured_over_computed"];
+    let mut table = Table::begin(folder, "figure_02.csv", &header(&titles))?;
+    for point in &found.points {
+        let frequency_hz = point.point.frequency_hz;
+        let computed = table_acceleration(found, frequency_hz);
+        let measured = point.point.excitation.map(|(_, amplitude)| amplitude);
+        table.row(&[
+            point.direction.word().to_owned(),
+            number(frequency_hz),
+            number(computed),
+            number(measured),
+            number(measured.map(|measured| measured / computed)),
+        ])?;
+    }
+    table.finish()?;
+    Ok(())
+}
+
+/// Amplitude of the acceleration of the support that the study has [m/s²].
+pub fn table_acceleration(found: &Found, frequency_hz: f64) -> f64 {
+    let rate = std::f64::consts::TAU * frequency_hz * f64::from(found.file.study.excitation.order);
+    found.file.study.excitation.amplitude().at(frequency_hz) * rate * rate
+}
+
+/// Branches with and without filters.
+fn branches(folder: &Path, found: &Found) -> Result<(), Failure> {
+    let mut titles = header(&[
+        "branch",
+        "period_multiple",
+        "row",
+        "frequency_hz",
+        "stable",
+        "max_abs_acceleration_m_s2",
+        "max_abs_displacement_m",
+    ]);
+    for filter in &found.filters {
+        let hz = filter.cut_off_hz;
+        titles
+            .extend([format!("acceleration_behind_{hz}_hz_m_s2"), format!("displacement_behind_{hz}_hz_m")]);
+    }
+    let mut table = Table::begin(folder, "figure_06_branches.csv", &titles)?;
+    for branch in &found.filtered {
+        for row in branch_rows(branch) {
+            table.row(&row)?;
+        }
+    }
+    table.finish()?;
+    Ok(())
+}
+
+fn branch_rows(branch: &FilteredBranch) -> impl Iterator<Item = Vec<String>> {
+    branch.points.iter().map(|point| {
+        let mut row = vec![
+            branch.branch.to_string(),
+            branch.period_multiple.to_string(),
+            point.row.to_string(),
+            number(point.frequency_hz),
+            point.stable.to_string(),
+            number(point.acceleration),
+            number(point.displacement),
+        ];
+        for (acceleration, displacement) in
+            point.filtered_acceleration.iter().zip(&point.filtered_displacement)
+        {
+            row.extend([number(*acceleration), number(*displacement)]);
+        }
+        row
+    })
+}
+
+fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Failure> {
+    let titles = [
+        "phase_cycles",
+        "measured_acceleration_m_s2",
+        "computed_filtered_acceleration_m_s2",
+        "computed_acceleration_m_s2",
+        "computed_displacement_m",
+        "support_displacement_m",
+    ];
+    let mut table = Table::begin(folder, name, &header(&titles))?;
+    for (k, (phase, measured)) in signal.phases.iter().zip(&signal.measured).enumerate() {
+        let computed = signal.computed.as_ref();
+        table.row(&[
+            number(*phase),
+            number(*measured),
+            number(computed.map(|orbit| orbit.filtered[k])),
+            number(computed.map(|orbit| orbit.acceleration[k])),
+            number(computed.map(|orbit| orbit.displacement[k])),
+            number(computed.map(|orbit| orbit.support[k])),
+        ])?;
+    }
+    table.finish()?;
+    Ok(())
+}
+
+/// How often the record tells what the states do: right, wrong, doubtful.
+pub fn agreement(found: &Found) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for point in &found.points {
+        let right = match point.point.kind {
+            Kind::Periodic { period_multiple } => point.period_of_states == period_multiple,
+            Kind::Aperiodic => point.period_of_states.is_none(),
+            Kind::Doubtful | Kind::Unknown => {
+                counts[2] += 1;
+                continue;
+            }
+        };
+        counts[usize::from(!right)] += 1;
+    }
+    counts
+}
+
+/// Largest ratio of measured displacement to what a sensor range would have to be: told in millimetres.
+pub fn largest_displacement(found: &Found) -> f64 {
+    let values = found.points.iter().filter_map(|point| point.point.maxima.of(Quantity::Displacement));
+    values.fold(0.0, f64::max)
+}

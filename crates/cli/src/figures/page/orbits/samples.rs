@@ -1,0 +1,86 @@
+//! States of a stored orbit: at equal steps, and as densely within contacts as these need.
+
+use hammerbeam_motion::{
+    Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
+use hammerbeam_orbit::PeriodicSolution;
+
+/// Samples in a contact, besides the regular ones.
+const IN_A_CONTACT: usize = 24;
+
+/// A state of an orbit.
+pub struct Instant {
+    /// Excitation periods since phase 0 in the first period of the orbit, less than those of the orbit.
+    pub cycles: f64,
+    /// Number of the half step at which it stands, if it is a regular one.
+    pub place: Option<usize>,
+    /// `[q; q']`.
+    pub state: Vec<f64>,
+    /// Forces of the local elements [N].
+    pub forces: Vec<f64>,
+}
+
+/// States at every half step and within contacts, in their order from phase 0 on.
+///
+/// Each node of the orbit gives those up to the next one, so that also an orbit that is left fast is followed. A first trace finds the contacts, a
+/// second one the states.
+///
+/// * `steps`: in an excitation period.
+pub fn of_orbit(
+    integrator: &mut ExactIntegrator,
+    solution: &PeriodicSolution,
+    steps: usize,
+) -> Result<Vec<Instant>, MotionError> {
+    let (begin, periods) = (solution.phase, f64::from(solution.period_multiple));
+    let a_period = 2 * steps;
+    let count = a_period * solution.period_multiple as usize;
+    let first = (begin * a_period as f64).ceil() as usize;
+    let phase = |k: usize| k as f64 / a_period as f64;
+    let segments = solution.nodes.len();
+    let at = |segment: usize| begin + periods * segment as f64 / segments as f64;
+    let mut instants = Vec::with_capacity(count + 8 * IN_A_CONTACT);
+    let mut next = first;
+    for (segment, node) in solution.nodes.iter().enumerate() {
+        let stretch =
+            Stretch { frequency_hz: solution.frequency_hz, start: at(segment), end: at(segment + 1) };
+        let is_last = segment + 1 == segments;
+        let regular: Vec<usize> =
+            (next..first + count).take_while(|&k| is_last || phase(k) < stretch.end).collect();
+        next += regular.len();
+        let mut wanted: Vec<(f64, Option<usize>)> =
+            regular.iter().map(|&k| (phase(k).clamp(stretch.start, stretch.end), Some(k % count))).collect();
+        wanted.extend(in_contacts(integrator, &stretch, node)?.into_iter().map(|phase| (phase, None)));
+        wanted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let phases: Vec<f64> = wanted.iter().map(|(phase, _)| *phase).collect();
+        let trace = integrator.trace(&stretch, node, &phases)?;
+        for (((phase, place), state), forces) in wanted.into_iter().zip(trace.samples).zip(trace.forces) {
+            // What stands at a regular place keeps its number, whatever rounding does to its phase.
+            let cycles =
+                place.map_or_else(|| phase.rem_euclid(periods), |place| place as f64 / a_period as f64);
+            instants.push(Instant { cycles, place, state, forces });
+        }
+    }
+    instants.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
+    Ok(instants)
+}
+
+/// Phases within the contacts of a stretch.
+fn in_contacts(
+    integrator: &mut ExactIntegrator,
+    stretch: &Stretch,
+    node: &[f64],
+) -> Result<Vec<f64>, MotionError> {
+    let trace = integrator.trace(stretch, node, &[])?;
+    let phase = |time: f64| stretch.start + stretch.frequency_hz * time;
+    let mut phases = Vec::new();
+    for contact in &trace.contacts {
+        let from = contact.begin.as_ref().map_or(stretch.start, |touch| phase(touch.time));
+        let to = contact.end.map_or(stretch.end, phase).min(stretch.end);
+        let inside = |k: usize| from + (to - from) * (k as f64 + 0.5) / IN_A_CONTACT as f64;
+        phases.extend(
+            (0..IN_A_CONTACT).map(inside).filter(|phase| (stretch.start..stretch.end).contains(phase)),
+        );
+    }
+    Ok(phases)
+}

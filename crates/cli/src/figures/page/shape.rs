@@ -1,0 +1,94 @@
+//! The structure as a page draws it.
+
+use hammerbeam_figure::{PagePlace, PageStop, PageStructure};
+use hammerbeam_motion::LocalElement;
+use hammerbeam_study::{
+    Model, StudyFile,
+    file::{FixedTo, Place, Structure},
+};
+
+/// Places, stops and springs of a study.
+pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
+    let study = &file.study;
+    let name_at = |at: f64| match &study.structure {
+        Structure::Beam(beam) => beam
+            .points
+            .iter()
+            .find(|point| (point.at_m - at).abs() <= 1e-9 * beam.length_m)
+            .map(|point| &point.name),
+        Structure::Lumped(lumped) => lumped.masses.get(at as usize).map(|mass| &mass.name),
+    };
+    let places = model.outline.iter().map(|place| PagePlace {
+        name: name_at(place.at).cloned().unwrap_or_default(),
+        at: place.at,
+        shape: place.shape.clone(),
+        support_ratio: place.support_ratio,
+    });
+    let links = match &study.structure {
+        Structure::Beam(_) => Vec::new(),
+        Structure::Lumped(lumped) => {
+            let mass = |name: &String| lumped.masses.iter().position(|mass| mass.name == *name);
+            let ends =
+                |between: &[String; 2]| [&between[0], &between[1]].map(|name| mass(name).map(|at| at as u32));
+            let springs = lumped.springs.iter().map(|spring| ends(&spring.between));
+            springs.chain(lumped.dampers.iter().map(|damper| ends(&damper.between))).collect()
+        }
+    };
+    let frequencies = model.system.model().natural_frequencies.iter();
+    PageStructure {
+        is_beam: matches!(study.structure, Structure::Beam(_)),
+        places: places.collect(),
+        stops: stops(file, model),
+        links,
+        eigenfrequencies_hz: frequencies.map(|rate| rate / std::f64::consts::TAU).collect(),
+    }
+}
+
+/// Stops with at least one contact; a stop of two elements is two stops here.
+fn stops(file: &StudyFile, model: &Model) -> Vec<PageStop> {
+    let mut drawn = Vec::new();
+    for (number, element) in model.system.elements().iter().enumerate() {
+        let of = |name: &str| {
+            element.name == name || element.name.strip_prefix(name).is_some_and(|rest| rest.starts_with(" ("))
+        };
+        let Some(stop) = file.study.stops.iter().find(|stop| of(&stop.name)) else { continue };
+        let (name, other, rides) = match &stop.place {
+            Place::At { point, fixed_to } => (point, None, *fixed_to == FixedTo::Support),
+            Place::Between { first, second } => (first, Some(second), false),
+        };
+        let Some(place) = place(file, model, name) else { continue };
+        drawn.push(PageStop {
+            name: element.name.clone(),
+            element: number as u32,
+            place,
+            other: other.and_then(|other| self::place(file, model, other)),
+            rides,
+            levels: levels(element, model, name, other),
+        });
+    }
+    drawn
+}
+
+/// Displacements of the point relative to what carries the stop at which contacts begin, and whether the stop lies above.
+fn levels(element: &LocalElement, model: &Model, name: &str, other: Option<&String>) -> Vec<(f64, bool)> {
+    let shape =
+        |name: &str| model.system.model().point(name).map(|point| point.shape.clone()).unwrap_or_default();
+    let carrier = other.map(|other| shape(other.as_str())).unwrap_or_default();
+    let along = |k: usize, own: f64| own - carrier.get(k).copied().unwrap_or(0.0);
+    let relative = shape(name).into_iter().enumerate().map(|(k, own)| along(k, own));
+    let sign = relative.zip(&element.shape).map(|(a, b)| a * b).sum::<f64>().signum();
+    let contacts = element.law.contacts().iter();
+    contacts.map(|contact| (sign * contact.level, sign * contact.sign > 0.0)).collect()
+}
+
+/// Number of the place of a point in the outline; none for the ground.
+fn place(file: &StudyFile, model: &Model, name: &str) -> Option<u32> {
+    let at = match (&file.study.structure, name) {
+        (Structure::Lumped(lumped), _) => lumped.masses.iter().position(|mass| mass.name == name)? as f64,
+        (Structure::Beam(_), "left") => 0.0,
+        (Structure::Beam(beam), "right") => beam.length_m,
+        (Structure::Beam(beam), _) => beam.points.iter().find(|point| point.name == name)?.at_m,
+    };
+    let distance = |place: usize| (model.outline[place].at - at).abs();
+    (0..model.outline.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).map(|place| place as u32)
+}

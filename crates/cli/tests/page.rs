@@ -1,0 +1,260 @@
+//! The page: written by the command, always the same bytes, with clear sentences about what is missing, and opened in a real browser.
+//!
+//! The browser is driven by a script of the page (`crates/figure/page/test`). It needs Node; its packages, a browser among them, are installed from the lock file
+//! where they are missing. Where that cannot be had the test says so and passes, unless `HAMMERBEAM_REQUIRE_BROWSER=1`.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(clippy::print_stderr, reason = "it has to say that it was skipped")]
+
+mod common;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use common::{Workshop, assert_success, stderr, stdout};
+use hammerbeam_figure::{
+    MotionKind, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
+    PageSolution, PageStop, PageStructure,
+};
+use rusqlite::Connection;
+use serde_json::{Value, json};
+
+const RANGE: &str = "frequency_hz = [30.0, 40.0]";
+
+/// The beam between 30 and 40 Hz, computed, with the number of its branches.
+fn results() -> (Workshop, Value) {
+    let workshop = Workshop::changed(common::BEAM, "frequency_hz = [19.0, 110.0]", RANGE);
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+    assert_success(&run);
+    let document: Value = serde_json::from_str(&stdout(&run)).unwrap();
+    assert!(document["figures"].as_array().unwrap().contains(&json!("page.html")), "{document}");
+    (workshop, document)
+}
+
+#[test]
+fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missing() {
+    let (workshop, document) = results();
+    let first = fs::read(workshop.path("results/page.html")).unwrap();
+    let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "again"]);
+    assert_success(&drawn);
+    assert!(first == fs::read(workshop.path("again/page.html")).unwrap(), "not the same bytes");
+
+    let branches = document["branches"].as_array().unwrap();
+    assert!(branches.len() > 2, "several branches are drawn");
+    let run = json!({
+        "path": workshop.path("results/page.html"),
+        "branches": branches.len(),
+        "first_branch": branches[0]["branch"],
+        "range": [30.0, 40.0],
+    });
+    let odd = odd_pages(&workshop);
+    in_a_browser(&json!({ "run": run, "odd": odd }));
+    while_a_run_writes(&workshop);
+    without_anything(&workshop);
+}
+
+/// A walk that has not ended is told on the page.
+fn while_a_run_writes(workshop: &Workshop) {
+    let database = Connection::open(workshop.path("results/results.db")).unwrap();
+    database.execute("UPDATE walk SET stop_kind = NULL WHERE id = (SELECT min(id) FROM walk)", []).unwrap();
+    database.close().unwrap();
+    assert_success(&workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "unfinished"]));
+    let html = fs::read_to_string(workshop.path("unfinished/page.html")).unwrap();
+    let notice = "The run was not finished when this page was drawn; sides of branches under way: 1; ";
+    assert!(html.contains(notice));
+}
+
+/// Nothing is left to show.
+fn without_anything(workshop: &Workshop) {
+    let database = Connection::open(workshop.path("results/results.db")).unwrap();
+    database.execute_batch("DELETE FROM solution; DELETE FROM walk; DELETE FROM start;").unwrap();
+    database.close().unwrap();
+    let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "drawn"]);
+    assert_eq!(drawn.status.code(), Some(1));
+    let message = stderr(&drawn);
+    assert!(message.contains("results holds nothing of what was asked for to draw"), "{message}");
+}
+
+/// Pages that no run gives: each with what it has to say.
+fn odd_pages(workshop: &Workshop) -> Value {
+    let point = PageSolution {
+        frequency_hz: 20.0,
+        displacement_m: 1e-3,
+        force_n: f64::INFINITY,
+        leading_multiplier: [f64::INFINITY, 0.0],
+        ..PageSolution::default()
+    };
+    let one = |id| PageBranch { id, period_multiple: id, solutions: vec![point], ..PageBranch::default() };
+    let lone = Page {
+        title: "A branch of one point & <nothing> else".to_owned(),
+        frequency_range_hz: (10.0, 30.0),
+        branches: vec![one(1), one(2), PageBranch { id: 3, period_multiple: 1, ..PageBranch::default() }],
+        ..Page::default()
+    };
+    let empty = Page {
+        notice: "The run was not finished when this page was drawn.".to_owned(),
+        frequency_range_hz: (10.0, 30.0),
+        ..Page::default()
+    };
+    let pages = [
+        (
+            "a branch of one point",
+            lone,
+            2,
+            vec!["& <nothing> else", "Click on a solution"],
+            "No orbit of this branch",
+        ),
+        (
+            "an empty page",
+            empty,
+            0,
+            vec!["No periodic solution is stored.", "The run was not finished"],
+            "No periodic solution",
+        ),
+        (
+            "everything at once",
+            everything(),
+            1,
+            vec!["measured: sweep up", "chaotic motion", "Poincare section", "0.2500 ± 0.010"],
+            "the orbit of",
+        ),
+    ];
+    let write = |(name, page, branches, says, orbit): (&str, Page, usize, Vec<&str>, &str)| {
+        let path = workshop.path(&format!("{}.html", name.replace(' ', "-")));
+        fs::write(&path, page.html()).unwrap();
+        json!({ "name": name, "path": path, "branches": branches, "says": says, "orbit": orbit })
+    };
+    pages.into_iter().map(write).collect()
+}
+
+/// Masses with stops on both sides, an orbit with multipliers that are not finite, a section, measured points.
+fn everything() -> Page {
+    let solution = |k: u32| PageSolution {
+        frequency_hz: 10.0 + f64::from(k),
+        displacement_m: 1e-3 * f64::from(k + 1),
+        leading_multiplier: [f64::NAN, 0.0],
+        stable: k > 5,
+        fold: k == 5,
+        ..PageSolution::default()
+    };
+    let wave = |count: u32, size: f64| -> Vec<f64> {
+        (0..count).map(|k| size * (std::f64::consts::TAU * f64::from(k) / f64::from(count)).cos()).collect()
+    };
+    let pairs = |size: f64| wave(60, size).into_iter().map(|value| [value, value]).collect::<Vec<_>>();
+    let orbit = PageOrbit {
+        displacement_m: wave(60, 1e-3),
+        velocity_m_s: wave(60, 1.0),
+        acceleration_m_s2: pairs(10.0),
+        forces_n: vec![pairs(1.0), pairs(0.0)],
+        support_m: vec![0.0; 30],
+        modes: vec![wave(30, 1e-3), wave(30, -5e-4)],
+        spectrum_m_s2: vec![10.0, 0.0, f64::NAN],
+        multipliers: vec![[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]],
+    };
+    let mut orbits = OrbitRecords::default();
+    assert!(orbits.insert(0, &orbit, usize::MAX));
+    let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
+        name: name.to_owned(),
+        at,
+        shape: shape.to_vec(),
+        support_ratio: 0.0,
+    };
+    let stop = |place: u32, other: Option<u32>, levels: Vec<(f64, bool)>| PageStop {
+        name: format!("stop {place}"),
+        element: place,
+        place,
+        other,
+        rides: false,
+        levels,
+    };
+    Page {
+        title: "Two masses".to_owned(),
+        point: "first".to_owned(),
+        frequency_range_hz: (10.0, 30.0),
+        branches: vec![PageBranch {
+            id: 7,
+            period_multiple: 1,
+            ends: ["one".to_owned(), "other".to_owned()],
+            solutions: (0..20).map(solution).collect(),
+        }],
+        orbits,
+        structure: Some(PageStructure {
+            is_beam: false,
+            places: vec![place("first", 0.0, [1.0, 0.0]), place("second", 1.0, [0.0, 1.0])],
+            stops: vec![
+                stop(0, Some(1), vec![(5e-4, true)]),
+                stop(1, None, vec![(1e-3, true), (-1e-3, false)]),
+            ],
+            links: vec![[Some(0), None], [Some(0), Some(1)], [None, Some(1)]],
+            eigenfrequencies_hz: vec![12.0, 25.0],
+        }),
+        motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 5e-3 }],
+        chaotic_ranges_hz: vec![(14.0, 16.0)],
+        sections: vec![
+            PageSection { points: vec![(1e-3, 0.1), (1e-3 + 1e-19, 0.1)], ..PageSection::default() },
+            PageSection {
+                frequency_hz: 15.0,
+                exponent_per_s: Some((0.25, 0.01)),
+                dimension: Some(f64::NAN),
+                points: wave(200, 1e-3).into_iter().zip(wave(200, 0.1)).chain([(f64::NAN, 0.0)]).collect(),
+            },
+        ],
+        measured: vec![PageMeasured {
+            name: "sweep up".to_owned(),
+            displacement: vec![(12.0, 2e-3), (13.0, f64::INFINITY)],
+            acceleration: Vec::new(),
+        }],
+        ..Page::default()
+    }
+}
+
+/// Runs the script of the page over these pages.
+fn in_a_browser(pages: &Value) {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../figure/page");
+    let skip = |reason: &str| {
+        assert!(
+            std::env::var("HAMMERBEAM_REQUIRE_BROWSER").as_deref() != Ok("1"),
+            "no browser test: {reason}"
+        );
+        eprintln!("the page was not opened in a browser: {reason}");
+    };
+    let version = Command::new("node").arg("--version").output();
+    let Ok(version) = version.map(|output| stdout(&output)) else { return skip("there is no Node") };
+    let major = version.trim_start_matches('v').split('.').next().and_then(|major| major.parse::<u32>().ok());
+    if major.is_none_or(|major| major < 20) {
+        return skip(&format!("Node 20 is needed, this is {}", version.trim()));
+    }
+    if !source.join("node_modules/.package-lock.json").is_file() {
+        let installed = Command::new("npm").args(["ci", "--ignore-scripts"]).current_dir(&source).output();
+        match installed {
+            Ok(output) if output.status.success() => {}
+            Ok(output) => return skip(&format!("its packages cannot be installed: {}", stderr(&output))),
+            Err(error) => return skip(&format!("npm cannot be started: {error}")),
+        }
+    }
+    let run = |arguments: &[&str]| {
+        let output = Command::new("node")
+            .args(arguments)
+            .current_dir(&source)
+            .env("HAMMERBEAM_PAGES", pages.to_string())
+            .env("HAMMERBEAM_PICTURES", pictures())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{arguments:?}\n{}\n{}", stdout(&output), stderr(&output));
+        stdout(&output)
+    };
+    run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
+    run(&["build.mjs", "--compare"]);
+    let report = run(&["--test", "--test-reporter=tap", "test/page.test.mjs"]);
+    let skipped: Vec<&str> = report.lines().filter(|line| line.contains("# SKIP")).collect();
+    if let Some(line) = skipped.first() {
+        skip(line);
+    }
+}
+
+/// Among the build products.
+fn pictures() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("page")
+}

@@ -1,0 +1,112 @@
+// The structure moving through one orbit period, played slowly.
+
+import type { Structure } from "./data";
+import { button, choice, element, panel } from "./dom";
+import { drawBeam } from "./draw_beam";
+import { drawMasses, rowsOf } from "./draw_masses";
+import { digits } from "./format";
+import { largestDisplacement, poseAt } from "./motion";
+import type { Orbit } from "./orbit";
+import type { Theme } from "./theme";
+
+const HEIGHT = 260;
+
+export class Animation {
+    readonly root: HTMLElement;
+    private readonly canvas = element("canvas", { role: "img", "aria-label": "The structure in motion" });
+    private readonly play = button("Pause", "Play or pause (space)", () => this.toggle());
+    private readonly slider = element("input", { type: "range", min: "0", max: "1", step: "any", "aria-label": "Instant in the orbit period" });
+    private readonly speed = element("p", { class: "note" });
+    private orbit: Orbit | null = null;
+    private frequency = 1;
+    private largest = 0;
+    private instant = 0;
+    private seconds = 4;
+    private playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    private last = 0;
+
+    constructor(private readonly structure: Structure | null, private readonly theme: Theme, private readonly at: (instant: number) => void) {
+        const speeds = [["2", "2 s"], ["4", "4 s"], ["8", "8 s"], ["20", "20 s"]] as const;
+        const pace = choice("One excitation period takes", speeds, (seconds) => {
+            this.seconds = Number(seconds);
+            this.tell();
+        });
+        pace.show("4");
+        this.slider.addEventListener("input", () => {
+            this.pause();
+            this.instant = Number(this.slider.value) * (this.orbit?.period ?? 1);
+            this.draw();
+        });
+        this.root = panel("The structure in motion", "motion", [this.canvas, element("div", { class: "controls" }, [this.play, this.slider, pace.root]), this.speed]);
+        theme.listen(() => this.draw());
+        new ResizeObserver(() => this.draw()).observe(this.canvas);
+        requestAnimationFrame((now) => this.step(now));
+    }
+
+    show(orbit: Orbit, frequency: number): void {
+        [this.orbit, this.frequency] = [orbit, frequency];
+        this.instant %= orbit.period;
+        this.largest = this.structure === null ? 0 : largestDisplacement(this.structure, orbit);
+        this.play.textContent = this.playing ? "Pause" : "Play";
+        this.tell();
+        this.draw();
+    }
+
+    toggle(): void {
+        this.playing = !this.playing;
+        this.play.textContent = this.playing ? "Pause" : "Play";
+    }
+
+    private pause(): void {
+        if (this.playing) {
+            this.toggle();
+        }
+    }
+
+    private step(now: number): void {
+        const passed = Math.min(0.1, (now - this.last) / 1000);
+        this.last = now;
+        if (this.playing && this.orbit !== null && !document.hidden && this.root.offsetParent !== null) {
+            this.instant = (this.instant + passed / this.seconds) % this.orbit.period;
+            this.slider.value = String(this.instant / this.orbit.period);
+            this.draw();
+        }
+        requestAnimationFrame((next) => this.step(next));
+    }
+
+    private draw(): void {
+        const width = this.canvas.clientWidth;
+        const context = this.canvas.getContext("2d");
+        if (this.orbit === null || this.structure === null || context === null || width === 0) {
+            return;
+        }
+        const density = window.devicePixelRatio;
+        const [across, up] = [Math.round(width * density), Math.round(HEIGHT * density)];
+        if (this.canvas.width !== across || this.canvas.height !== up) {
+            [this.canvas.width, this.canvas.height] = [across, up];
+        }
+        context.setTransform(density, 0, 0, density, 0, 0);
+        context.clearRect(0, 0, width, HEIGHT);
+        const sketch = { context, width, height: HEIGHT, theme: this.theme };
+        const pose = poseAt(this.structure, this.orbit, this.instant);
+        const largest = this.largest || 1;
+        if (this.structure.beam) {
+            this.enlarged = drawBeam(sketch, this.structure, pose, (0.36 * HEIGHT) / largest);
+        } else {
+            drawMasses(sketch, this.structure, pose, rowsOf(this.structure, width).room / largest);
+        }
+        this.tell();
+        this.at(this.instant);
+    }
+
+    private enlarged = 0;
+
+    private tell(): void {
+        const slower = digits(this.seconds * this.frequency, 3);
+        const size = this.enlarged > 0 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.` : "";
+        const text = `Played ${slower} times slower.${size} Largest displacement: ${digits(1e3 * this.largest, 4)} mm. A stop is coloured while it is pressed.`;
+        if (this.speed.textContent !== text) {
+            this.speed.textContent = text;
+        }
+    }
+}

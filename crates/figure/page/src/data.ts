@@ -1,0 +1,135 @@
+// What the page is given: what is small as JSON, solutions as columns (see columns.rs of the figure crate).
+
+import { bytesOf } from "./base64";
+
+export interface Look {
+    periods: string[];
+    ink: string;
+    pale: string;
+    grid: string;
+    paper: string;
+    panel: string;
+    shade: string;
+}
+
+export interface Branch {
+    id: number;
+    period: number;
+    ends: [string, string];
+    /** Number of its first solution over all branches end to end. */
+    first: number;
+    count: number;
+}
+
+export interface Place {
+    name: string;
+    at: number;
+    shape: number[];
+    support: number;
+}
+
+export interface Stop {
+    name: string;
+    element: number;
+    place: number;
+    other: number | null;
+    rides: boolean;
+    levels: { level: number; above: boolean }[];
+}
+
+export interface Structure {
+    beam: boolean;
+    places: Place[];
+    stops: Stop[];
+    links: [number | null, number | null][];
+    eigenfrequencies: number[];
+}
+
+export interface Section {
+    frequency: number;
+    exponent: [number | null, number | null] | null;
+    dimension: number | null;
+    points: [number | null, number | null][];
+}
+
+export interface Measured {
+    name: string;
+    /** Frequencies and values; null where a value is not finite. */
+    displacement: [number | null, number | null][];
+    acceleration: [number | null, number | null][];
+}
+
+export interface Motion {
+    frequency: number;
+    displacement: number | null;
+    kind: "periodic" | "quasi-periodic" | "chaotic" | "doubtful";
+}
+
+export interface Meta {
+    title: string;
+    point: string;
+    range: [number, number];
+    notice: string;
+    branches: Branch[];
+    orbits: { solutions: number[]; offsets: number[]; length: number };
+    structure: Structure | null;
+    motions: Motion[];
+    chaos: [number, number][];
+    sections: Section[];
+    measured: Measured[];
+    look: { light: Look; dark: Look };
+}
+
+export type Quantity = "displacement" | "acceleration" | "force" | "velocity";
+
+/** Bits of the flags of a solution. */
+export const STABLE = 1, FOLD = 2, FLIP = 4, NEIMARK_SACKER = 8, BRANCH_POINT = 16, GRAZING = 32;
+
+export interface Solutions {
+    count: number;
+    frequency: Float64Array;
+    maxima: Record<Quantity, Float32Array>;
+    multiplierRe: Float32Array;
+    multiplierIm: Float32Array;
+    contacts: Uint16Array;
+    flags: Uint16Array;
+    /** Place of the branch of each solution in the list of branches. */
+    branch: Uint16Array;
+}
+
+function textOf(id: string): string {
+    return document.getElementById(id)?.textContent ?? "";
+}
+
+export function readMeta(): Meta {
+    return JSON.parse(textOf("meta")) as Meta;
+}
+
+export function readSolutions(branches: Branch[]): Solutions {
+    const buffer = bytesOf(textOf("solutions")).buffer;
+    const count = branches.reduce((sum, branch) => sum + branch.count, 0);
+    let at = 0;
+    const single = (): Float32Array => {
+        const column = new Float32Array(buffer, at, count);
+        at += 4 * count;
+        return column;
+    };
+    const whole = (): Uint16Array => {
+        const column = new Uint16Array(buffer, at, count);
+        at += 2 * count;
+        return column;
+    };
+    const frequency = new Float64Array(buffer, 0, count);
+    at = 8 * count;
+    const maxima = { displacement: single(), acceleration: single(), force: single(), velocity: single() };
+    const [multiplierRe, multiplierIm] = [single(), single()];
+    const [contacts, flags] = [whole(), whole()];
+    const branch = new Uint16Array(count);
+    branches.forEach((of, place) => branch.fill(place, of.first, of.first + of.count));
+    return { count, frequency, maxima, multiplierRe, multiplierIm, contacts, flags, branch };
+}
+
+/** The base64 text of all orbits. */
+export function orbitText(): string {
+    return textOf("orbits");
+}

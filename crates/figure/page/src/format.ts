@@ -1,0 +1,74 @@
+// Numbers as they are read: a point, thin digits, units.
+
+import type { Quantity } from "./data";
+
+/** So many significant digits; powers of ten for what is very small or very large. */
+export function digits(value: number, count: number): string {
+    if (!Number.isFinite(value)) {
+        return Number.isNaN(value) ? "–" : value > 0 ? "∞" : "−∞";
+    }
+    const size = Math.abs(value);
+    if (size === 0) {
+        return "0";
+    }
+    const text =
+        size < 1e-3 || size >= 1e6 ? value.toExponential(count - 1) : value.toPrecision(count);
+    return text.replace("e+", "e").replaceAll("-", "−");
+}
+
+/** Labels of ticks at a distance. */
+export function ticks(splits: readonly (number | null)[], distance: number): string[] {
+    let decimals = 0;
+    while (decimals < 12 && Math.abs(distance * 10 ** decimals - Math.round(distance * 10 ** decimals)) > 1e-6) {
+        decimals++;
+    }
+    return splits.map((value) => (value === null ? "" : plain(value, decimals)));
+}
+
+function plain(value: number, decimals: number): string {
+    const size = Math.abs(value);
+    const text = size >= 1e6 || (size !== 0 && size < 1e-4) ? value.toExponential(2) : value.toFixed(decimals);
+    return text.replaceAll("-", "−");
+}
+
+/** Labels of the ticks of a logarithmic axis. */
+export function logTicks(splits: readonly (number | null)[]): string[] {
+    return splits.map((value) => {
+        if (value === null) {
+            return "";
+        }
+        return value >= 1e5 || value < 1e-3 ? value.toExponential(0).replace("e+", "e").replaceAll("-", "−") : String(Number(value.toPrecision(3)));
+    });
+}
+
+export function hertz(value: number): string {
+    return `${value.toFixed(6)} Hz`;
+}
+
+/** A real number, or a complex pair. */
+export function complex(re: number, im: number): string {
+    if (im === 0) {
+        return digits(re, 4);
+    }
+    return `${digits(re, 4)} ± ${digits(Math.abs(im), 4)}i`;
+}
+
+export interface Measure {
+    name: string;
+    label: string;
+    unit: string;
+    /** From SI to the unit. */
+    factor: number;
+}
+
+export const MEASURES: Record<Quantity, Measure> = {
+    displacement: { name: "displacement", label: "Maximum displacement (mm)", unit: "mm", factor: 1e3 },
+    acceleration: { name: "acceleration", label: "Maximum acceleration (m/s²)", unit: "m/s²", factor: 1 },
+    force: { name: "contact force", label: "Maximum contact force (N)", unit: "N", factor: 1 },
+    velocity: { name: "impact velocity", label: "Maximum impact velocity (m/s)", unit: "m/s", factor: 1 },
+};
+
+/** The word for a period multiple. */
+export function periodName(period: number): string {
+    return period === 1 ? "period 1" : `period ${period} (1/${period})`;
+}

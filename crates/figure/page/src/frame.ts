@@ -1,0 +1,169 @@
+// A frame with two axes, drawn by uPlot; what lies in it is painted by the caller.
+
+import uPlot from "uplot";
+
+import { logTicks, ticks } from "./format";
+import type { Theme } from "./theme";
+
+export interface Range {
+    x: [number, number];
+    y: [number, number];
+    logY: boolean;
+}
+
+export interface Painter {
+    (context: CanvasRenderingContext2D, frame: Frame): void;
+}
+
+export interface FrameOptions {
+    xLabel: () => string;
+    yLabel: () => string;
+    /** The ends of both axes; asked for at every drawing. */
+    range: () => Range;
+    paint: Painter;
+    height: () => number;
+}
+
+/** Width of the labels of a vertical axis at least (CSS pixels). */
+const NARROW = 58;
+
+/** Width and height (CSS pixels) of what lies around a plot whose labels are short. */
+export const MARGINS = { across: 96, up: 58 };
+
+/** Least width of an axis, relative to its values: its ticks have to differ. */
+export const NARROWEST = 1e-10;
+
+const FONT = "12px system-ui, sans-serif";
+const LABEL_FONT = "13px system-ui, sans-serif";
+
+export class Frame {
+    plot: uPlot;
+    private logY: boolean;
+    private readonly listeners: (() => void)[] = [];
+
+    constructor(readonly host: HTMLElement, private readonly options: FrameOptions, private readonly theme: Theme) {
+        this.logY = options.range().logY;
+        this.plot = this.create();
+        new ResizeObserver(() => this.resize()).observe(host);
+        theme.listen(() => this.redraw());
+        window.addEventListener("beforeprint", () => this.resize());
+    }
+
+    /** Calls now, and again whenever the elements of the plot are new ones. */
+    whenMade(listener: () => void): void {
+        this.listeners.push(listener);
+        listener();
+    }
+
+    /** Draws anew, with the axes as they are now. */
+    redraw(): void {
+        const { x, y, logY } = this.range();
+        const [across, up] = this.plot.axes;
+        const labels = [this.options.xLabel(), this.options.yLabel()];
+        if (logY !== this.logY || across?.label !== labels[0] || up?.label !== labels[1]) {
+            // uPlot fixes the kind of a scale and the labels when it is made.
+            this.logY = logY;
+            this.plot.destroy();
+            this.plot = this.create();
+            this.listeners.forEach((listener) => listener());
+            return;
+        }
+        this.plot.batch(() => {
+            this.plot.setScale("x", { min: x[0], max: x[1] });
+            this.plot.setScale("y", { min: y[0], max: y[1] });
+        });
+        this.plot.redraw(false, true);
+    }
+
+    /** Canvas pixels per CSS pixel. */
+    get density(): number {
+        return uPlot.pxRatio;
+    }
+
+    /** From values to canvas pixels. */
+    readonly toX = (value: number): number => this.plot.valToPos(value, "x", true);
+    readonly toY = (value: number): number => this.plot.valToPos(value, "y", true);
+
+    range(): Range {
+        const range = this.options.range();
+        const { x, y } = range;
+        const widen = ([low, high]: [number, number]): [number, number] => {
+            const size = Math.max(Math.abs(low), Math.abs(high));
+            const margin = 1e-3 * size || 1;
+            return high - low > NARROWEST * size ? [low, high] : [low - margin, high + margin];
+        };
+        return { ...range, x: widen(x), y: widen(y) };
+    }
+
+    private create(): uPlot {
+        return new uPlot(this.plotOptions(), [[0, 1], [null, null]], this.host);
+    }
+
+    private resize(): void {
+        const size = this.size();
+        if (size.width !== this.plot.width || size.height !== this.plot.height) {
+            this.plot.setSize(size);
+        }
+    }
+
+    private size(): { width: number; height: number } {
+        const width = Math.max(200, Math.floor(this.host.clientWidth));
+        return { width, height: this.options.height() };
+    }
+
+    private plotOptions(): uPlot.Options {
+        const { x, y, logY } = this.range();
+        const ink = (): string => this.theme.look.ink;
+        const grid = { stroke: () => this.theme.look.grid, width: 1 };
+        const common = { stroke: ink, font: FONT, labelFont: LABEL_FONT, grid, ticks: { ...grid, size: 4 } };
+        return {
+            ...this.size(),
+            ms: 1e-3,
+            pxAlign: false,
+            padding: [8, 18, 0, 0],
+            legend: { show: false },
+            cursor: { show: false },
+            scales: {
+                x: { time: false, auto: false, min: x[0], max: x[1] },
+                y: { auto: false, min: y[0], max: y[1], ...(logY ? { distr: 3 as const } : {}) },
+            },
+            series: [{}, { show: true, paths: () => null, points: { show: false } }],
+            axes: [
+                {
+                    ...common,
+                    label: this.options.xLabel(),
+                    labelSize: 20,
+                    size: 30,
+                    space: 70,
+                    values: (_, splits, __, ___, distance) => ticks(splits, distance),
+                },
+                {
+                    ...common,
+                    label: this.options.yLabel(),
+                    labelSize: 20,
+                    size: (_, labels) => Math.max(NARROW, 12 + 7.2 * Math.max(0, ...(labels ?? []).map((label) => label.length))),
+                    space: 36,
+                    values: (_, splits, __, ___, distance) => (logY ? logTicks(splits) : ticks(splits, distance)),
+                },
+            ],
+            hooks: { draw: [(plot) => this.paint(plot)] },
+        };
+    }
+
+    /** The state of the context is left as it was: uPlot remembers what it has set. */
+    private paint(plot: uPlot): void {
+        const { ctx: context, bbox } = plot;
+        context.save();
+        context.beginPath();
+        context.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+        context.save();
+        context.clip();
+        this.options.paint(context, this);
+        context.restore();
+        context.strokeStyle = this.theme.look.pale;
+        context.lineWidth = this.density;
+        context.setLineDash([]);
+        context.strokeRect(bbox.left, bbox.top, bbox.width, bbox.height);
+        context.restore();
+    }
+}

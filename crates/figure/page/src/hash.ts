@@ -1,0 +1,81 @@
+// The state as the part of the address after #, so that a link leads back to it.
+
+import type { Meta, Quantity, Solutions } from "./data";
+import { START, type State } from "./state";
+
+const QUANTITIES: readonly Quantity[] = ["displacement", "acceleration", "force", "velocity"];
+
+/** Shortest decimal that is good to a hundred millionth of the width of the view. */
+function short(value: number, width: number): string {
+    const digits = Math.min(15, Math.max(0, Math.ceil(8 - Math.log10(Math.abs(width) || 1))));
+    return Number(value.toFixed(digits)).toString();
+}
+
+export function toHash(state: State, meta: Meta, solutions: Solutions): string {
+    const parts: string[] = [];
+    if (state.quantity !== START.quantity) {
+        parts.push(`show=${state.quantity}`);
+    }
+    parts.push(`scale=${state.log ? "log" : "linear"}`);
+    if (state.view !== null) {
+        const { x, y } = state.view;
+        parts.push(`x=${x.map((value) => short(value, x[1] - x[0])).join(",")}`);
+        parts.push(`y=${y.map((value) => short(value, state.log ? y[0] : y[1] - y[0])).join(",")}`);
+    }
+    if (state.selected >= 0) {
+        const branch = meta.branches[solutions.branch[state.selected] ?? 0];
+        parts.push(`at=${branch?.id ?? 0}:${state.selected - (branch?.first ?? 0)}`);
+    }
+    if (state.hidden.size > 0) {
+        const ids = [...state.hidden].map((place) => meta.branches[place]?.id ?? 0);
+        parts.push(`hide=${ids.sort((a, b) => a - b).join(",")}`);
+    }
+    if (state.theme !== "auto") {
+        parts.push(`theme=${state.theme}`);
+    }
+    if (!state.marks) {
+        parts.push("marks=off");
+    }
+    if (!state.measured) {
+        parts.push("measured=off");
+    }
+    if (state.section !== 0) {
+        parts.push(`section=${state.section + 1}`);
+    }
+    return `#${parts.join("&")}`;
+}
+
+/** Two finite numbers in order, or null. */
+function pair(text: string | null): [number, number] | null {
+    const [low, high] = (text ?? "").split(",").map(Number);
+    return low !== undefined && high !== undefined && Number.isFinite(low) && high > low ? [low, high] : null;
+}
+
+/**
+ * The state of a link; what is not there, or makes no sense, is as at the start.
+ *
+ * `suits`: whether a logarithmic axis suits a quantity.
+ */
+export function fromHash(hash: string, meta: Meta, suits: (quantity: Quantity) => boolean): State {
+    const words = new URLSearchParams(hash.replace(/^#/, ""));
+    const [x, y] = [pair(words.get("x")), pair(words.get("y"))];
+    const [id, number] = (words.get("at") ?? "").split(":").map(Number);
+    const branch = meta.branches.find((one) => one.id === id);
+    const inside = branch !== undefined && number !== undefined && number >= 0 && number < branch.count;
+    const hidden = (words.get("hide") ?? "").split(",").map((text) => meta.branches.findIndex((one) => one.id === Number(text)));
+    const theme = words.get("theme");
+    const section = Number(words.get("section") ?? 1) - 1;
+    const scale = words.get("scale");
+    const quantity = QUANTITIES.find((one) => one === words.get("show")) ?? START.quantity;
+    return {
+        quantity,
+        log: scale === null ? suits(quantity) : scale === "log",
+        view: x !== null && y !== null ? { x, y } : null,
+        selected: inside ? branch.first + Math.trunc(number) : -1,
+        hidden: new Set(hidden.filter((place) => place >= 0)),
+        theme: theme === "light" || theme === "dark" ? theme : "auto",
+        marks: words.get("marks") !== "off",
+        measured: words.get("measured") !== "off",
+        section: section >= 0 && section < meta.sections.length ? Math.trunc(section) : 0,
+    };
+}

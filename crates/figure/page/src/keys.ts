@@ -1,0 +1,120 @@
+// Keys, and the list of them.
+
+import { eventsOf } from "./bifurcations";
+import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Meta, type Quantity, type Solutions } from "./data";
+import { element } from "./dom";
+import type { Response } from "./response";
+import type { Store } from "./state";
+
+export interface Actions {
+    response: Response;
+    quantity: (quantity: Quantity) => void;
+    play: () => void;
+    copyLink: () => void;
+    help: () => void;
+}
+
+const LIST: readonly [string, string][] = [
+    ["← →", "one solution back or on along its branch (with Page Up, Page Down: 100)"],
+    ["↑ ↓", "the branch before or behind in the list"],
+    ["[ ]", "the bifurcation before or behind on the branch"],
+    ["+ −", "zoom in or out about the selected solution"],
+    ["Shift and arrows", "move the view"],
+    ["0", "everything"],
+    ["Space", "play or pause the motion"],
+    ["Q", "another quantity"],
+    ["L", "logarithmic or linear"],
+    ["M", "marks on or off"],
+    ["D", "dark or light"],
+    ["C", "copy a link to what is shown"],
+    ["Esc", "no selection"],
+    ["?", "this list"],
+];
+
+const POINTER: readonly [string, string][] = [
+    ["Click", "the nearest solution"],
+    ["Wheel", "zoom (with Shift: frequency alone; with Alt: vertical axis alone)"],
+    ["Drag", "zoom into a box"],
+    ["Shift and drag", "move the view; so does the right button, or a finger"],
+    ["Double click", "everything"],
+];
+
+const QUANTITIES: readonly Quantity[] = ["displacement", "acceleration", "force", "velocity"];
+
+export function helpDialog(): HTMLDialogElement {
+    const list = (rows: readonly [string, string][]): HTMLElement =>
+        element("dl", { class: "keys" }, rows.flatMap(([key, text]) => [element("dt", {}, [key]), element("dd", {}, [text])]));
+    const close = element("form", { method: "dialog" }, [element("button", {}, ["Close"])]);
+    return element("dialog", { "aria-label": "Keys" }, [element("h2", {}, ["Keys"]), list(LIST), element("h2", {}, ["Pointer"]), list(POINTER), close]);
+}
+
+export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, actions: Actions): void {
+    const bifurcations = eventsOf(solutions, FOLD | FLIP | NEIMARK_SACKER | BRANCH_POINT);
+    const select = (selected: number): void => store.update({ selected });
+    const step = (by: number): void => {
+        const { selected } = store.state;
+        const branch = meta.branches[solutions.branch[Math.max(0, selected)] ?? 0];
+        if (branch !== undefined && branch.count > 0) {
+            select(selected < 0 ? branch.first : Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by)));
+        }
+    };
+    const stepBranch = (by: number): void => {
+        const { selected } = store.state;
+        const count = meta.branches.length;
+        const next = selected < 0 ? 0 : ((solutions.branch[selected] ?? 0) + by + count) % count;
+        const branch = meta.branches[next];
+        if (branch !== undefined && branch.count > 0) {
+            select(branch.first + (branch.count >> 1));
+        }
+    };
+    const stepEvent = (by: 1 | -1): void => {
+        const { selected } = store.state;
+        const own = bifurcations.filter((k) => selected < 0 || solutions.branch[k] === solutions.branch[selected]);
+        const found = by > 0 ? own.find((k) => k > selected) : own.findLast((k) => k < selected);
+        if (found !== undefined) {
+            select(found);
+        }
+    };
+    const zoom = (factor: number): void => actions.response.zoomAboutSelected(factor);
+    const plain: Record<string, () => void> = {
+        ArrowLeft: () => step(-1),
+        ArrowRight: () => step(1),
+        PageUp: () => step(-100),
+        PageDown: () => step(100),
+        ArrowUp: () => stepBranch(-1),
+        ArrowDown: () => stepBranch(1),
+        "[": () => stepEvent(-1),
+        "]": () => stepEvent(1),
+        "+": () => zoom(0.6),
+        "=": () => zoom(0.6),
+        "-": () => zoom(1 / 0.6),
+        "0": () => store.update({ view: null }),
+        " ": actions.play,
+        q: () => actions.quantity(QUANTITIES[(QUANTITIES.indexOf(store.state.quantity) + 1) % QUANTITIES.length] ?? "displacement"),
+        l: () => store.update({ log: !store.state.log, view: null }),
+        m: () => store.update({ marks: !store.state.marks }),
+        d: () => store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),
+        c: actions.copyLink,
+        Escape: () => select(-1),
+        "?": actions.help,
+    };
+    const shifted: Record<string, () => void> = {
+        ArrowLeft: () => actions.response.pan([-0.1, 0]),
+        ArrowRight: () => actions.response.pan([0.1, 0]),
+        ArrowUp: () => actions.response.pan([0, 0.1]),
+        ArrowDown: () => actions.response.pan([0, -0.1]),
+    };
+    document.addEventListener("keydown", (event) => {
+        const target = event.target instanceof HTMLElement ? event.target : null;
+        const writes = target?.closest("select, input:not([type=checkbox]), dialog, .scroll") ?? null;
+        const presses = event.key === " " && target?.closest("button, input") !== null;
+        if (event.ctrlKey || event.metaKey || event.altKey || writes !== null || presses) {
+            return;
+        }
+        const act = (event.shiftKey ? shifted[event.key] : undefined) ?? plain[event.key] ?? plain[event.key.toLowerCase()];
+        if (act !== undefined) {
+            event.preventDefault();
+            act();
+        }
+    });
+}

@@ -1,0 +1,116 @@
+// Puts the page together.
+
+import { bifurcationTable } from "./bifurcations";
+import { branchList } from "./branch_list";
+import { controls } from "./controls";
+import { Curves } from "./curves";
+import { readMeta, readSolutions, type Quantity } from "./data";
+import { element } from "./dom";
+import { fromHash, toHash } from "./hash";
+import { helpDialog, listenToKeys } from "./keys";
+import { legend } from "./legend";
+import type { Orbit } from "./orbit";
+import { Response } from "./response";
+import { sectionPanel } from "./sections";
+import { SolutionView } from "./solution_view";
+import { Store, type State } from "./state";
+import { Theme } from "./theme";
+
+const meta = readMeta();
+const solutions = readSolutions(meta.branches);
+const curves = new Curves(solutions);
+const store = new Store(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
+const theme = new Theme(meta, store);
+
+const page = document.getElementById("page") ?? document.body;
+const help = helpDialog();
+const said = element("span", { class: "note", role: "status" });
+const view = new SolutionView(meta, solutions, store, theme);
+const diagram = element("div", { class: "diagram" });
+const zoom = (factor: number): void => response.zoomAboutSelected(factor);
+const whole = (): void => store.update({ view: null });
+/** Another quantity, with all of it seen on the scale that suits it. */
+const show = (quantity: Quantity): void => store.update({ quantity, log: curves.spansMuch(quantity), view: null });
+const showHelp = (): void => help.showModal();
+
+/** Copies the address of what is shown; where the clipboard is closed it says where the address stands. */
+async function copyLink(): Promise<void> {
+    writeHash();
+    try {
+        await navigator.clipboard.writeText(location.href);
+        said.textContent = "The link is copied.";
+    } catch {
+        said.textContent = "The address of this page is the link.";
+    }
+    window.setTimeout(() => (said.textContent = ""), 4000);
+}
+
+const copy = (): void => void copyLink();
+const counted = (count: number, one: string, several: string): string => `${count} ${count === 1 ? one : several}`;
+const subtitle = `${counted(meta.branches.length, "branch", "branches")}, ${counted(solutions.count, "solution", "solutions")}, ${meta.range[0]} to ${meta.range[1]} Hz${meta.point === "" ? "" : `; response of ${meta.point}`}`;
+page.append(
+    element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle])]),
+    ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
+    controls(meta, store, { quantity: show, whole, zoom, copyLink: copy, help: showHelp }),
+    said,
+    diagram,
+);
+const lists = element("div", { class: "lists" });
+const response = new Response(meta, solutions, curves, store, theme, diagram);
+const jump = (solution: number): void => {
+    store.update({ selected: solution });
+    response.show(solution, 0.05);
+};
+lists.append(
+    branchList(meta, solutions, store, theme, (branch) => store.update({ selected: branch.first + (branch.count >> 1) })),
+    bifurcationTable(meta, solutions, store, jump),
+    ...[sectionPanel(meta, store, theme)].filter((part) => part !== null),
+);
+page.append(legend(meta, solutions, theme), view.root, lists, help);
+if (solutions.count === 0) {
+    diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
+}
+view.show();
+listenToKeys(meta, solutions, store, { response, quantity: show, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
+
+let written = location.hash;
+let planned = 0;
+
+/** Writes the state into the address, without a new entry of the history. */
+function writeHash(): void {
+    window.clearTimeout(planned);
+    planned = 0;
+    written = toHash(store.state, meta, solutions);
+    history.replaceState(null, "", written);
+}
+
+store.listen(() => {
+    if (planned === 0) {
+        planned = window.setTimeout(writeHash, 200);
+    }
+});
+window.addEventListener("hashchange", () => {
+    if (location.hash !== written) {
+        store.update(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
+    }
+});
+
+// For tests and benchmarks.
+declare global {
+    interface Window {
+        hammerbeam: {
+            redraw: () => void;
+            zoom: (factor: number) => void;
+            placeOf: (solution: number) => [number, number];
+            state: () => State;
+            orbit: () => Orbit | null;
+        };
+    }
+}
+window.hammerbeam = {
+    redraw: () => response.redraw(),
+    zoom: (factor) => response.zoom([factor, factor]),
+    placeOf: (solution) => response.placeOf(solution),
+    state: () => store.state,
+    orbit: () => view.orbit,
+};

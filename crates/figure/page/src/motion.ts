@@ -1,0 +1,48 @@
+// The structure at an instant of an orbit.
+
+import type { Structure } from "./data";
+import type { Orbit } from "./orbit";
+
+export interface Pose {
+    /** Displacement of each place (m). */
+    places: number[];
+    support: number;
+    /** Largest force of each local element in this step, its magnitude (N). */
+    forces: number[];
+}
+
+/** A periodic series between its samples, by cubics through four of them. */
+function smooth(values: Float64Array, place: number): number {
+    const count = values.length;
+    const at = (k: number): number => values[((k % count) + count) % count] ?? 0;
+    const before = Math.floor(place);
+    const t = place - before;
+    const [a, b, c, d] = [at(before - 1), at(before), at(before + 1), at(before + 2)];
+    return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
+}
+
+/** The pose at an instant, in excitation periods since phase 0. */
+export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pose {
+    const share = instant / orbit.period;
+    const modes = orbit.modes.map((values) => smooth(values, share * values.length));
+    const support = orbit.support.length > 0 ? smooth(orbit.support, share * orbit.support.length) : 0;
+    const places = structure.places.map((place) =>
+        modes.reduce((sum, value, mode) => sum + value * (place.shape[mode] ?? 0), place.support * support),
+    );
+    const force = (values: Float64Array): number => {
+        const step = 2 * Math.min(values.length / 2 - 1, Math.floor((share * values.length) / 2));
+        return Math.max(Math.abs(values[step] ?? 0), Math.abs(values[step + 1] ?? 0));
+    };
+    return { places, support, forces: orbit.forces.map(force) };
+}
+
+/** Largest displacement of any place, or of the support (m). */
+export function largestDisplacement(structure: Structure, orbit: Orbit): number {
+    const steps = orbit.modes[0]?.length ?? 0;
+    let largest = 0;
+    for (let step = 0; step < steps; step++) {
+        const { places, support } = poseAt(structure, orbit, (step * orbit.period) / steps);
+        largest = Math.max(largest, Math.abs(support), ...places.map(Math.abs));
+    }
+    return largest;
+}

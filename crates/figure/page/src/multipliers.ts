@@ -1,0 +1,86 @@
+// Floquet multipliers of an orbit in the complex plane, with the unit circle.
+
+import { element, panel } from "./dom";
+import { complex } from "./format";
+import { Frame, MARGINS } from "./frame";
+import type { Theme } from "./theme";
+
+const HEIGHT = 300;
+/** Largest distance from 0 that is drawn. */
+const FARTHEST = 4;
+/** Entries of the list. */
+const LISTED = 12;
+
+export class Multipliers {
+    readonly root: HTMLElement;
+    private readonly host = element("div", { class: "plot" });
+    private readonly outside = element("p", { class: "note" });
+    private readonly list = element("ol", { class: "multipliers" });
+    private frame: Frame | null = null;
+    private multipliers: [number, number][] = [];
+
+    constructor(private readonly theme: Theme) {
+        this.root = panel("Floquet multipliers", "multipliers", [this.host, this.outside, this.list]);
+    }
+
+    show(multipliers: [number, number][]): void {
+        this.multipliers = multipliers;
+        const far = multipliers.filter((one) => !(modulus(one) <= this.reach()));
+        this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.filter(([, im]) => im >= 0).map(([re, im]) => complex(re, im)).join(", ")}.`;
+        // Of a pair the one above the axis stands for both.
+        const listed = multipliers.filter(([, im]) => im >= 0).slice(0, LISTED).map(([re, im]) => element("li", {}, [`${complex(re, im)}`]));
+        this.list.replaceChildren(...listed);
+        if (this.frame === null) {
+            const range = (): { x: [number, number]; y: [number, number]; logY: false } => {
+                const across = this.reach() * ((this.host.clientWidth - MARGINS.across) / (HEIGHT - MARGINS.up));
+                return { x: [-across, across], y: [-this.reach(), this.reach()], logY: false };
+            };
+            this.frame = new Frame(
+                this.host,
+                {
+                    xLabel: () => "Real part",
+                    yLabel: () => "Imaginary part",
+                    range,
+                    paint: (context, frame) => this.paint(context, frame),
+                    height: () => HEIGHT,
+                },
+                this.theme,
+            );
+        } else {
+            this.frame.redraw();
+        }
+    }
+
+    /** Distance from 0 that is drawn. */
+    private reach(): number {
+        const largest = this.multipliers.reduce((most, one) => Math.max(most, modulus(one)), 0);
+        return largest <= FARTHEST / 1.15 ? Math.max(1.25, 1.15 * largest) : 1.6;
+    }
+
+    private paint(context: CanvasRenderingContext2D, frame: Frame): void {
+        const density = frame.density;
+        const { look } = this.theme;
+        const centre = [frame.toX(0), frame.toY(0)] as const;
+        context.lineWidth = 1.2 * density;
+        context.strokeStyle = look.pale;
+        context.beginPath();
+        context.arc(...centre, frame.toX(1) - centre[0], 0, 2 * Math.PI);
+        context.stroke();
+        for (const one of this.multipliers) {
+            if (modulus(one) <= this.reach()) {
+                const isOutside = modulus(one) >= 1;
+                context.beginPath();
+                context.arc(frame.toX(one[0]), frame.toY(one[1]), 4 * density, 0, 2 * Math.PI);
+                context.fillStyle = isOutside ? this.theme.period(2) : this.theme.period(1);
+                context.fill();
+                context.lineWidth = density;
+                context.strokeStyle = look.paper;
+                context.stroke();
+            }
+        }
+    }
+}
+
+function modulus([re, im]: [number, number]): number {
+    return Math.hypot(re, im);
+}

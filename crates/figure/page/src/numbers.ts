@@ -1,0 +1,40 @@
+// The numbers of a solution in words.
+
+import { STABLE, type Meta, type Solutions } from "./data";
+import { element } from "./dom";
+import { complex, digits, hertz, MEASURES, periodName } from "./format";
+import { eventNames } from "./marks";
+
+export function isStable(solutions: Solutions, solution: number): boolean {
+    return ((solutions.flags[solution] ?? 0) & STABLE) !== 0;
+}
+
+/** Names and values of everything that is known of a solution. */
+export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [string, string][] {
+    const branch = meta.branches[solutions.branch[solution] ?? 0];
+    const value = (quantity: keyof typeof MEASURES): string => {
+        const { factor, unit } = MEASURES[quantity];
+        return `${digits(factor * (solutions.maxima[quantity][solution] ?? NaN), 6)} ${unit}`;
+    };
+    const [re, im] = [solutions.multiplierRe[solution] ?? NaN, solutions.multiplierIm[solution] ?? NaN];
+    const events = eventNames(solutions.flags[solution] ?? 0);
+    return [
+        ["Frequency", hertz(solutions.frequency[solution] ?? NaN)],
+        ["Branch", `${branch?.id ?? "–"}, ${periodName(branch?.period ?? 1)}, solution ${solution - (branch?.first ?? 0) + 1} of ${branch?.count ?? 0}`],
+        ["Stability", isStable(solutions, solution) ? "stable" : "unstable"],
+        ...(events === "" ? [] : [["Event", events] as [string, string]]),
+        ["Max. displacement", value("displacement")],
+        ["Max. acceleration", value("acceleration")],
+        ["Max. contact force", value("force")],
+        ["Max. impact velocity", value("velocity")],
+        ["Contacts per orbit period", String(solutions.contacts[solution] ?? 0)],
+        ["Leading multiplier", `${complex(re, im)}, modulus ${digits(Math.hypot(re, im), 5)}`],
+    ];
+}
+
+/** The same in few lines, for beside the pointer. */
+export function hoverText(meta: Meta, solutions: Solutions, solution: number): Node[] {
+    const wanted = ["Frequency", "Branch", "Stability", "Event", "Max. displacement", "Max. acceleration", "Max. contact force", "Leading multiplier"];
+    const rows = numbersOf(meta, solutions, solution).filter(([name]) => wanted.includes(name));
+    return rows.map(([name, text]) => element("div", {}, [element("b", {}, [name]), ` ${text}`]));
+}

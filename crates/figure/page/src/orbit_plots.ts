@@ -1,0 +1,121 @@
+// An orbit in pictures: over time, in the phase plane, and its spectrum.
+
+import type { Meta, Solutions } from "./data";
+import { element, panel } from "./dom";
+import { ends, LinePlot, type Line, type Plot } from "./line_plot";
+import type { Orbit } from "./orbit";
+import type { Theme } from "./theme";
+
+/** Ratio of the largest amplitude of a spectrum to the least that is drawn. */
+const DEPTH = 1e5;
+const TIME = "Time / excitation period";
+const DASHES = [[], [6, 3], [2, 3], [8, 3, 2, 3]];
+
+/** Instants and values, of which the instants have the first one again behind the last. */
+type Series = [Float64Array, Float64Array];
+
+export class OrbitPlots {
+    readonly root: HTMLElement;
+    private readonly displacement: LinePlot;
+    private readonly acceleration: LinePlot;
+    private readonly force: LinePlot;
+    private readonly phase: LinePlot;
+    private readonly spectrum: LinePlot;
+    private readonly support = element("p", { class: "note" }, ["Dashed: the support."]);
+    private readonly elements = element("p", { class: "note" });
+    private orbit: Orbit | null = null;
+
+    constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly theme: Theme) {
+        [this.displacement, this.acceleration, this.force] = [new LinePlot(theme, 210), new LinePlot(theme, 210), new LinePlot(theme, 210)];
+        [this.phase, this.spectrum] = [new LinePlot(theme, 300, "place"), new LinePlot(theme, 300, "nothing")];
+        this.root = element("div", { class: "plots" }, [
+            panel("Displacement", "displacement", [this.displacement.host, this.support]),
+            panel("Acceleration", "acceleration", [this.acceleration.host]),
+            panel("Forces of the local elements", "force", [this.force.host, this.elements]),
+            panel("Phase portrait", "phase", [this.phase.host, element("p", { class: "note" }, ["Circles: phase 0 of each excitation period."])]),
+            panel("Spectrum of the acceleration", "spectrum", [
+                this.spectrum.host,
+                element("p", { class: "note" }, ["Lines from bottom to top: eigenfrequencies of the structure without its local elements."]),
+            ]),
+        ]);
+        theme.listen(() => {
+            if (this.orbit !== null) {
+                this.show(this.orbit);
+            }
+        });
+    }
+
+    show(orbit: Orbit): void {
+        this.orbit = orbit;
+        const [first, second] = [this.theme.period(1), this.theme.period(2)];
+        const over = (yLabel: string, series: Series[], factor: number, lines: (k: number) => Pick<Line, "colour" | "dash">): Plot => {
+            const y = series.map(([, values]) => closed(values.map((value) => factor * value)));
+            const x = series.map(([time]) => time);
+            return { xLabel: TIME, yLabel, range: { x: [0, orbit.period], y: ends(y), logY: false }, lines: y.map((values, k) => ({ x: x[k] ?? [], y: values, ...lines(k) })) };
+        };
+        /** Values at equal steps, or in the middle of each half of them. */
+        const timed = (values: Float64Array, shift = 0): Series =>
+            [closed(values.map((_, k) => ((k + shift) * orbit.period) / values.length), orbit.period + (shift * orbit.period) / values.length), values];
+        const isMoved = orbit.support.some((value) => value !== 0);
+        this.support.hidden = !isMoved;
+        const moving = isMoved ? [timed(orbit.displacement), timed(orbit.support)] : [timed(orbit.displacement)];
+        this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: second, dash: [5, 3] })));
+        this.acceleration.show(over("Acceleration (m/s²)", [timed(orbit.acceleration, 0.5)], 1, () => ({ colour: first })));
+        this.force.show(over("Local force (N)", orbit.forces.map((force) => timed(force, 0.5)), 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
+        const names = this.meta.structure?.stops.map((stop) => stop.name) ?? [];
+        this.elements.textContent =
+            orbit.forces.length === 0 ? "This structure has no local elements." : orbit.forces.length > 1 ? `In their order: ${names.join(", ")}.` : "";
+        this.phase.show(this.phasePlot(orbit, first));
+        this.spectrum.show(this.spectrumPlot(orbit, first));
+    }
+
+    /** Shows an instant, in excitation periods since phase 0. */
+    point(instant: number): void {
+        const orbit = this.orbit;
+        if (orbit !== null) {
+            [this.displacement, this.acceleration, this.force].forEach((plot) => plot.point(instant));
+            const place = (instant / orbit.period) * orbit.displacement.length;
+            this.phase.point(1e3 * between(orbit.displacement, place), between(orbit.velocity, place));
+        }
+    }
+
+    private phasePlot(orbit: Orbit, colour: string): Plot {
+        const [x, y] = [closed(orbit.displacement.map((value) => 1e3 * value)), closed(orbit.velocity)];
+        const step = orbit.displacement.length / orbit.period;
+        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [x[k * step] ?? NaN, y[k * step] ?? NaN]);
+        return { xLabel: "Displacement (mm)", yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }], circles };
+    }
+
+    private spectrumPlot(orbit: Orbit, colour: string): Plot {
+        const y = orbit.spectrum.map((level) => 10 ** level);
+        const base = (this.solutions.frequency[orbit.solution] ?? 1) / orbit.period;
+        const x = y.map((_, k) => (k + 1) * base);
+        const eigenfrequencies = this.meta.structure?.eigenfrequencies ?? [];
+        const largest = y.reduce((most, value) => Math.max(most, value), 0);
+        const highest = Math.min(x.at(-1) ?? 1, 1.2 * Math.max(20 * base, ...eigenfrequencies));
+        const top = largest > 0 ? 2 * largest : 1;
+        return {
+            xLabel: "Frequency (Hz)",
+            yLabel: "Amplitude (m/s²)",
+            range: { x: [0, highest], y: [top / DEPTH / 2, top], logY: true },
+            lines: [{ x, y, colour }],
+            verticals: eigenfrequencies,
+            stems: true,
+        };
+    }
+}
+
+/** With its first value behind its last one, or another one. */
+function closed(values: Float64Array, last = values[0] ?? NaN): Float64Array {
+    const whole = new Float64Array(values.length + 1);
+    whole.set(values);
+    whole[values.length] = last;
+    return whole;
+}
+
+/** A value between two samples of a periodic series, on the line between them. */
+function between(values: Float64Array, place: number): number {
+    const before = Math.floor(place);
+    const at = (k: number): number => values[((k % values.length) + values.length) % values.length] ?? NaN;
+    return at(before) + (place - before) * (at(before + 1) - at(before));
+}

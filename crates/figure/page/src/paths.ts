@@ -1,0 +1,101 @@
+// Lines of branches on a canvas: cut where stability changes, cut to what is seen, without points nearer than half a pixel.
+
+import { STABLE, type Solutions } from "./data";
+import type { Scales } from "./curves";
+
+export interface Lines {
+    stable: Path2D;
+    unstable: Path2D;
+    /** Places of branches of one solution, and whether they are stable. */
+    dots: [number, number, boolean][];
+}
+
+/** Squared distance in pixels below which a point is left out. */
+const NEAR = 0.3;
+
+class Pen {
+    private x = NaN;
+    private y = NaN;
+    private isDown = false;
+
+    constructor(private readonly path: Path2D, private readonly box: [number, number, number, number]) {}
+
+    begin(x: number, y: number): void {
+        [this.x, this.y, this.isDown] = [x, y, false];
+    }
+
+    to(x: number, y: number, isLast: boolean): void {
+        const [dx, dy] = [x - this.x, y - this.y];
+        if (!isLast && dx * dx + dy * dy < NEAR) {
+            return;
+        }
+        const cut = clipped(this.x, this.y, dx, dy, this.box);
+        if (cut === null) {
+            this.isDown = false;
+        } else {
+            const [from, to] = cut;
+            if (!this.isDown || from > 0) {
+                this.path.moveTo(this.x + from * dx, this.y + from * dy);
+            }
+            this.path.lineTo(this.x + to * dx, this.y + to * dy);
+            this.isDown = to === 1;
+        }
+        [this.x, this.y] = [x, y];
+    }
+}
+
+/** The part of a piece of line within a box, as shares of its length; after Liang and Barsky, ACM Trans. Graphics 3 (1984), 1-22. */
+function clipped(x: number, y: number, dx: number, dy: number, box: [number, number, number, number]): [number, number] | null {
+    let [from, to] = [0, 1];
+    const sides = [[-dx, x - box[0]], [dx, box[2] - x], [-dy, y - box[1]], [dy, box[3] - y]] as const;
+    for (const [along, left] of sides) {
+        if (along === 0) {
+            if (left < 0) {
+                return null;
+            }
+        } else if (along < 0) {
+            from = Math.max(from, left / along);
+        } else {
+            to = Math.min(to, left / along);
+        }
+    }
+    return from <= to ? [from, to] : null;
+}
+
+/** Lines of a stretch of solutions; a level that is not finite is a gap. */
+export function linesOf(solutions: Solutions, levels: Float64Array, first: number, count: number, scales: Scales): Lines {
+    const lines: Lines = { stable: new Path2D(), unstable: new Path2D(), dots: [] };
+    const { left, top, width, height, perX, perY, lowX, lowY } = scales;
+    const margin = 20;
+    const box: [number, number, number, number] = [left - margin, top - margin, left + width + margin, top + height + margin];
+    const pens = [new Pen(lines.unstable, box), new Pen(lines.stable, box)] as const;
+    const { frequency, flags } = solutions;
+    let [lastX, lastY, lastStable, drawn] = [NaN, NaN, -1, 0];
+    const end = first + count;
+    for (let k = first; k < end; k++) {
+        const x = left + ((frequency[k] ?? NaN) - lowX) * perX;
+        const y = top + height - ((levels[k] ?? NaN) - lowY) * perY;
+        if (!Number.isFinite(x) || !Number.isFinite(y)) {
+            lastX = NaN;
+            continue;
+        }
+        if (Number.isNaN(lastX)) {
+            lastStable = -1;
+        } else {
+            const isStable = (flags[k] ?? 0) & (flags[k - 1] ?? 0) & STABLE;
+            const pen = pens[isStable === 1 ? 1 : 0];
+            const next = k + 1 < end ? (flags[k] ?? 0) & (flags[k + 1] ?? 0) & STABLE : -1;
+            if (isStable !== lastStable) {
+                pen.begin(lastX, lastY);
+                lastStable = isStable;
+            }
+            pen.to(x, y, next !== isStable);
+            drawn++;
+        }
+        [lastX, lastY] = [x, y];
+    }
+    if (drawn === 0 && !Number.isNaN(lastX)) {
+        lines.dots.push([lastX, lastY, ((flags[end - 1] ?? 0) & STABLE) === STABLE]);
+    }
+    return lines;
+}

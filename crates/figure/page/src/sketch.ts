@@ -1,0 +1,47 @@
+// What the drawings of structures share.
+
+import type { Theme } from "./theme";
+
+export interface Sketch {
+    context: CanvasRenderingContext2D;
+    /** Size (CSS pixels). */
+    width: number;
+    height: number;
+    theme: Theme;
+}
+
+/** A hatched block: what is held. */
+export function hatched({ context }: Sketch, [left, top, width, height]: [number, number, number, number], colour: string): void {
+    context.save();
+    context.beginPath();
+    context.rect(left, top, width, height);
+    context.clip();
+    context.strokeStyle = colour;
+    context.lineWidth = 1;
+    context.beginPath();
+    for (let from = left - height; from < left + width; from += 6) {
+        context.moveTo(from, top + height);
+        context.lineTo(from + height, top);
+    }
+    context.stroke();
+    context.restore();
+    context.strokeStyle = colour;
+    context.lineWidth = 1.2;
+    context.strokeRect(left, top, width, height);
+}
+
+/** A spring between two places on a horizontal line. */
+export function spring({ context }: Sketch, from: number, to: number, y: number): void {
+    const turns = 8;
+    const straight = 0.15 * (to - from);
+    const step = (to - from - 2 * straight) / (2 * turns);
+    context.beginPath();
+    context.moveTo(from, y);
+    context.lineTo(from + straight, y);
+    for (let k = 0; k < 2 * turns; k++) {
+        context.lineTo(from + straight + (k + 0.5) * step, y + (k % 2 === 0 ? -6 : 6));
+    }
+    context.lineTo(to - straight, y);
+    context.lineTo(to, y);
+    context.stroke();
+}

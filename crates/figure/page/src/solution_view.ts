@@ -1,0 +1,79 @@
+// The selected solution: its numbers, its orbit or the nearest one carried, its multipliers, the structure in motion.
+
+import { Animation } from "./animation";
+import { orbitText, type Meta, type Solutions } from "./data";
+import { element, panel } from "./dom";
+import { hertz } from "./format";
+import { Multipliers } from "./multipliers";
+import { numbersOf } from "./numbers";
+import { nearestOrbit, readOrbit, type Orbit } from "./orbit";
+import { OrbitPlots } from "./orbit_plots";
+import type { Store } from "./state";
+import type { Theme } from "./theme";
+
+export class SolutionView {
+    readonly root = element("div", { class: "solution" });
+    readonly animation: Animation;
+    private readonly numbers = element("dl", { class: "numbers" });
+    private readonly which = element("p", { class: "which", role: "status" });
+    private readonly plots: OrbitPlots;
+    private readonly multipliers: Multipliers;
+    private readonly orbitParts: HTMLElement[];
+    private text: string | null = null;
+    /** The orbit that is shown. */
+    orbit: Orbit | null = null;
+
+    constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly store: Store, theme: Theme) {
+        this.plots = new OrbitPlots(meta, solutions, theme);
+        this.multipliers = new Multipliers(theme);
+        this.animation = new Animation(meta.structure, theme, (instant) => this.plots.point(instant));
+        this.orbitParts = [this.animation.root, this.multipliers.root, this.plots.root];
+        const heading = panel("Selected solution", "selected", [this.numbers, this.which]);
+        const top = element("div", { class: "top" }, [heading, this.animation.root, this.multipliers.root]);
+        this.root.append(top, this.plots.root);
+        store.listen((_, changed) => {
+            if (changed.has("selected")) {
+                this.show();
+            }
+        });
+    }
+
+    show(): void {
+        const { selected } = this.store.state;
+        this.orbit = null;
+        if (selected < 0) {
+            this.numbers.replaceChildren();
+            this.which.textContent = this.solutions.count === 0 ? "No periodic solution is stored." : "Click on a solution of the diagram, or press an arrow key.";
+            this.orbitParts.forEach((part) => (part.hidden = true));
+            this.root.dataset["orbit"] = "";
+            return;
+        }
+        const rows = numbersOf(this.meta, this.solutions, selected);
+        this.numbers.replaceChildren(...rows.flatMap(([name, text]) => [element("dt", {}, [name]), element("dd", {}, [text])]));
+        const place = nearestOrbit(this.meta, this.solutions, selected);
+        this.orbitParts.forEach((part) => (part.hidden = place < 0));
+        if (place < 0) {
+            this.which.textContent = "No orbit of this branch is on this page.";
+            this.root.dataset["orbit"] = "";
+            return;
+        }
+        this.text ??= orbitText();
+        const orbit = readOrbit(this.meta, this.solutions, this.text, place);
+        this.orbit = orbit;
+        this.which.textContent = this.whichOrbit(selected, orbit.solution);
+        this.multipliers.show(orbit.multipliers);
+        this.plots.show(orbit);
+        this.animation.show(orbit, this.solutions.frequency[orbit.solution] ?? 1);
+        this.root.dataset["orbit"] = String(orbit.solution);
+    }
+
+    private whichOrbit(selected: number, shown: number): string {
+        const frequency = hertz(this.solutions.frequency[shown] ?? NaN);
+        const carried = `The page carries ${this.meta.orbits.solutions.length} orbits of ${this.solutions.count} solutions.`;
+        if (shown === selected) {
+            return `Shown: the orbit of this solution. ${carried}`;
+        }
+        const steps = Math.abs(shown - selected);
+        return `Shown: the orbit of the solution at ${frequency}, the nearest of those carried, ${steps} ${steps === 1 ? "solution" : "solutions"} away along the branch. ${carried}`;
+    }
+}

@@ -1,0 +1,234 @@
+// The page in a real headless Chromium.
+//
+// The pages come from the test that runs this file (crates/cli/tests/page.rs), as HAMMERBEAM_PAGES: a JSON document with, for each page, its path, the number of its branches,
+// and what is odd about it. Pictures are kept in HAMMERBEAM_PICTURES.
+
+import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+import { launch } from "./browser.mjs";
+
+const pages = JSON.parse(process.env.HAMMERBEAM_PAGES ?? "{}");
+const pictures = process.env.HAMMERBEAM_PICTURES ?? "";
+const LIGHT = [{ name: "prefers-color-scheme", value: "light" }];
+const DARK = [{ name: "prefers-color-scheme", value: "dark" }];
+
+let browser = null;
+let reason = pages.run === undefined ? "HAMMERBEAM_PAGES names no page: cargo test -p hammerbeam --test page runs this test" : "";
+if (reason === "") {
+    try {
+        browser = await launch();
+    } catch (error) {
+        reason = `no browser: ${error.message}`;
+        if (process.env.HAMMERBEAM_REQUIRE_BROWSER === "1") {
+            throw new Error(reason);
+        }
+    }
+}
+const options = reason === "" ? {} : { skip: reason };
+before(() => pictures !== "" && mkdirSync(pictures, { recursive: true }));
+after(() => browser?.close());
+
+/** Opens a page in a tab of its own. */
+async function open(page, hash = "", { width = 1400, height = 1000, features = LIGHT } = {}) {
+    const tab = await browser.tab(width, height, features);
+    await tab.open(pathToFileURL(page.path).href + hash);
+    return tab;
+}
+
+/** Waits until everything that was asked for is drawn. */
+const drawn = (tab) => tab.value(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))`);
+
+const orbitIsOpen = `document.querySelector(".solution").dataset.orbit !== ""`;
+const motion = `(() => { const c = document.querySelector("#motion canvas"); return c.width + ":" + c.toDataURL(); })()`;
+const meta = `JSON.parse(document.getElementById("meta").textContent)`;
+
+/** Whether the diagram has a colour within some pixels of a solution. */
+const coloured = (solution, colour) => `(() => {
+    const canvas = document.querySelector(".response canvas");
+    const box = canvas.getBoundingClientRect();
+    const [x, y] = hammerbeam.placeOf(${solution});
+    const density = canvas.width / box.width;
+    const data = canvas.getContext("2d").getImageData((x - box.left) * density - 4, (y - box.top) * density - 4, 9, 9).data;
+    const wanted = ["1,2", "3,4", "5,6"].map((part) => parseInt(${JSON.stringify(colour)}.slice(+part[0], +part[2] + 1), 16));
+    for (let k = 0; k < data.length; k += 4) {
+        if (wanted.every((value, channel) => Math.abs(value - data[k + channel]) < 60)) return true;
+    }
+    return false;
+})()`;
+
+test("the page opens without a complaint and draws every branch where its solutions are", options, async () => {
+    const tab = await open(pages.run);
+    assert.equal(await tab.value(`document.querySelector(".response").dataset.branches`), String(pages.run.branches));
+    const { branches, look } = await tab.value(meta);
+    assert.equal(branches.length, pages.run.branches);
+    await tab.value(`document.querySelector(".controls input[type=checkbox]").click()`); // marks off
+    await tab.until(`hammerbeam.state().marks === false`);
+    await drawn(tab);
+    for (const { first, count, period } of branches) {
+        const colour = look.light.periods[(period - 1) % look.light.periods.length];
+        const places = [0.3, 0.5, 0.7].map((share) => first + Math.floor(share * (count - 1)));
+        const found = await Promise.all(places.map((solution) => tab.value(coloured(solution, colour))));
+        assert.ok(found.some(Boolean), `branch at ${first} is not drawn in ${colour}`);
+    }
+    await tab.value(`[...document.querySelectorAll("#branches button")].find((one) => one.textContent === "none").click()`);
+    await tab.until(`document.querySelector(".response").dataset.branches === "0"`);
+    const middle = branches[0].first + (branches[0].count >> 1);
+    assert.equal(await tab.value(coloured(middle, look.light.periods[0])), false);
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("a click opens the orbit of the solution, and its peaks are those of the store", options, async () => {
+    const tab = await open(pages.run);
+    const { orbits, branches } = await tab.value(meta);
+    const wanted = orbits.solutions.filter((solution) => solution > branches[0].first + 50)[20];
+    const [x, y] = await tab.value(`hammerbeam.placeOf(${wanted})`);
+    await tab.click(x, y);
+    await tab.until(orbitIsOpen);
+    const selected = await tab.value(`hammerbeam.state().selected`);
+    const [toX, toY] = await tab.value(`hammerbeam.placeOf(${selected})`);
+    assert.ok(Math.hypot(toX - x, toY - y) <= 1.5, "the solution clicked on");
+    await tab.value(`location.hash = "#at=${pages.run.first_branch}:${wanted - branches[0].first}"`);
+    await tab.until(`document.querySelector(".solution").dataset.orbit === "${wanted}"`);
+    const compared = await tab.value(`(() => {
+        const orbit = hammerbeam.orbit();
+        const most = (values) => Math.max(0, ...values.map(Math.abs));
+        const numbers = [...document.querySelectorAll(".numbers dd")].map((one) => parseFloat(one.textContent.replace("−", "-")));
+        const names = [...document.querySelectorAll(".numbers dt")].map((one) => one.textContent);
+        const of = (name) => numbers[names.indexOf(name)];
+        return {
+            displacement: [1e3 * most([...orbit.displacement]), of("Max. displacement")],
+            acceleration: [most([...orbit.acceleration]), of("Max. acceleration")],
+            force: [Math.max(0, ...orbit.forces.map((force) => most([...force]))), of("Max. contact force")],
+        };
+    })()`);
+    // 192 samples miss a peak by (pi/192)^2/2 = 1.3e-4 of it and more for higher harmonics; 24 in a contact by 2e-3.
+    for (const [name, [found, stored]] of Object.entries(compared)) {
+        assert.ok(Math.abs(found - stored) <= 0.01 * stored, `${name}: ${found} of ${stored}`);
+    }
+    if (pictures !== "") {
+        writeFileSync(join(pictures, "page-light.png"), await tab.picture());
+    }
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("the structure moves, and stands still when it is paused", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    await tab.until(orbitIsOpen);
+    const first = await tab.value(motion);
+    await tab.until(`${motion} !== ${JSON.stringify(first)}`);
+    await tab.press(" ");
+    await tab.until(`[...document.querySelectorAll("#motion button")].some((one) => one.textContent === "Play")`);
+    await drawn(tab);
+    const paused = await tab.value(motion);
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    assert.ok((await tab.value(motion)) === paused);
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("keys step along the branch, zoom and show the list of keys; the wheel zooms about the pointer", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    const state = () => tab.value(`(() => { const { selected, view, log } = hammerbeam.state(); return { selected, view, log }; })()`);
+    const { selected, log } = await state();
+    await tab.press("ArrowRight");
+    assert.equal((await state()).selected, selected + 1);
+    await tab.press("+");
+    const zoomed = (await state()).view;
+    assert.ok(zoomed.x[1] - zoomed.x[0] < 0.7 * (pages.run.range[1] - pages.run.range[0]));
+    await tab.press("0");
+    assert.equal((await state()).view, null);
+    await tab.press("l");
+    assert.equal((await state()).log, !log);
+    const [x, y] = await tab.value(`hammerbeam.placeOf(${selected})`);
+    await tab.mouse("mouseWheel", x, y, { deltaX: 0, deltaY: -300, button: "none" });
+    await tab.until(`hammerbeam.state().view !== null`);
+    await drawn(tab);
+    const [stillX] = await tab.value(`hammerbeam.placeOf(${selected})`);
+    assert.ok(Math.abs(stillX - x) < 1.5, `${stillX} ${x}`);
+    await tab.press("?");
+    assert.equal(await tab.value(`document.querySelector("dialog").open`), true);
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("a row of the bifurcation table jumps to its point", options, async () => {
+    const tab = await open(pages.run);
+    const solution = await tab.value(`(() => { const row = document.querySelectorAll("#bifurcations tbody tr")[2]; row.querySelector("button").click(); return +row.dataset.solution; })()`);
+    assert.equal(await tab.value(`hammerbeam.state().selected`), solution);
+    await drawn(tab);
+    const [x] = await tab.value(`hammerbeam.placeOf(${solution})`);
+    const box = await tab.value(`(() => { const { left, width } = document.querySelector(".response .u-over").getBoundingClientRect(); return { left, width }; })()`);
+    assert.ok(Math.abs(x - box.left - box.width / 2) < 2, "in the middle of the view");
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("a link restores what was shown", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    await tab.press("+");
+    await tab.press("+");
+    await tab.press("m");
+    await tab.value(`document.querySelector("#branches input[type=checkbox]").click()`);
+    const shown = `(() => { const { hidden, ...rest } = hammerbeam.state(); return { ...rest, hidden: [...hidden] }; })()`;
+    const state = await tab.value(shown);
+    await tab.until(`location.hash.includes("hide=") && location.hash.includes("marks=off")`);
+    const again = await open(pages.run, await tab.value(`location.hash`));
+    const restored = await again.value(shown);
+    const near = (a, b) => a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) < 1e-6 * (a[1] - a[0])));
+    near(restored.view.x, state.view.x);
+    near(restored.view.y, state.view.y);
+    assert.deepEqual({ ...restored, view: null }, { ...state, view: null });
+    assert.deepEqual(again.complaints, []);
+});
+
+test("dark where the system is dark or the reader wants it, light on paper", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`, { features: DARK });
+    const brightness = `getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).reduce((sum, part) => sum + +part, 0)`;
+    assert.ok((await tab.value(brightness)) < 150);
+    await tab.until(orbitIsOpen);
+    await drawn(tab);
+    if (pictures !== "") {
+        writeFileSync(join(pictures, "page-dark.png"), await tab.picture());
+    }
+    await tab.send("Emulation.setEmulatedMedia", { media: "print", features: DARK });
+    await tab.until(`${brightness} > 700`);
+    assert.equal(await tab.value(`getComputedStyle(document.querySelector(".controls")).display`), "none");
+    const { data } = await tab.send("Page.printToPDF", { landscape: true });
+    assert.ok(Buffer.from(data, "base64").subarray(0, 4).equals(Buffer.from("%PDF")));
+    await tab.send("Emulation.setEmulatedMedia", { media: "screen", features: DARK });
+    await tab.until(`${brightness} < 150`);
+    await tab.press("d");
+    await tab.until(`${brightness} > 700`);
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("a narrow window needs no scrolling sideways", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`, { width: 400, height: 800 });
+    await tab.until(orbitIsOpen);
+    assert.equal(await tab.value(`document.documentElement.scrollWidth <= innerWidth`), true);
+    if (pictures !== "") {
+        writeFileSync(join(pictures, "page-narrow.png"), await tab.picture());
+    }
+});
+
+for (const page of pages.odd ?? []) {
+    test(`${page.name} is shown`, options, async () => {
+        const tab = await open(page);
+        assert.equal(await tab.value(`document.querySelector(".response").dataset.branches`), String(page.branches));
+        for (const option of await tab.value(`[...document.querySelectorAll("#section option")].map((one) => one.value)`)) {
+            await tab.value(`(() => { const one = document.querySelector("#section select"); one.value = "${option}"; one.dispatchEvent(new Event("change")); })()`);
+        }
+        for (const sentence of page.says) {
+            assert.ok((await tab.value(`document.body.innerText`)).includes(sentence), sentence);
+        }
+        await tab.press("ArrowRight");
+        const sentence = await tab.value(`document.querySelector(".which").textContent`);
+        assert.ok(sentence.includes(page.orbit), sentence);
+        await drawn(tab);
+        if (pictures !== "") {
+            writeFileSync(join(pictures, `page-${page.name.replaceAll(" ", "-")}.png`), await tab.picture());
+        }
+        assert.deepEqual(tab.complaints, []);
+    });
+}

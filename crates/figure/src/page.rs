@@ -1,0 +1,179 @@
+//! The page: everything in a results folder in one HTML file, which any browser opens without a server or a network.
+//!
+//! The file holds a short script and the data it shows: what is small as JSON, solutions and orbits as little-endian arrays in base64.
+//! Solutions are decoded when the page opens. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
+//! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to a 4095th of the range of their series.
+//!
+//! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
+//! needs Node; a test says that it is what the sources give.
+
+mod base64;
+mod columns;
+mod document;
+mod orbits;
+
+pub use orbits::{OrbitRecords, PageOrbit, room_for_orbits};
+
+use crate::MotionKind;
+
+/// Everything that the page shows.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Page {
+    /// Title of the study.
+    pub title: String,
+    /// Name of the response point.
+    pub point: String,
+    /// The range of the frequency that the study asks for (Hz).
+    pub frequency_range_hz: (f64, f64),
+    /// What a reader has to know before anything else: that a run has not ended; empty for nothing.
+    pub notice: String,
+    /// Branches, in their order.
+    pub branches: Vec<PageBranch>,
+    /// Orbits of some of their solutions.
+    pub orbits: OrbitRecords,
+    /// The structure; `None` if it is not known.
+    pub structure: Option<PageStructure>,
+    /// Motions of sweeps that did not settle on a periodic one.
+    pub motions: Vec<PageMotion>,
+    /// Ranges of the frequency with chaotic motion (Hz).
+    pub chaotic_ranges_hz: Vec<(f64, f64)>,
+    /// Poincare sections.
+    pub sections: Vec<PageSection>,
+    /// Measured points, laid over the response diagram.
+    pub measured: Vec<PageMeasured>,
+}
+
+/// A branch.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageBranch {
+    /// Its number.
+    pub id: u32,
+    /// Orbit period over excitation period, from 1.
+    pub period_multiple: u32,
+    /// How it ends, at its first and at its last solution, in words.
+    pub ends: [String; 2],
+    /// Its solutions, end to end.
+    pub solutions: Vec<PageSolution>,
+}
+
+/// A solution: maxima over its orbit, stability, events.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an event of its own")]
+pub struct PageSolution {
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Largest displacement of the response point (m).
+    pub displacement_m: f64,
+    /// Its largest acceleration (m/s²).
+    pub acceleration_m_s2: f64,
+    /// Largest contact force (N).
+    pub force_n: f64,
+    /// Largest speed with which a contact is reached (m/s).
+    pub impact_velocity_m_s: f64,
+    /// Contacts in an orbit period.
+    pub contacts: u32,
+    /// Multiplier of largest modulus.
+    pub leading_multiplier: [f64; 2],
+    /// Whether the solution is stable.
+    pub stable: bool,
+    /// The branch turns in frequency.
+    pub fold: bool,
+    /// A multiplier passes −1.
+    pub flip: bool,
+    /// A pair of multipliers passes the unit circle.
+    pub neimark_sacker: bool,
+    /// Branches cross.
+    pub branch_point: bool,
+    /// A contact is reached with zero velocity.
+    pub grazing: bool,
+}
+
+/// The structure as it is drawn: places from left to right, and what they can hit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageStructure {
+    /// Whether its places are joined to a beam; else each is a mass of its own.
+    pub is_beam: bool,
+    /// Places, with positions in m along a beam.
+    pub places: Vec<PagePlace>,
+    /// Stops.
+    pub stops: Vec<PageStop>,
+    /// Springs and dampers between masses, by their places; `None` is the ground.
+    pub links: Vec<[Option<u32>; 2]>,
+    /// Eigenfrequencies without local elements (Hz).
+    pub eigenfrequencies_hz: Vec<f64>,
+}
+
+/// A place of a structure.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PagePlace {
+    /// Its name; empty for none.
+    pub name: String,
+    /// Distance from the left end (m), or number of the mass.
+    pub at: f64,
+    /// Displacement in each mode (kg^-1/2).
+    pub shape: Vec<f64>,
+    /// Displacement per unit displacement of the support.
+    pub support_ratio: f64,
+}
+
+/// What a place of a structure can hit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageStop {
+    /// Its name.
+    pub name: String,
+    /// Number of the local element whose force it has, from 0.
+    pub element: u32,
+    /// The place that hits it.
+    pub place: u32,
+    /// The place that it sits on, if it is one.
+    pub other: Option<u32>,
+    /// Whether it rides on the moving support.
+    pub rides: bool,
+    /// Where it is touched: displacements (m) of the place relative to what carries the stop, and whether the stop lies above.
+    pub levels: Vec<(f64, bool)>,
+}
+
+/// A settled motion of a sweep.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PageMotion {
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// What it is.
+    pub kind: MotionKind,
+    /// Largest displacement of the response point (m).
+    pub displacement_m: f64,
+}
+
+/// Stroboscopic points of a motion.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageSection {
+    /// Excitation frequency (Hz).
+    pub frequency_hz: f64,
+    /// Largest Lyapunov exponent with its half-width (1/s).
+    pub exponent_per_s: Option<(f64, f64)>,
+    /// Kaplan-Yorke dimension.
+    pub dimension: Option<f64>,
+    /// Displacement (m) and velocity (m/s) of the response point at phase 0.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A measured series.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PageMeasured {
+    /// Its name.
+    pub name: String,
+    /// Excitation frequency (Hz) and largest displacement (m), where it was measured.
+    pub displacement: Vec<(f64, f64)>,
+    /// Excitation frequency (Hz) and largest acceleration (m/s²), where it was measured.
+    pub acceleration: Vec<(f64, f64)>,
+}
+
+impl Page {
+    /// The whole file.
+    ///
+    /// The same page gives the same bytes. Numbers that are not finite are kept where they can be; where not they are left out by the page.
+    #[must_use]
+    pub fn html(&self) -> String {
+        document::html(self)
+    }
+}

@@ -1,0 +1,166 @@
+//! The HTML file: style, data, script, one after the other.
+
+use serde_json::{Value, json};
+
+use super::{Page, PageStop, PageStructure, base64, columns};
+use crate::{MotionKind, style};
+
+const SCRIPT: &str = include_str!("../../page/dist/page.js");
+const LOOK: &str = include_str!("../../page/dist/page.css");
+const LICENCE: &str = include_str!("../../page/dist/LICENCE-uPlot.txt");
+
+/// The page as a file.
+pub(super) fn html(page: &Page) -> String {
+    let title = escaped(&page.title);
+    let meta = in_script(&meta(page).to_string());
+    let solutions = base64::encode(&columns::pack(&page.branches));
+    let orbits = base64::encode(&page.orbits.bytes());
+    [
+        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
+        "<link rel=\"icon\" href=\"data:,\">\n",
+        &format!("<title>{title}</title>\n"),
+        "<!-- This page holds uPlot under this licence:\n",
+        LICENCE,
+        "-->\n<style>\n",
+        LOOK,
+        "</style>\n</head>\n<body>\n<div id=\"page\"></div>\n",
+        "<noscript>This page draws with a script that it holds itself; scripts are switched off in this browser.</noscript>\n",
+        &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
+        &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
+        &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
+        "<script>\n",
+        SCRIPT,
+        "</script>\n</body>\n</html>\n",
+    ]
+    .concat()
+}
+
+/// What is small.
+fn meta(page: &Page) -> Value {
+    let mut first = 0;
+    let branches = page.branches.iter().map(|branch| {
+        let count = branch.solutions.len();
+        first += count;
+        json!({
+            "id": branch.id,
+            "period": branch.period_multiple,
+            "ends": branch.ends,
+            "first": first - count,
+            "count": count,
+        })
+    });
+    let branches: Vec<Value> = branches.collect();
+    let motions = page.motions.iter().map(|motion| {
+        json!({ "frequency": motion.frequency_hz, "displacement": motion.displacement_m, "kind": kind(motion.kind) })
+    });
+    let sections = page.sections.iter().map(|section| {
+        json!({
+            "frequency": section.frequency_hz,
+            "exponent": section.exponent_per_s,
+            "dimension": section.dimension,
+            "points": section.points,
+        })
+    });
+    let measured = page.measured.iter().map(|series| {
+        json!({ "name": series.name, "displacement": series.displacement, "acceleration": series.acceleration })
+    });
+    json!({
+        "title": page.title,
+        "point": page.point,
+        "range": page.frequency_range_hz,
+        "notice": page.notice,
+        "branches": branches,
+        "orbits": {
+            "solutions": page.orbits.solutions(),
+            "offsets": page.orbits.offsets(),
+            "length": page.orbits.length(),
+        },
+        "structure": page.structure.as_ref().map(structure),
+        "motions": motions.collect::<Vec<_>>(),
+        "chaos": page.chaotic_ranges_hz,
+        "sections": sections.collect::<Vec<_>>(),
+        "measured": measured.collect::<Vec<_>>(),
+        "look": { "light": style::page_colours(false), "dark": style::page_colours(true) },
+    })
+}
+
+fn structure(structure: &PageStructure) -> Value {
+    let places = structure.places.iter().map(|place| {
+        json!({ "name": place.name, "at": place.at, "shape": place.shape, "support": place.support_ratio })
+    });
+    json!({
+        "beam": structure.is_beam,
+        "places": places.collect::<Vec<_>>(),
+        "stops": structure.stops.iter().map(stop).collect::<Vec<_>>(),
+        "links": structure.links,
+        "eigenfrequencies": structure.eigenfrequencies_hz,
+    })
+}
+
+fn stop(stop: &PageStop) -> Value {
+    let levels = stop.levels.iter().map(|(level, above)| json!({ "level": level, "above": above }));
+    json!({
+        "name": stop.name,
+        "element": stop.element,
+        "place": stop.place,
+        "other": stop.other,
+        "rides": stop.rides,
+        "levels": levels.collect::<Vec<_>>(),
+    })
+}
+
+fn kind(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Periodic { .. } => "periodic",
+        MotionKind::QuasiPeriodic => "quasi-periodic",
+        MotionKind::Chaotic => "chaotic",
+        MotionKind::Doubtful => "doubtful",
+    }
+}
+
+/// Text between tags.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// JSON that cannot end the script it stands in.
+fn in_script(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::page::PageBranch;
+
+    #[test]
+    fn a_title_cannot_break_out_of_its_place() {
+        let page = Page { title: "</script><b>&".to_owned(), ..Page::default() };
+        let html = page.html();
+        assert!(html.contains("<title>&lt;/script&gt;&lt;b&gt;&amp;</title>"));
+        assert!(html.contains(r#""title":"\u003c/script>\u003cb>&""#));
+    }
+
+    #[test]
+    fn branches_know_where_their_solutions_begin() {
+        let branch = |count: usize| PageBranch {
+            solutions: vec![super::super::PageSolution::default(); count],
+            ..PageBranch::default()
+        };
+        let page = Page { branches: vec![branch(3), branch(0), branch(2)], ..Page::default() };
+        let meta = meta(&page);
+        let firsts: Vec<u64> = (0..3).map(|k| meta["branches"][k]["first"].as_u64().unwrap()).collect();
+        assert_eq!(firsts, [0, 3, 3]);
+    }
+
+    /// What the script is: no network, and nothing that ends its element.
+    #[test]
+    fn the_script_stays_in_its_element_and_loads_nothing() {
+        assert!(!SCRIPT.contains("</script") && !LOOK.contains("</style") && !LICENCE.contains("-->"));
+        for word in ["fetch(", "XMLHttpRequest", "WebSocket", "import("] {
+            assert!(!SCRIPT.contains(word), "{word}");
+        }
+        assert!(!LOOK.contains("url("));
+    }
+}

@@ -1,0 +1,139 @@
+//! Branches as curves of one quantity, by frequency.
+
+/// A solution of a branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// Excitation frequency [Hz].
+    pub frequency_hz: f64,
+    /// Value of the quantity, in SI.
+    pub value: f64,
+    /// Whether it is stable.
+    pub stable: bool,
+    /// Row of the branch, from 1 on, end to end as in `branches.csv`.
+    pub row: usize,
+}
+
+/// A branch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BranchCurve {
+    /// Its number.
+    pub branch: u32,
+    /// Orbit period over excitation period.
+    pub period_multiple: u32,
+    /// Solutions end to end.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A place where a branch meets a frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Number of the branch.
+    pub branch: u32,
+    /// Its period multiple.
+    pub period_multiple: u32,
+    /// Value between the two solutions about the frequency.
+    pub value: f64,
+    /// Whether the nearer one is stable.
+    pub stable: bool,
+    /// Row of the nearer one, from 1 on.
+    pub row: usize,
+}
+
+/// Curves, sorted so that all that meets a frequency is found at once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    branches: Vec<BranchCurve>,
+    low_hz: f64,
+    width_hz: f64,
+    /// Segments that reach into each part of the range: index of the branch, index of their first point.
+    parts: Vec<Vec<(u32, u32)>>,
+}
+
+/// Parts into which the range is cut.
+const PARTS: usize = 2000;
+
+impl Curves {
+    /// Sorts branches; values that are not positive and finite break a curve.
+    #[must_use]
+    pub fn new(branches: Vec<BranchCurve>) -> Self {
+        let frequencies =
+            || branches.iter().flat_map(|branch| &branch.points).map(|point| point.frequency_hz);
+        let (low_hz, high_hz) =
+            (frequencies().fold(f64::INFINITY, f64::min), frequencies().fold(f64::NEG_INFINITY, f64::max));
+        let width_hz = ((high_hz - low_hz) / PARTS as f64).max(f64::MIN_POSITIVE);
+        let mut curves = Self { low_hz, width_hz, parts: vec![Vec::new(); PARTS], branches };
+        for (index, branch) in curves.branches.iter().enumerate() {
+            for (first, pair) in branch.points.windows(2).enumerate() {
+                let [a, b] = [pair[0].frequency_hz, pair[1].frequency_hz].map(|f| part(low_hz, width_hz, f));
+                for segments in &mut curves.parts[a.min(b)..=a.max(b)] {
+                    segments.push((index as u32, first as u32));
+                }
+            }
+        }
+        curves
+    }
+
+    /// The branches.
+    #[must_use]
+    pub fn branches(&self) -> &[BranchCurve] {
+        &self.branches
+    }
+
+    /// All places where a branch of this period (any if none is told) meets a frequency.
+    #[must_use]
+    pub fn at(&self, frequency_hz: f64, period_multiple: Option<u32>) -> Vec<Hit> {
+        let high_hz = self.low_hz + PARTS as f64 * self.width_hz;
+        if !(self.low_hz..=high_hz).contains(&frequency_hz) {
+            return Vec::new();
+        }
+        let segments = &self.parts[part(self.low_hz, self.width_hz, frequency_hz)];
+        let hits = segments.iter().filter_map(|&(index, first)| {
+            let branch = &self.branches[index as usize];
+            let wanted = period_multiple.is_none_or(|period| period == branch.period_multiple);
+            let [a, b] = [branch.points[first as usize], branch.points[first as usize + 1]];
+            let crosses = (a.frequency_hz <= frequency_hz) != (b.frequency_hz <= frequency_hz);
+            if !wanted || !crosses || !positive(a.value) || !positive(b.value) {
+                return None;
+            }
+            let share = (frequency_hz - a.frequency_hz) / (b.frequency_hz - a.frequency_hz);
+            let nearer = if share < 0.5 { a } else { b };
+            Some(Hit {
+                branch: branch.branch,
+                period_multiple: branch.period_multiple,
+                value: a.value + share * (b.value - a.value),
+                stable: nearer.stable,
+                row: nearer.row,
+            })
+        });
+        hits.collect()
+    }
+
+    /// The stable solution of a period whose value is nearest to one, by the ratio.
+    #[must_use]
+    pub fn nearest_stable(&self, frequency_hz: f64, period: Option<u32>, value: f64) -> Option<Hit> {
+        nearest(self.at(frequency_hz, period).into_iter().filter(|hit| hit.stable), value)
+    }
+
+    /// The frequency nearest to one at which a stable solution of a period exists.
+    #[must_use]
+    pub fn nearest_frequency(&self, frequency_hz: f64, period: Option<u32>) -> Option<f64> {
+        let wanted = |branch: &&BranchCurve| period.is_none_or(|period| period == branch.period_multiple);
+        let stable = self.branches.iter().filter(wanted).flat_map(|branch| &branch.points);
+        let frequencies = stable.filter(|point| point.stable).map(|point| point.frequency_hz);
+        frequencies.min_by(|a, b| (a - frequency_hz).abs().total_cmp(&(b - frequency_hz).abs()))
+    }
+}
+
+/// The hit whose value is nearest to one, by the ratio.
+pub(super) fn nearest(hits: impl Iterator<Item = Hit>, value: f64) -> Option<Hit> {
+    let off = |hit: &Hit| (hit.value / value).ln().abs();
+    hits.min_by(|a, b| off(a).total_cmp(&off(b)))
+}
+
+fn positive(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+fn part(low_hz: f64, width_hz: f64, frequency_hz: f64) -> usize {
+    (((frequency_hz - low_hz) / width_hz) as usize).min(PARTS - 1)
+}

@@ -1,0 +1,352 @@
+//! The shift of frequencies and the factor on values that bring points onto branches.
+
+use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+
+use super::{ComparisonError, Curves, FrequencyShift, Residual, Shift, curve, period_of};
+
+/// What is given and need not be fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fixed {
+    /// Given.
+    Given(f64),
+    /// To be fitted, within these ends.
+    Fitted {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+}
+
+/// How a comparison is done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FitSettings {
+    /// Whether frequencies are shifted by an offset [Hz] instead of a factor.
+    pub offset: bool,
+    /// The factor or offset.
+    pub frequency: Fixed,
+    /// The factor on values.
+    pub amplitude: Fixed,
+    /// Ratio of values beyond which a branch does not explain a point.
+    pub reach: f64,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self {
+            offset: false,
+            frequency: Fixed::Fitted { low: 0.85, high: 1.18 },
+            amplitude: Fixed::Fitted { low: 0.05, high: 20.0 },
+            reach: 1.5,
+        }
+    }
+}
+
+/// A fitted or given number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Its value.
+    pub value: f64,
+    /// Its standard error; `None` if it was given.
+    pub standard_error: Option<f64>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Whether the shift of frequencies is an offset.
+    pub offset: bool,
+    /// Factor, or offset [Hz].
+    pub frequency: Estimate,
+    /// Factor on values.
+    pub amplitude: Estimate,
+    /// Points that the fit goes by.
+    pub points: usize,
+    /// Correlation of the errors of both numbers, where both were fitted.
+    pub correlation: Option<f64>,
+}
+
+impl Fit {
+    /// As a shift.
+    #[must_use]
+    pub fn shift(&self) -> Shift {
+        shift(self.offset, self.frequency.value, self.amplitude.value.ln())
+    }
+}
+
+impl FitSettings {
+    pub(super) fn check(&self) -> Result<(), ComparisonError> {
+        let ensure = |what, found: f64, allowed, holds: bool| {
+            if holds { Ok(()) } else { Err(ComparisonError::Input { what, found, allowed }) }
+        };
+        let more = self.reach > 1.0 && self.reach.is_finite();
+        ensure("the reach", self.reach, "a factor of more than 1", more)?;
+        for found in ends(self.amplitude) {
+            ensure(
+                "the amplitude factor",
+                found,
+                "finite and more than 0",
+                found > 0.0 && found.is_finite(),
+            )?;
+        }
+        for found in ends(self.frequency) {
+            let holds = found.is_finite() && (self.offset || found > 0.0);
+            ensure("the shift of the frequency", found, "finite, and more than 0 as a factor", holds)?;
+        }
+        Ok(())
+    }
+}
+
+fn ends(fixed: Fixed) -> [f64; 2] {
+    match fixed {
+        Fixed::Given(value) => [value; 2],
+        Fixed::Fitted { low, high } => [low, high],
+    }
+}
+
+/// A point that takes part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Used {
+    frequency_hz: f64,
+    logarithm: f64,
+    period: Option<u32>,
+}
+
+impl Used {
+    pub fn of(point: &MeasuredPoint, quantity: Quantity) -> Option<Self> {
+        let period = period_of(point.kind)?;
+        let logarithm = point.maxima.of(quantity)?.ln();
+        Some(Self { frequency_hz: point.frequency_hz, logarithm, period })
+    }
+}
+
+/// Trials of the shift of frequencies and of the logarithm of the factor.
+const FREQUENCY_TRIALS: usize = 660;
+const AMPLITUDE_STEP: f64 = 0.02;
+/// Part of the frequency over which a slope is taken, to each side.
+const SECANT: f64 = 0.0025;
+const ITERATIONS: usize = 40;
+/// Logarithm of the ratio up to which a point pulls, over that up to which it is explained.
+const PULL: f64 = 2.0;
+
+pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
+    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln() };
+    let free = [settings.frequency, settings.amplitude].map(|fixed| matches!(fixed, Fixed::Fitted { .. }));
+    let fitted = usize::from(free[0]) + usize::from(free[1]);
+    let begin = problem.best_trial(settings);
+    let at = problem.refine(begin, free);
+    let rows = problem.rows(at);
+    if fitted > 0 && rows.len() <= fitted {
+        return Err(ComparisonError::TooFewPoints { fitted, points: rows.len() });
+    }
+    let covariance = covariance(&rows, free);
+    let error = |k: usize| free[k].then(|| covariance[k][k].max(0.0).sqrt());
+    let correlation = (fitted == 2)
+        .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE));
+    Ok(Fit {
+        offset: settings.offset,
+        frequency: Estimate { value: at[0], standard_error: error(0) },
+        // The error of a logarithm is a relative one.
+        amplitude: Estimate { value: at[1].exp(), standard_error: error(1).map(|e| e * at[1].exp()) },
+        points: rows.len(),
+        correlation,
+    })
+}
+
+pub(super) fn residual(used: &[Used], curves: &Curves, shift: Shift, reach: f64) -> Residual {
+    let differences: Vec<f64> = used.iter().filter_map(|point| difference(point, curves, shift)).collect();
+    let within: Vec<f64> = differences.iter().copied().filter(|r| r.abs() <= reach).collect();
+    let rms = |r: &[f64]| {
+        if r.is_empty() { 0.0 } else { (r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64).sqrt() }
+    };
+    Residual {
+        met: differences.len(),
+        within: within.len(),
+        rms: rms(&differences),
+        rms_within: rms(&within),
+    }
+}
+
+fn shift(offset: bool, frequency: f64, log_amplitude: f64) -> Shift {
+    let frequency =
+        if offset { FrequencyShift::Offset(frequency) } else { FrequencyShift::Factor(frequency) };
+    Shift { frequency, amplitude_factor: log_amplitude.exp() }
+}
+
+fn difference(point: &Used, curves: &Curves, shift: Shift) -> Option<f64> {
+    let value = shift.amplitude_factor * point.logarithm.exp();
+    let hit = curves.nearest_stable(shift.frequency.apply(point.frequency_hz), point.period, value)?;
+    Some((value / hit.value).ln())
+}
+
+/// Shift of the frequency and logarithm of the factor.
+type Place = [f64; 2];
+
+/// A point within the reach: its difference and the derivatives of it.
+struct Row {
+    difference: f64,
+    slopes: [f64; 2],
+}
+
+struct Problem<'a> {
+    used: &'a [Used],
+    curves: &'a Curves,
+    offset: bool,
+    reach: f64,
+}
+
+impl Problem<'_> {
+    fn shift(&self, at: Place) -> Shift {
+        shift(self.offset, at[0], at[1])
+    }
+
+    /// `sum min(r^2, R^2)`.
+    fn cost(&self, at: Place) -> f64 {
+        let (shift, most) = (self.shift(at), self.reach * self.reach);
+        let of = |point: &Used| difference(point, self.curves, shift).map_or(most, |r| (r * r).min(most));
+        self.used.iter().map(of).sum()
+    }
+
+    /// The best place of a grid; of equal ones the nearest to no shift and no factor.
+    fn best_trial(&self, settings: &FitSettings) -> Place {
+        let none = if self.offset { 0.0 } else { 1.0 };
+        let shifts = trials(settings.frequency, FREQUENCY_TRIALS);
+        let factors = match settings.amplitude {
+            Fixed::Given(value) => vec![value.ln()],
+            Fixed::Fitted { low, high } => {
+                let steps = ((high.ln() - low.ln()) / AMPLITUDE_STEP).ceil().max(1.0) as usize;
+                let (low, high) = (low.ln(), high.ln());
+                trials(Fixed::Fitted { low, high }, steps)
+            }
+        };
+        let most = self.reach * self.reach;
+        let mut best = (f64::INFINITY, f64::INFINITY, [shifts[0], factors[0]]);
+        for &frequency in &shifts {
+            let values = self.values(frequency);
+            for &factor in &factors {
+                let of = |(point, values): (&Used, &Vec<f64>)| {
+                    let square = |value: &f64| (factor + point.logarithm - value).powi(2);
+                    values.iter().map(square).fold(most, f64::min)
+                };
+                let cost: f64 = self.used.iter().zip(&values).map(of).sum();
+                let far = (frequency - none).abs() + 1e-3 * factor.abs();
+                if cost < best.0 - 1e-12 || (cost <= best.0 + 1e-12 && far < best.1) {
+                    best = (cost, far, [frequency, factor]);
+                }
+            }
+        }
+        best.2
+    }
+
+    /// Logarithms of the values of the stable solutions that each point could belong to.
+    fn values(&self, frequency: f64) -> Vec<Vec<f64>> {
+        let shift = self.shift([frequency, 0.0]).frequency;
+        let of = |point: &Used| {
+            let hits = self.curves.at(shift.apply(point.frequency_hz), point.period);
+            hits.iter().filter(|hit| hit.stable).map(|hit| hit.value.ln()).collect()
+        };
+        self.used.iter().map(of).collect()
+    }
+
+    /// Differences within the reach and their slopes.
+    fn rows(&self, at: Place) -> Vec<Row> {
+        let shift = self.shift(at);
+        let row = |point: &Used| {
+            let difference = difference(point, self.curves, shift).filter(|r| r.abs() <= self.reach)?;
+            Some(Row { difference, slopes: [self.slope(point, at), 1.0] })
+        };
+        self.used.iter().filter_map(row).collect()
+    }
+
+    /// `dr/d(shift)`: minus the slope of the logarithm of the branch, by a secant on the branch that is met.
+    fn slope(&self, point: &Used, at: Place) -> f64 {
+        let shift = self.shift(at);
+        let frequency = shift.frequency.apply(point.frequency_hz);
+        let value = shift.amplitude_factor * point.logarithm.exp();
+        let Some(here) = self.curves.nearest_stable(frequency, point.period, value) else { return 0.0 };
+        let beside = |step: f64| {
+            let hits = self.curves.at(frequency + step, point.period).into_iter();
+            let same = hits.filter(|hit| hit.branch == here.branch && hit.stable);
+            curve::nearest(same, here.value).map_or((0.0, here.value), |hit| (step, hit.value))
+        };
+        let step = SECANT * frequency;
+        let ((left, low), (right, high)) = (beside(-step), beside(step));
+        if right <= left {
+            return 0.0;
+        }
+        let by_frequency = (high / low).ln() / (right - left);
+        -by_frequency * if self.offset { 1.0 } else { point.frequency_hz }
+    }
+
+    /// Gauss-Newton steps, halved until the cost falls.
+    fn refine(&self, begin: Place, free: [bool; 2]) -> Place {
+        let (mut at, mut cost) = (begin, self.cost(begin));
+        for _ in 0..ITERATIONS {
+            let rows = self.rows(at);
+            let Some(step) = gauss_newton(&rows, free) else { break };
+            let tried = (0..12).map(|halvings| 0.5_f64.powi(halvings)).find_map(|share| {
+                let place = [at[0] + share * step[0], at[1] + share * step[1]];
+                let found = self.cost(place);
+                (found < cost).then_some((place, found))
+            });
+            let Some((place, found)) = tried else { break };
+            let done = cost - found <= 1e-13 * cost;
+            (at, cost) = (place, found);
+            if done {
+                break;
+            }
+        }
+        at
+    }
+}
+
+fn trials(fixed: Fixed, count: usize) -> Vec<f64> {
+    match fixed {
+        Fixed::Given(value) => vec![value],
+        Fixed::Fitted { low, high } => {
+            (0..=count).map(|k| low + (high - low) * k as f64 / count as f64).collect()
+        }
+    }
+}
+
+/// `J^T J`, with the identity in the rows that are not free.
+fn normal(rows: &[Row], free: [bool; 2]) -> [[f64; 2]; 2] {
+    let mut matrix = [[0.0; 2]; 2];
+    for j in 0..2 {
+        for k in 0..2 {
+            matrix[j][k] = if free[j] && free[k] {
+                rows.iter().map(|row| row.slopes[j] * row.slopes[k]).sum()
+            } else {
+                f64::from(u8::from(j == k))
+            };
+        }
+    }
+    matrix
+}
+
+fn inverse(matrix: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+    let [[a, b], [c, d]] = matrix;
+    let determinant = a * d - b * c;
+    // Slopes that are all alike cannot be told from the factor.
+    if determinant <= 1e-12 * a * d {
+        return None;
+    }
+    Some([[d / determinant, -b / determinant], [-c / determinant, a / determinant]])
+}
+
+fn gauss_newton(rows: &[Row], free: [bool; 2]) -> Option<Place> {
+    let inverse = inverse(normal(rows, free))?;
+    let gradient: [f64; 2] = std::array::from_fn(|k| {
+        if free[k] { rows.iter().map(|row| row.slopes[k] * row.difference).sum() } else { 0.0 }
+    });
+    Some(std::array::from_fn(|j| -(inverse[j][0] * gradient[0] + inverse[j][1] * gradient[1])))
+}
+
+/// Infinite where the points cannot tell the numbers apart.
+fn covariance(rows: &[Row], free: [bool; 2]) -> [[f64; 2]; 2] {
+    let fitted = free.iter().filter(|free| **free).count();
+    let left = rows.len().saturating_sub(fitted).max(1);
+    let variance = rows.iter().map(|row| row.difference * row.difference).sum::<f64>() / left as f64;
+    inverse(normal(rows, free))
+        .map_or([[f64::INFINITY; 2]; 2], |matrix| matrix.map(|row| row.map(|v| v * variance)))
+}

@@ -1,0 +1,159 @@
+//! From stored branches to curves of what an instrument would show.
+//!
+//! Largest displacements, accelerations and contact forces are stored with each solution, exact on the continuous motion. Velocities, and everything behind a filter, are computed
+//! again from the stored orbit, for solutions that are far enough apart: a filtered course has no feature narrower than the branch itself.
+
+use hammerbeam_signal::Quantity;
+
+use super::{
+    BranchCurve, CurvePoint, Curves,
+    course::{CourseError, course, largest, largest_behind},
+};
+use crate::{Model, StoreError, StoredBranch, StoredBranches, crossings::PlacedRow};
+
+/// A low-pass filter of an instrument: Butterworth, analogue.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filter {
+    /// Order.
+    pub order: usize,
+    /// Cut-off, at half the power [Hz].
+    pub cut_off_hz: f64,
+}
+
+/// What of an orbit is observed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Observation {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The filter before the maximum is taken.
+    pub filter: Option<Filter>,
+    /// Distance of solutions that are computed again [Hz].
+    pub spacing_hz: f64,
+    /// Samples in an excitation period.
+    pub samples: usize,
+}
+
+/// Why there are no curves.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ObservationError {
+    /// The store refuses.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// An orbit cannot be gone over.
+    #[error(transparent)]
+    Course(#[from] CourseError),
+    /// A force behind a filter.
+    #[error("contact forces are not filtered: an accelerometer's filter does not see them")]
+    FilteredForce,
+}
+
+/// Curves of an observation over all branches.
+///
+/// # Errors
+/// [`ObservationError`].
+pub fn curves(
+    branches: &StoredBranches,
+    model: &Model,
+    observation: &Observation,
+) -> Result<Curves, ObservationError> {
+    if observation.filter.is_none() && observation.quantity != Quantity::Velocity {
+        return Ok(stored(branches, observation.quantity));
+    }
+    let mut all = curves_of(branches, model, observation.spacing_hz, observation.samples, |course, row| {
+        let series = match observation.quantity {
+            Quantity::Displacement => &course.displacement,
+            Quantity::Velocity => &course.velocity,
+            Quantity::Acceleration => &course.acceleration,
+            _ => return Err(ObservationError::FilteredForce),
+        };
+        let _ = row;
+        Ok(vec![match observation.filter {
+            Some(filter) => largest_behind(series, course.duration_s, filter)?,
+            None => largest(series),
+        }])
+    })?;
+    Ok(all.swap_remove(0))
+}
+
+/// Several curves at once of stored solutions that are some distance apart: `values` gives those of an orbit.
+///
+/// # Errors
+/// [`ObservationError`].
+pub fn curves_of(
+    branches: &StoredBranches,
+    model: &Model,
+    spacing_hz: f64,
+    samples: usize,
+    mut values: impl FnMut(&super::course::Course, &PlacedRow) -> Result<Vec<f64>, ObservationError>,
+) -> Result<Vec<Curves>, ObservationError> {
+    let mut found: Vec<Vec<BranchCurve>> = Vec::new();
+    for branch in branches.branches() {
+        for (index, placed) in thinned(branch, spacing_hz) {
+            let orbit = branches.solution(branch, placed)?;
+            let of_orbit = values(&course(model, &orbit, samples)?, placed)?;
+            found.resize_with(of_orbit.len().max(found.len()), Vec::new);
+            for (curves, value) in found.iter_mut().zip(of_orbit) {
+                if curves.last().is_none_or(|last| last.branch != branch.record.id) {
+                    curves.push(empty(branch));
+                }
+                let point = CurvePoint {
+                    frequency_hz: placed.row.frequency_hz,
+                    value,
+                    stable: placed.row.stable,
+                    row: index + 1,
+                };
+                curves.last_mut().into_iter().for_each(|curve| curve.points.push(point));
+            }
+        }
+    }
+    if found.is_empty() {
+        found.push(Vec::new());
+    }
+    Ok(found.into_iter().map(Curves::new).collect())
+}
+
+fn stored(branches: &StoredBranches, quantity: Quantity) -> Curves {
+    let of = |branch: &StoredBranch| {
+        let point = |(index, placed): (usize, &PlacedRow)| CurvePoint {
+            frequency_hz: placed.row.frequency_hz,
+            value: match quantity {
+                Quantity::Displacement => placed.row.maxima.displacement,
+                Quantity::Force => placed.row.maxima.contact_force,
+                _ => placed.row.maxima.acceleration,
+            },
+            stable: placed.row.stable,
+            row: index + 1,
+        };
+        BranchCurve { points: branch.rows.iter().enumerate().map(point).collect(), ..empty(branch) }
+    };
+    Curves::new(branches.branches().iter().map(of).collect())
+}
+
+fn empty(branch: &StoredBranch) -> BranchCurve {
+    let record = &branch.record;
+    BranchCurve { branch: record.id, period_multiple: record.period_multiple, points: Vec::new() }
+}
+
+/// Change of a stored maximum beyond which a solution is kept however near the last one is.
+const CHANGE: f64 = 0.05;
+
+/// Solutions that are far enough apart in frequency or value, where stability changes, and both ends.
+pub(crate) fn thinned(branch: &StoredBranch, spacing_hz: f64) -> Vec<(usize, &PlacedRow)> {
+    let mut kept: Vec<(usize, &PlacedRow)> = Vec::new();
+    let count = branch.rows.len();
+    for (index, placed) in branch.rows.iter().enumerate() {
+        let row = &placed.row;
+        let far = |last: &PlacedRow| {
+            let ratio = row.maxima.displacement / last.row.maxima.displacement;
+            (row.frequency_hz - last.row.frequency_hz).abs() >= spacing_hz
+                || (ratio.ln().abs() > CHANGE)
+                || row.stable != last.row.stable
+                || row.events.fold
+        };
+        if index + 1 == count || kept.last().is_none_or(|(_, last)| far(last)) {
+            kept.push((index, placed));
+        }
+    }
+    kept
+}

@@ -1,0 +1,75 @@
+//! A virtual rig: a "measurement" made with another model than the one it is held against.
+//!
+//! The rig is a study of its own, made of a study by the changes of its table `[rig.changes]`: another stiffness, a contact that loses energy, a shaker that does not keep its
+//! amplitude. Its motion is swept up and down in steps; at each frequency it settles, is recorded through a measuring chain, and the record is classified as
+//! a measured one would be. What the rig knows of itself (the state once in each period, without noise) is kept beside it, to tell how often that is right.
+//!
+//! | file | what |
+//! |---|---|
+//! | `build.rs` | the study of the rig |
+//! | `sweep.rs` | stepped sweeps; a record at each frequency, and its point |
+//! | `decay.rs` | a free decay of the structure without its stops: eigenfrequencies and damping as they are measured |
+//! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
+//! | `signals.rs` | measured and computed signals laid over one another |
+//!
+//! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and threads take whole sweeps, signals or solutions.
+
+mod build;
+mod decay;
+mod filter;
+mod signals;
+mod sweep;
+
+use hammerbeam_attractor::AttractorError;
+use hammerbeam_motion::exact::MotionError;
+use hammerbeam_signal::SignalError;
+
+pub use build::changed_study;
+pub use decay::{MeasuredMode, measured_modes};
+pub use filter::{FilteredBranch, FilteredPoint, FilteredRatio, acceleration_curves, filtered_branches};
+pub use signals::{Computed, SignalPair, compare_signal};
+pub use sweep::{Direction, RigPoint, sweep};
+
+use crate::{
+    StoreError,
+    comparison::{ObservationError, course::CourseError},
+    file::StudyError,
+};
+
+/// Why a rig cannot be measured.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RigError {
+    /// The study has no table `[rig]`.
+    #[error("{name} has no table [rig]: there is nothing to measure")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    NoRig { name: String },
+    /// The changes do not make a study.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The changes cannot be put together with the study.
+    #[error("the changes of [rig.changes] cannot be put into the study: {message}")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Changes { message: String },
+    /// A motion cannot be followed.
+    #[error(transparent)]
+    Attractor(#[from] AttractorError),
+    /// A motion cannot be computed.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A record refuses.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+    /// An orbit cannot be gone over.
+    #[error(transparent)]
+    Course(#[from] CourseError),
+    /// Curves of branches.
+    #[error(transparent)]
+    Observation(#[from] ObservationError),
+    /// The store refuses.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    /// Stopped from outside.
+    #[error("interrupted")]
+    Interrupted,
+}

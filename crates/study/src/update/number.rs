@@ -1,0 +1,212 @@
+//! Numbers of a study file by their key paths, and the file with other numbers in their places.
+//!
+//! A path leads through the tables of the file. An element of a list of tables is named by its `name`, or by its number from 1: `structure.point.contact.mass_kg` and
+//! `structure.point.1.mass_kg` are the same. Numbers that choose how something is computed are not numbers of the model and are left out.
+
+use std::ops::Range;
+
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+use crate::{StudyError, StudyFile};
+
+/// Tables that say how something is computed, and what.
+const NOT_OF_THE_MODEL: [&str; 6] = ["reduction", "response", "search", "continuation", "vary", "curve"];
+/// Keys that count or bound.
+const NOT_A_QUANTITY: [&str; 3] = ["elements", "order", "frequency_hz"];
+
+/// Part of a number that stands for next to nothing.
+const SMALL: f64 = 1e-6;
+
+/// A number in the text of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Number {
+    /// Its paths, the one with names first.
+    pub keys: Vec<String>,
+    /// Where it stands [bytes].
+    pub span: Range<usize>,
+    /// Its value.
+    pub value: f64,
+}
+
+/// All numbers of a study that can be fitted.
+pub(crate) fn numbers(file: &StudyFile) -> Vec<Number> {
+    let (document, _) = DeTable::parse_recoverable(&file.text);
+    let mut found = Vec::new();
+    let tables =
+        document.get_ref().iter().filter(|(key, _)| !NOT_OF_THE_MODEL.contains(&key.get_ref().as_ref()));
+    for (key, value) in tables {
+        collect(value, &[key.get_ref().to_string()], &mut found);
+    }
+    found.sort_by_key(|number| number.span.start);
+    found
+}
+
+fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number>) {
+    let mut push = |value: Option<f64>, span: Range<usize>| {
+        if let Some(value) = value.filter(|value| value.is_finite()) {
+            found.push(Number { keys: keys.to_vec(), span, value });
+        }
+    };
+    match value.get_ref() {
+        DeValue::Float(number) => push(number.as_str().parse().ok(), value.span()),
+        DeValue::Integer(number) => {
+            let whole = i64::from_str_radix(number.as_str(), number.radix()).ok();
+            push(whole.map(|whole| whole as f64), value.span());
+        }
+        DeValue::Table(table) => {
+            for (key, value) in table {
+                let key = key.get_ref().as_ref();
+                if !NOT_A_QUANTITY.contains(&key) {
+                    collect(value, &extended(keys, &[key.to_owned()]), found);
+                }
+            }
+        }
+        DeValue::Array(elements) => {
+            for (index, element) in elements.iter().enumerate() {
+                let mut names = vec![format!("{}", index + 1)];
+                if let DeValue::Table(table) = element.get_ref()
+                    && let Some(DeValue::String(name)) = table.get("name").map(Spanned::get_ref)
+                {
+                    names.insert(0, name.to_string());
+                }
+                collect(element, &extended(keys, &names), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Every path with every name appended.
+fn extended(keys: &[String], names: &[String]) -> Vec<String> {
+    names.iter().flat_map(|name| keys.iter().map(move |key| format!("{key}.{name}"))).collect()
+}
+
+/// The study with other numbers in their places; the rest of its text stays as it is.
+///
+/// # Errors
+/// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
+pub(crate) fn with_numbers(
+    file: &StudyFile,
+    numbers: &[Number],
+    values: &[f64],
+) -> Result<StudyFile, StudyError> {
+    StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
+}
+
+/// Values that the study file allows for a number, as far as they do not hang on others: whether it may be negative or zero, and whether it may exceed one.
+pub(crate) fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
+    let size = if number.value == 0.0 { 1.0 } else { number.value.abs() };
+    let allowed = |value: f64| with_numbers(file, std::slice::from_ref(number), &[value]).is_ok();
+    let low = match (allowed(-SMALL * size), allowed(0.0)) {
+        (true, _) => f64::NEG_INFINITY,
+        (false, true) => 0.0,
+        (false, false) => SMALL * size,
+    };
+    let high = if (0.0..=1.0).contains(&number.value) && allowed(1.0) && !allowed(1.0 + SMALL) {
+        1.0
+    } else {
+        f64::INFINITY
+    };
+    (low, high)
+}
+
+/// The text with other numbers in their places.
+pub(crate) fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String {
+    let mut order: Vec<usize> = (0..numbers.len()).collect();
+    order.sort_by_key(|index| std::cmp::Reverse(numbers[*index].span.start));
+    let mut text = text.to_owned();
+    for index in order {
+        text.replace_range(numbers[index].span.clone(), &written(values[index]));
+    }
+    text
+}
+
+/// A number as TOML has it, with every digit.
+pub(crate) fn written(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{value:?}") } else { format!("{value:e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STUDY: &str = include_str!("../../../../studies/beam-with-stop.toml");
+
+    fn beam() -> StudyFile {
+        StudyFile::parse("beam.toml", STUDY.to_owned()).unwrap()
+    }
+
+    fn value(key: &str) -> Option<f64> {
+        let all = numbers(&beam());
+        all.iter().find(|number| number.keys.iter().any(|known| known == key)).map(|number| number.value)
+    }
+
+    #[test]
+    fn numbers_are_found_by_name_and_by_count() {
+        assert_eq!(value("structure.youngs_modulus_pa"), Some(2.1e11));
+        assert_eq!(value("structure.section.height_m"), Some(0.002));
+        assert_eq!(value("structure.point.contact.mass_kg"), Some(0.03756));
+        assert_eq!(value("structure.point.1.mass_kg"), Some(0.03756));
+        assert_eq!(value("stop.1.stiffness_n_m15"), Some(4.5e9));
+        assert_eq!(value("damping.modal_ratio"), Some(0.015));
+    }
+
+    #[test]
+    fn what_is_no_quantity_of_the_model_is_left_out() {
+        for key in
+            ["structure.elements", "reduction.cut_off_hz", "search.trials", "excitation.frequency_hz.1"]
+        {
+            assert_eq!(value(key), None, "{key}");
+        }
+    }
+
+    #[test]
+    fn only_the_numbers_change() {
+        let all = numbers(&beam());
+        let chosen: Vec<Number> = all
+            .into_iter()
+            .filter(|number| {
+                ["structure.length_m", "stop.1.stiffness_n_m15"]
+                    .iter()
+                    .any(|key| number.keys.contains(&(*key).to_owned()))
+            })
+            .collect();
+        let text = replaced(STUDY, &chosen, &[0.3, 1.25e9]);
+        let expected = STUDY
+            .replace("length_m = 0.2579822 ", "length_m = 0.3 ")
+            .replace("4.5e9            #", "1.25e9            #");
+        assert_ne!(expected, STUDY);
+        assert_eq!(text, expected);
+    }
+
+    fn limits_of(key: &str) -> (f64, f64) {
+        let (file, all) = (beam(), numbers(&beam()));
+        limits(&file, all.iter().find(|number| number.keys.iter().any(|known| known == key)).unwrap())
+    }
+
+    #[test]
+    fn limits_are_those_of_the_study_file() {
+        assert_eq!(limits_of("structure.point.contact.rotary_inertia_kg_m2"), (0.0, f64::INFINITY));
+        assert_eq!(limits_of("damping.modal_ratio"), (0.0, 1.0));
+        let (low, high) = limits_of("structure.youngs_modulus_pa");
+        assert!(low > 0.0 && high.is_infinite());
+        // The end of the beam is no limit: it may move, too.
+        assert_eq!(limits_of("structure.point.contact.at_m").1, f64::INFINITY);
+    }
+
+    #[test]
+    fn numbers_are_written_so_that_they_are_read_back_bit_by_bit() {
+        for value in [0.0, 0.1 + 0.2, 2.1e11 / 3.0, 1.59e-8, -0.5, 1e22, 999_999.9] {
+            let text = format!("x = {}", written(value));
+            let table = DeTable::parse(&text).unwrap();
+            let DeValue::Float(number) = table.get_ref().get("x").unwrap().get_ref() else {
+                panic!("{text}")
+            };
+            assert_eq!(number.as_str().parse::<f64>().unwrap(), value);
+        }
+    }
+}
