@@ -145,6 +145,11 @@ fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
         assert!(drawn.iter().any(|file| file == name), "{name} is not among {drawn:?}");
     }
     for name in &drawn {
+        // These the run leaves to the command.
+        if name.starts_with("multipliers") {
+            assert!(!workshop.path("results").join(name).exists());
+            continue;
+        }
         let read = |folder: &str| fs::read(workshop.path(folder).join(name)).unwrap();
         assert!(read("results") == read("again"), "{name} differs");
     }
