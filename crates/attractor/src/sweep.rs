@@ -96,13 +96,7 @@ impl Sweeper {
     #[must_use]
     pub fn can_begin(&mut self, state: &[f64]) -> bool {
         let frequency_hz = self.map.frequency_hz();
-        let system = self.map.integrator().system();
-        let of_law =
-            system.elements().iter().enumerate().filter(|(_, element)| element.law.remembers_impact());
-        !of_law.into_iter().any(|(number, element)| {
-            let [r, ..] = system.relative_motion(number, frequency_hz, 0.0, state);
-            element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) > 0.0)
-        })
+        !self.map.integrator().system().is_in_remembered_contact(frequency_hz, 0.0, state)
     }
 
     fn observe(&mut self, frequency_hz: f64, classified: Classified) -> Result<SweepPoint, AttractorError> {

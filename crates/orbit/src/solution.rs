@@ -31,6 +31,12 @@ impl PeriodicSolution {
     pub fn stable(&self) -> bool {
         self.floquet_multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
     }
+
+    /// Magnitude of the largest Floquet multiplier; 0 if there is none.
+    #[must_use]
+    pub fn largest_multiplier(&self) -> f64 {
+        self.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im))
+    }
 }
 
 /// Maxima of an orbit on the continuous motion, and its contacts, over one orbit period.

@@ -210,7 +210,7 @@ pub(crate) fn has_minimal_period(
     solution: &PeriodicSolution,
 ) -> Result<bool, OrbitError> {
     // What is wrong with the start grows with the multiplier.
-    let largest = solution.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+    let largest = solution.largest_multiplier();
     let distance = distance_to_shorter_period(integrator, scale, solution)?;
     Ok(distance >= 1e-6 * (1e-3 * largest).max(1.0))
 }

@@ -126,21 +126,12 @@ pub(crate) fn starting_states(
     if system.remembers_impacts() {
         let rest = state_of_rest(system);
         for state in &mut states {
-            if is_in_contact(system, frequency_hz, state) {
+            if system.is_in_remembered_contact(frequency_hz, 0.0, state) {
                 state.iter_mut().zip(&rest).for_each(|(z, rest)| *z = 2.0 * rest - *z);
             }
         }
     }
     Ok(states)
-}
-
-/// Whether a state at phase 0 lies within a contact whose law remembers its impact.
-fn is_in_contact(system: &System, frequency_hz: f64, state: &[f64]) -> bool {
-    let of_law = system.elements().iter().enumerate().filter(|(_, element)| element.law.remembers_impact());
-    of_law.into_iter().any(|(number, element)| {
-        let [r, ..] = system.relative_motion(number, frequency_hz, 0.0, state);
-        element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) >= 0.0)
-    })
 }
 
 /// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has settled on one of another period.

@@ -126,8 +126,6 @@ impl BranchWalk {
     fn largest_multiplier(&mut self) -> f64 {
         let point = self.follower.current().clone();
         let row = evaluate(&mut self.problem, &point.point).and_then(|()| self.row_at(&point));
-        row.ok().map_or(f64::INFINITY, |row| {
-            row.solution.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im))
-        })
+        row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())
     }
 }

@@ -222,9 +222,9 @@ impl BranchWalk {
             None => match self.row() {
                 Ok(row) => {
                     self.journal.push(self.follower.in_first_units(self.follower.current()));
-                    let multipliers = row.solution.floquet_multipliers.clone();
+                    let largest = row.solution.largest_multiplier();
                     self.append_densely(&from, row, rows)?;
-                    self.keep_segments_short(&multipliers)?;
+                    self.keep_segments_short(largest)?;
                     Ok(None)
                 }
                 Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
@@ -256,9 +256,8 @@ impl BranchWalk {
         self.last_rows.keep_newest();
     }
 
-    /// Cuts the orbit anew where its multipliers have outgrown the segments, before steps become so short that the walk crawls.
-    fn keep_segments_short(&mut self, multipliers: &[[f64; 2]]) -> Result<(), OrbitError> {
-        let largest = multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+    /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so short that the walk crawls.
+    fn keep_segments_short(&mut self, largest: f64) -> Result<(), OrbitError> {
         let outgrown = largest.ln() > self.problem.segments() as f64 * MOST_GROWTH.ln();
         if self.settings.segments == Segments::Automatic && outgrown && self.follower.stop_reason().is_none()
         {
@@ -424,7 +423,7 @@ fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSett
         Segments::Fixed(count) => count.max(1),
         Segments::Automatic if begins_with_care(system) => 1,
         Segments::Automatic => {
-            let largest = start.floquet_multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+            let largest = start.largest_multiplier();
             let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;
             let by_contacts = start.maxima.contacts as usize / 12 + 1;
             by_growth.max(by_contacts).min(16).next_multiple_of(start.period_multiple as usize)

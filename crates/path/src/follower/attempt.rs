@@ -1,7 +1,7 @@
 //! One attempt at a step: predict, correct, judge, and locate what lies on the way.
 
 use super::{Arrival, Follower, judge::Finding};
-use crate::{corrector::Limits, error::Doubt, predictor, problem::PathProblem, product::weigh};
+use crate::{corrector::Limits, error::Doubt, problem::PathProblem, product::weigh};
 
 impl Follower {
     /// Tries a step of this length; on success the trial is the next point, and the problem evaluated there.
@@ -59,12 +59,13 @@ impl Follower {
         step: f64,
         sigma: f64,
     ) -> Result<(), Doubt> {
-        let base = self.state.history.base();
-        predictor::hermite(&self.weights, base, [&self.trial.node], sigma, &mut self.probe.point);
-        let limits = Limits { max_angle: Some(2.0 * self.settings.max_angle), ..self.locating_limits(step) };
-        self.probe
-            .correct(problem, &self.weights, &self.row, limits, &mut self.state.counters)
-            .map_err(Doubt::Corrector)
+        self.predict_probe(sigma, false);
+        self.correct_probe(problem, self.probing_limits(step))
+    }
+
+    /// [`locating_limits`](Self::locating_limits) for a place within a step whose ends are known.
+    pub(super) fn probing_limits(&self, step: f64) -> Limits {
+        Limits { max_angle: Some(2.0 * self.settings.max_angle), ..self.locating_limits(step) }
     }
 
     /// Events are located to a hundredth of the tolerance, as far as rounding allows.

@@ -111,8 +111,7 @@ impl Follower {
         mut value: impl FnMut(&mut Candidate, &mut P) -> Option<f64>,
     ) -> Result<f64, Doubt> {
         self.predict_probe(place, goes_on);
-        let sharp = self.locating_limits(step);
-        let sharp = Limits { max_angle: Some(2.0 * self.settings.max_angle), ..sharp };
+        let sharp = self.probing_limits(step);
         let loose = Limits { tolerance: sharp.tolerance.max(LOOSE * bracket.width()), ..sharp };
         self.correct_probe(problem, loose)?;
         let mut found = value(&mut self.probe, problem).ok_or(Doubt::NotLocated)?;
@@ -130,7 +129,8 @@ impl Follower {
         Ok(found)
     }
 
-    fn predict_probe(&mut self, place: f64, goes_on: bool) {
+    /// Predicts the probe at `σ` of the step by the polynomial through both ends, and through the best probe so far if there is one (`goes_on`).
+    pub(super) fn predict_probe(&mut self, place: f64, goes_on: bool) {
         let (weights, base, trial) = (&self.weights, self.state.history.base(), &self.trial.node);
         let of = |point: &[f64]| progress(weights, &base.tangent, point, &base.point);
         let (length, last) = (of(&trial.point), of(&self.best.node.point));
@@ -142,7 +142,8 @@ impl Follower {
         }
     }
 
-    fn correct_probe(
+    /// Corrects the probe in the plane across the tangent at the start of the step.
+    pub(super) fn correct_probe(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         limits: Limits,
