@@ -35,7 +35,7 @@ fn memory_and_results_folder_stay_below_200_megabytes() {
         "[response]",
         &format!("[continuation]\nmax_step_hz = 0.0005\nbudget_solutions = {solutions}\n[response]"),
     );
-    let workshop = Workshop::with(&study.replace("[19.0, 110.0]", "[25.0, 60.0]"));
+    let workshop = Workshop::with(&study.replace("[19.0, 110.0]", "[25.0, 80.0]"));
     let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
         .args(["run", "study.toml", "--out", "results"])
         .current_dir(workshop.path(""))
