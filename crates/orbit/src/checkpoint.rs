@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0006;
+const MAGIC: u64 = 0x4842_5741_4c4b_0007;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -43,15 +43,18 @@ impl BranchWalk {
             out.floats(&node.point);
             out.floats(&node.tangent);
         }
+        out.word(state.most_earlier as u64);
         for value in
             [state.step_length, state.orientation, state.parameter_sign, state.unit, state.change_ahead]
         {
             out.float(value);
         }
-        out.word(state.tests.len() as u64);
-        for test in &state.tests {
-            out.float(test.value);
-            out.word(u64::from(test.count));
+        for tests in [&state.tests, &state.tests_before] {
+            out.word(tests.len() as u64);
+            for test in tests {
+                out.float(test.value);
+                out.word(u64::from(test.count));
+            }
         }
         out.word(u64::from(state.zeros_near));
         // Their number is small: the largest word says that nothing is known.
@@ -189,12 +192,14 @@ fn read(
         current,
         start,
         history,
+        most_earlier: usize::try_from(reader.word()?).ok()?,
         step_length: reader.float()?,
         orientation: reader.float()?,
         parameter_sign: reader.float()?,
         unit: reader.float()?,
         change_ahead: reader.float()?,
-        tests: (0..reader.word()?).map(|_| reader.test()).collect::<Option<_>>()?,
+        tests: reader.tests()?,
+        tests_before: reader.tests()?,
         zeros_near: u32::try_from(reader.word()?).ok()?,
         outside: Some(reader.word()?)
             .filter(|word| *word != u64::MAX)
@@ -350,8 +355,10 @@ impl Reader<'_> {
         (0..length).map(|_| self.float()).collect()
     }
 
-    fn test(&mut self) -> Option<TestValue> {
-        Some(TestValue { value: self.float()?, count: u32::try_from(self.word()?).ok()? })
+    fn tests(&mut self) -> Option<Vec<TestValue>> {
+        let count = self.word()?;
+        let test = |_| Some(TestValue { value: self.float()?, count: u32::try_from(self.word()?).ok()? });
+        (0..count).map(test).collect()
     }
 
     fn point(&mut self) -> Option<ContinuationPoint> {

@@ -367,7 +367,8 @@ impl BranchWalk {
         let error_estimate = point.correction_norm / hertz_per_norm(self.range_hz);
         let solution = solution(&mut self.problem, &point.point, error_estimate)?;
         let events = Events {
-            fold: point.events.fold,
+            // Where the frequency turns at a branch point it does so on an arm of a pitchfork, which is no fold of cycles.
+            fold: point.events.fold && !point.events.branch_point,
             branch_point: point.events.branch_point,
             grazing: point.events.signature_change,
             flip: point.events.zeros & 1 != 0,

@@ -66,7 +66,8 @@ fn a_pair_that_crosses_and_comes_back_real_beside_a_fold_is_found() {
             BranchWalk::new(&subject.0, &subject.1, &start, Side::Up, (1.5, 12.0), &step_of(0.0021)).unwrap();
         let mut rows = Vec::new();
         let at_fold = |row: &BranchRow| row.events.fold && (row.solution.frequency_hz - 3.57637).abs() < 1e-5;
-        while !rows.iter().rev().skip(3).any(at_fold) {
+        let beyond = |row: &BranchRow| (row.solution.frequency_hz - 3.57637).abs() > 1e-4;
+        while !rows.iter().any(at_fold) || !rows.last().is_some_and(beyond) {
             assert_eq!(walk.step(&mut rows).unwrap(), None);
         }
         let fold = rows.iter().find(|row| at_fold(row)).unwrap().solution.frequency_hz;

@@ -132,11 +132,12 @@ fn fold_flips_of_independent_oscillators_are_where_each_bifurcates_by_itself() {
         assert!(off(&case.0, row, -1.0) < 1e-8 && off(&case.0, row, 1.0) < 1e-5);
         forces.push(row.parameter);
     }
-    // The other way: along the flip the frequency stays, and both places are met again, where the curve turns.
+    // The other way: along the flip the frequency stays (rows are accepted with a correction of up to 1e-10 still due), and both places are met again, where the curve turns.
     let flip = &events(&case, |e| e.flip)[0];
     let rows = curve(&case, flip, CurveKind::Flip);
     assert!(rows.len() > 100);
-    assert!(rows.iter().all(|row| (row.solution.frequency_hz / flips[0] - 1.0).abs() < 1e-10));
+    let worst = rows.iter().map(|row| (row.solution.frequency_hz / flips[0] - 1.0).abs()).fold(0.0, f64::max);
+    assert!(worst < 2e-10, "{worst:e}");
     let mut again: Vec<f64> =
         rows.iter().filter(|row| row.events.fold_flip).map(|row| row.parameter).collect();
     again.sort_by(f64::total_cmp);

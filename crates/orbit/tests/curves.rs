@@ -125,7 +125,15 @@ fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
             // Round the cusp and back on the other folds.
             assert_eq!(end, CurveEnd::RangeEnd);
             let cusps: Vec<&CurveRow> = rows.iter().filter(|row| row.events.cusp).collect();
-            assert_eq!(cusps.len(), 1);
+            assert_eq!(
+                cusps.len(),
+                1,
+                "{:?}",
+                cusps
+                    .iter()
+                    .map(|c| (c.parameter, c.solution.frequency_hz, c.solution.error_estimate))
+                    .collect::<Vec<_>>()
+            );
             let hz = w / std::f64::consts::TAU;
             [cusps[0].parameter / 0.5 - 1.0, cusps[0].solution.frequency_hz / hz - 1.0]
         })

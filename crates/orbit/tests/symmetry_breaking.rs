@@ -89,7 +89,10 @@ fn the_pair_is_one_closed_branch() {
             assert_eq!(reason, StopReason::Closed);
             let met = branch_points(&rows);
             assert_same(&frequencies(&met), &frequencies(&points), 1e-6, "branch points of the pair");
-            assert!(met.iter().all(|row| row.events.fold), "the arms of a pitchfork turn where they meet");
+            assert!(
+                met.iter().all(|row| !row.events.fold),
+                "where the arms of a pitchfork meet there is no fold"
+            );
         }
     }
 }

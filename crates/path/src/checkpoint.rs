@@ -19,6 +19,8 @@ pub struct Checkpoint {
     pub start: ContinuationPoint,
     /// The last points of the present smooth arc, for the predictor; the first is the base of the next step.
     pub history: History,
+    /// Most earlier points for the predictor of the next step: as many as would have served the last one best.
+    pub most_earlier: usize,
     /// Length of the next step.
     pub step_length: f64,
     /// Sign of `det [R_x R_λ; (W t)ᵀ]` with the tangent in the direction of travel.
@@ -27,6 +29,8 @@ pub struct Checkpoint {
     pub parameter_sign: f64,
     /// The test functions as they are after `current`; it settles the doubt at a zero, where the sign is rounding.
     pub tests: Vec<TestValue>,
+    /// The test functions at the point before `current`, where the history has it.
+    pub tests_before: Vec<TestValue>,
     /// Bit `k` is set while test function `k` has not left the zero behind which the path goes on.
     pub zeros_near: u32,
     /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is known of them.

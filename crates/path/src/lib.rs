@@ -8,7 +8,7 @@
 //! `⟨t₀, z − z₀⟩ = h`, which also meets the curve at folds. Newton's method solves
 //! `[R_x R_λ; (W t₀)ᵀ] d = −[R; 0]`, and the same factorisation gives `w` with `[R_x R_λ; (W t₀)ᵀ] w = e_last`, which has
 //! the direction of the curve. The prediction is the tangent, or the cubic or quintic Hermite polynomial through the
-//! last points of the same smooth arc, so that at short steps the first evaluation already is on the curve. A point
+//! last points of the same smooth arc, whichever would have served the last step best, so that at short steps the first evaluation already is on the curve. A point
 //! is accepted where it was evaluated, with a correction still due that is below the tolerance; the correction is
 //! its error estimate and goes into the predictor.
 //!
@@ -37,7 +37,7 @@
 //! signature* the steps shrink to `signature_step` on both sides, in proportion to the distance from the change, so
 //! that pairs of folds beside it are found whatever the longest step; the change itself is bracketed by bisection. A *zero of a
 //! test function* of the problem (for orbits: a multiplier on the unit circle) is located by regula falsi; where the count of its zeros
-//! rises by two within a step the step is in doubt, as is one over which another number of multipliers crosses the unit circle than the events say.
+//! rises by two within a step, or a parabola through its last values comes close to zero there, the step is in doubt, as is one over which another number of multipliers crosses the unit circle than the events say.
 //!
 //! # Example
 //! The unit circle has two folds and closes.

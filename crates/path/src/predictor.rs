@@ -4,9 +4,13 @@
 //! is the node `σ_k = ⟨t₀, z_k − z₀⟩` with slope `m_k = t_k / ⟨t₀, t_k⟩`; no arc length has to be guessed. One node
 //! gives the tangent predictor, two the cubic and three the quintic Hermite polynomial (errors `h²`, `h⁴`, `h⁶`).
 //!
+//! Points and tangents have errors of their own, of which the cubic makes ten times and the quintic a hundred times as much. Where steps are short against
+//! these errors the tangent is the best predictor, and the others would keep the steps short. So every point that is reached is also predicted by all
+//! of them, and the next step takes the one that would have served best.
+//!
 //! Source: Hermite interpolation as in Stoer and Bulirsch, *Introduction to Numerical Analysis*, section 2.1.5.
 
-use crate::product::{add_scaled, product, progress};
+use crate::product::{add_scaled, distance, product, progress};
 
 /// A point of the path with its unit tangent.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -31,9 +35,21 @@ impl Node {
 /// How many earlier points a predictor may use: 0 tangent, 1 cubic, 2 quintic.
 pub(crate) const MOST_EARLIER_NODES: usize = 2;
 
+/// Errors of the predictors with none, one, two earlier nodes.
+pub(crate) type PredictorErrors = [f64; MOST_EARLIER_NODES + 1];
+
 /// Error order in `h` of the predictor with this many earlier nodes.
 pub(crate) fn order(earlier: usize) -> f64 {
     2.0 * (earlier as f64 + 1.0)
+}
+
+/// Most earlier nodes for a step `growth` times as long as the last, in which the predictors had these errors; up to `harmless` an error costs nothing.
+pub(crate) fn best_predictor(errors: &PredictorErrors, growth: f64, harmless: f64) -> usize {
+    let expected = |earlier: usize| (errors[earlier] * growth.powf(order(earlier))).max(harmless);
+    let known = errors.iter().take_while(|error| error.is_finite()).count();
+    let best = (0..known).rev().min_by(|a, b| expected(*a).total_cmp(&expected(*b))).unwrap_or(0);
+    // Of those that use more nodes than there were nothing is known.
+    if best + 1 == known { MOST_EARLIER_NODES } else { best }
 }
 
 /// The last points of a smooth arc, the newest first.
@@ -61,22 +77,43 @@ impl History {
     }
 
     /// Predicts at `σ = step` with at most `most_earlier` earlier nodes and returns how many were used.
-    ///
-    /// A node counts only if the tangents agree and the extrapolation reaches at most four times its distance.
     pub(crate) fn predict(&self, weights: &[f64], step: f64, most_earlier: usize, out: &mut [f64]) -> usize {
+        let earlier = self.usable(weights, step).min(most_earlier);
+        self.extrapolate(weights, step, earlier, out);
+        earlier
+    }
+
+    /// Distances from a point of the path at which the predictors with none, one, two earlier nodes would have put it; infinite where there are not so many.
+    pub(crate) fn errors(&self, weights: &[f64], reached: &[f64], scratch: &mut [f64]) -> PredictorErrors {
+        let sigma = progress(weights, &self.base().tangent, reached, &self.base().point);
+        let usable = self.usable(weights, sigma);
+        std::array::from_fn(|earlier| {
+            if earlier > usable {
+                return f64::INFINITY;
+            }
+            self.extrapolate(weights, sigma, earlier, scratch);
+            distance(weights, reached, scratch)
+        })
+    }
+
+    /// How many earlier nodes can serve for a step: such whose tangents agree with that of the base, and no farther from it than a quarter of the extrapolation.
+    fn usable(&self, weights: &[f64], step: f64) -> usize {
         let base = self.base();
-        let available = self.used.saturating_sub(1).min(most_earlier);
+        let available = self.used.saturating_sub(1);
         let usable = |node: &&Node| {
             let distance = -progress(weights, &base.tangent, &node.point, &base.point);
             product(weights, &base.tangent, &node.tangent) > 0.7 && 4.0 * distance >= step
         };
-        let earlier = self.nodes[1..=available].iter().take_while(usable).count();
+        self.nodes[1..=available].iter().take_while(usable).count()
+    }
+
+    fn extrapolate(&self, weights: &[f64], sigma: f64, earlier: usize, out: &mut [f64]) {
+        let base = self.base();
         match earlier {
-            0 => hermite(weights, base, [], step, out),
-            1 => hermite(weights, base, [&self.nodes[1]], step, out),
-            _ => hermite(weights, base, [&self.nodes[1], &self.nodes[2]], step, out),
+            0 => hermite(weights, base, [], sigma, out),
+            1 => hermite(weights, base, [&self.nodes[1]], sigma, out),
+            _ => hermite(weights, base, [&self.nodes[1], &self.nodes[2]], sigma, out),
         }
-        earlier
     }
 }
 

@@ -48,7 +48,7 @@ fn sharp_folds_survive_noise() {
 #[test]
 fn smooth_folds_survive_noise_at_no_cost() {
     for size in [1e-13, 1e-12, 1e-11, 1e-10] {
-        for (step, evaluations) in [(0.05, 2.0), (0.01, 1.45), (0.001, 1.4)] {
+        for (step, evaluations) in [(0.05, 1.85), (0.01, 1.5), (0.001, 1.05)] {
             let sine = |x: f64| (x / 20.0 + x.sin(), 0.05 + x.cos(), 0);
             let mut problem = mixed(4, 0.2, noisy_graph(size, sine));
             let branch = up(&mut problem, &mixed_point(4, 0.2, 0.0, 0.0), -1.0, 1.5, steps_of(step));

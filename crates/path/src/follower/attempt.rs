@@ -23,7 +23,7 @@ impl Follower {
         if !self.range.contains(self.trial.parameter()) {
             return self.arrive_at_end(problem, step, most_earlier);
         }
-        match self.judge(step)? {
+        match self.judge(problem, step)? {
             Finding::Regular if self.changes_signature() => self.arrive_at_change(problem, step, earlier),
             Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
             Finding::Closing => self.arrive_at_start(problem),

@@ -3,6 +3,7 @@
 use super::Follower;
 use crate::{
     error::Doubt,
+    problem::PathProblem,
     product::{add_scaled, distance, product, progress},
 };
 
@@ -23,12 +24,16 @@ pub(super) enum Finding {
 const EDGE: f64 = 0.02;
 /// A slope that falls inside a step to this share of its smaller end value is looked at more closely.
 const DIP: f64 = 0.5;
-/// No second look for two folds in a step shorter than this many times the rounding of a point.
+/// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
 
 impl Follower {
     /// Judges the corrected trial of this step, and orients its tangent.
-    pub(super) fn judge(&mut self, step: f64) -> Result<Finding, Doubt> {
+    pub(super) fn judge(
+        &mut self,
+        problem: &(impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<Finding, Doubt> {
         if self.trial.signature != self.state.current.signature && step > self.settings.signature_step {
             return Err(Doubt::Signature);
         }
@@ -43,8 +48,24 @@ impl Follower {
         if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation, self.state.unit) {
             return Err(Doubt::Retraced { arc_length });
         }
-        let turned = self.trial.tangent_parameter() * self.state.parameter_sign < 0.0;
-        Ok(if turned { Finding::Fold } else { Finding::Regular })
+        Ok(if self.turned(problem, self.trial.tangent_parameter()) {
+            Finding::Fold
+        } else {
+            Finding::Regular
+        })
+    }
+
+    /// Whether the parameter has turned, when it has this slope at the trial.
+    ///
+    /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to `d`, and errors `ε` of a point leave `ε/d` in its
+    /// tangent: a sign of `t_λ` below that is rounding, and says nothing until the path has left.
+    pub(super) fn turned(&self, problem: &(impl PathProblem + ?Sized), slope: f64) -> bool {
+        if slope * self.state.parameter_sign >= 0.0 {
+            return false;
+        }
+        let error = self.trial.correction_norm.max(self.state.current.correction_norm);
+        let error = error.max(self.settings.correction_floor);
+        slope.abs() * problem.distance_to_simpler(&self.trial.point) > NOISE * error
     }
 
     /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.

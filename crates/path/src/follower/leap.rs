@@ -60,7 +60,7 @@ impl Follower {
         self.check_defect(length)?;
         let branch_point = self.trial.sign * self.state.orientation < 0.0;
         let slope = self.trial.tangent_parameter();
-        let fold = slope * self.state.parameter_sign < 0.0;
+        let fold = self.turned(problem, slope);
         Ok(Arrival {
             events: Events { branch_point, fold, ..Events::default() },
             parameter_sign: fold.then(|| slope.signum()),

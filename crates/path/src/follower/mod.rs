@@ -29,7 +29,7 @@ use crate::{
     error::{Doubt, StopReason},
     memory::PathMemory,
     point::{ContinuationPoint, Counters, Events},
-    predictor::MOST_EARLIER_NODES,
+    predictor::best_predictor,
     problem::PathProblem,
     product::{distance, product},
     settings::{ParameterRange, Settings},
@@ -95,6 +95,9 @@ struct Attempts {
 
 /// So many steps in a row that are no longer than `Settings::crawl_step` end a branch: an ordinary turn, whatever its size, is passed with steps that grow again.
 pub const MOST_SHORT_STEPS: u64 = 5000;
+
+/// Share of the tolerance up to which the error of a predictor does not matter.
+const HARMLESS: f64 = 0.1;
 
 /// So many halvings of a step that meets an old stretch are enough to know that the jump was made earlier.
 const MOST_RETRACED: u32 = 8;
@@ -193,7 +196,7 @@ impl Follower {
 
     /// Attempts shorter and shorter steps until one is beyond doubt.
     fn next_point(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), StopReason> {
-        let mut attempts = Attempts { rejected: 0, retraced: 0, most_earlier: MOST_EARLIER_NODES };
+        let mut attempts = Attempts { rejected: 0, retraced: 0, most_earlier: self.state.most_earlier };
         let mut step = self.first_step();
         loop {
             let attempt = self.attempt(problem, step, attempts.most_earlier);
@@ -260,6 +263,7 @@ impl Follower {
         let base = state.history.base();
         let chord = distance(&self.weights, &base.point, &self.trial.node.point);
         let angle = product(&self.weights, &base.tangent, &self.trial.node.tangent).clamp(-1.0, 1.0).acos();
+        let errors = state.history.errors(&self.weights, &self.trial.node.point, &mut self.probe.point);
         let arc_length = state.current.arc_length + chord * (1.0 + angle * angle / 24.0);
         if arrival.anchors_anew {
             state.orientation = -state.orientation;
@@ -278,12 +282,16 @@ impl Follower {
         let is_short = chord <= self.settings.crawl_step;
         state.counters.short_in_a_row = if is_short { state.counters.short_in_a_row + 1 } else { 0 };
         state.zeros_near = arrival.zeros_near | arrival.events.zeros;
+        std::mem::swap(&mut state.tests, &mut state.tests_before);
         state.tests.clone_from(&self.trial.tests);
         state.outside = arrival.outside;
         // Where something else was located, the change of signature lies anywhere in the step.
         let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };
         self.store(events, arrival.uncertainty.max(of_change), arc_length);
         self.state.step_length = self.next_step(step, arrival, angle, attempts);
+        let next = self.state.step_length;
+        let harmless = HARMLESS * self.settings.tolerance_at(next);
+        self.state.most_earlier = best_predictor(&errors, next / chord, harmless);
         self.memory.remember(&self.state.current, self.state.unit);
     }
 

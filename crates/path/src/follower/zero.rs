@@ -2,10 +2,11 @@
 //!
 //! A step over which a test function changes its sign ends at the zero instead, found by few probes (`bracket.rs`). A function may also jump
 //! through zero (when what it is made of changes its kind); then the bracket shrinks and the value does not, and nothing is recorded.
+//! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket};
-use crate::{error::Doubt, point::Events, problem::PathProblem};
+use crate::{error::Doubt, point::Events, problem::PathProblem, product::progress};
 
 const MOST_PROBES: u32 = 60;
 /// Value relative to the ends of the step at which a zero counts as reached.
@@ -15,6 +16,10 @@ const JUMP_WIDTH: f64 = 1e-3;
 const JUMP_SIZE: f64 = 0.05;
 /// Value relative to that behind a zero at which the zero is left.
 const LEFT: f64 = 1e-3;
+/// A function that falls inside a step to this share of its smaller end value is looked at more closely.
+const DIP: f64 = 0.5;
+/// Lowest points this close to an end of the step (share of the step) belong to that end.
+const EDGE: f64 = 0.02;
 /// Share of `signature_step` within which a change of signature is located.
 const CHANGE_WIDTH: f64 = 1e-3;
 
@@ -37,6 +42,9 @@ impl Follower {
             if apart >= 2 && step > self.settings.signature_step {
                 return Err(Doubt::HiddenZeros);
             }
+            if apart == 0 && step > self.settings.signature_step && self.dips(index) {
+                return Err(Doubt::HiddenZeros);
+            }
             if apart % 2 == 1 {
                 let near = arrival.zeros_near;
                 arrival = self.arrive_at_zero(problem, step, index)?.unwrap_or(arrival);
@@ -44,6 +52,28 @@ impl Follower {
             }
         }
         Ok(arrival)
+    }
+
+    /// Whether a test function may have two zeros within the step to the trial, though its count is the same on both sides: the parabola through its values at the last
+    /// two points and the trial comes closer to zero inside the step than [`DIP`] of both ends.
+    fn dips(&self, index: usize) -> bool {
+        let history = &self.state.history;
+        let Some(earlier) = self.state.tests_before.get(index).filter(|_| history.used >= 2) else {
+            return false;
+        };
+        let (before, after) = (self.state.tests[index], self.trial.tests[index]);
+        if earlier.count != before.count {
+            return false;
+        }
+        let base = history.base();
+        let behind = progress(&self.weights, &base.tangent, &history.nodes[1].point, &base.point);
+        let ahead = self.trial_progress();
+        let [first, second, third] = [*earlier, before, after].map(|test| test.value.abs());
+        let slope = (second - first) / -behind;
+        let bend = ((third - second) / ahead - slope) / (ahead - behind);
+        let place = 0.5 * (behind - slope / bend);
+        let inside = bend > 0.0 && (EDGE * ahead..=(1.0 - EDGE) * ahead).contains(&place);
+        inside && second + place * (slope + bend * (place - behind)) < DIP * second.min(third)
     }
 
     /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was found to be behind the zero.
