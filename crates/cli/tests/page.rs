@@ -154,7 +154,7 @@ fn everything() -> Page {
         multipliers: vec![[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]],
     };
     let mut orbits = OrbitRecords::default();
-    assert!(orbits.insert(0, &orbit, usize::MAX));
+    assert!(orbits.insert(0, orbit.record(), usize::MAX));
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
         name: name.to_owned(),
         at,
