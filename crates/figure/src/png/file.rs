@@ -117,3 +117,43 @@ fn write_chunk(file: &mut Vec<u8>, name: [u8; 4], content: &[u8]) {
     file.extend(content);
     file.extend(sum.sum().to_be_bytes());
 }
+
+#[cfg(test)]
+mod tests {
+    use resvg::tiny_skia::Pixmap;
+
+    use super::*;
+
+    /// An image of so many colours, in which colours repeat, and whose file another decoder reads as the same pixels.
+    fn assert_kept(colours: u32, kind: u8) {
+        const WIDTH: u32 = 61;
+        let colour = |k: u32| [k % 16 * 16, k / 16 % 16 * 16, k / 256 * 16].map(|part| part as u8);
+        let pixel = |k: u32| [&colour(k * k % 977 % colours)[..], &[255]].concat();
+        let every = (0..colours).map(|k| [&colour(k)[..], &[255]].concat());
+        let pixels: Vec<u8> = every.chain((colours..WIDTH * 40).map(pixel)).flatten().collect();
+        let file = encode(&pixels, WIDTH, 300.0).unwrap();
+        assert_eq!(file[25], kind, "{colours} colours");
+        let decoded = Pixmap::decode_png(&file).unwrap();
+        assert_eq!([decoded.width(), decoded.height()], [WIDTH, 40]);
+        assert!(decoded.data() == pixels, "{colours} colours");
+    }
+
+    #[test]
+    fn up_to_256_colours_are_a_palette_and_every_pixel_is_kept() {
+        for colours in [1, 2, 255, 256] {
+            assert_kept(colours, 3);
+        }
+        for colours in [257, 900] {
+            assert_kept(colours, 2);
+        }
+    }
+
+    /// 300 pixels per inch are 11811 per metre; the empty last chunk has the sum that every PNG file ends with.
+    #[test]
+    fn resolution_and_sums_stand_where_the_standard_has_them() {
+        let file = encode(&[255; 16], 2, 300.0).unwrap();
+        assert_eq!(file[37..41], *b"pHYs");
+        assert_eq!(file[41..50], [0, 0, 0x2e, 0x23, 0, 0, 0x2e, 0x23, 1]);
+        assert!(file.ends_with(b"\0\0\0\0IEND\xae\x42\x60\x82"));
+    }
+}
