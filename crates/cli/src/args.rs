@@ -191,6 +191,10 @@ pub struct FigureOptions {
     /// Draw accelerations of orbits behind a low-pass filter as well [default: that of the study]
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub low_pass: Option<f64>,
+
+    /// Number of threads [default: all cores]; the files do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
 }
 
 /// Scale of an axis.

@@ -1,5 +1,6 @@
 //! Figures of a results folder.
 
+mod drawn;
 mod linear;
 mod motions;
 mod multipliers;
@@ -8,12 +9,9 @@ mod page;
 mod structure;
 mod varied;
 
-use std::{fs, path::Path};
-
-use anyhow::Context;
 use hammerbeam_figure::{
-    Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Figure, FigureError, Quantity, ResponseCurve,
-    ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
+    Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Quantity, ResponseCurve, ResponseDiagram,
+    ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
 use hammerbeam_structure::ModeTables;
 use hammerbeam_study::{
@@ -26,6 +24,9 @@ use crate::{
     args::{FigureKind, FigureScale},
     failure::Failure,
 };
+
+pub(crate) use drawn::replace;
+pub use drawn::{Drawn, Files};
 
 /// Resolution of the PNG files, in pixels per inch, where none is asked for.
 pub const RESOLUTION: f64 = 300.0;
@@ -71,81 +72,23 @@ impl Wishes {
     }
 }
 
-/// Files as they are drawn, and what cannot be.
-#[derive(Debug)]
-pub struct Drawn<'a> {
-    folder: &'a Path,
-    /// Resolution of the PNG files, in pixels per inch.
-    pub resolution: f64,
-    /// Names of the files.
-    pub files: Vec<String>,
-    /// Names of figures that cannot be drawn, each with the reason.
-    pub refused: Vec<(String, String)>,
-}
-
-impl<'a> Drawn<'a> {
-    /// Into a folder, made if it is not there.
-    pub fn into(folder: &'a Path) -> anyhow::Result<Self> {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
-        Ok(Self { folder, resolution: RESOLUTION, files: Vec::new(), refused: Vec::new() })
-    }
-
-    /// Writes a figure as SVG and PNG, or notes why there is none.
-    pub fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) -> anyhow::Result<()> {
-        let figure = match figure {
-            Ok(figure) => figure,
-            Err(reason) => {
-                self.refuse(name, reason.to_string());
-                return Ok(());
-            }
-        };
-        for (suffix, bytes) in
-            [("svg", figure.svg().as_bytes().to_vec()), ("png", figure.png(self.resolution)?)]
-        {
-            let file = format!("{name}.{suffix}");
-            replace(&self.folder.join(&file), &bytes)?;
-            self.files.push(file);
-        }
-        Ok(())
-    }
-
-    /// Writes a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
-    pub fn add_unless_empty(
-        &mut self,
-        name: &str,
-        figure: Result<Figure, FigureError>,
-    ) -> anyhow::Result<()> {
-        if matches!(figure, Err(FigureError::Empty { .. })) { Ok(()) } else { self.add(name, figure) }
-    }
-
-    /// Notes why there is no figure.
-    pub fn refuse(&mut self, name: &str, reason: String) {
-        self.refused.push((name.to_owned(), reason));
-    }
-
-    /// Writes a file that is no figure.
-    pub fn write(&mut self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
-        replace(&self.folder.join(name), bytes)?;
-        self.files.push(name.to_owned());
-        Ok(())
-    }
-
-    /// Says on standard error what could not be drawn.
-    pub fn tell_refused(&self) {
-        for (name, reason) in &self.refused {
-            anstream::eprintln!("{name}: {reason}");
-        }
-    }
-}
-
-/// Draws what is wished of a results folder.
+/// Draws what is wished of a results folder, or what is left of that when the user asks to stop.
+///
+/// The page comes first: it takes the longest, and while its file is put together the figures are drawn.
 pub fn draw(
     store: &Store,
     (file, model): (&StudyFile, &Model),
     wishes: &Wishes,
     drawn: &mut Drawn<'_>,
 ) -> Result<(), Failure> {
-    for kind in FigureKind::ALL.into_iter().filter(|kind| wishes.kinds.contains(kind)) {
+    let (page, figures): (Vec<FigureKind>, Vec<FigureKind>) = FigureKind::ALL
+        .into_iter()
+        .filter(|kind| wishes.kinds.contains(kind))
+        .partition(|kind| *kind == FigureKind::Page);
+    for kind in page.into_iter().chain(figures) {
+        if drawn.is_stopped() {
+            break;
+        }
         draw_kind(store, (file, model), (kind, wishes), drawn)?;
     }
     Ok(())
@@ -158,7 +101,7 @@ fn draw_kind(
     drawn: &mut Drawn<'_>,
 ) -> Result<(), Failure> {
     match kind {
-        FigureKind::Structure => draw_linear(drawn, file, model)?,
+        FigureKind::Structure => draw_linear(drawn, file, model),
         FigureKind::Response => draw_response(store, file, wishes.scale, drawn)?,
         FigureKind::Vary => varied::draw(store, wishes.scale, drawn)?,
         FigureKind::Curves => draw_curves(store, drawn)?,
@@ -176,14 +119,14 @@ fn draw_kind(
 }
 
 /// Draws the structure, its modes, the error of its reduction if it is reduced, and its excitation.
-pub fn draw_linear(drawn: &mut Drawn<'_>, file: &StudyFile, model: &Model) -> anyhow::Result<()> {
+pub fn draw_linear(drawn: &mut Drawn<'_>, file: &StudyFile, model: &Model) {
     let (study, tables): (_, &ModeTables) = (&file.study, &model.tables);
-    drawn.add("structure", structure::sketch(study))?;
-    drawn.add("modes", linear::modes(study, model))?;
+    drawn.add("structure", structure::sketch(study));
+    drawn.add("modes", linear::modes(study, model));
     if !tables.frequency_errors.is_empty() {
-        drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables))?;
+        drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables));
     }
-    drawn.add("excitation", linear::excitation(study))
+    drawn.add("excitation", linear::excitation(study));
 }
 
 fn draw_response(
@@ -206,7 +149,7 @@ fn draw_response(
             _ => true,
         };
         if is_there {
-            drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale)))?;
+            drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale)));
         }
     }
     Ok(())
@@ -241,7 +184,7 @@ fn draw_curves(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
             continue;
         }
         let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
-        drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&Style::default()))?;
+        drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&Style::default()));
     }
     Ok(())
 }
@@ -334,12 +277,4 @@ fn point(row: &Row) -> ResponsePoint {
         neimark_sacker: row.events.neimark_sacker,
         branch_point: row.events.branch_point,
     }
-}
-
-/// Writes a file so that it is there complete or not at all.
-pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let unfinished = path.with_extension("part");
-    fs::write(&unfinished, bytes)
-        .and_then(|()| fs::rename(&unfinished, path))
-        .with_context(|| format!("cannot write {}", path.display()))
 }

@@ -3,6 +3,7 @@
 mod args;
 mod commands;
 mod compare_args;
+mod crew;
 mod drift;
 mod failure;
 mod figures;

@@ -27,6 +27,15 @@ impl Ticker {
         Self { bar, begun: Instant::now(), changed: Instant::now() }
     }
 
+    /// For an unknown number of what is counted.
+    pub fn counting(what: &str) -> Self {
+        let style = ProgressStyle::with_template("{spinner} {pos} {prefix}, {elapsed}  {msg}");
+        let bar = ProgressBar::hidden();
+        bar.set_style(style.expect("the template is constant"));
+        bar.set_prefix(what.to_owned());
+        Self { bar, begun: Instant::now(), changed: Instant::now() }
+    }
+
     /// So many are done.
     pub fn at(&mut self, done: u64, message: impl FnOnce() -> String) {
         if self.begun.elapsed() < PATIENCE || self.changed.elapsed() < CHANGE {

@@ -35,19 +35,24 @@ fn files(workshop: &Workshop, arguments: &[&str]) -> Vec<String> {
     document["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap().to_owned()).collect()
 }
 
+#[track_caller]
+fn assert_same(workshop: &Workshop, names: &[String], folders: [&str; 2]) {
+    for name in names {
+        let [one, other] = folders.map(|folder| fs::read(workshop.path(folder).join(name)).unwrap());
+        assert!(one == other, "{name} differs");
+    }
+}
+
 #[test]
-fn everything_in_a_folder_is_drawn_and_twice_the_same() {
+fn everything_in_a_folder_is_drawn_and_the_same_on_any_number_of_threads() {
     let workshop = motions();
-    let first = files(&workshop, &["--out", "first"]);
+    let first = files(&workshop, &["--out", "first", "--jobs", "1"]);
     for name in ["sweep-1.svg", "exponents-2.png", "convergence-2-1.svg", "section-2-3.png", "basins-3.svg"] {
         assert!(first.iter().any(|file| file == name), "{name} is not among {first:?}");
     }
     assert!(!first.iter().any(|file| file.starts_with("response") || file.starts_with("multipliers")));
-    assert_eq!(files(&workshop, &["--out", "second"]), first);
-    for name in &first {
-        let read = |folder: &str| fs::read(workshop.path(folder).join(name)).unwrap();
-        assert!(read("first") == read("second"), "{name} differs");
-    }
+    assert_eq!(files(&workshop, &["--out", "second", "--jobs", "3"]), first);
+    assert_same(&workshop, &first, ["first", "second"]);
     let map = fs::read_to_string(workshop.path("first/basins-3.svg")).unwrap();
     assert!(map.contains("1: period 1, ") && map.contains("2: period 1, "), "both motions of the oscillator");
     assert_eq!(files(&workshop, &["--kind", "basins", "--out", "third"]), ["basins-3.svg", "basins-3.png"]);
@@ -129,7 +134,7 @@ fn short_run(added: &str) -> Workshop {
 fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     let orbit = "[figures]\nlow_pass_hz = 30.0\n[[figures.orbit]]\nfrequency_hz = 13.7\n";
     let workshop = short_run(orbit);
-    let drawn = files(&workshop, &["--out", "again"]);
+    let drawn = files(&workshop, &["--out", "again", "--jobs", "1"]);
     for name in [
         "structure.svg",
         "modes.svg",
@@ -152,6 +157,10 @@ fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
         }
         let read = |folder: &str| fs::read(workshop.path(folder).join(name)).unwrap();
         assert!(read("results") == read("again"), "{name} differs");
+    }
+    for jobs in ["2", "3"] {
+        assert_eq!(files(&workshop, &["--out", jobs, "--jobs", jobs]), drawn);
+        assert_same(&workshop, &drawn, ["again", jobs]);
     }
     let history = fs::read_to_string(workshop.path("again/orbit_13.7Hz_period1-history.svg")).unwrap();
     assert!(history.contains("low-pass filter of 30 Hz") && history.contains("13.7 Hz, period 1"));
@@ -222,4 +231,49 @@ fn a_folder_that_is_being_written_is_drawn_as_far_as_it_has_come() {
     assert!(run.wait().unwrap().success());
     assert!(meanwhile > 0, "nothing was drawn while the run went on");
     assert!(workshop.path("drawn/response_displacement.svg").is_file());
+}
+
+/// What is there when drawing is interrupted is whole, and what was there before and was not come to is as it was.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_while_drawing_leaves_whole_files_and_exits_with_130() {
+    // Large figures, so that there is time to interrupt.
+    const LARGE: [&str; 4] = ["--resolution", "1200", "--jobs", "2"];
+    let workshop = short_run("");
+    let complete = files(&workshop, &[&["--out", "complete"][..], &LARGE].concat());
+    fs::create_dir(workshop.path("cut")).unwrap();
+    for name in &complete {
+        fs::write(workshop.path("cut").join(name), "before").unwrap();
+    }
+    let first = workshop.path("cut").join("structure.png");
+    let child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+        .args(["figure", "results", "--out", "cut"])
+        .args(LARGE)
+        .current_dir(workshop.path(""))
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    while fs::read(&first).unwrap() == b"before" {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    let interrupt = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(interrupt.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(stderr(&output).contains("interrupted while drawing; "), "{}", stderr(&output));
+    assert_eq!(stdout(&output), "");
+    let mut left = 0;
+    for name in &complete {
+        let read = |folder: &str| fs::read(workshop.path(folder).join(name)).unwrap();
+        let found = read("cut");
+        left += usize::from(found == b"before");
+        assert!(found == b"before" || found == read("complete"), "{name} is not whole");
+    }
+    assert!(left > 0, "all was drawn before the interruption came");
+    assert_eq!(
+        fs::read_dir(workshop.path("cut")).unwrap().count(),
+        complete.len(),
+        "nothing unfinished is left"
+    );
 }

@@ -37,9 +37,14 @@ fn results() -> (Workshop, Value) {
 fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missing() {
     let (workshop, document) = results();
     let first = fs::read(workshop.path("results/page.html")).unwrap();
-    let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "again"]);
-    assert_success(&drawn);
-    assert!(first == fs::read(workshop.path("again/page.html")).unwrap(), "not the same bytes");
+    for jobs in ["1", "2", "3"] {
+        let arguments = ["figure", "results", "--kind", "page", "--out", "again", "--jobs", jobs];
+        assert_success(&workshop.hammerbeam(&arguments));
+        assert!(
+            first == fs::read(workshop.path("again/page.html")).unwrap(),
+            "other bytes on {jobs} threads"
+        );
+    }
 
     let branches = document["branches"].as_array().unwrap();
     assert!(branches.len() > 2, "several branches are drawn");
@@ -154,7 +159,7 @@ fn everything() -> Page {
         multipliers: vec![[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]],
     };
     let mut orbits = OrbitRecords::default();
-    assert!(orbits.insert(0, &orbit, usize::MAX));
+    assert!(orbits.insert(0, orbit.record(), usize::MAX));
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
         name: name.to_owned(),
         at,

@@ -12,7 +12,7 @@ mod columns;
 mod document;
 mod orbits;
 
-pub use orbits::{OrbitRecords, PageOrbit, room_for_orbits};
+pub use orbits::{OrbitRecord, OrbitRecords, PageOrbit, room_for_orbits};
 
 use crate::MotionKind;
 

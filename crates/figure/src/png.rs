@@ -1,9 +1,11 @@
 //! From SVG to PNG, with the bundled font alone and the resolution written into the file.
 
+mod file;
+
 use std::sync::{Arc, OnceLock};
 
 use resvg::{
-    tiny_skia::{Pixmap, Transform},
+    tiny_skia::{Color, Pixmap, Transform},
     usvg::{Options, Tree, fontdb},
 };
 
@@ -31,9 +33,9 @@ pub(crate) fn png(
         .ok_or_else(|| FigureError::Rendering { reason: format!("no image of {width} x {height} pixels") })?;
     let scale_x = width as f32 / tree.size().width();
     let scale_y = height as f32 / tree.size().height();
+    pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale_x, scale_y), &mut pixmap.as_mut());
-    let encoded = pixmap.encode_png().map_err(|error| rendering(&error))?;
-    Ok(with_resolution(encoded, pixels_per_inch))
+    file::encode(pixmap.data(), width, pixels_per_inch).map_err(|error| rendering(&error))
 }
 
 fn rendering(error: &dyn std::error::Error) -> FigureError {
@@ -57,37 +59,9 @@ fn options() -> Options<'static> {
     Options { fontdb: Arc::clone(fonts), font_family: font::BUNDLED_FAMILY.to_owned(), ..Options::default() }
 }
 
-/// Length of the signature and the header chunk of every PNG file; what describes the image comes next.
-const END_OF_HEADER: usize = 8 + 25;
-
-/// The file with a `pHYs` chunk, so that programs place the image at its true size.
-fn with_resolution(mut encoded: Vec<u8>, pixels_per_inch: f64) -> Vec<u8> {
-    let pixels_per_metre = ((pixels_per_inch / 0.0254).round() as u32).to_be_bytes();
-    let content = [b"pHYs".as_slice(), &pixels_per_metre, &pixels_per_metre, &[1]].concat();
-    let length = (content.len() as u32 - 4).to_be_bytes();
-    let chunk = [length.as_slice(), &content, &crc32(&content).to_be_bytes()].concat();
-    encoded.splice(END_OF_HEADER..END_OF_HEADER, chunk);
-    encoded
-}
-
-/// The checksum of PNG chunks (ISO 3309).
-fn crc32(bytes: &[u8]) -> u32 {
-    let divided = bytes.iter().fold(u32::MAX, |remainder, &byte| {
-        (0..8).fold(remainder ^ u32::from(byte), |remainder, _| {
-            (remainder >> 1) ^ (0xedb8_8320 & (remainder & 1).wrapping_neg())
-        })
-    });
-    !divided
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn checksum_of_the_standard_test_word() {
-        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
-    }
 
     #[test]
     fn useless_resolutions_are_refused() {

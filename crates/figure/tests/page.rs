@@ -50,7 +50,7 @@ fn orbits(solutions: usize) -> OrbitRecords {
     let mut records = OrbitRecords::default();
     let room = room_for_orbits(solutions);
     let mut number = 0;
-    while records.insert(number, &orbit, room) {
+    while records.insert(number, orbit.record(), room) {
         number += 1;
     }
     records

@@ -3,10 +3,12 @@
 use hammerbeam_study::{Model, Store, StudyFile};
 use serde_json::json;
 
+use super::run::threads;
 use crate::{
     args::FigureOptions,
     failure::Failure,
-    figures::{self, Drawn, Wishes},
+    figures::{self, Drawn, Files, Wishes},
+    interrupt::Interrupt,
     output::Output,
 };
 
@@ -16,13 +18,12 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     let model = Model::build(&file)?;
     let folder = options.out.as_deref().unwrap_or(&options.results);
-    let mut drawn = Drawn::into(folder)?;
+    let mut drawn = Drawn::into(folder)?.on(threads(options.jobs), Interrupt::listen()?);
     drawn.resolution = options.resolution;
     let wishes = wishes(options, &file);
     figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
     drop(snapshot);
-    drawn.tell_refused();
-    let Drawn { files, refused, .. } = drawn;
+    let Files { names: files, refused } = drawn.finish()?;
     if files.is_empty() {
         let results = options.results.display();
         return Err(Failure::NoResult(format!("{results} holds nothing of what was asked for to draw")));

@@ -20,9 +20,8 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let mut document = document(&model.tables);
     if let Some(folder) = &options.out {
         let mut drawn = Drawn::into(folder)?;
-        figures::draw_linear(&mut drawn, &file, &model)?;
-        drawn.tell_refused();
-        document["figures"] = json!(drawn.files);
+        figures::draw_linear(&mut drawn, &file, &model);
+        document["figures"] = json!(drawn.finish()?.names);
     }
     output.give(&document, || text(&model.tables));
     Ok(())

@@ -6,7 +6,14 @@ use hammerbeam_orbit::{FoundOrbits, OrbitError, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
 
-use crate::{args::OrbitOptions, drift, failure::Failure, figures, interrupt::Interrupt, output::Output};
+use crate::{
+    args::OrbitOptions,
+    drift,
+    failure::Failure,
+    figures::{self, Drawn},
+    interrupt::Interrupt,
+    output::Output,
+};
 
 /// Time after which a search ends with what it has found.
 const LONGEST: Duration = Duration::from_secs(20);
@@ -43,9 +50,9 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let mut document = document(first, others, complete);
     if let Some(folder) = &options.out {
         let low_pass_hz = options.low_pass.or(file.study.figures.low_pass_hz);
-        let drawn = figures::orbit::draw(folder, (&model, &file.study.title), &orbits, low_pass_hz)?;
-        drawn.tell_refused();
-        document["figures"] = json!(drawn.files);
+        let mut drawn = Drawn::into(folder)?.on(1, interrupt);
+        figures::orbit::draw((&model, &file.study.title), &orbits, low_pass_hz, &mut drawn)?;
+        document["figures"] = json!(drawn.finish()?.names);
     }
     output.give(&document, || text(first, others, &file.study.response.point));
     Ok(())

@@ -27,7 +27,8 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     drift::heed(&model)?;
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
-    let mut terminal = Terminal::new(Interrupt::listen()?);
+    let interrupt = Interrupt::listen()?;
+    let mut terminal = Terminal::new(interrupt.clone());
     let begun = Instant::now();
     let threads = threads(options.jobs);
     let plan = Plan::of(&file.study);
@@ -49,15 +50,17 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
-            let mut drawn = Drawn::into(&options.out)?;
+            let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt);
             figures::draw(&store, (&file, &model), &Wishes::of_run(&file), &mut drawn)?;
-            drawn.tell_refused();
-            if summary.branches.is_empty() {
-                Err(Failure::NoResult(summary.nothing()))
-            } else {
-                let figures = drawn.files;
-                output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
-                Ok(())
+            match drawn.finish() {
+                Err(Failure::Interrupted(_)) => Err(Failure::Interrupted(summary.interrupted_drawing())),
+                Err(other) => Err(other),
+                Ok(_) if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
+                Ok(figures) => {
+                    let figures = figures.names;
+                    output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
+                    Ok(())
+                }
             }
         }
     };
@@ -87,6 +90,14 @@ impl Summary<'_> {
     fn interrupted(&self) -> String {
         format!(
             "interrupted; {} solutions are kept in {}, the same command goes on from there",
+            self.solutions(),
+            self.folder
+        )
+    }
+
+    fn interrupted_drawing(&self) -> String {
+        format!(
+            "interrupted while drawing; all {} solutions are kept in {}, the same command draws them",
             self.solutions(),
             self.folder
         )

@@ -19,7 +19,7 @@ pub fn draw_sweeps(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
         if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
             let motions = store.settled(request.id)?.iter().map(swept).collect();
             let figure = SweepDiagram { title: title.clone(), motions }.draw(&Style::double_column());
-            drawn.add(&format!("sweep-{}", request.id), figure)?;
+            drawn.add(&format!("sweep-{}", request.id), figure);
         }
     }
     Ok(())
@@ -37,7 +37,7 @@ pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()
             let mut points: Vec<ExponentPoint> = records.iter().map(exponent).collect();
             points.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
             let figure = ExponentDiagram { title: title.clone(), points }.draw(&Style::double_column());
-            drawn.add(&format!("exponents-{}", request.id), figure)?;
+            drawn.add(&format!("exponents-{}", request.id), figure);
         }
         for (number, record) in records.iter().enumerate() {
             let suffix = if records.len() == 1 {
@@ -54,11 +54,11 @@ pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()
                 .map(|place| (place.time, place.exponents.clone()))
                 .collect();
             let convergence = ConvergenceDiagram { title: title.clone(), frequency_hz, places };
-            drawn.add(&format!("convergence{suffix}"), convergence.draw(&Style::double_column()))?;
+            drawn.add(&format!("convergence{suffix}"), convergence.draw(&Style::double_column()));
             let points =
                 record.section.iter().map(|[displacement, velocity]| (*displacement, *velocity)).collect();
             let section = SectionDiagram { title, frequency_hz, points };
-            drawn.add(&format!("section{suffix}"), section.draw(&Style::single_column()))?;
+            drawn.add(&format!("section{suffix}"), section.draw(&Style::single_column()));
         }
     }
     Ok(())
@@ -78,6 +78,9 @@ pub fn draw_basins(
     let title = store.about("title")?;
     let branches = StoredBranches::open(store.folder(), file)?;
     for request in requests {
+        if drawn.is_stopped() {
+            break;
+        }
         let (cells, attractors) = store.basins(request.id)?;
         let frequency_hz = number(&request, "frequency_hz")?;
         let mut destinations = Vec::new();
@@ -107,7 +110,7 @@ pub fn draw_basins(
             cells,
             attractors: destinations,
         };
-        drawn.add(&format!("basins-{}", request.id), map.draw(&Style::single_column()))?;
+        drawn.add(&format!("basins-{}", request.id), map.draw(&Style::single_column()));
     }
     Ok(())
 }

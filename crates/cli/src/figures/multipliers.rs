@@ -15,12 +15,15 @@ const DRAWN: usize = 4000;
 /// Draws the multipliers of each branch, over the frequency and in the complex plane.
 pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
     for branch in store.branches()? {
+        if drawn.is_stopped() {
+            break;
+        }
         let title = format!("{}, branch {}", store.about("title")?, branch.id);
         let diagram = MultiplierDiagram { title, solutions: solutions(store, &branch)? };
         let moduli = diagram.draw_moduli(&Style::double_column());
-        drawn.add(&format!("multipliers-{}", branch.id), moduli)?;
+        drawn.add(&format!("multipliers-{}", branch.id), moduli);
         let circle = diagram.draw_circle(&Style::single_column());
-        drawn.add(&format!("multipliers-{}-unit-circle", branch.id), circle)?;
+        drawn.add(&format!("multipliers-{}-unit-circle", branch.id), circle);
     }
     Ok(())
 }

@@ -17,24 +17,20 @@ const SAMPLES: usize = 2048;
 /// Order of the low-pass filter.
 const ORDER: usize = 4;
 
-/// Draws each orbit over its period, in the phase plane, and its spectrum, into a folder.
+/// Draws each orbit over its period, in the phase plane, and its spectrum.
 ///
 /// * `low_pass_hz`: cut-off of the filter behind which accelerations are drawn as well.
-///
-/// # Returns
-/// What was drawn, and what could not be.
-pub fn draw<'a>(
-    folder: &'a Path,
+pub fn draw(
     (model, title): (&Model, &str),
     orbits: &[PeriodicSolution],
     low_pass_hz: Option<f64>,
-) -> Result<Drawn<'a>, Failure> {
-    let mut drawn = Drawn::into(folder)?;
+    drawn: &mut Drawn<'_>,
+) -> Result<(), Failure> {
     for (number, orbit) in (1..).zip(orbits) {
         let diagram = diagram((model, title), orbit, low_pass_hz)?;
-        add(&mut drawn, &format!("orbit-{number}"), &diagram)?;
+        add(drawn, &format!("orbit-{number}"), &diagram);
     }
-    Ok(drawn)
+    Ok(())
 }
 
 /// Draws the orbits in which stored branches cross frequencies.
@@ -49,6 +45,9 @@ pub fn draw_stored(
     }
     let branches = StoredBranches::open(folder, file)?;
     for &DrawnOrbit { frequency_hz, period_multiple } in orbits {
+        if drawn.is_stopped() {
+            break;
+        }
         let name = format!("orbit_{frequency_hz}Hz_period{period_multiple}");
         let crossings =
             branches.crossings(model, frequency_hz, |record| record.period_multiple == period_multiple)?;
@@ -58,7 +57,7 @@ pub fn draw_stored(
             b.stable().cmp(&a.stable()).then(size(b).total_cmp(&size(a)))
         });
         match found.first() {
-            Some(orbit) => add(drawn, &name, &diagram((model, &file.study.title), orbit, low_pass_hz)?)?,
+            Some(orbit) => add(drawn, &name, &diagram((model, &file.study.title), orbit, low_pass_hz)?),
             None => drawn.refuse(
                 &name,
                 format!(
@@ -70,11 +69,11 @@ pub fn draw_stored(
     Ok(())
 }
 
-fn add(drawn: &mut Drawn<'_>, name: &str, diagram: &OrbitDiagram) -> anyhow::Result<()> {
+fn add(drawn: &mut Drawn<'_>, name: &str, diagram: &OrbitDiagram) {
     let (wide, narrow) = (Style::double_column(), Style::single_column());
-    drawn.add(&format!("{name}-history"), diagram.draw_history(&wide))?;
-    drawn.add(&format!("{name}-phase"), diagram.draw_phase(&narrow))?;
-    drawn.add(&format!("{name}-spectrum"), diagram.draw_spectrum(&wide))
+    drawn.add(&format!("{name}-history"), diagram.draw_history(&wide));
+    drawn.add(&format!("{name}-phase"), diagram.draw_phase(&narrow));
+    drawn.add(&format!("{name}-spectrum"), diagram.draw_spectrum(&wide));
 }
 
 fn diagram(

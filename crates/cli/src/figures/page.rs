@@ -17,7 +17,7 @@ use super::{Drawn, motions};
 /// Name of the file.
 pub const NAME: &str = "page.html";
 
-/// Draws the page, unless nothing of what it shows is stored.
+/// Draws the page, unless nothing of what it shows is stored or the user asks to stop.
 pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
     let records = store.branches()?;
     let (motions, sections) = (swept(store)?, sections(store)?);
@@ -34,20 +34,25 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
     let solutions: usize = stored.iter().map(Vec::len).sum();
     let most = room_for_orbits(solutions);
     let [low, high] = file.study.excitation.frequency_hz;
+    let orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
+    if drawn.is_stopped() {
+        return Ok(());
+    }
     let page = Page {
         title: store.about("title")?,
         point: file.study.response.point.clone(),
         frequency_range_hz: (low, high),
         notice: notice(store, &records)?,
         branches,
-        orbits: orbits::carried(store, model, (&records, &stored), most)?,
+        orbits,
         structure: Some(shape::structure(file, model)),
         motions,
         chaotic_ranges_hz: motions::chaotic_ranges(store)?,
         sections,
         measured: Vec::new(),
     };
-    drawn.write(NAME, page.html().as_bytes())
+    drawn.write(NAME, move || page.html());
+    Ok(())
 }
 
 /// A row with the place of its solution in the store.

@@ -22,7 +22,7 @@ pub fn draw(store: &Store, scale: FigureScale, drawn: &mut Drawn<'_>) -> anyhow:
         };
         for (word, quantity) in FIGURES {
             let name = format!("vary_{}_{}_{word}", piece.id, file_name(&piece.parameter));
-            drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale)))?;
+            drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale)));
         }
     }
     Ok(())

@@ -51,6 +51,18 @@ pub struct PageOrbit {
     pub multipliers: Vec<[f64; 2]>,
 }
 
+/// An orbit, packed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrbitRecord(Vec<u8>);
+
+impl PageOrbit {
+    /// The orbit as it is carried.
+    #[must_use]
+    pub fn record(&self) -> OrbitRecord {
+        OrbitRecord(packed(self))
+    }
+}
+
 /// Orbits of some solutions, packed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrbitRecords {
@@ -59,15 +71,14 @@ pub struct OrbitRecords {
 }
 
 impl OrbitRecords {
-    /// Adds the orbit of a solution unless all records would be longer than `most` bytes; says whether it did.
+    /// Adds the orbit of a solution unless all of them would be longer than `most` bytes; says whether it did.
     ///
     /// * `solution`: its number, counted from 0 over all branches end to end.
-    pub fn insert(&mut self, solution: u32, orbit: &PageOrbit, most: usize) -> bool {
-        let record = packed(orbit);
-        let fits = self.length + record.len() <= most;
+    pub fn insert(&mut self, solution: u32, record: OrbitRecord, most: usize) -> bool {
+        let fits = self.length + record.0.len() <= most;
         if fits && !self.records.contains_key(&solution) {
-            self.length += record.len();
-            self.records.insert(solution, record);
+            self.length += record.0.len();
+            self.records.insert(solution, record.0);
         }
         fits
     }
@@ -277,10 +288,10 @@ mod tests {
     fn records_stand_in_the_order_of_the_solutions_and_within_their_budget() {
         let (mut records, length) = (OrbitRecords::default(), packed(&orbit(10)).len());
         for solution in [7, 0, 7] {
-            assert!(records.insert(solution, &orbit(10), 3 * length));
+            assert!(records.insert(solution, orbit(10).record(), 3 * length));
         }
-        assert!(records.insert(9, &orbit(10), 3 * length));
-        assert!(!records.insert(8, &orbit(10), 3 * length));
+        assert!(records.insert(9, orbit(10).record(), 3 * length));
+        assert!(!records.insert(8, orbit(10).record(), 3 * length));
         assert_eq!(records.solutions(), [0, 7, 9]);
         assert_eq!(records.offsets(), [0, length, 2 * length]);
         assert_eq!((records.length(), records.bytes().len()), (3 * length, 3 * length));

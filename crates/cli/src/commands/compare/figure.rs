@@ -14,12 +14,12 @@ use super::Compared;
 use crate::figures::Drawn;
 
 /// Draws a comparison, if its quantity has a response diagram.
-pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) {
     let quantity = compared.comparison.quantity;
     let drawing = match quantity {
         Quantity::Displacement => Drawing::Displacement,
         Quantity::Acceleration => Drawing::Acceleration,
-        _ => return Ok(()),
+        _ => return,
     };
     let [low, high] = file.study.excitation.frequency_hz;
     let diagram = ResponseDiagram {
@@ -31,7 +31,7 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
         measured: compared.comparison.points.iter().map(|point| mark(point, quantity)).collect(),
     };
     let figure = diagram.draw_with(&[drawing], &ResponseSettings::default());
-    drawn.add(&format!("compare_{}", name.trim_start_matches("compare_")), figure)
+    drawn.add(&format!("compare_{}", name.trim_start_matches("compare_")), figure);
 }
 
 fn curve(branch: &BranchCurve, quantity: Quantity) -> ResponseCurve {

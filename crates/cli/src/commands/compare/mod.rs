@@ -64,13 +64,12 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         write_points(&folder, &name, &one.comparison)?;
         drawn.files.push(name);
         let name = format!("compare_{}", one.comparison.quantity.word());
-        draw(&file, one, &name, &mut drawn)?;
+        draw(&file, one, &name, &mut drawn);
     }
     if let Some(name) = table::write_amplitudes(&folder, &measured.points)? {
         drawn.files.push(name);
     }
-    drawn.tell_refused();
-    let files = drawn.files;
+    let files = drawn.finish()?.names;
     let document = document::document(options, &measured, &compared, (&folder, &files));
     output.give(&document, || text::text(options, &measured, &compared, (&folder, &files)));
     Ok(())

@@ -89,19 +89,19 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
         signals,
         solutions,
     };
-    let mut drawn = Drawn::into(&options.out)?;
+    let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
     tables::write(&options.out, &found, &mut drawn.files)?;
     for (name, curves, comparison) in &found.comparisons {
         let compared = Compared { curves: curves.clone(), comparison: comparison.clone() };
-        draw(&found.file, &compared, name, &mut drawn)?;
+        draw(&found.file, &compared, name, &mut drawn);
     }
     let document = document::document(&found);
     report::write(&options.out, &found, &document, &mut drawn.files)?;
-    drawn.tell_refused();
+    let files = drawn.finish()?.names;
     let mut document = document;
     document["folder"] = serde_json::json!(options.out);
-    document["files"] = serde_json::json!(drawn.files);
-    output.give(&document, || report::text(&found, &options.out, &drawn.files));
+    document["files"] = serde_json::json!(files);
+    output.give(&document, || report::text(&found, &options.out, &files));
     Ok(())
 }
 

@@ -2,52 +2,65 @@
 
 mod samples;
 
-use std::{f64::consts::TAU, thread};
+mod spectrum;
 
-use hammerbeam_figure::{OrbitRecords, PageOrbit};
+use std::{collections::VecDeque, f64::consts::TAU, sync::Arc};
+
+use hammerbeam_figure::{OrbitRecord, OrbitRecords, PageOrbit};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::{Model, Store, StoreError, store::BranchRecord};
 
 use samples::Instant;
+use spectrum::spectrum;
 
-use super::{Placed, choice};
-use crate::{initial, ticker::Ticker};
+use super::{Drawn, Placed, choice};
+use crate::{initial, interrupt::Interrupt, ticker::Ticker};
 
-/// Orbits that are computed between two looks at whether the page is full.
-const ROUND: usize = 512;
-/// Orbits that one integrator computes one after the other; a round of them is work for eight threads.
+/// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do not depend on the number of threads.
 const PART: usize = 64;
+/// Parts between two looks at whether the page is full: what is short may still fit where something else did not.
+const ROUND: usize = 8;
+/// Parts that are under way for each thread.
+const UNDER_WAY: usize = 2;
 /// Modes whose coordinates are carried: what is seen of a structure in motion.
 const DRAWN_MODES: usize = 8;
-/// Harmonics that are carried at most.
-const MOST_HARMONICS: usize = 300;
 /// Relative size from which a mode is worth drawing.
 const VISIBLE: f64 = 1e-3;
 
-/// Orbits of the solutions that are wanted most, as many as fit.
+/// Orbits of the solutions that are wanted most, as many as fit, or as were done when the user asks to stop.
 ///
 /// * `most`: length of their records (bytes).
+/// * `drawn`: whose threads compute them.
 ///
-/// An orbit whose motion cannot be computed is left out: the page shows the nearest one.
+/// An orbit whose motion cannot be computed is left out: the page shows the nearest one. Records are taken in in the order in which they are wanted, whichever is
+/// done first.
 pub fn carried(
     store: &Store,
     model: &Model,
     (records, stored): (&[BranchRecord], &[Vec<Placed>]),
-    most: usize,
+    (most, drawn): (usize, &mut Drawn<'_>),
 ) -> Result<OrbitRecords, StoreError> {
     let order = choice::order(stored);
     let mut ticker = Ticker::new(order.len() as u64, "orbits of the page");
     let mut carried = OrbitRecords::default();
-    let drawing = Drawing::of(model);
-    let mut full = false;
-    for round in order.chunks(ROUND) {
-        let solutions = round.iter().map(|&number| solution(store, records, stored, number));
-        let solutions = solutions.collect::<Result<Vec<_>, _>>()?;
-        for (number, orbit) in round.iter().zip(drawing.orbits(&solutions)) {
-            full |= orbit.is_some_and(|orbit| !carried.insert(*number, &orbit, most));
+    let drawing = Arc::new(Drawing::of(model, drawn.interrupt()));
+    let mut parts = order.chunks(PART);
+    let mut under_way = VecDeque::new();
+    let (mut taken, mut full) = (0, false);
+    while !drawn.is_stopped() {
+        for part in parts.by_ref().take(UNDER_WAY * drawn.crew().threads() - under_way.len()) {
+            let solutions = part.iter().map(|&number| solution(store, records, stored, number));
+            let solutions = solutions.collect::<Result<Vec<_>, _>>()?;
+            let drawing = Arc::clone(&drawing);
+            under_way.push_back((part, drawn.crew().hand(move || drawing.records(&solutions))));
         }
-        if full {
+        let Some((part, pending)) = under_way.pop_front() else { break };
+        for (number, record) in part.iter().zip(drawn.crew().wait(&pending)) {
+            full |= record.is_some_and(|record| !carried.insert(*number, record, most));
+        }
+        taken += 1;
+        if full && taken % ROUND == 0 {
             break;
         }
         ticker.at(carried.count() as u64, String::new);
@@ -74,37 +87,31 @@ fn solution(
 }
 
 /// What is written down of an orbit.
-struct Drawing<'m> {
-    model: &'m Model,
+struct Drawing {
+    model: Model,
     is_moved: bool,
     /// The frequency up to which spectra are carried.
     highest_hz: f64,
+    interrupt: Option<Interrupt>,
 }
 
-impl<'m> Drawing<'m> {
-    fn of(model: &'m Model) -> Self {
+impl Drawing {
+    fn of(model: &Model, interrupt: Option<Interrupt>) -> Self {
         let eigenfrequencies = model.system.model().natural_frequencies.iter();
         let highest_hz = 1.2 * eigenfrequencies.fold(0.0_f64, |most, rate| most.max(rate / TAU));
-        Self { model, is_moved: model.system.model().support.is_some(), highest_hz }
+        let is_moved = model.system.model().support.is_some();
+        Self { model: model.clone(), is_moved, highest_hz, interrupt }
     }
 
-    /// Orbits of solutions, in their order; `None` where the motion cannot be computed.
-    ///
-    /// Each part of them has a thread and an integrator of its own. An integrator remembers what it did last, so that the parts do not depend on the number of cores.
-    fn orbits(&self, solutions: &[PeriodicSolution]) -> Vec<Option<PageOrbit>> {
-        thread::scope(|scope| {
-            let work = |part| move || self.part(part);
-            let workers: Vec<_> = solutions.chunks(PART).map(|part| scope.spawn(work(part))).collect();
-            workers.into_iter().flat_map(|worker| worker.join().unwrap_or_default()).collect()
-        })
-    }
-
-    fn part(&self, solutions: &[PeriodicSolution]) -> Vec<Option<PageOrbit>> {
-        let Ok(mut integrator) = ExactIntegrator::new(self.model.system.clone(), ExactSettings::default())
-        else {
+    /// Orbits of solutions, in their order, by an integrator of their own; `None` where the motion cannot be computed, fewer when the user asks to stop.
+    fn records(&self, solutions: &[PeriodicSolution]) -> Vec<Option<OrbitRecord>> {
+        let settings = ExactSettings::default();
+        let Ok(mut integrator) = ExactIntegrator::new(self.model.system.clone(), settings) else {
             return vec![None; solutions.len()];
         };
-        solutions.iter().map(|solution| self.orbit(&mut integrator, solution).ok()).collect()
+        let is_wanted = |_: &&PeriodicSolution| !self.interrupt.as_ref().is_some_and(Interrupt::raised);
+        let record = |solution| Some(self.orbit(&mut integrator, solution).ok()?.record());
+        solutions.iter().take_while(is_wanted).map(record).collect()
     }
 
     fn orbit(
@@ -115,7 +122,7 @@ impl<'m> Drawing<'m> {
         let Sampling { steps, stride } = sampling(solution.period_multiple);
         let count = steps * solution.period_multiple as usize;
         let instants = samples::of_orbit(integrator, solution, steps)?;
-        let (model, frequency_hz) = (self.model, solution.frequency_hz);
+        let (model, frequency_hz) = (&self.model, solution.frequency_hz);
         let mut orbit = PageOrbit {
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
@@ -200,27 +207,6 @@ fn modes(states: &[&Vec<f64>]) -> Vec<Vec<f64>> {
     modes
 }
 
-/// Amplitudes of the harmonics of the acceleration up to a frequency, from samples of the displacement `y` at equal steps: `(2 pi k f)^2 |y_k|`.
-///
-/// The displacement is smoother than the acceleration by two orders, so that what aliasing adds is smaller by as much; the harmonics of a Hertz contact fall like `k^-3.5`.
-fn spectrum(samples: &[f64], base_hz: f64, highest_hz: f64) -> Vec<f64> {
-    let count = samples.len();
-    let harmonics =
-        ((highest_hz / base_hz) as usize).clamp(20, MOST_HARMONICS).min(count.saturating_sub(1) / 2);
-    let turns: Vec<(f64, f64)> = (0..count).map(|k| (TAU * k as f64 / count as f64).sin_cos()).collect();
-    let amplitude = |harmonic: usize| {
-        let (mut re, mut im, mut place) = (0.0, 0.0, 0);
-        for sample in samples {
-            let (sin, cos) = turns[place];
-            re += sample * cos;
-            im += sample * sin;
-            place = (place + harmonic) % count;
-        }
-        2.0 * f64::hypot(re, im) / count as f64 * (TAU * harmonic as f64 * base_hz).powi(2)
-    };
-    (1..=harmonics).map(amplitude).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -234,24 +220,5 @@ mod tests {
         assert_eq!(pair, [3.0, -1.0]);
         widen(&mut pair, 4.0);
         assert_eq!(pair, [-1.0, 4.0]);
-    }
-
-    /// `y = cos(2 pi f t) + 1e-3 cos(2 pi 5 f t + 1)`: harmonics 1 and 5 of the acceleration, and no other.
-    #[test]
-    fn amplitudes_are_those_of_the_acceleration() {
-        let at = |k: usize| TAU * k as f64 / 128.0;
-        let samples: Vec<f64> = (0..128).map(|k| at(k).cos() + 1e-3 * (5.0 * at(k) + 1.0).cos()).collect();
-        let found = spectrum(&samples, 2.0, 60.0);
-        assert_eq!(found.len(), 30);
-        for (harmonic, amplitude) in (1..).zip(found) {
-            let rate = TAU * 2.0 * f64::from(harmonic);
-            let meant = match harmonic {
-                1 => rate * rate,
-                5 => 1e-3 * rate * rate,
-                _ => 0.0,
-            };
-            // Rounding of 128 terms, relative to the larger amplitude of the displacement.
-            assert!((amplitude - meant).abs() < 1e-13 * rate * rate, "{harmonic}: {amplitude}");
-        }
     }
 }

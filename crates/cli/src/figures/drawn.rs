@@ -1,0 +1,187 @@
+//! Files as they are drawn: each written whole or not at all, on several threads.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use anyhow::Context;
+use hammerbeam_figure::{Figure, FigureError};
+
+use super::RESOLUTION;
+use crate::{
+    crew::{Crew, Pending},
+    failure::Failure,
+    interrupt::Interrupt,
+    ticker::Ticker,
+};
+
+/// Files as they are drawn, and what cannot be.
+///
+/// What is added is drawn at any time until [`Self::finish`], in whatever order; its bytes and the list of files do not depend on that.
+pub struct Drawn<'a> {
+    folder: &'a Path,
+    /// Resolution of the PNG files, in pixels per inch.
+    pub resolution: f64,
+    /// Names of the files.
+    pub files: Vec<String>,
+    refused: Vec<(String, String)>,
+    crew: Crew,
+    interrupt: Option<Interrupt>,
+    /// Whether something was left out since the user has asked to stop.
+    is_cut: bool,
+    pending: Vec<Pending<anyhow::Result<bool>>>,
+    /// Files that are there.
+    written: Arc<AtomicU64>,
+    ticker: Ticker,
+}
+
+/// What was drawn.
+#[derive(Debug)]
+pub struct Files {
+    /// Names of the files.
+    pub names: Vec<String>,
+    /// Names of figures that cannot be drawn, each with the reason.
+    pub refused: Vec<(String, String)>,
+}
+
+impl<'a> Drawn<'a> {
+    /// Into a folder, made if it is not there, one file after the other.
+    pub fn into(folder: &'a Path) -> anyhow::Result<Self> {
+        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        Ok(Self {
+            folder,
+            resolution: RESOLUTION,
+            files: Vec::new(),
+            refused: Vec::new(),
+            crew: Crew::of(1),
+            interrupt: None,
+            is_cut: false,
+            pending: Vec::new(),
+            written: Arc::default(),
+            ticker: Ticker::counting("files drawn"),
+        })
+    }
+
+    /// On so many threads, until Ctrl-C.
+    pub fn on(self, threads: usize, interrupt: Interrupt) -> Self {
+        Self { crew: Crew::of(threads), interrupt: Some(interrupt), ..self }
+    }
+
+    /// The threads that draw.
+    pub fn crew(&self) -> &Crew {
+        &self.crew
+    }
+
+    /// What to look at while drawing.
+    pub fn interrupt(&self) -> Option<Interrupt> {
+        self.interrupt.clone()
+    }
+
+    /// Whether the rest is left out, since the user has asked to stop.
+    pub fn is_stopped(&mut self) -> bool {
+        self.is_cut |= is_raised(self.interrupt.as_ref());
+        self.is_cut
+    }
+
+    /// Draws a figure as SVG and PNG, or notes why there is none.
+    pub fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
+        match figure {
+            Ok(figure) => {
+                let resolution = self.resolution;
+                let names = ["svg", "png"].map(|suffix| format!("{name}.{suffix}"));
+                self.hand(&names, move |[svg, png]| {
+                    replace(svg, figure.svg().as_bytes())?;
+                    replace(png, &figure.png(resolution)?)
+                });
+            }
+            Err(reason) => self.refuse(name, reason.to_string()),
+        }
+    }
+
+    /// Draws a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
+    pub fn add_unless_empty(&mut self, name: &str, figure: Result<Figure, FigureError>) {
+        if !matches!(figure, Err(FigureError::Empty { .. })) {
+            self.add(name, figure);
+        }
+    }
+
+    /// Notes why there is no figure.
+    pub fn refuse(&mut self, name: &str, reason: String) {
+        self.refused.push((name.to_owned(), reason));
+    }
+
+    /// Writes a file that is no figure.
+    pub fn write(&mut self, name: &str, content: impl FnOnce() -> String + Send + 'static) {
+        self.hand(&[name.to_owned()], move |[path]| replace(path, content().as_bytes()));
+    }
+
+    /// Hands over what writes these files.
+    fn hand<const N: usize>(
+        &mut self,
+        names: &[String; N],
+        write: impl FnOnce(&[PathBuf; N]) -> anyhow::Result<()> + Send + 'static,
+    ) {
+        if self.is_stopped() {
+            return;
+        }
+        self.files.extend_from_slice(names);
+        let paths = names.each_ref().map(|name| self.folder.join(name));
+        let (interrupt, written) = (self.interrupt.clone(), Arc::clone(&self.written));
+        self.pending.push(self.crew.hand(move || {
+            if is_raised(interrupt.as_ref()) {
+                return Ok(false);
+            }
+            write(&paths)?;
+            written.fetch_add(N as u64, Ordering::Relaxed);
+            Ok(true)
+        }));
+        self.ticker.at(self.written.load(Ordering::Relaxed), String::new);
+    }
+
+    /// Waits for all that was added, and says on standard error what could not be drawn.
+    ///
+    /// # Errors
+    /// The first file that could not be written; an interruption, with how far it has come.
+    pub fn finish(mut self) -> Result<Files, Failure> {
+        let mut refusal = None;
+        for pending in std::mem::take(&mut self.pending) {
+            match self.crew.wait(&pending) {
+                Ok(is_written) => self.is_cut |= !is_written,
+                Err(error) => refusal = refusal.or(Some(error)),
+            }
+            self.ticker.at(self.written.load(Ordering::Relaxed), String::new);
+        }
+        self.ticker.clear();
+        if let Some(error) = refusal {
+            return Err(error.into());
+        }
+        if self.is_cut {
+            let (written, folder) = (self.written.load(Ordering::Relaxed), self.folder.display());
+            return Err(Failure::Interrupted(format!(
+                "interrupted while drawing; {written} files are drawn anew in {folder}, the others are as they were"
+            )));
+        }
+        for (name, reason) in &self.refused {
+            anstream::eprintln!("{name}: {reason}");
+        }
+        Ok(Files { names: self.files, refused: self.refused })
+    }
+}
+
+fn is_raised(interrupt: Option<&Interrupt>) -> bool {
+    interrupt.is_some_and(Interrupt::raised)
+}
+
+/// Writes a file so that it is there complete or not at all.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let mut unfinished = path.as_os_str().to_owned();
+    unfinished.push(".part");
+    fs::write(&unfinished, bytes)
+        .and_then(|()| fs::rename(&unfinished, path))
+        .with_context(|| format!("cannot write {}", path.display()))
+}
