@@ -11,6 +11,11 @@
 
 use faer::Mat;
 
+use super::{
+    elementary::{DECAY, TURNING, cosines_and_sines, exponential, exponentials, sine_and_cosine},
+    lanes::vectorised,
+};
+
 /// Exponential of one block over a time t: `[p; s](t) = [a b; c d] [p; s](0)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Propagator {
@@ -28,7 +33,39 @@ impl Propagator {
     #[inline]
     pub fn new(stiffness: f64, damping: f64, time: f64) -> Self {
         let half = 0.5 * damping;
-        let (cosine, sine) = decayed_cosine_and_sine(stiffness - half * half, half, time);
+        Self::of(stiffness, half, decayed_cosine_and_sine(stiffness - half * half, half, time))
+    }
+
+    /// Those of N blocks that oscillate (`D > 0`), within the reach of `elementary.rs`.
+    #[inline(always)]
+    fn oscillating<const N: usize>(stiffness: [f64; N], damping: [f64; N], time: f64) -> Option<[Self; N]> {
+        let half = damping.map(|c| 0.5 * c);
+        let (mut frequencies, mut angles, mut exponents) = ([0.0; N], [0.0; N], [0.0; N]);
+        let mut serves = true;
+        for i in 0..N {
+            let discriminant = stiffness[i] - half[i] * half[i];
+            serves &= discriminant >= f64::MIN_POSITIVE;
+            frequencies[i] = discriminant.sqrt();
+            angles[i] = frequencies[i] * time;
+            exponents[i] = -half[i] * time;
+            serves &= angles[i].abs() <= TURNING && exponents[i].abs() <= DECAY;
+        }
+        if !serves {
+            return None;
+        }
+        let [cosines, sines] = cosines_and_sines(&angles);
+        let decays = exponentials(&exponents);
+        let (mut cosine, mut sine) = ([0.0; N], [0.0; N]);
+        for i in 0..N {
+            cosine[i] = decays[i] * cosines[i];
+            sine[i] = decays[i] * sines[i] / frequencies[i];
+        }
+        Some(std::array::from_fn(|i| Self::of(stiffness[i], half[i], (cosine[i], sine[i]))))
+    }
+
+    /// From half the damping, `exp(-h t) C` and `exp(-h t) S`.
+    #[inline(always)]
+    fn of(stiffness: f64, half: f64, (cosine, sine): (f64, f64)) -> Self {
         Self { a: cosine + half * sine, b: sine, c: -stiffness * sine, d: cosine - half * sine }
     }
 
@@ -100,20 +137,20 @@ fn sine_series_slope(x: f64) -> f64 {
 #[inline]
 fn decayed_cosine_and_sine(discriminant: f64, half: f64, time: f64) -> (f64, f64) {
     let square = discriminant * time * time;
-    if square > 1e-4 {
+    if discriminant >= f64::MIN_POSITIVE {
         let frequency = discriminant.sqrt();
-        let (sin, cos) = (frequency * time).sin_cos();
-        let decay = (-half * time).exp();
+        let (sin, cos) = sine_and_cosine(frequency * time);
+        let decay = exponential(-half * time);
         return (decay * cos, decay * sin / frequency);
     }
     if square < -1e-4 {
         let rate = (-discriminant).sqrt();
         // The slow root is k / (h + rate), free of the cancellation in h - rate.
-        let slow = (-(discriminant + half * half) / (half + rate) * time).exp();
-        let fast = (-(half + rate) * time).exp();
+        let slow = exponential(-(discriminant + half * half) / (half + rate) * time);
+        let fast = exponential(-(half + rate) * time);
         return (0.5 * (slow + fast), 0.5 * (slow - fast) / rate);
     }
-    let decay = (-half * time).exp();
+    let decay = exponential(-half * time);
     let cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
     let sine = time * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
     (decay * cosine, decay * sine)
@@ -143,6 +180,48 @@ impl Blocks {
     /// Number of blocks n; block states are `[p; s]`, length 2n.
     pub fn count(&self) -> usize {
         self.stiffness.len()
+    }
+
+    /// Calls `with` with the propagator of each block over `time`, four at a time.
+    #[inline(always)]
+    pub fn for_propagators(&self, time: f64, mut with: impl FnMut(usize, Propagator)) {
+        let n = self.count();
+        vectorised(
+            #[inline(always)]
+            || {
+                for first in (0..n).step_by(4) {
+                    let of_lane = |values: &[f64]| [0, 1, 2, 3].map(|lane| values[(first + lane).min(n - 1)]);
+                    let (stiffness, damping) = (of_lane(&self.stiffness), of_lane(&self.damping));
+                    let found = Propagator::oscillating(stiffness, damping, time);
+                    let quad = found.unwrap_or_else(|| {
+                        std::array::from_fn(|lane| Propagator::new(stiffness[lane], damping[lane], time))
+                    });
+                    quad.into_iter().take(n - first).enumerate().for_each(|(lane, p)| with(first + lane, p));
+                }
+            },
+        );
+    }
+
+    /// Block state after a free motion over `time` from `start`.
+    pub fn fly(&self, start: &[f64], time: f64, end: &mut [f64]) {
+        let n = self.count();
+        self.for_propagators(time, |i, propagator| {
+            (end[i], end[n + i]) = propagator.apply(start[i], start[n + i]);
+        });
+    }
+
+    /// Takes a block state over a free motion of that duration.
+    pub fn carry(&self, state: &mut [f64], time: f64) {
+        let n = self.count();
+        self.for_propagators(time, |i, propagator| {
+            (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
+        });
+    }
+
+    /// The propagators over `time`.
+    pub fn propagators(&self, time: f64, into: &mut Vec<Propagator>) {
+        into.clear();
+        self.for_propagators(time, |_, propagator| into.push(propagator));
     }
 
     /// Block state of a modal state `[q; q']`.

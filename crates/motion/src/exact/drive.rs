@@ -9,7 +9,15 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{block::Blocks, change::Change, collocation::NODES, output::Output, secular::SecularLoad};
+use super::{
+    block::Blocks,
+    change::Change,
+    collocation::NODES,
+    elementary::{self, TURNING, sine_and_cosine},
+    lanes::vectorised,
+    output::Output,
+    secular::SecularLoad,
+};
 use crate::{ModalLoad, Stretch, System};
 
 /// Relative distance from resonance below which the steady solution would cost more than four digits.
@@ -171,7 +179,7 @@ impl Drive {
     /// `exp(i w t)` of an order.
     #[inline]
     fn rotation(&self, order: &Order, time: f64) -> c64 {
-        let (sin, cos) = (order.order * (self.start_angle + self.circular_frequency * time)).sin_cos();
+        let (sin, cos) = sine_and_cosine(order.order * (self.start_angle + self.circular_frequency * time));
         c64::new(cos, sin)
     }
 
@@ -444,18 +452,15 @@ impl Drive {
     }
 }
 
-/// Cosines and sines of the angles of the nodes of a step: small ones by their series, all at once.
+/// Cosines and sines of the angles of the nodes of a step.
 fn cosines_and_sines(angles: &[f64; NODES]) -> [[f64; NODES]; 2] {
-    if angles[NODES - 1].abs() > 0.25 {
+    if angles.iter().any(|angle| angle.abs() > TURNING) {
         return [angles.map(f64::cos), angles.map(f64::sin)];
     }
-    let squares = angles.map(|x| x * x);
-    let series =
-        |terms: [f64; 6]| squares.map(|x| terms.iter().fold(1.0, |sum, divisor| 1.0 - x / divisor * sum));
-    // Horner's scheme from the last term: 1 - x^2/(2 m - 1)(2 m) (...).
-    let cosines = series([132.0, 90.0, 56.0, 30.0, 12.0, 2.0]);
-    let sines = series([156.0, 110.0, 72.0, 42.0, 20.0, 6.0]);
-    [cosines, std::array::from_fn(|k| angles[k] * sines[k])]
+    vectorised(
+        #[inline(always)]
+        || elementary::cosines_and_sines(angles),
+    )
 }
 
 fn complex_input(blocks: &Blocks, modal_load: &[c64]) -> Vec<c64> {
@@ -469,7 +474,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn series_of_small_angles_reach_rounding() {
+    fn cosines_and_sines_of_all_nodes_reach_rounding() {
         for largest in [0.0, 1e-3, 0.1, 0.2499, 0.3, 20.0] {
             let angles: [f64; NODES] = std::array::from_fn(|k| largest * (k + 1) as f64 / NODES as f64);
             let [cosines, sines] = cosines_and_sines(&angles);

@@ -5,7 +5,7 @@
 //! others halved, with Newton's method on the derivative: where the interval is proved concave and the method settles inside
 //! it, the maximum is found; elsewhere halving goes on down to [`ACCURACY`].
 
-use super::{ExactIntegrator, block::Propagator};
+use super::ExactIntegrator;
 
 /// Relative accuracy to which maxima in flight are enclosed.
 const ACCURACY: f64 = 1e-12;
@@ -109,13 +109,12 @@ impl<'a> FlightFunction<'a> {
         let blocks = &self.integrator.blocks;
         let n = blocks.count();
         let mut sums = self.driven(time);
-        for i in 0..n {
-            let propagator = Propagator::new(blocks.stiffness[i], blocks.damping[i], time);
+        blocks.for_propagators(time, |i, propagator| {
             let (p, s) = propagator.apply(self.flown.state[i], self.flown.state[n + i]);
             for (sum, row) in sums.iter_mut().zip(&self.rows) {
                 *sum += row[i] * p + row[n + i] * s;
             }
-        }
+        });
         (sums[0], sums[1], sums[2])
     }
 
@@ -139,8 +138,8 @@ impl<'a> FlightFunction<'a> {
         let blocks = &self.integrator.blocks;
         let n = blocks.count();
         let step = self.flown.duration / count as f64;
-        let propagators: Vec<Propagator> =
-            (0..n).map(|i| Propagator::new(blocks.stiffness[i], blocks.damping[i], step)).collect();
+        let mut propagators = Vec::with_capacity(n);
+        blocks.propagators(step, &mut propagators);
         let mut state = self.flown.state.clone();
         let mut values = Vec::with_capacity(count + 1);
         for place in 0..=count {

@@ -16,7 +16,7 @@
 //! | `memory.rs` | laws that remember the speed of an impact |
 //! | `impact.rs` | impacts on rigid stops, chatter |
 //! | `held.rs`, `hold.rs` | the structure that is left while rigid stops are held; going over to it and back |
-//! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
+//! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
 //! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
@@ -38,6 +38,7 @@ mod course;
 mod damped_step;
 mod decouple;
 mod drive;
+mod elementary;
 mod event;
 mod flight;
 mod flight_maximum;

@@ -1,7 +1,7 @@
 //! Reading outputs inside a force step, at any time.
 
 use super::{
-    ExactIntegrator, block::Propagator, collocation::NODES, drive::Jet, lanes::dot, recurrence::gauss_sixteen,
+    ExactIntegrator, collocation::NODES, drive::Jet, lanes::dot, recurrence::gauss_sixteen,
 };
 
 /// Radians of a block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding.
@@ -15,13 +15,12 @@ impl ExactIntegrator {
     pub(super) fn jet_in_step(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let (n, step, o) = (self.blocks.count(), &self.step, &self.outputs[output]);
         let mut jet = self.drive.jet(output, o, step.start + time);
-        for i in 0..n {
-            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
+        self.blocks.for_propagators(time, |i, propagator| {
             let (p, s) = propagator.apply(state[i], state[n + i]);
             jet.value += o.row[i] * p + o.row[n + i] * s;
             jet.slope += o.velocity_row[i] * p + o.velocity_row[n + i] * s;
             jet.curvature += o.acceleration_row[i] * p + o.acceleration_row[n + i] * s;
-        }
+        });
         let grading = step.grading();
         let rule = grading.rule();
         let end = grading.inverse((time / step.length).min(1.0));
@@ -59,7 +58,7 @@ impl ExactIntegrator {
         for panel in 0..panels as usize {
             let at = |panel: usize| from + (to - from) * panel as f64 / panels;
             let (start, end) = (at(panel), at(panel + 1));
-            self.propagate(state, end - start);
+            self.blocks.carry(state, end - start);
             let (s_start, s_end) = (place(start), place(end));
             for &(x, weight) in gauss_sixteen() {
                 let s = s_start + (s_end - s_start) * x;
@@ -74,24 +73,14 @@ impl ExactIntegrator {
         }
     }
 
-    /// Propagates the homogeneous block state over `time`.
-    fn propagate(&self, state: &mut [f64], time: f64) {
-        let n = self.blocks.count();
-        for i in 0..n {
-            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
-            (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
-        }
-    }
-
     /// Adds what an impulse on an element has become after `time`.
     fn add_impulse(&self, state: &mut [f64], element: usize, impulse: f64, time: f64) {
         let (n, input) = (self.blocks.count(), &self.inputs[element]);
-        for i in 0..n {
-            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
+        self.blocks.for_propagators(time, |i, propagator| {
             let (p, s) = propagator.apply(input[i], input[n + i]);
             state[i] += impulse * p;
             state[n + i] += impulse * s;
-        }
+        });
     }
 
     /// An output and its derivatives at `time` in the last solved step, from the homogeneous state then: with the direct part of the forces.
@@ -112,11 +101,11 @@ impl ExactIntegrator {
         }
         let (n, o, input) = (self.blocks.count(), &self.outputs[output], &self.inputs[element]);
         let row = [&o.row, &o.velocity_row, &o.acceleration_row][derivative];
-        let of_block = |i: usize| {
-            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
+        let mut sum = 0.0;
+        self.blocks.for_propagators(time, |i, propagator| {
             let (p, s) = propagator.apply(input[i], input[n + i]);
-            row[i] * p + row[n + i] * s
-        };
-        (0..n).map(of_block).sum()
+            sum += row[i] * p + row[n + i] * s;
+        });
+        sum
     }
 }

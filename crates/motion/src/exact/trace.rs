@@ -10,7 +10,7 @@
 //! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
 use super::{
-    ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch,
+    ExactIntegrator, MotionError, collocation::NODES, flight::Touch,
     flight_maximum::Flown, run::Run,
 };
 use crate::Stretch;
@@ -139,14 +139,9 @@ impl ExactIntegrator {
     pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
         let Some(mut tracing) = self.tracing.take() else { return };
         tracing.end_open(run);
-        let n = self.blocks.count();
         while let Some(time) = tracing.due(run.time + duration) {
             let mut state = self.flight_start.clone();
-            for i in 0..n {
-                let after = (time - run.time).max(0.0);
-                let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], after);
-                (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
-            }
+            self.blocks.carry(&mut state, (time - run.time).max(0.0));
             let pressing = self.pressing_forces(&state, time);
             tracing.trace.forces.push(pressing.into_iter().map(|force| 0.0 - force).collect());
             tracing.trace.samples.push(self.modal_of(state, time));

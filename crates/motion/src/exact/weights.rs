@@ -47,8 +47,6 @@ impl StepWeights {
     }
 
     pub fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
-        self.propagators.clear();
-        let pairs = blocks.stiffness.iter().zip(&blocks.damping);
-        self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, length)));
+        blocks.propagators(length, &mut self.propagators);
     }
 }
