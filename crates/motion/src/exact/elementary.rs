@@ -1,7 +1,7 @@
 //! Sines, cosines and exponentials of several numbers at once, without branches, so that the compiler makes vectors of them ([`vectorised`](super::lanes::vectorised)).
 //!
 //! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k pi/2 + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have
-//! 33 bits each, so `k A` and `k B` are exact up to `|k| < 2^20`, and so is `x - k A`. What r rounds is kept as the tail t, with `k C`. The same for the
+//! 33 bits each, so `k A` and `k B` are exact up to `|k| < 2^20`, and so is `x - k A`. What r rounds is kept as the tail t, half a unit of r at most. The same for the
 //! exponential with `ln 2 = A + B`, where `|k| < 2^11` and A has 40 bits.
 //!
 //! **Series.** With `w = 1 - r^2/2`,
@@ -72,8 +72,10 @@ pub(crate) fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N];
         let rounded = angles[i] * std::f64::consts::FRAC_2_PI + ROUNDING;
         let (k, quadrant) = (rounded - ROUNDING, rounded.to_bits());
         let (coarse, fine) = (angles[i] - k * QUARTER[0], k * QUARTER[1]);
-        let r = coarse - fine;
-        let tail = (coarse - r - fine) - k * QUARTER[2];
+        let first = coarse - fine;
+        let left = (coarse - first - fine) - k * QUARTER[2];
+        let r = first + left;
+        let tail = (first - r) + left;
         let square = r * r;
         let half = 0.5 * square;
         let lead = 1.0 - half;

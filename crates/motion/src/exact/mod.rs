@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `flow.rs`, `run.rs` | a run over a stretch |
 //! | `block.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
-//! | `drive.rs`, `secular.rs` | the particular solution of the load |
+//! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
 //! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
@@ -23,7 +23,7 @@
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
 //! | `course.rs` | what a motion went through |
-//! | `maxima.rs`, `flight_maximum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 
 mod attempt;
@@ -38,8 +38,11 @@ mod course;
 mod damped_step;
 mod decouple;
 mod drive;
+mod drive_bounds;
+mod drive_values;
 mod elementary;
 mod event;
+mod extremum;
 mod flight;
 mod flight_maximum;
 mod flow;
@@ -66,6 +69,7 @@ mod secular;
 mod sensitivity;
 mod series;
 mod step_error;
+mod step_maximum;
 mod touching;
 mod trace;
 mod weights;

@@ -18,6 +18,13 @@ use super::{
 /// `C (A/rate)^m x` of one output, from `m = 0` on.
 pub(crate) type Readings = [f64; TERMS + 2];
 
+/// Moments of a force, see [`Series::moments`].
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moments {
+    moments: [f64; TERMS],
+    terms: usize,
+}
+
 /// What the weights are made of: powers of the system on the rows and columns of the elements.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
@@ -92,20 +99,45 @@ impl Series {
         Self { rate: self.rate, rates: self.rates.clone(), rows, columns, entries, velocity_entries, markov }
     }
 
+    /// Moments `int (rate (T - t))^m/m! F dt` of a force up to a time T within the reach, from sixteen times `t`.
+    ///
+    /// * `delays`: `T - t` [s]; `impulses`: forces times the weights of a quadrature [N s]; `duration`: the longest delay.
+    #[inline(always)]
+    pub fn moments(&self, delays: &[f64; 16], impulses: [f64; 16], duration: f64) -> Moments {
+        let (mut moments, mut powers) = ([0.0; TERMS], impulses);
+        let z = delays.map(|delay| delay * self.rate);
+        let terms = Self::terms(duration * self.rate).min(TERMS);
+        for (m, moment) in moments[..terms].iter_mut().enumerate() {
+            let mut lanes = [0.0; 4];
+            for quad in powers.as_chunks::<4>().0 {
+                (0..4).for_each(|lane| lanes[lane] += quad[lane]);
+            }
+            *moment = (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+            let share = 1.0 / (m + 1) as f64;
+            (0..16).for_each(|k| powers[k] *= z[k] * share);
+        }
+        Moments { moments, terms }
+    }
+
+    /// What an element's force makes of an output and its derivatives, apart from the direct part.
+    pub fn response(&self, output: usize, element: usize, moments: &Moments) -> Jet {
+        let markov = &self.markov[output * self.columns.len() + element];
+        let mut sums = [0.0; 3];
+        for (m, moment) in moments.moments[..moments.terms.min(TERMS - 1)].iter().enumerate() {
+            (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
+        }
+        Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
+    }
+
+    /// Adds what an element's force makes of a state.
+    pub fn add_response(&self, element: usize, moments: &Moments, state: &mut [f64]) {
+        let powers = self.columns[element].iter().zip(&moments.moments[..moments.terms]);
+        powers.for_each(|(column, moment)| add_multiple(state, *moment, column));
+    }
+
     /// Longest step that the series serve [s].
     pub fn reach(&self) -> f64 {
         REACH / self.rate
-    }
-
-    /// Impulse response `C_e A^d exp(A t) B_f` of output e to input f (d = 0, 1, 2), for `t` within the reach.
-    pub fn impulse_response(&self, e: usize, f: usize, derivative: usize, time: f64) -> f64 {
-        let markov = &self.markov[e * self.columns.len() + f];
-        let z = time * self.rate;
-        let mut sum = 0.0;
-        for m in (derivative..=(Self::terms(z) + derivative).min(TERMS)).rev() {
-            sum = markov[m] + sum * z / (m - derivative + 1) as f64;
-        }
-        sum * self.rate.powi(derivative as i32)
     }
 
     /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part and from direct forces:
@@ -122,23 +154,24 @@ impl Series {
         let rule = grading.rule();
         let z = length * self.rate;
         let terms = Self::terms(z).min(TERMS - derivative);
-        let mut values = [0.0; NODES];
-        let mut powers = [1.0; NODES];
-        let mut factor = length;
-        let count = self.columns.len();
-        for m in 0..terms {
-            let row = &self.rows[output][m + derivative];
-            let free = dot(row, state);
-            (0..NODES).for_each(|k| values[k] += powers[k] * free);
-            (0..NODES).for_each(|k| powers[k] *= z * rule.c[k] / (m + 1) as f64);
-            for (a, &e) in active.iter().enumerate() {
-                let weight = factor * self.markov[output * count + e][m + derivative];
-                let force = &force[a * NODES..(a + 1) * NODES];
-                for (row, force) in rule.at_nodes[m].iter().zip(force) {
-                    add_multiple(&mut values, weight * force, row);
-                }
+        let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
+        let (mut values, mut weights) = ([0.0; NODES], [[0.0; NODES]; TERMS]);
+        let mut free = [0.0; TERMS];
+        vectorised(
+            #[inline(always)]
+            || {
+                let rows = self.rows[output][derivative..].iter().zip(&powers[..terms]);
+                free.iter_mut().zip(rows).for_each(|(free, (row, power))| *free = power * dot(row, state));
+            },
+        );
+        add_products(&mut values, rule.powers.as_flattened(), NODES, |_| free[..terms].iter().copied());
+        for (&e, force) in active.iter().zip(force.as_chunks::<NODES>().0) {
+            let markov = &self.markov[output * self.columns.len() + e][derivative..];
+            for ((weights, factor), markov) in weights.iter_mut().zip(&factors[..terms]).zip(markov) {
+                *weights = force.map(|force| factor * markov * force);
             }
-            factor *= z;
+            let source = rule.at_nodes.as_flattened().as_flattened();
+            add_products(&mut values, source, NODES, |_| weights[..terms].as_flattened().iter().copied());
         }
         values.map(|value| value * self.rate.powi(derivative as i32))
     }

@@ -155,8 +155,8 @@ impl ExactIntegrator {
     /// Adds what held stops press with during a flight from the state at its start.
     fn trace_held(&self, run: &Run, duration: f64, tracing: &mut Tracing) {
         let impulses = self.held_impulses(&self.flight_start, run.time, duration);
-        let state = self.flight_start.clone();
-        let flown = Flown { piece: 0, start: run.time, duration, state, held: run.stuck.clone() };
+        let flown =
+            Flown { piece: 0, start: run.time, duration, state: &self.flight_start, held: &run.stuck };
         let first = self.outputs.len() - run.stuck.len();
         for (j, (&element, impulse)) in run.stuck.iter().zip(impulses).enumerate() {
             let Some(piece) = tracing.open[element] else { continue };
@@ -214,7 +214,7 @@ impl ExactIntegrator {
             piece.impulse += impulse.abs();
             piece.energy_lost += energy_lost;
             let force = &self.step.force[a * NODES..(a + 1) * NODES];
-            piece.peak_force = piece.peak_force.max(self.largest_of_polynomial(force).0);
+            piece.peak_force = piece.peak_force.max(self.step.grading().rule().extremum(force).0);
         }
         self.tracing = Some(tracing);
     }
