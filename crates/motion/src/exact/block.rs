@@ -36,33 +36,6 @@ impl Propagator {
         Self::of(stiffness, half, decayed_cosine_and_sine(stiffness - half * half, half, time))
     }
 
-    /// Those of N blocks that oscillate (`D > 0`), within the reach of `elementary.rs`.
-    #[inline(always)]
-    fn oscillating<const N: usize>(stiffness: [f64; N], damping: [f64; N], time: f64) -> Option<[Self; N]> {
-        let half = damping.map(|c| 0.5 * c);
-        let (mut frequencies, mut angles, mut exponents) = ([0.0; N], [0.0; N], [0.0; N]);
-        let mut serves = true;
-        for i in 0..N {
-            let discriminant = stiffness[i] - half[i] * half[i];
-            serves &= discriminant >= f64::MIN_POSITIVE;
-            frequencies[i] = discriminant.sqrt();
-            angles[i] = frequencies[i] * time;
-            exponents[i] = -half[i] * time;
-            serves &= angles[i].abs() <= TURNING && exponents[i].abs() <= DECAY;
-        }
-        if !serves {
-            return None;
-        }
-        let [cosines, sines] = cosines_and_sines(&angles);
-        let decays = exponentials(&exponents);
-        let (mut cosine, mut sine) = ([0.0; N], [0.0; N]);
-        for i in 0..N {
-            cosine[i] = decays[i] * cosines[i];
-            sine[i] = decays[i] * sines[i] / frequencies[i];
-        }
-        Some(std::array::from_fn(|i| Self::of(stiffness[i], half[i], (cosine[i], sine[i]))))
-    }
-
     /// From half the damping, `exp(-h t) C` and `exp(-h t) S`.
     #[inline(always)]
     fn of(stiffness: f64, half: f64, (cosine, sine): (f64, f64)) -> Self {
@@ -115,6 +88,60 @@ impl Propagator {
     #[inline]
     pub fn apply(&self, p: f64, s: f64) -> (f64, f64) {
         (self.a * p + self.b * s, self.c * p + self.d * s)
+    }
+}
+
+/// Propagators of four blocks that oscillate (`D > 0`), entry by entry.
+#[derive(Debug, Clone, Copy, Default)]
+struct Quad {
+    a: [f64; 4],
+    b: [f64; 4],
+    c: [f64; 4],
+    d: [f64; 4],
+}
+
+impl Quad {
+    /// Bit by bit those of [`Propagator::new`], if all blocks oscillate within the reach of `elementary.rs`: else nothing, and false.
+    #[inline]
+    fn set(&mut self, stiffness: &[f64; 4], damping: &[f64; 4], time: f64) -> bool {
+        let (mut frequencies, mut angles, mut exponents) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        let mut serves = true;
+        for i in 0..4 {
+            let half = 0.5 * damping[i];
+            let discriminant = stiffness[i] - half * half;
+            frequencies[i] = discriminant.sqrt();
+            angles[i] = frequencies[i] * time;
+            exponents[i] = -half * time;
+            serves &= discriminant >= f64::MIN_POSITIVE;
+            serves &= angles[i].abs() <= TURNING && exponents[i].abs() <= DECAY;
+        }
+        if serves {
+            // On its own: together with the rest the compiler does not make vectors of it.
+            let mut decays = [0.0; 4];
+            vectorised(
+                #[inline(always)]
+                || decays = exponentials(&exponents),
+            );
+            vectorised(
+                #[inline(always)]
+                || {
+                    let [cosines, sines] = cosines_and_sines(&angles);
+                    for i in 0..4 {
+                        let (half, k) = (0.5 * damping[i], stiffness[i]);
+                        let (cosine, sine) = (decays[i] * cosines[i], decays[i] * sines[i] / frequencies[i]);
+                        self.a[i] = cosine + half * sine;
+                        self.b[i] = sine;
+                        self.c[i] = -k * sine;
+                        self.d[i] = cosine - half * sine;
+                    }
+                },
+            );
+        }
+        serves
+    }
+
+    fn propagator(&self, lane: usize) -> Propagator {
+        Propagator { a: self.a[lane], b: self.b[lane], c: self.c[lane], d: self.d[lane] }
     }
 }
 
@@ -182,24 +209,19 @@ impl Blocks {
         self.stiffness.len()
     }
 
-    /// Calls `with` with the propagator of each block over `time`, four at a time.
+    /// Calls `with` with the propagator of each block over `time`.
     #[inline(always)]
     pub fn for_propagators(&self, time: f64, mut with: impl FnMut(usize, Propagator)) {
         let n = self.count();
-        vectorised(
-            #[inline(always)]
-            || {
-                for first in (0..n).step_by(4) {
-                    let of_lane = |values: &[f64]| [0, 1, 2, 3].map(|lane| values[(first + lane).min(n - 1)]);
-                    let (stiffness, damping) = (of_lane(&self.stiffness), of_lane(&self.damping));
-                    let found = Propagator::oscillating(stiffness, damping, time);
-                    let quad = found.unwrap_or_else(|| {
-                        std::array::from_fn(|lane| Propagator::new(stiffness[lane], damping[lane], time))
-                    });
-                    quad.into_iter().take(n - first).enumerate().for_each(|(lane, p)| with(first + lane, p));
-                }
-            },
-        );
+        let mut quad = Quad::default();
+        for first in (0..n).step_by(4) {
+            let (stiffness, damping) = (four(&self.stiffness[first..]), four(&self.damping[first..]));
+            let serves = quad.set(&stiffness, &damping, time);
+            for lane in 0..(n - first).min(4) {
+                let of_one = || Propagator::new(stiffness[lane], damping[lane], time);
+                with(first + lane, if serves { quad.propagator(lane) } else { of_one() });
+            }
+        }
     }
 
     /// Block state after a free motion over `time` from `start`.
@@ -293,6 +315,16 @@ impl Blocks {
     }
 }
 
+/// The first four numbers; those that lack are as the first.
+#[inline]
+fn four(values: &[f64]) -> [f64; 4] {
+    values.first_chunk().copied().unwrap_or_else(|| {
+        let mut numbers = [values[0]; 4];
+        numbers.iter_mut().zip(values).for_each(|(number, value)| *number = *value);
+        numbers
+    })
+}
+
 fn multiply(matrix: &Mat<f64>, from: &[f64], to: &mut [f64]) {
     to.fill(0.0);
     for (j, &value) in from.iter().enumerate() {
@@ -373,6 +405,21 @@ mod tests {
                         "{stiffness} {damping} {time}: {found} {expected}"
                     );
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn propagators_of_many_blocks_are_those_of_each() {
+        for damping in [vec![0.3; 7], vec![0.3, 2.0, 0.1, 5.0, 0.0]] {
+            let stiffness: Vec<f64> = (0..damping.len()).map(|i| (1 + i * i) as f64).collect();
+            let blocks = Blocks { stiffness, damping, transform: None };
+            for time in [0.0, 1e-6, 0.7, 30.0, 1e7] {
+                let mut found = Vec::new();
+                blocks.propagators(time, &mut found);
+                let pairs = blocks.stiffness.iter().zip(&blocks.damping);
+                let expected: Vec<_> = pairs.map(|(&k, &c)| Propagator::new(k, c, time)).collect();
+                assert_eq!(found, expected, "{time}");
             }
         }
     }

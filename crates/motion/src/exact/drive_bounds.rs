@@ -27,8 +27,9 @@ impl Drive {
 
     /// Bound on the fourth derivative of the particular part of output `index` until `until`.
     pub fn fourth_bound(&self, index: usize, output: &Output, until: f64) -> f64 {
-        let of_order =
-            |order: &Order| magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(4);
+        let of_order = |order: &Order| {
+            magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(4)
+        };
         self.orders.iter().map(of_order).sum::<f64>()
             + self.secular.iter().map(|load| load.fourth_bound(output, until)).sum::<f64>()
     }
@@ -51,7 +52,8 @@ impl Drive {
 
     /// Largest velocity that the steady part of output `index` can take.
     pub fn speed(&self, index: usize) -> f64 {
-        let of_order = |order: &Order| magnitude(order.outputs[index].0) * order.order * self.circular_frequency;
+        let of_order =
+            |order: &Order| magnitude(order.outputs[index].0) * order.order * self.circular_frequency;
         self.orders.iter().map(of_order).sum()
     }
 

@@ -178,7 +178,11 @@ mod tests {
                 let values = exponentials(&exponents);
                 for (k, exponent) in exponents.into_iter().enumerate() {
                     let expected = exponent.exp();
-                    assert!(units(values[k], expected) <= APART, "{exponent:e}: {:e} {expected:e}", values[k]);
+                    assert!(
+                        units(values[k], expected) <= APART,
+                        "{exponent:e}: {:e} {expected:e}",
+                        values[k]
+                    );
                     assert_eq!(exponential(exponent), values[k]);
                 }
             }

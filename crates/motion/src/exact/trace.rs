@@ -10,8 +10,7 @@
 //! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
 use super::{
-    ExactIntegrator, MotionError, collocation::NODES, flight::Touch,
-    flight_maximum::Flown, run::Run,
+    ExactIntegrator, MotionError, collocation::NODES, flight::Touch, flight_maximum::Flown, run::Run,
 };
 use crate::Stretch;
 
