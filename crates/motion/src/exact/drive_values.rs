@@ -1,4 +1,4 @@
-//! The particular solution at the nodes of a step (`drive.rs`), and its derivatives by the frequency and by the scale of the excitation.
+//! Outputs of the particular solution (`drive.rs`) at a time and at the nodes of a step, and their derivatives by the frequency and by the scale of the excitation.
 
 use std::f64::consts::TAU;
 
@@ -6,13 +6,64 @@ use faer::c64;
 
 use super::{
     collocation::NODES,
-    drive::Drive,
+    drive::{Drive, Jet},
     elementary::{self, TURNING},
     lanes::vectorised,
     output::Output,
+    secular::SecularLoad,
 };
 
 impl Drive {
+    /// Acceleration of the particular part of output `index` (with the row `output`) and its derivatives at `time`: of resonant loads the latter by differences, which suffice to steer
+    /// Newton's method.
+    pub fn acceleration_jet(&self, index: usize, output: &Output, time: f64) -> Jet {
+        let mut jet = Jet::default();
+        for order in &self.orders {
+            let square = (order.order * self.circular_frequency).powi(2);
+            let value = order.outputs[index].0 * self.rotation(order, time);
+            jet.value -= square * value.re;
+            jet.slope += square * order.order * self.circular_frequency * value.im;
+            jet.curvature += square * square * value.re;
+        }
+        if !self.secular.is_empty() {
+            let n = output.row.len() / 2;
+            let at = |time: f64| {
+                let of_load = |load: &SecularLoad| {
+                    let [p, s] = load.response(time).curvature;
+                    output.row[load.block] * p + output.row[n + load.block] * s
+                };
+                self.secular.iter().map(of_load).sum::<f64>()
+            };
+            let step = 1e-3 / self.circular_frequency;
+            let [before, here, after] = [time - step, time, time + step].map(at);
+            jet.value += here;
+            jet.slope += (after - before) / (2.0 * step);
+            jet.curvature += (after - 2.0 * here + before) / (step * step);
+        }
+        jet
+    }
+
+    /// Particular part of output `index` (with the row `output`) and its derivatives at `time`.
+    pub fn jet(&self, index: usize, output: &Output, time: f64) -> Jet {
+        let mut jet = Jet::default();
+        for order in &self.orders {
+            let w = order.order * self.circular_frequency;
+            let value = order.outputs[index].0 * self.rotation(order, time);
+            jet.value += value.re;
+            jet.slope -= w * value.im;
+            jet.curvature -= w * w * value.re;
+        }
+        let n = output.row.len() / 2;
+        for load in &self.secular {
+            let (b, response) = (load.block, load.response(time));
+            let [p, s] = [output.row[b], output.row[n + b]];
+            jet.value += p * response.state[0] + s * response.state[1];
+            jet.slope += p * response.rate[0] + s * response.rate[1];
+            jet.curvature += p * response.curvature[0] + s * response.curvature[1];
+        }
+        jet
+    }
+
     /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to `values`.
     pub fn add_values(
         &self,

@@ -5,12 +5,12 @@
 //! | file | idea |
 //! |---|---|
 //! | `flow.rs`, `run.rs` | a run over a stretch |
-//! | `block.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
+//! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
 //! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
 //! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
-//! | `weights.rs`, `series.rs`, `quadrature.rs` | the matrices of a step |
+//! | `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs` | the matrices of a step |
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `memory.rs` | laws that remember the speed of an impact |
@@ -56,11 +56,13 @@ mod lanes;
 mod lu;
 mod maxima;
 mod memory;
+mod moments;
 mod newton;
 mod onset;
 mod output;
 mod plane;
 mod polynomial;
+mod propagator;
 mod quadrature;
 mod recurrence;
 mod run;
@@ -84,12 +86,13 @@ pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use trace::{ContactPiece, Touchdown, Trace};
 
-use block::{Blocks, Propagator};
+use block::Blocks;
 use collocation::Grading;
 use course::Course;
 use drive::Drive;
 use force_step::ForceStep;
 use output::Output;
+use propagator::Propagator;
 use run::Run;
 use series::Series;
 use weights::StepWeights;

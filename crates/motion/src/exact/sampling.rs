@@ -1,8 +1,8 @@
 //! Reading outputs inside a force step, at any time.
 
 use super::{
-    ExactIntegrator, collocation::NODES, drive::Jet, lanes::vectorised, recurrence::gauss_sixteen,
-    series::Moments,
+    ExactIntegrator, collocation::NODES, drive::Jet, lanes::vectorised, moments::Moments,
+    recurrence::gauss_sixteen,
 };
 
 /// Radians of a block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding, and over which no term of the power series is larger

@@ -18,29 +18,22 @@ use super::{
 /// `C (A/rate)^m x` of one output, from `m = 0` on.
 pub(crate) type Readings = [f64; TERMS + 2];
 
-/// Moments of a force, see [`Series::moments`].
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Moments {
-    moments: [f64; TERMS],
-    terms: usize,
-}
-
 /// What the weights are made of: powers of the system on the rows and columns of the elements.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
-    rate: f64,
+    pub(super) rate: f64,
     /// Rate of each block [1/s].
     rates: Vec<f64>,
     /// Row of element e times `(A/rate)^m`, `[e][m][i]`.
     rows: Vec<Vec<Vec<f64>>>,
     /// `(A/rate)^m` times the column of element e, `[e][m][i]`.
-    columns: Vec<Vec<Vec<f64>>>,
+    pub(super) columns: Vec<Vec<Vec<f64>>>,
     /// The same of each element entry by entry, `[i * TERMS + m]`: rows and columns.
     entries: Vec<(Vec<f64>, Vec<f64>)>,
     /// Rows entry by entry from the first power on: those that read velocities, over the rate.
     velocity_entries: Vec<Vec<f64>>,
     /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
-    markov: Vec<Vec<f64>>,
+    pub(super) markov: Vec<Vec<f64>>,
 }
 
 impl Series {
@@ -99,42 +92,6 @@ impl Series {
         Self { rate: self.rate, rates: self.rates.clone(), rows, columns, entries, velocity_entries, markov }
     }
 
-    /// Moments `int (rate (T - t))^m/m! F dt` of a force up to a time T within the reach, from sixteen times `t`.
-    ///
-    /// * `delays`: `T - t` [s]; `impulses`: forces times the weights of a quadrature [N s]; `duration`: the longest delay.
-    #[inline(always)]
-    pub fn moments(&self, delays: &[f64; 16], impulses: [f64; 16], duration: f64) -> Moments {
-        let (mut moments, mut powers) = ([0.0; TERMS], impulses);
-        let z = delays.map(|delay| delay * self.rate);
-        let terms = Self::terms(duration * self.rate).min(TERMS);
-        for (m, moment) in moments[..terms].iter_mut().enumerate() {
-            let mut lanes = [0.0; 4];
-            for quad in powers.as_chunks::<4>().0 {
-                (0..4).for_each(|lane| lanes[lane] += quad[lane]);
-            }
-            *moment = (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
-            let share = 1.0 / (m + 1) as f64;
-            (0..16).for_each(|k| powers[k] *= z[k] * share);
-        }
-        Moments { moments, terms }
-    }
-
-    /// What an element's force makes of an output and its derivatives, apart from the direct part.
-    pub fn response(&self, output: usize, element: usize, moments: &Moments) -> Jet {
-        let markov = &self.markov[output * self.columns.len() + element];
-        let mut sums = [0.0; 3];
-        for (m, moment) in moments.moments[..moments.terms.min(TERMS - 1)].iter().enumerate() {
-            (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
-        }
-        Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
-    }
-
-    /// Adds what an element's force makes of a state.
-    pub fn add_response(&self, element: usize, moments: &Moments, state: &mut [f64]) {
-        let powers = self.columns[element].iter().zip(&moments.moments[..moments.terms]);
-        powers.for_each(|(column, moment)| add_multiple(state, *moment, column));
-    }
-
     /// Longest step that the series serve [s].
     pub fn reach(&self) -> f64 {
         REACH / self.rate
@@ -177,7 +134,7 @@ impl Series {
     }
 
     /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
-    fn terms(z: f64) -> usize {
+    pub(super) fn terms(z: f64) -> usize {
         // Up to which z the term m is rounding: `z^m/m! < 1e-18`.
         static LIMITS: OnceLock<Vec<f64>> = OnceLock::new();
         let limits = LIMITS.get_or_init(|| {

@@ -9,8 +9,9 @@
 //! instead of C (`C B` vanishes); elsewhere they are not made.
 
 use super::{
-    block::{Blocks, Propagator},
+    block::Blocks,
     collocation::{NODES, NodeMatrix},
+    propagator::Propagator,
 };
 
 /// Row over the block state at each node, `[i * NODES + k]`.
