@@ -9,7 +9,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
-    size::{Cut, orbit_scale},
+    size::{Cut, orbit_scale, scale_from},
     solve::{approach, correct, has_minimal_period, integrator, solution, state_scale},
     state_scale::StateScale,
 };
@@ -86,9 +86,9 @@ impl<'a> Catalogue<'a> {
     ///
     /// # Errors
     /// [`OrbitError::Motion`] if it cannot be computed.
-    pub fn scale_of_motion(&mut self, state: &Vec<f64>) -> Result<StateScale, OrbitError> {
-        let (nodes, frequency_hz) = (std::slice::from_ref(state), self.frequency_hz);
-        Ok(Cut { phase: 0.0, nodes, frequency_hz, period_multiple: 1 }.scale(self.integrator())?)
+    pub fn scale_of_motion(&mut self, state: &[f64]) -> Result<StateScale, OrbitError> {
+        let frequency_hz = self.frequency_hz;
+        Ok(scale_from(self.integrator(), state, frequency_hz)?)
     }
 
     /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at equal phases, the first at `phase`.

@@ -13,7 +13,11 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError},
 };
 
-use crate::{PeriodicSolution, solve::unit_scale, state_scale::StateScale};
+use crate::{
+    PeriodicSolution,
+    solve::{state_scale, unit_scale},
+    state_scale::StateScale,
+};
 
 /// States in each excitation period.
 const PER_PERIOD: usize = 8;
@@ -82,6 +86,23 @@ impl<'a> Cut<'a> {
         }
         Ok(scale)
     }
+}
+
+/// The units in which the motion over the excitation period that begins with a state at phase 0 has the size one; those of the state alone where laws remember their impacts: the integrator
+/// knows what it has remembered for one motion only, which has yet to go on.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be computed.
+pub(crate) fn scale_from(
+    integrator: &mut ExactIntegrator,
+    state: &[f64],
+    frequency_hz: f64,
+) -> Result<StateScale, MotionError> {
+    if integrator.system().remembers_impacts() {
+        return Ok(state_scale(integrator.system(), state, frequency_hz));
+    }
+    let nodes = [state.to_vec()];
+    Cut { phase: 0.0, nodes: &nodes, frequency_hz, period_multiple: 1 }.scale(integrator)
 }
 
 /// The units in which an orbit has the size one.

@@ -6,7 +6,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     cut::search_cut,
     noise::Noise,
-    size::Cut,
+    size::scale_from,
     solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_of_rest, state_scale},
 };
 
@@ -160,8 +160,7 @@ fn settle(
         if found.is_some() {
             return Ok(found);
         }
-        let nodes = std::slice::from_ref(&state);
-        let scale = Cut { phase: 0.0, nodes, frequency_hz, period_multiple: 1 }.scale(&mut simulation)?;
+        let scale = scale_from(&mut simulation, &state, frequency_hz)?;
         if scale.distance(&before, &state) < SETTLED {
             return Ok(None);
         }

@@ -4,13 +4,13 @@
 //! repeats after N periods it is an attractor of period N. If not, it is chaotic or still settling, and the states that come back closest after N
 //! periods are near unstable orbits of that period (Auerbach and others, Phys. Rev. Lett. 58 (1987), 2387), to which Newton's method takes them.
 
-use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
+use hammerbeam_motion::{Stretch, System};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     cut::search_cut,
     matching::{distance_in_phase, states_at_phase},
-    size::{Cut, orbit_scale},
+    size::{orbit_scale, scale_from},
     solve::integrator,
     start::{attempt, attempt_nodes, simulate, starting_states},
     state_scale::StateScale,
@@ -100,7 +100,7 @@ impl Survey<'_> {
         for k in 0..self.effort.observed.max(3 * largest) {
             states.push(integrator.advance(&stretch, &states[k])?);
         }
-        let scale = self.scale(&mut integrator, &states[0])?;
+        let scale = scale_from(&mut integrator, &states[0], self.frequency_hz)?;
         if let Some(period) = repeats_after(&states, &scale, largest) {
             let wanted = self.multiples.contains(&(period as u32));
             let last = &states[states.len() - 1];
@@ -124,13 +124,6 @@ impl Survey<'_> {
             }
         }
         Ok(orbits)
-    }
-
-    /// Scale of the motion over the excitation period that begins with a state at phase 0.
-    fn scale(&self, integrator: &mut ExactIntegrator, state: &Vec<f64>) -> Result<StateScale, OrbitError> {
-        let nodes = std::slice::from_ref(state);
-        let period = Cut { phase: 0.0, nodes, frequency_hz: self.frequency_hz, period_multiple: 1 };
-        Ok(period.scale(integrator)?)
     }
 
     fn orbit(&self, begin: (f64, &[f64]), multiple: u32) -> Result<Option<PeriodicSolution>, OrbitError> {
