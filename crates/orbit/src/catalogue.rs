@@ -9,6 +9,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
+    size::{Cut, orbit_scale, scale_from},
     solve::{approach, correct, has_minimal_period, integrator, solution, state_scale},
     state_scale::StateScale,
 };
@@ -76,9 +77,18 @@ impl<'a> Catalogue<'a> {
         self.known.iter().filter(|known| known.solution.period_multiple == period_multiple).count()
     }
 
-    /// Scale of the states near `state`.
+    /// Scale of one state.
     pub fn scale(&self, state: &[f64]) -> StateScale {
         state_scale(self.system, state, self.frequency_hz)
+    }
+
+    /// Scale of the motion over the excitation period that begins with a state at phase 0.
+    ///
+    /// # Errors
+    /// [`OrbitError::Motion`] if it cannot be computed.
+    pub fn scale_of_motion(&mut self, state: &[f64]) -> Result<StateScale, OrbitError> {
+        let frequency_hz = self.frequency_hz;
+        Ok(scale_from(self.integrator(), state, frequency_hz)?)
     }
 
     /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at equal phases, the first at `phase`.
@@ -89,9 +99,10 @@ impl<'a> Catalogue<'a> {
         (phase, nodes): (f64, &[Vec<f64>]),
         period_multiple: u32,
     ) -> Result<Option<Arrived>, OrbitError> {
-        let integrator = self.integrator.take().expect("it is back after every use");
         let shape = (period_multiple, nodes.len());
-        let scale = self.scale(&nodes[0]);
+        let guess = Cut { phase, nodes, frequency_hz: self.frequency_hz, period_multiple };
+        let Ok(scale) = guess.scale(self.integrator()) else { return Ok(None) };
+        let integrator = self.integrator.take().expect("it is back after every use");
         let mut problem = ShootingProblem::new(integrator, shape, scale, 1.0).beginning_at(phase);
         let result = approach(&mut problem, nodes, self.frequency_hz, self.settings)
             .and_then(|(point, correction)| self.arrive(&mut problem, &point, correction));
@@ -125,7 +136,7 @@ impl<'a> Catalogue<'a> {
                 return Ok(Some(Arrived { place, is_new: false }));
             }
         }
-        let scale = self.scale(&found.nodes[0]);
+        let scale = orbit_scale(problem.integrator(), &found)?;
         if has_minimal_period(problem.integrator(), &scale, &found)? {
             return self.add(problem.integrator(), found, scale).map(Some);
         }
@@ -146,11 +157,13 @@ impl<'a> Catalogue<'a> {
         state: &[f64],
         part: u32,
     ) -> Result<Option<Arrived>, OrbitError> {
-        let motion = integrator(self.system, self.response, self.settings)?;
-        let scale = self.scale(state);
-        let mut shorter =
-            ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).beginning_at(problem.phase());
-        let mut point = shorter.point(&[state.to_vec()], self.frequency_hz);
+        let mut motion = integrator(self.system, self.response, self.settings)?;
+        let nodes = [state.to_vec()];
+        let (phase, frequency_hz) = (problem.phase(), self.frequency_hz);
+        let guess = Cut { phase, nodes: &nodes, frequency_hz, period_multiple: part };
+        let Ok(scale) = guess.scale(&mut motion) else { return Ok(None) };
+        let mut shorter = ShootingProblem::new(motion, (part, 1), scale.clone(), 1.0).beginning_at(phase);
+        let mut point = shorter.point(&nodes, frequency_hz);
         let Ok(correction) = correct(&mut shorter, &mut point, self.settings) else { return Ok(None) };
         let found = solution(&mut shorter, &point, correction)?;
         if scale.distance(&found.nodes[0], state) > SAME {

@@ -177,7 +177,7 @@ impl Search<'_> {
                 continue;
             }
             self.check_interrupted()?;
-            let scale = self.catalogue.scale(&states[period]);
+            let scale = self.catalogue.scale_of_motion(&states[period])?;
             let comes_back = |lag: usize| {
                 lag <= period && scale.distance(&states[period], &states[period - lag]) < SETTLED
             };
@@ -191,7 +191,7 @@ impl Search<'_> {
     /// Newton's method from the closest returns of a motion, one state per excitation period.
     fn search_returns(&mut self, states: &[Vec<f64>]) -> Result<(), OrbitError> {
         let multiple = self.period_multiple;
-        let scale = self.catalogue.scale(&states[0]);
+        let scale = self.catalogue.scale_of_motion(&states[0])?;
         for nodes in nearest_returns(states, &scale, multiple as usize, TRIED) {
             self.check_interrupted()?;
             // Newton's method from all states and from the first one alone go different ways; either may arrive.

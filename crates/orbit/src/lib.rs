@@ -8,7 +8,7 @@
 //! | file | idea |
 //! |---|---|
 //! | `shooting.rs` | the equations of multiple shooting, condensed to the first node; made for the path crate |
-//! | `continuation_parameter.rs`, `state_scale.rs` | what varies along a branch; in which units states are measured |
+//! | `continuation_parameter.rs`, `state_scale.rs`, `size.rs` | what varies along a branch; in which units states are measured; the size of an orbit |
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
 //! | `start.rs`, `reach.rs`, `neighbour.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere; from the orbit of a slightly different system |
 //! | `find.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, the orbits known, Newton's method from many states, where branches cross the frequency |
@@ -87,6 +87,7 @@ mod resegment;
 mod sampling;
 mod settings;
 mod shooting;
+mod size;
 mod solution;
 mod solve;
 mod splitting;

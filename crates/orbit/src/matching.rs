@@ -10,7 +10,8 @@ use hammerbeam_motion::{
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
-    solve::{integrator, nodes_from, orbit_near, state_scale},
+    size::orbit_scale,
+    solve::{integrator, nodes_from, orbit_near},
     state_scale::StateScale,
 };
 
@@ -75,7 +76,7 @@ impl<'a> Matcher<'a> {
         settings: &'a OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let mut integrator = integrator(system, response, settings)?;
-        let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
+        let scale = orbit_scale(&mut integrator, orbit)?;
         let phases = states_at_phase(&mut integrator, orbit, orbit.phase)?;
         Ok(Self { system, response, settings, orbit, scale, phases })
     }

@@ -14,7 +14,8 @@ use hammerbeam_path::PathProblem;
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     shooting::ShootingProblem,
-    solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_from, solution, state_scale},
+    size::orbit_scale,
+    solve::{correct_in_plane, evaluate, integrator, newton_update, nodes_from, solution},
 };
 
 /// So many more corrections of an accepted orbit at most; they end where rounding keeps them from shrinking.
@@ -39,7 +40,7 @@ pub fn recompute(
         }
         _ => given.nodes.clone(),
     };
-    let scale = state_scale(system, &given.nodes[0], frequency_hz);
+    let scale = orbit_scale(&mut integrator, given)?;
     let mut problem =
         ShootingProblem::new(integrator, (multiple, nodes.len()), scale, 1.0).beginning_at(given.phase);
     let mut point = problem.point(&nodes, frequency_hz);

@@ -7,7 +7,9 @@ use hammerbeam_motion::{
 use hammerbeam_path::PathProblem;
 
 use crate::{
-    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, shooting::ShootingProblem,
+    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
+    shooting::ShootingProblem,
+    size::{Cut, distance_to_shorter_period},
     state_scale::StateScale,
 };
 
@@ -30,13 +32,20 @@ pub(crate) fn integrator(
     Ok(ExactIntegrator::watching(system.clone(), motion, watched)?)
 }
 
-/// Scale of the states of an orbit through `state`.
-pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
+/// Units of one `kg^1/2 m/s` about the place of rest.
+pub(crate) fn unit_scale(system: &System, frequency_hz: f64) -> StateScale {
     let reference = std::f64::consts::TAU * frequency_hz;
-    let frequencies = &system.model().natural_frequencies;
-    let rest = state_of_rest(system);
-    let size = StateScale::new(frequencies, reference, 1.0).about(rest.clone()).size(state);
-    StateScale::new(frequencies, reference, if size > 0.0 { size } else { 1.0 }).about(rest)
+    StateScale::new(&system.model().natural_frequencies, reference, 1.0).about(state_of_rest(system))
+}
+
+/// Scale of one state of which no more is known: how far about it starts are spread. Orbits, and guesses of them, are measured by their motion (`size.rs`).
+pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
+    let mut scale = unit_scale(system, frequency_hz);
+    let size = scale.size(state);
+    if size > 0.0 {
+        scale.multiply(size);
+    }
+    scale
 }
 
 /// Where the modes rest under the constant loads, without stops; rigid ones, which rest nowhere, at zero.
@@ -76,9 +85,15 @@ pub(crate) fn approach(
     let mut point = problem.point(nodes, frequency_hz);
     let correction = correct(problem, &mut point, settings)?;
     let reached = problem.nodes(&point);
-    let scale = state_scale(problem.integrator().system(), &reached[0], frequency_hz);
-    let factor = scale.values()[0] / problem.scale().values()[0];
-    if factor > COARSE {
+    // The whole motion is not much smaller than its nodes.
+    if problem.size(&point) > COARSE {
+        return Ok((point, correction));
+    }
+    let (phase, period_multiple) = (problem.phase(), problem.period_multiple());
+    let orbit = Cut { phase, nodes: &reached, frequency_hz, period_multiple };
+    let scale = problem.scale().clone();
+    let factor = orbit.size(problem.integrator(), &scale)?;
+    if factor > COARSE || factor == 0.0 {
         return Ok((point, correction));
     }
     // A guess far larger than the orbit has measured the error too coarsely.
@@ -215,39 +230,18 @@ pub(crate) fn has_minimal_period(
     Ok(distance >= 1e-6 * (1e-3 * largest).max(1.0))
 }
 
-/// Smallest distance of the state after a part of the orbit's periods that divides it from the state at the start, relative to the orbit;
-/// infinite for an orbit of one excitation period.
-pub(crate) fn distance_to_shorter_period(
-    integrator: &mut ExactIntegrator,
-    scale: &StateScale,
-    solution: &PeriodicSolution,
-) -> Result<f64, OrbitError> {
-    let multiple = solution.period_multiple;
-    let mut state = solution.nodes[0].clone();
-    let mut smallest = f64::INFINITY;
-    for cycle in 1..multiple {
-        let (start, frequency_hz) = (solution.phase, solution.frequency_hz);
-        let stretch = Stretch { frequency_hz, start, end: start + 1.0 };
-        state = integrator.advance(&stretch, &state)?;
-        if multiple.is_multiple_of(cycle) {
-            smallest =
-                smallest.min(scale.distance(&state, &solution.nodes[0]) / scale.size(&state).max(1e-3));
-        }
-    }
-    Ok(smallest)
-}
-
 /// Corrects an orbit near these nodes, one per segment, the first at that phase, at a fixed frequency.
 ///
 /// # Errors
 /// [`OrbitError::NotConverged`] if Newton's method fails, [`OrbitError::Motion`] if the motion does.
 pub(crate) fn orbit_near(
-    integrator: ExactIntegrator,
+    mut integrator: ExactIntegrator,
     (phase, nodes): (f64, &[Vec<f64>]),
     (frequency_hz, period_multiple): (f64, u32),
     settings: &OrbitSettings,
 ) -> Result<(PeriodicSolution, ShootingProblem), OrbitError> {
-    let scale = state_scale(integrator.system(), &nodes[0], frequency_hz);
+    let guess = Cut { phase, nodes, frequency_hz, period_multiple };
+    let scale = guess.scale(&mut integrator)?;
     let mut problem =
         ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0).beginning_at(phase);
     let (point, correction) = approach(&mut problem, nodes, frequency_hz, settings)?;

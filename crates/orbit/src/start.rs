@@ -6,6 +6,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
     cut::search_cut,
     noise::Noise,
+    size::scale_from,
     solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_of_rest, state_scale},
 };
 
@@ -156,9 +157,12 @@ fn settle(
         // Where a law remembers its impact, the orbit may begin at another phase, and the motion goes on behind it.
         let (begin, end) = search_cut(&mut simulation, &state, orbit)?;
         let found = attempt(system, response, begin.at(), orbit, settings)?;
-        let scale = state_scale(system, &state, frequency_hz);
-        if found.is_some() || scale.distance(&before, &state) < SETTLED {
+        if found.is_some() {
             return Ok(found);
+        }
+        let scale = scale_from(&mut simulation, &state, frequency_hz)?;
+        if scale.distance(&before, &state) < SETTLED {
+            return Ok(None);
         }
         state = end.unwrap_or(state);
     }

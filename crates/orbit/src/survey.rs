@@ -10,7 +10,8 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response,
     cut::search_cut,
     matching::{distance_in_phase, states_at_phase},
-    solve::{integrator, state_scale},
+    size::{orbit_scale, scale_from},
+    solve::integrator,
     start::{attempt, attempt_nodes, simulate, starting_states},
     state_scale::StateScale,
 };
@@ -99,7 +100,7 @@ impl Survey<'_> {
         for k in 0..self.effort.observed.max(3 * largest) {
             states.push(integrator.advance(&stretch, &states[k])?);
         }
-        let scale = state_scale(self.system, &states[0], self.frequency_hz);
+        let scale = scale_from(&mut integrator, &states[0], self.frequency_hz)?;
         if let Some(period) = repeats_after(&states, &scale, largest) {
             let wanted = self.multiples.contains(&(period as u32));
             let last = &states[states.len() - 1];
@@ -135,7 +136,7 @@ impl Survey<'_> {
             return Ok(false);
         }
         let mut integrator = integrator(self.system, self.response, self.settings)?;
-        let scale = state_scale(self.system, &orbit.nodes[0], self.frequency_hz);
+        let scale = orbit_scale(&mut integrator, orbit)?;
         let mut phases = states_at_phase(&mut integrator, orbit, orbit.phase)?;
         let mut at = orbit.phase;
         for known in same_period() {

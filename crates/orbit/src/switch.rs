@@ -12,7 +12,8 @@ use hammerbeam_path::{Direction, Follower, ParameterRange};
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     shooting::ShootingProblem,
-    solve::{evaluate, integrator, nodes_from, solution, state_scale},
+    size::orbit_scale,
+    solve::{evaluate, integrator, nodes_from, solution},
     walk::{hertz_per_norm, path_settings},
 };
 
@@ -84,7 +85,7 @@ impl Crossing {
         let (segments, phase) = (self.orbit.nodes.len() * self.factor as usize, self.orbit.phase);
         let nodes =
             nodes_from(&mut integrator, (phase, &self.orbit.nodes[0]), frequency_hz, multiple, segments)?;
-        let scale = state_scale(system, &self.orbit.nodes[0], frequency_hz);
+        let scale = orbit_scale(&mut integrator, &self.orbit)?;
         let mut problem =
             ShootingProblem::new(integrator, (multiple, segments), scale, 1.0).beginning_at(phase);
         let point = problem.point(&nodes, frequency_hz);
@@ -109,7 +110,7 @@ fn leave(
     let cut =
         Cut { frequency_hz: orbit.frequency_hz, phase: orbit.phase, period_multiple: multiple, segments };
     let Carried { nodes, slopes } = carry(&mut integrator, &orbit.nodes[0], &crossing.direction, &cut)?;
-    let scale = state_scale(system, &orbit.nodes[0], orbit.frequency_hz);
+    let scale = orbit_scale(&mut integrator, orbit)?;
     let length = hertz_per_norm(range_hz);
     let mut problem =
         ShootingProblem::new(integrator, (multiple, segments), scale, length).beginning_at(orbit.phase);

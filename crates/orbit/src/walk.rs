@@ -14,7 +14,8 @@ use crate::{
     located,
     recut::Origin,
     shooting::ShootingProblem,
-    solve::{distance_to_shorter_period, evaluate, integrator, nodes_from, solution, state_scale},
+    size::{Cut, distance_to_shorter_period, orbit_scale},
+    solve::{evaluate, integrator, nodes_from, solution},
 };
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
@@ -23,6 +24,8 @@ const MERGED: f64 = 1e-3;
 
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new units.
 const OUTGROWN: f64 = 4.0;
+/// At every so many accepted points the motion is gone through for its size.
+const LOOK: u64 = 8;
 
 /// Shortest step with rigid stops, over that without. An impact of the speed v depends on the orbit like `1/v`, and v on the distance from grazing like its root: a point of the path, good to its
 /// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
@@ -107,7 +110,7 @@ impl BranchWalk {
         settings: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
         let mut integrator = integrator(system, response, settings)?;
-        let scale = state_scale(system, &start.nodes[0], start.frequency_hz);
+        let scale = orbit_scale(&mut integrator, start)?;
         let (frequency, multiple) = (start.frequency_hz, start.period_multiple);
         let segments = segment_count(system, start, settings);
         let begin = (start.phase, start.nodes[0].as_slice());
@@ -244,8 +247,15 @@ impl BranchWalk {
     }
 
     /// Measures in units that fit the present orbit, so that tolerances and steps stay relative to it.
+    ///
+    /// Nodes may stay where they are while the orbit grows, and be far smaller than it: the motion itself decides, at every [`LOOK`]th point, or where the nodes have outgrown
+    /// the units, and then the orbit with them. Points are counted in the checkpoint.
     fn keep_to_scale(&mut self) {
-        let size = self.problem.size(&self.follower.current().point);
+        let due = self.follower.counters().accepted.is_multiple_of(LOOK);
+        if !due && self.problem.size(&self.follower.current().point) <= OUTGROWN {
+            return;
+        }
+        let Some(size) = self.size_of_motion() else { return };
         if (1.0 / OUTGROWN..=OUTGROWN).contains(&size) || !size.is_normal() {
             return;
         }
@@ -254,6 +264,17 @@ impl BranchWalk {
         self.problem.rescale(factor);
         self.follower.rescale(factor);
         self.last_rows.keep_newest();
+    }
+
+    /// Size of the present orbit relative to the scale; `None` if its motion cannot be computed.
+    fn size_of_motion(&mut self) -> Option<f64> {
+        let point = &self.follower.current().point;
+        self.problem.move_to(point).ok()?;
+        let (frequency_hz, nodes) = (self.problem.frequency(point), self.problem.nodes(point));
+        let (phase, period_multiple) = (self.problem.phase(), self.problem.period_multiple());
+        let scale = self.problem.scale().clone();
+        let orbit = Cut { phase, nodes: &nodes, frequency_hz, period_multiple };
+        orbit.size(self.problem.integrator(), &scale).ok()
     }
 
     /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so short that the walk crawls.

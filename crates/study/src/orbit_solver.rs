@@ -74,18 +74,25 @@ impl<'m> OrbitSolver<'m> {
     }
 }
 
+/// Closest tolerance of a contact step: rounding leaves a few times 1e-15 of the force open.
+const CLOSEST_MOTION: f64 = 1e-13;
+
 /// Settings of the orbit crate from those of a study.
+///
+/// A motion is computed ten times as closely as its orbit is asked for, down to where rounding decides, and never worse than by default.
 pub(crate) fn settings(continuation: &file::Continuation) -> OrbitSettings {
+    let usual = OrbitSettings::default();
     OrbitSettings {
         max_step_hz: continuation.max_step_hz,
         tolerance: continuation.tolerance,
+        motion_tolerance: (0.1 * continuation.tolerance).clamp(CLOSEST_MOTION, usual.motion_tolerance),
         segments: match continuation.segments {
             file::Segments::Auto => Segments::Automatic,
             file::Segments::Given(count) => Segments::Fixed(count as usize),
         },
         // The run itself keeps the budget of a walk, so that it can be raised later.
         max_solutions: usize::MAX,
-        ..OrbitSettings::default()
+        ..usual
     }
 }
 
@@ -184,5 +191,35 @@ impl Walk for BranchWalk {
 
     fn take_journal(&mut self) -> Vec<u8> {
         self.take_journal()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn motion_tolerance_at(tolerance: f64) -> f64 {
+        let continuation = file::Continuation {
+            max_step_hz: 0.01,
+            tolerance,
+            segments: file::Segments::Auto,
+            budget_solutions: 1,
+            budget_time_s: None,
+        };
+        settings(&continuation).motion_tolerance
+    }
+
+    #[test]
+    fn motion_is_computed_ten_times_as_closely_as_its_orbit_is_asked_for() {
+        assert!((motion_tolerance_at(1e-11) / 1e-12 - 1.0).abs() < 1e-12);
+        assert_eq!(motion_tolerance_at(1e-13), CLOSEST_MOTION);
+    }
+
+    #[test]
+    fn loose_and_default_tolerances_leave_the_motion_as_it_is() {
+        let usual = OrbitSettings::default();
+        for tolerance in [usual.tolerance, 1e-4] {
+            assert_eq!(motion_tolerance_at(tolerance).to_bits(), usual.motion_tolerance.to_bits());
+        }
     }
 }

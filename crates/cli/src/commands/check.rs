@@ -74,9 +74,16 @@ fn text(study: &Study, model: &Model) -> String {
     let continuation = &study.continuation;
     lines.push(format!(
         "continuation steps of at most {} Hz, tolerance {:e}, at most {} solutions on each side of a start",
-        continuation.max_step_hz, continuation.tolerance, continuation.budget_solutions
+        rounded(continuation.max_step_hz),
+        continuation.tolerance,
+        continuation.budget_solutions
     ));
     lines.join("\n")
+}
+
+/// A number to six significant digits: a five-thousandth of a range has no short decimal fraction.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 fn beam_text(beam: &Beam) -> String {

@@ -14,7 +14,8 @@ use super::{
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     eigenvalues::eigenvalues,
-    solve::{integrator, nodes_from, observe, state_scale},
+    size::orbit_scale,
+    solve::{integrator, nodes_from, observe},
 };
 
 /// What is followed.
@@ -158,11 +159,12 @@ impl CurveWalk {
         let mut integrator = integrator(system, response, orbits)?;
         integrator.differentiate_by(Some(settings.parameter))?;
         let contacts = integrator.touches().len();
+        let scale = orbit_scale(&mut integrator, start)?;
         let mut shooting = Shooting {
             integrator,
             parameter: settings.parameter,
             period_multiple: start.period_multiple,
-            scale: state_scale(system, &start.nodes[0], start.frequency_hz),
+            scale,
             count: start.nodes.len(),
             segments: Vec::new(),
             products: Vec::new(),

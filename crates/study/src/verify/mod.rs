@@ -1,8 +1,8 @@
 //! Stored solutions, computed again by the general integrator, which shares nothing with the one that made them but the laws.
 //!
 //! # Formulae
-//! States are scaled: displacements with `V / max(w_i, 2 pi f)`, velocities with `V`, so that the largest node has the norm 1; `|.|` is the
-//! Euclidean norm, of matrices Frobenius'. From the first node `z_0` of a solution the motion goes over the whole orbit period; `Z_k` is its
+//! States are scaled: displacements with `V / max(w_i, 2 pi f)`, velocities with `V`, so that the orbit has the size 1: the root mean square of the norms of its
+//! states at equal phases, eight or more in each excitation period; `|.|` is the Euclidean norm, of matrices Frobenius'. From the first node `z_0` of a solution the motion goes over the whole orbit period; `Z_k` is its
 //! state at the phase of node k, `A_k = dZ_k/dz_0`, `k = 1..=m`, `z_m = z_0`. What is wrong with the first node by `e` is wrong by
 //! `|A_k| e` later, so all errors are judged by `G = 1 + max_k |A_k|`. With the tolerance `tau`:
 //!
@@ -213,7 +213,7 @@ fn compare_all(
 
 fn compare_one(model: &Model, stored: &Stored, settings: &VerifySettings) -> Compared {
     let (solution, tolerance) = (&stored.solution, settings.tolerance);
-    let scales = scales(&model.system, solution);
+    let scales = scales(&model.system, solution).map_err(|failed| failed.to_string())?;
     let motion = GeneralSettings::with_tolerance(motion_tolerance(tolerance));
     let found = recompute(model, solution, &scales, &motion).map_err(|failed| failed.to_string())?;
     let observed = (&model.system, model.response.shape.as_slice());

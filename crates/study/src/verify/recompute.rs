@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use faer::Mat;
 use hammerbeam_motion::{
     Stretch, System,
-    general::{GeneralError, GeneralSettings, Observed, observe},
+    general::{GeneralError, GeneralSettings, Observed, observe, sample},
 };
 use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
 
@@ -47,14 +47,44 @@ impl std::fmt::Display for Failed {
     }
 }
 
-/// Scales of a state: displacements `V / max(w_i, 2 pi f)`, velocities `V`, so that the largest node has the norm 1.
-pub(super) fn scales(system: &System, solution: &PeriodicSolution) -> Vec<f64> {
+/// States in each excitation period that tell the size of an orbit.
+const PER_PERIOD: usize = 8;
+/// Tolerance of the steps to them: the size is a measure, not a result.
+const SIZE: f64 = 1e-6;
+
+/// Scales of a state: displacements `V / max(w_i, 2 pi f)`, velocities `V`, so that the states of the orbit have the norm 1 in the root mean square.
+pub(super) fn scales(system: &System, solution: &PeriodicSolution) -> Result<Vec<f64>, Failed> {
+    let size = 2 * system.dof();
+    if solution.nodes.is_empty() || solution.nodes.iter().any(|node| node.len() != size) {
+        return Err(Failed::Nodes);
+    }
     let reference = TAU * solution.frequency_hz;
     let rates = system.model().natural_frequencies.iter().map(|w| w.max(reference));
     let unit: Vec<f64> = rates.map(f64::recip).chain(vec![1.0; system.dof()]).collect();
-    let largest = solution.nodes.iter().map(|node| distance(node, None, &unit)).fold(0.0, f64::max);
-    let velocity = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
-    unit.iter().map(|scale| scale * velocity).collect()
+    let states = states(system, solution)?;
+    let squares: f64 = states.iter().map(|state| distance(state, None, &unit).powi(2)).sum();
+    let mean = (squares / states.len() as f64).sqrt();
+    let velocity = if mean > 0.0 && mean.is_finite() { mean } else { 1.0 };
+    Ok(unit.iter().map(|scale| scale * velocity).collect())
+}
+
+/// States of an orbit at equal phases, its nodes among them.
+fn states(system: &System, solution: &PeriodicSolution) -> Result<Vec<Vec<f64>>, Failed> {
+    let (periods, segments) = (solution.period_multiple as usize, solution.nodes.len());
+    let parts = (PER_PERIOD * periods).div_ceil(segments);
+    let phase = |k: usize| solution.phase + (periods * k) as f64 / (segments * parts) as f64;
+    let settings = GeneralSettings::with_tolerance(SIZE).state_only();
+    let mut states = Vec::with_capacity(segments * parts);
+    for (k, node) in solution.nodes.iter().enumerate() {
+        states.push(node.clone());
+        if parts > 1 {
+            let inner: Vec<f64> = (1..parts).map(|part| phase(k * parts + part)).collect();
+            let (start, end) = (phase(k * parts), inner[parts - 2]);
+            let stretch = Stretch { frequency_hz: solution.frequency_hz, start, end };
+            states.extend(sample(system, &stretch, node, &inner, &settings).map_err(Failed::Motion)?);
+        }
+    }
+    Ok(states)
 }
 
 fn distance(a: &[f64], b: Option<&[f64]>, scales: &[f64]) -> f64 {
@@ -70,9 +100,6 @@ pub(super) fn recompute(
     settings: &GeneralSettings,
 ) -> Result<Recomputed, Failed> {
     let (system, size, segments) = (&model.system, scales.len(), solution.nodes.len());
-    if segments == 0 || solution.nodes.iter().any(|node| node.len() != size) {
-        return Err(Failed::Nodes);
-    }
     let response = (model.response.shape.as_slice(), model.response.support_ratio);
     let mut settings = *settings;
     let (mut state, mut product) = (solution.nodes[0].clone(), Mat::<f64>::identity(size, size));

@@ -1,0 +1,65 @@
+//! Structures that rest on their stop at phase 0, in a state that is thousands of times smaller than their orbit.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::{Workshop, assert_success, stdout};
+
+/// 1 kg on 100 N/m, critically damped, pressed with 2 N against a stiff stop; the force of 10 N presses it on at phase 0.
+fn study(phase_rad: f64, tolerance: f64) -> Workshop {
+    Workshop::with(&format!(
+        r#"
+[structure]
+kind = "lumped"
+mass = [{{ name = "m", mass_kg = 1.0 }}]
+spring = [{{ between = ["m", "ground"], stiffness_n_m = 100.0 }}]
+[damping]
+modal_ratio = 1.0
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = 10.0
+phase_rad = {phase_rad}
+frequency_hz = [0.58, 0.61]
+[[stop]]
+at = "m"
+law = "hertz"
+stiffness_n_m15 = 1.0e6
+preload_n = 2.0
+side = "above"
+[search]
+frequencies = 4
+trials = 0
+[continuation]
+max_step_hz = 5e-4
+budget_solutions = 2000
+tolerance = {tolerance:e}
+"#
+    ))
+}
+
+/// Solutions that a run stores, every one of which is computed again and agrees: a residual of 1e-9 of the orbit is several millionths of the state at phase 0.
+fn verified(phase_rad: f64, tolerance: f64) -> u64 {
+    let workshop = study(phase_rad, tolerance);
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+    assert_success(&run);
+    let output = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
+    assert_success(&output);
+    let document: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    document["stored"].as_u64().unwrap()
+}
+
+/// Where the structure rests at phase 0 and, half a period later, where it flies.
+#[test]
+fn solutions_agree_whatever_the_phase_at_which_the_structure_rests() {
+    for phase_rad in [0.0, std::f64::consts::PI] {
+        assert!(verified(phase_rad, 1e-10) >= 60);
+    }
+}
+
+/// Five thousandths of a hertz are sixty steps; relative to the state at phase 0 a tolerance of 1e-12 of the orbit is below rounding, and the walk would make thousands of solutions.
+#[test]
+fn a_close_tolerance_does_not_make_a_walk_crawl() {
+    let (loose, close) = (verified(0.0, 1e-10), verified(0.0, 1e-12));
+    assert!(close < 2 * loose, "{close}, {loose}");
+}

@@ -1,0 +1,150 @@
+//! The size of an orbit: by its motion, not by the state with which it happens to begin.
+//!
+//! With `s_j` the states at equally spaced phases of the whole orbit, [`PER_PERIOD`] of them or a few more in each excitation period, nodes included, the size is the
+//! root of the mean of `|s_j|^2` in the energy norm (`state_scale.rs`). A structure that rests on its stop at phase 0 has a state there that is thousands of
+//! times smaller than its orbit; in units of that state every tolerance would be thousands of times too strict.
+//! For a motion of harmonics up to the third the mean is that of the whole motion, so that the size does not depend on the phase at which the orbit begins; else it
+//! does by as much as the higher harmonics hold.
+//!
+//! The motion is gone through once, without sensitivities, from each node to the next.
+
+use hammerbeam_motion::{
+    Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
+
+use crate::{
+    PeriodicSolution,
+    solve::{state_scale, unit_scale},
+    state_scale::StateScale,
+};
+
+/// States in each excitation period.
+const PER_PERIOD: usize = 8;
+
+/// A motion cut at equal phases: an orbit or a guess of one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Cut<'a> {
+    /// Phase of the first node [cycles].
+    pub phase: f64,
+    pub nodes: &'a [Vec<f64>],
+    pub frequency_hz: f64,
+    pub period_multiple: u32,
+}
+
+impl<'a> Cut<'a> {
+    /// That of an orbit.
+    pub fn of(orbit: &'a PeriodicSolution) -> Self {
+        Self {
+            phase: orbit.phase,
+            nodes: &orbit.nodes,
+            frequency_hz: orbit.frequency_hz,
+            period_multiple: orbit.period_multiple,
+        }
+    }
+
+    /// States at equally spaced phases, every node among them.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    fn states(&self, integrator: &mut ExactIntegrator) -> Result<Vec<Vec<f64>>, MotionError> {
+        let (periods, segments) = (self.period_multiple as usize, self.nodes.len());
+        let parts = (PER_PERIOD * periods).div_ceil(segments);
+        let phase = |k: usize| self.phase + (periods * k) as f64 / (segments * parts) as f64;
+        let mut states = Vec::with_capacity(segments * parts);
+        for (k, node) in self.nodes.iter().enumerate() {
+            states.push(node.clone());
+            if parts > 1 {
+                let inner: Vec<f64> = (1..parts).map(|part| phase(k * parts + part)).collect();
+                let (start, end) = (phase(k * parts), inner[parts - 2]);
+                let stretch = Stretch { frequency_hz: self.frequency_hz, start, end };
+                states.extend(integrator.trace(&stretch, node, &inner)?.samples);
+            }
+        }
+        Ok(states)
+    }
+
+    /// Size of the motion in these units.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn size(&self, integrator: &mut ExactIntegrator, scale: &StateScale) -> Result<f64, MotionError> {
+        let states = self.states(integrator)?;
+        let scaled = states.iter().flat_map(|state| state.iter().zip(scale.values()).map(|(z, s)| z / s));
+        Ok(scale.size_of_scaled(scaled, states.len()))
+    }
+
+    /// The units in which the motion has the size one.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn scale(&self, integrator: &mut ExactIntegrator) -> Result<StateScale, MotionError> {
+        let mut scale = unit_scale(integrator.system(), self.frequency_hz);
+        let size = self.size(integrator, &scale)?;
+        if size > 0.0 {
+            scale.multiply(size);
+        }
+        Ok(scale)
+    }
+}
+
+/// The units in which the motion over the excitation period that begins with a state at phase 0 has the size one; those of the state alone where laws remember their impacts: the integrator
+/// knows what it has remembered for one motion only, which has yet to go on.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be computed.
+pub(crate) fn scale_from(
+    integrator: &mut ExactIntegrator,
+    state: &[f64],
+    frequency_hz: f64,
+) -> Result<StateScale, MotionError> {
+    if integrator.system().remembers_impacts() {
+        return Ok(state_scale(integrator.system(), state, frequency_hz));
+    }
+    let nodes = [state.to_vec()];
+    Cut { phase: 0.0, nodes: &nodes, frequency_hz, period_multiple: 1 }.scale(integrator)
+}
+
+/// The units in which an orbit has the size one.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be computed.
+pub(crate) fn orbit_scale(
+    integrator: &mut ExactIntegrator,
+    orbit: &PeriodicSolution,
+) -> Result<StateScale, MotionError> {
+    Cut::of(orbit).scale(integrator)
+}
+
+/// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to the orbit, as the root of the mean of squares over the states of its
+/// first excitation period; infinite for an orbit of one excitation period.
+///
+/// At a single phase the orbits of a structure that rests there on its stop are all alike.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be computed.
+pub(crate) fn distance_to_shorter_period(
+    integrator: &mut ExactIntegrator,
+    scale: &StateScale,
+    orbit: &PeriodicSolution,
+) -> Result<f64, MotionError> {
+    let multiple = orbit.period_multiple as usize;
+    let divisors: Vec<usize> = (1..multiple).filter(|part| multiple.is_multiple_of(*part)).collect();
+    let Some(&largest) = divisors.last() else { return Ok(f64::INFINITY) };
+    let (start, count) = (orbit.phase, PER_PERIOD * (largest + 1));
+    let phases: Vec<f64> = (0..count).map(|k| start + k as f64 / PER_PERIOD as f64).collect();
+    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start, end: phases[count - 1] };
+    let states = integrator.trace(&stretch, &orbit.nodes[0], &phases)?.samples;
+    let first = &states[..PER_PERIOD];
+    let scaled = first.iter().flat_map(|state| state.iter().zip(scale.values()).map(|(z, s)| z / s));
+    let size = scale.size_of_scaled(scaled, PER_PERIOD).max(1e-3);
+    let distance = |periods: usize| {
+        let later = &states[periods * PER_PERIOD..];
+        let squares = first.iter().zip(later).map(|(a, b)| scale.distance(a, b).powi(2));
+        (squares.sum::<f64>() / PER_PERIOD as f64).sqrt() / size
+    };
+    Ok(divisors.into_iter().map(distance).fold(f64::INFINITY, f64::min))
+}
+
+#[cfg(test)]
+mod tests;
