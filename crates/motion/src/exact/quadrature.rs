@@ -4,10 +4,9 @@
 //! one pass over the step serves all nodes.
 
 use super::{
-    block::Blocks,
+    block::{Blocks, Propagator},
     collocation::{Grading, NODES},
     output::Output,
-    propagator::Propagator,
     recurrence::gauss_sixteen,
     weights::StepWeights,
 };

@@ -3,10 +3,9 @@
 use faer::Mat;
 
 use super::{
-    block::Blocks,
+    block::{Blocks, Propagator},
     collocation::NODES,
     lanes::{add_products, raise, vectorised},
-    propagator::Propagator,
     step_error::Tail,
 };
 

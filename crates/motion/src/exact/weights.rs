@@ -9,9 +9,8 @@
 //! instead of C (`C B` vanishes); elsewhere they are not made.
 
 use super::{
-    block::Blocks,
+    block::{Blocks, Propagator},
     collocation::{NODES, NodeMatrix},
-    propagator::Propagator,
 };
 
 /// Row over the block state at each node, `[i * NODES + k]`.
@@ -48,6 +47,8 @@ impl StepWeights {
     }
 
     pub fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
-        blocks.propagators(length, &mut self.propagators);
+        self.propagators.clear();
+        let pairs = blocks.stiffness.iter().zip(&blocks.damping);
+        self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, length)));
     }
 }
