@@ -165,7 +165,12 @@ fn a_pleat_of_sheets_is_walked_sheet_by_sheet_at_every_step() {
                     folds(&branch).len(),
                     evaluations_per_point(&branch)
                 );
-                assert_eq!(folds(&branch).len(), (last / spacing + 0.5).floor() as usize);
+                // The budget may end the walk on a fold, which is located to rounding.
+                let passed = last / spacing + 0.5;
+                let on_fold =
+                    branch.points.last().unwrap().events.fold && (passed - passed.round()).abs() < 1e-3;
+                let expected = if on_fold { passed.round() } else { passed.floor() };
+                assert_eq!(folds(&branch).len(), expected as usize);
             }
         }
     }
