@@ -11,113 +11,7 @@
 
 use faer::Mat;
 
-/// Exponential of one block over a time t: `[p; s](t) = [a b; c d] [p; s](0)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Propagator {
-    pub a: f64,
-    pub b: f64,
-    pub c: f64,
-    pub d: f64,
-}
-
-impl Propagator {
-    /// Propagator of `p'' + c p' + k p = 0` over `time`.
-    ///
-    /// With `h = c/2`, `D = k - h^2`: `exp(A t) = exp(-h t) (C I + S (A + h I))`, `C = cos(sqrt(D) t)` and
-    /// `S = sin(sqrt(D) t)/sqrt(D)`, continued to `D <= 0`.
-    #[inline]
-    pub fn new(stiffness: f64, damping: f64, time: f64) -> Self {
-        let half = 0.5 * damping;
-        let (cosine, sine) = decayed_cosine_and_sine(stiffness - half * half, half, time);
-        Self { a: cosine + half * sine, b: sine, c: -stiffness * sine, d: cosine - half * sine }
-    }
-
-    /// The propagator and its derivatives by the damping c and by the stiffness k.
-    ///
-    /// With `D' = -h`, `h' = 1/2` by c and `D' = 1`, `h' = 0` by k, from `C' = -t S D'/2` and `S' = (t C - S)/(2 D) D'`, which is
-    /// `t^3 (-1/6 + D t^2/60 - ...) D'`; for `D << 0` from the exponentials of the two roots.
-    pub fn with_derivatives(stiffness: f64, damping: f64, time: f64) -> (Self, Self, Self) {
-        let (k, half, t) = (stiffness, 0.5 * damping, time);
-        let discriminant = k - half * half;
-        let (cosine, sine) = decayed_cosine_and_sine(discriminant, half, t);
-        let square = discriminant * t * t;
-        let cosine_k = -0.5 * t * sine;
-        let (sine_k, cosine_c, sine_c);
-        if square < -SERIES {
-            let rate = (-discriminant).sqrt();
-            let slow = (-k / (half + rate) * t).exp();
-            let fast = (-(half + rate) * t).exp();
-            // `d/dc` of the exponents; `1 - h/rate = -k/(rate (h + rate))`.
-            let slow_c = 0.5 * t * k / (rate * (half + rate)) * slow;
-            let fast_c = -0.5 * t * (1.0 + half / rate) * fast;
-            sine_k = -(t * cosine - sine) / (2.0 * rate * rate);
-            cosine_c = 0.5 * (slow_c + fast_c);
-            sine_c = 0.5 * (slow_c - fast_c) / rate - 0.5 * sine * half / (rate * rate);
-        } else {
-            sine_k = if square > SERIES {
-                0.5 * (t * cosine - sine) / discriminant
-            } else {
-                (-half * t).exp() * t.powi(3) * sine_series_slope(square)
-            };
-            cosine_c = -0.5 * t * cosine - half * cosine_k;
-            sine_c = -0.5 * t * sine - half * sine_k;
-        }
-        let itself = Self { a: cosine + half * sine, b: sine, c: -k * sine, d: cosine - half * sine };
-        let turn = 0.5 * sine + half * sine_c;
-        let by_damping = Self { a: cosine_c + turn, b: sine_c, c: -k * sine_c, d: cosine_c - turn };
-        let by_stiffness = Self {
-            a: cosine_k + half * sine_k,
-            b: sine_k,
-            c: -sine - k * sine_k,
-            d: cosine_k - half * sine_k,
-        };
-        (itself, by_damping, by_stiffness)
-    }
-
-    /// Applies the propagator to `(p, s)`.
-    #[inline]
-    pub fn apply(&self, p: f64, s: f64) -> (f64, f64) {
-        (self.a * p + self.b * s, self.c * p + self.d * s)
-    }
-}
-
-/// Magnitude of `D t^2` up to which the derivative of S comes from its series.
-const SERIES: f64 = 0.5;
-
-/// `d/dx` of `sin(sqrt(x))/sqrt(x)`: `sum_m (-1)^m m x^(m-1)/(2 m + 1)!`.
-fn sine_series_slope(x: f64) -> f64 {
-    let mut sum = 0.0;
-    let mut term = -1.0 / 6.0;
-    for m in 1..10 {
-        let m = f64::from(m);
-        sum += m * term;
-        term *= -x / ((2.0 * m + 2.0) * (2.0 * m + 3.0));
-    }
-    sum
-}
-
-/// `exp(-h t) C(t)` and `exp(-h t) S(t)` of [`Propagator::new`].
-#[inline]
-fn decayed_cosine_and_sine(discriminant: f64, half: f64, time: f64) -> (f64, f64) {
-    let square = discriminant * time * time;
-    if square > 1e-4 {
-        let frequency = discriminant.sqrt();
-        let (sin, cos) = (frequency * time).sin_cos();
-        let decay = (-half * time).exp();
-        return (decay * cos, decay * sin / frequency);
-    }
-    if square < -1e-4 {
-        let rate = (-discriminant).sqrt();
-        // The slow root is k / (h + rate), free of the cancellation in h - rate.
-        let slow = (-(discriminant + half * half) / (half + rate) * time).exp();
-        let fast = (-(half + rate) * time).exp();
-        return (0.5 * (slow + fast), 0.5 * (slow - fast) / rate);
-    }
-    let decay = (-half * time).exp();
-    let cosine = 1.0 - square / 2.0 * (1.0 - square / 12.0 * (1.0 - square / 30.0));
-    let sine = time * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
-    (decay * cosine, decay * sine)
-}
+use super::propagator::{Propagator, Quad};
 
 /// The change of coordinates `z = S x` and back, where dampers couple the modes.
 #[derive(Debug, Clone)]
@@ -143,6 +37,43 @@ impl Blocks {
     /// Number of blocks n; block states are `[p; s]`, length 2n.
     pub fn count(&self) -> usize {
         self.stiffness.len()
+    }
+
+    /// Calls `with` with the propagator of each block over `time`.
+    #[inline(always)]
+    pub fn for_propagators(&self, time: f64, mut with: impl FnMut(usize, Propagator)) {
+        let n = self.count();
+        let mut quad = Quad::default();
+        for first in (0..n).step_by(4) {
+            let (stiffness, damping) = (four(&self.stiffness[first..]), four(&self.damping[first..]));
+            let serves = quad.set(&stiffness, &damping, time);
+            for lane in 0..(n - first).min(4) {
+                let of_one = || Propagator::new(stiffness[lane], damping[lane], time);
+                with(first + lane, if serves { quad.propagator(lane) } else { of_one() });
+            }
+        }
+    }
+
+    /// Block state after a free motion over `time` from `start`.
+    pub fn fly(&self, start: &[f64], time: f64, end: &mut [f64]) {
+        let n = self.count();
+        self.for_propagators(time, |i, propagator| {
+            (end[i], end[n + i]) = propagator.apply(start[i], start[n + i]);
+        });
+    }
+
+    /// Takes a block state over a free motion of that duration.
+    pub fn carry(&self, state: &mut [f64], time: f64) {
+        let n = self.count();
+        self.for_propagators(time, |i, propagator| {
+            (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
+        });
+    }
+
+    /// The propagators over `time`.
+    pub fn propagators(&self, time: f64, into: &mut Vec<Propagator>) {
+        into.clear();
+        self.for_propagators(time, |_, propagator| into.push(propagator));
     }
 
     /// Block state of a modal state `[q; q']`.
@@ -214,6 +145,16 @@ impl Blocks {
     }
 }
 
+/// The first four numbers; those that lack are as the first.
+#[inline]
+fn four(values: &[f64]) -> [f64; 4] {
+    values.first_chunk().copied().unwrap_or_else(|| {
+        let mut numbers = [values[0]; 4];
+        numbers.iter_mut().zip(values).for_each(|(number, value)| *number = *value);
+        numbers
+    })
+}
+
 fn multiply(matrix: &Mat<f64>, from: &[f64], to: &mut [f64]) {
     to.fill(0.0);
     for (j, &value) in from.iter().enumerate() {
@@ -227,81 +168,18 @@ fn multiply(matrix: &Mat<f64>, from: &[f64], to: &mut [f64]) {
 mod tests {
     use super::*;
 
-    fn taylor(stiffness: f64, damping: f64, time: f64) -> Propagator {
-        let steps = 1 << 12;
-        let h = time / f64::from(steps);
-        let mut columns = [(1.0, 0.0), (0.0, 1.0)];
-        for column in &mut columns {
-            for _ in 0..steps {
-                let (mut term, mut sum) = (*column, *column);
-                for m in 1..12 {
-                    let scale = h / f64::from(m);
-                    term = (term.1 * scale, (-stiffness * term.0 - damping * term.1) * scale);
-                    sum = (sum.0 + term.0, sum.1 + term.1);
-                }
-                *column = sum;
+    #[test]
+    fn propagators_of_many_blocks_are_those_of_each() {
+        for damping in [vec![0.3; 7], vec![0.3, 2.0, 0.1, 5.0, 0.0]] {
+            let stiffness: Vec<f64> = (0..damping.len()).map(|i| (1 + i * i) as f64).collect();
+            let blocks = Blocks { stiffness, damping, transform: None };
+            for time in [0.0, 1e-6, 0.7, 30.0, 1e7] {
+                let mut found = Vec::new();
+                blocks.propagators(time, &mut found);
+                let pairs = blocks.stiffness.iter().zip(&blocks.damping);
+                let expected: Vec<_> = pairs.map(|(&k, &c)| Propagator::new(k, c, time)).collect();
+                assert_eq!(found, expected, "{time}");
             }
         }
-        Propagator { a: columns[0].0, b: columns[1].0, c: columns[0].1, d: columns[1].1 }
-    }
-
-    #[test]
-    fn propagator_equals_the_power_series_for_every_kind_of_damping() {
-        for damping in [0.0, 0.3, 1.9999, 2.0, 2.0001, 3.0, 40.0] {
-            for stiffness in [1.0, 0.0] {
-                let (exact, series) =
-                    (Propagator::new(stiffness, damping, 1.7), taylor(stiffness, damping, 1.7));
-                for (x, y) in
-                    [(exact.a, series.a), (exact.b, series.b), (exact.c, series.c), (exact.d, series.d)]
-                {
-                    assert!((x - y).abs() < 1e-12, "{damping} {stiffness}: {x} {y}");
-                }
-            }
-        }
-    }
-
-    /// Against differences of fourth order of the propagator itself, for every kind of damping and on both sides of the series.
-    #[test]
-    fn derivatives_of_the_propagator_are_those_of_differences() {
-        let entries = |x: Propagator| [x.a, x.b, x.c, x.d];
-        for (stiffness, damping, time) in [
-            (1.0, 0.0, 1.7),
-            (1.0, 0.3, 0.2),
-            (1.0, 0.3, 30.0),
-            (1.0, 1.9999, 1.7),
-            (1.0, 2.0, 1.7),
-            (1.0, 2.3, 1.7),
-            (1.0, 2.6, 1.7),
-            (0.3, 40.0, 20.0),
-            (0.0, 2.0, 1.7),
-            (0.0, 0.0, 1.7),
-        ] {
-            let (itself, by_damping, by_stiffness) = Propagator::with_derivatives(stiffness, damping, time);
-            assert_eq!(itself.b, Propagator::new(stiffness, damping, time).b);
-            let difference = |at: &dyn Fn(f64) -> Propagator| {
-                let h = 1e-3 / time.max(1.0);
-                let [x, y, z, w] = [-2.0, -1.0, 1.0, 2.0].map(|k: f64| entries(at(k * h)));
-                std::array::from_fn::<f64, 4, _>(|i| (8.0 * (z[i] - y[i]) - (w[i] - x[i])) / (12.0 * h))
-            };
-            let by_c = difference(&|step| Propagator::new(stiffness, damping + step, time));
-            let by_k = difference(&|step| Propagator::new(stiffness + step, damping, time));
-            for (found, expected) in [(by_damping, by_c), (by_stiffness, by_k)] {
-                for (found, expected) in entries(found).iter().zip(expected) {
-                    // The rounding of the differences is 1e-16 over a step of 1e-3/t.
-                    let error = (found - expected).abs() / (1.0 + expected.abs());
-                    assert!(
-                        error < 1e-11 * time.max(1.0),
-                        "{stiffness} {damping} {time}: {found} {expected}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn long_overdamped_flight_neither_overflows_nor_cancels() {
-        let propagator = Propagator::new(1e-3, 1e3, 1e4);
-        let slow = 2e-3 / (1e3 + (1e6_f64 - 4e-3).sqrt());
-        assert!((propagator.a / (-slow * 1e4_f64).exp() - 1.0).abs() < 1e-8);
     }
 }

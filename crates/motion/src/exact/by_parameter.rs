@@ -96,6 +96,7 @@ impl ExactIntegrator {
             return self.rebuild(self.system.clone().with_parameter(parameter, value)?);
         }
         self.system.set_parameter(parameter, value)?;
+        self.drive.forget();
         self.course.clear();
         self.laws.clear();
         self.laws.extend(self.system.elements().iter().map(|element| element.law));

@@ -16,10 +16,7 @@
 
 use faer::c64;
 
-use super::{
-    block::{Blocks, Propagator},
-    secular::exponential,
-};
+use super::{block::Blocks, propagator::Propagator, secular::exponential};
 
 type Square = [[f64; 2]; 2];
 

@@ -87,8 +87,8 @@ pub(crate) struct Rule {
     pub at_end: Vec<[f64; NODES]>,
     /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed `[degree][node]`.
     pub coefficients: [[f64; NODES]; NODES],
-    /// Lagrange polynomials at [`FINE`]` + 1` equal steps of the variable, indexed `[place][node]`.
-    pub fine: Vec<[f64; NODES]>,
+    /// Lagrange polynomials at [`FINE`]` + 1` equal steps of the variable, indexed `[node][place]`, zero behind.
+    pub fine: [[f64; PLACES]; NODES],
     /// `c_k/c'(s_k)`: how far s moves at node k if the step becomes longer by a small part of itself.
     pub lag: [f64; NODES],
     /// `d l_j/ds` at `s_k`, indexed `[k][j]`.
@@ -104,6 +104,8 @@ pub(crate) struct Rule {
 
 /// Intervals of the table on which extrema in a step are looked for.
 pub(crate) const FINE: usize = 32;
+/// Its places, and as many behind them as make a multiple of four.
+pub(crate) const PLACES: usize = 36;
 
 impl Rule {
     fn new(grading: Grading) -> Self {
@@ -123,7 +125,7 @@ impl Rule {
             powers: powers(c),
             at_end: Vec::new(),
             coefficients,
-            fine: Vec::new(),
+            fine: [[0.0; PLACES]; NODES],
             lag: s.map(|s| grading.map(s).0 / grading.map(s).1),
             derivative: derivative(&s),
             to_bernstein: to_bernstein(&s, s[0]),
@@ -131,7 +133,10 @@ impl Rule {
             highest: recurrence.highest(),
             recurrence,
         };
-        rule.fine = (0..=FINE).map(|i| rule.lagrange(i as f64 / FINE as f64)).collect();
+        for place in 0..=FINE {
+            let lagrange = rule.lagrange(place as f64 / FINE as f64);
+            (0..NODES).for_each(|node| rule.fine[node][place] = lagrange[node]);
+        }
         let moments = |end: f64| rule.moments(grading, end, &fine);
         let node_moments: Vec<Vec<[f64; NODES]>> = s.iter().map(|&s| moments(s)).collect();
         rule.at_end = moments(1.0);
@@ -170,6 +175,20 @@ impl Rule {
     /// Bernstein coefficients of a polynomial over all of the step, from its values at the nodes.
     pub fn bernstein_of_whole(&self, values: &[f64; NODES]) -> [f64; NODES] {
         self.to_whole.map(|row| dot(&row, values))
+    }
+
+    /// Expansion of a polynomial in the orthonormal polynomials, from its values at the nodes.
+    #[inline(always)]
+    pub fn expansion(&self, values: &[f64]) -> [f64; NODES] {
+        let mut expansion = [0.0; NODES];
+        (0..NODES).for_each(|degree| expansion[degree] = dot(&self.coefficients[degree], values));
+        expansion
+    }
+
+    /// Values of a polynomial at several places, from its expansion.
+    #[inline(always)]
+    pub fn sums<const N: usize>(&self, expansion: &[f64; NODES], places: &[f64; N]) -> [f64; N] {
+        self.recurrence.sums(expansion, places)
     }
 
     /// Lagrange polynomials at `s`.

@@ -2,7 +2,6 @@
 
 use super::{
     ExactIntegrator, MotionError,
-    block::Propagator,
     clearance::{ClearanceBounds, Convex, Look, decide_convex, look},
     drive::Jet,
     run::Run,
@@ -72,9 +71,7 @@ impl ExactIntegrator {
         self.trace_flight(run, time);
         run.time = if touch.is_none() { end } else { run.time + time };
         if let Some(sensitivity) = &mut run.sensitivity {
-            self.propagators.clear();
-            let pairs = self.blocks.stiffness.iter().zip(&self.blocks.damping);
-            self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, time)));
+            self.blocks.propagators(time, &mut self.propagators);
             sensitivity.propagate(&self.propagators);
             self.add_damped_flight(time, &self.flight_start, sensitivity);
         }
@@ -83,12 +80,7 @@ impl ExactIntegrator {
 
     /// Puts the state of `run` to `time` after the start of the flight.
     fn place(&self, run: &mut Run, time: f64) {
-        let n = self.blocks.count();
-        for i in 0..n {
-            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
-            (run.state[i], run.state[n + i]) =
-                propagator.apply(self.flight_start[i], self.flight_start[n + i]);
-        }
+        self.blocks.fly(&self.flight_start, time, &mut run.state);
     }
 
     /// A time that is free of contact, counted from now, and the contact that closes at its end, if any.

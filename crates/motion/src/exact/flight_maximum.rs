@@ -5,21 +5,24 @@
 //! others halved, with Newton's method on the derivative: where the interval is proved concave and the method settles inside
 //! it, the maximum is found; elsewhere halving goes on down to [`ACCURACY`].
 
-use super::{ExactIntegrator, block::Propagator};
+use super::ExactIntegrator;
 
 /// Relative accuracy to which maxima in flight are enclosed.
 const ACCURACY: f64 = 1e-12;
+/// Part of the best value by which an interval of the first grid may exceed its ends.
+const EXCESS: f64 = 0.01;
 
 /// A flight that was flown.
-#[derive(Debug, Clone)]
-pub(super) struct Flown {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Flown<'a> {
     /// The stretch it is in.
     pub piece: usize,
     pub start: f64,
     pub duration: f64,
-    pub state: Vec<f64>,
+    /// Homogeneous block state at its start.
+    pub state: &'a [f64],
     /// Elements that were held on rigid stops.
-    pub held: Vec<usize>,
+    pub held: &'a [usize],
 }
 
 impl ExactIntegrator {
@@ -30,77 +33,93 @@ impl ExactIntegrator {
         (output, derivative): (usize, usize),
         best: f64,
     ) -> f64 {
-        let flight = FlightFunction::new(self, flown, (output, derivative));
-        let mut best = best;
-        if flight.largest <= best {
+        if self.flight_bound(flown, (output, derivative)) <= best {
             return best;
         }
-        let (first, last) = (flight.at(0.0), flight.at(flown.duration));
-        best = best.max(first.0.abs()).max(last.0.abs());
-        // Short enough for the curvature to add a tenth of the best, and at most four thousand intervals to begin with.
-        let spacing = if flight.bound > 0.0 { (0.8 * best / flight.bound).sqrt() } else { flown.duration };
+        let flight = FlightFunction::new(self, flown, (output, derivative));
+        let ends = [flight.at(0.0).0.abs(), flight.at(flown.duration).0.abs()];
+        let mut best = best.max(ends[0]).max(ends[1]);
+        // Short enough for the curvature to add little, and at most four thousand intervals to begin with.
+        let spacing =
+            if flight.bound > 0.0 { (8.0 * EXCESS * best / flight.bound).sqrt() } else { flown.duration };
         let count = (flown.duration / spacing).ceil().clamp(1.0, 4096.0) as usize;
         let values = flight.on_grid(count);
-        best = values.iter().fold(best, |best, value| best.max(value.abs()));
+        let highest = (0..=count).fold(0, |high, i| if values[i] > values[high] { i } else { high });
+        best = best.max(values[highest]);
         let width = flown.duration / count as f64;
-        for (i, ends) in values.windows(2).enumerate() {
-            flight.refine(
-                (i as f64 * width, ends[0].abs()),
-                ((i + 1) as f64 * width, ends[1].abs()),
-                &mut best,
-            );
+        // What is found next to the highest value leaves little of the others.
+        let nearest = highest.saturating_sub(1)..(highest + 1).min(count);
+        for i in nearest.clone().chain((0..count).filter(|i| !nearest.contains(i))) {
+            let place = |i: usize| (i as f64 * width, values[i]);
+            flight.refine(place(i), place(i + 1), &mut best);
         }
         best
+    }
+
+    /// Bound on the magnitude of displacement (0) or acceleration (2) of an output over a flight: each block within its energy norm.
+    fn flight_bound(&self, flown: &Flown, (index, derivative): (usize, usize)) -> f64 {
+        let (output, n) = (&self.outputs[index], self.blocks.count());
+        let until = flown.start + flown.duration;
+        let (factors, mut bound) = if derivative == 0 {
+            let driven = self.drive.magnitude(index) + self.drive.secular_magnitude(output, until);
+            (&output.value_bound, driven)
+        } else {
+            (&output.second_bound, self.drive.bounds(index, output, until).0)
+        };
+        for i in 0..n {
+            bound += factors[i] * self.energy_norm(flown.state, i);
+            // A rigid block moves on.
+            if derivative == 0 && self.blocks.stiffness[i] == 0.0 {
+                let (p, s) = (flown.state[i], flown.state[n + i]);
+                bound += output.row[i].abs() * (p.abs() + s.abs() * flown.duration);
+            }
+        }
+        bound
     }
 }
 
 /// A function of the time of a flight: an output or its second derivative.
 struct FlightFunction<'a> {
     integrator: &'a ExactIntegrator,
-    flown: &'a Flown,
+    flown: &'a Flown<'a>,
     output: usize,
     derivative: usize,
     /// Rows of the function and of its first two derivatives.
-    rows: [Vec<f64>; 3],
+    rows: [&'a [f64]; 3],
     /// Bound on the second derivative of the function.
     bound: f64,
     /// Bound on the third derivative of the function; infinite where none is known.
     third: f64,
-    /// Bound on the function.
-    largest: f64,
 }
 
 impl<'a> FlightFunction<'a> {
-    fn new(integrator: &'a ExactIntegrator, flown: &'a Flown, (index, derivative): (usize, usize)) -> Self {
-        let (output, blocks, drive) = (&integrator.outputs[index], &integrator.blocks, &integrator.drive);
-        let n = blocks.count();
+    fn new(
+        integrator: &'a ExactIntegrator,
+        flown: &'a Flown<'a>,
+        (index, derivative): (usize, usize),
+    ) -> Self {
+        let (output, drive) = (&integrator.outputs[index], &integrator.drive);
         let until = flown.start + flown.duration;
-        let mut row = output.row.clone();
-        (0..derivative).for_each(|_| row = blocks.row_times_system(&row));
-        let slope = blocks.row_times_system(&row);
-        let curvature = blocks.row_times_system(&slope);
         let energy = |factors: &[f64]| {
-            let norm =
-                |i: usize| (blocks.stiffness[i] * flown.state[i].powi(2) + flown.state[n + i].powi(2)).sqrt();
-            (0..n).map(|i| factors[i] * norm(i)).sum::<f64>()
+            let blocks = factors.iter().enumerate();
+            blocks.map(|(i, factor)| factor * integrator.energy_norm(flown.state, i)).sum::<f64>()
         };
-        let driven = drive.bounds(index, output, until);
-        let second = energy(&output.second_bound) + driven.0;
-        let (bound, third, largest) = if derivative == 0 {
-            (second, energy(&output.third_bound) + driven.1, f64::INFINITY)
+        let (rows, factors, driven) = if derivative == 0 {
+            let rows = [&output.row, &output.velocity_row, &output.acceleration_row];
+            (rows, [&output.second_bound, &output.third_bound], drive.bounds(index, output, until))
         } else {
-            let fourth = energy(&output.fourth_bound) + drive.fourth_bound(index, output, until);
-            (fourth, f64::INFINITY, second)
+            let rows = [&output.acceleration_row, &output.jerk_row, &output.snap_row];
+            let driven = (drive.fourth_bound(index, output, until), drive.fifth_bound(index));
+            (rows, [&output.fourth_bound, &output.fifth_bound], driven)
         };
         Self {
             integrator,
             flown,
             output: index,
             derivative,
-            rows: [row, slope, curvature],
-            bound,
-            third,
-            largest,
+            rows: rows.map(Vec::as_slice),
+            bound: energy(factors[0]) + driven.0,
+            third: energy(factors[1]) + driven.1,
         }
     }
 
@@ -109,52 +128,42 @@ impl<'a> FlightFunction<'a> {
         let blocks = &self.integrator.blocks;
         let n = blocks.count();
         let mut sums = self.driven(time);
-        for i in 0..n {
-            let propagator = Propagator::new(blocks.stiffness[i], blocks.damping[i], time);
+        blocks.for_propagators(time, |i, propagator| {
             let (p, s) = propagator.apply(self.flown.state[i], self.flown.state[n + i]);
             for (sum, row) in sums.iter_mut().zip(&self.rows) {
                 *sum += row[i] * p + row[n + i] * s;
             }
-        }
+        });
         (sums[0], sums[1], sums[2])
     }
 
-    /// Particular part of the function and of its first two derivatives (those of the acceleration by differences suffice: they
-    /// only steer Newton's method).
+    /// Particular part of the function and of its first two derivatives.
     fn driven(&self, time: f64) -> [f64; 3] {
-        let output = &self.integrator.outputs[self.output];
-        let jet = |t: f64| self.integrator.drive.jet(self.output, output, self.flown.start + t);
-        if self.derivative == 0 {
-            let here = jet(time);
-            return [here.value, here.slope, here.curvature];
-        }
-        let step = 1e-3 / self.integrator.drive.circular_frequency();
-        let (before, here, after) =
-            (jet(time - step).curvature, jet(time).curvature, jet(time + step).curvature);
-        [here, (after - before) / (2.0 * step), (after - 2.0 * here + before) / (step * step)]
+        let (it, time) = (self.integrator, self.flown.start + time);
+        let output = &it.outputs[self.output];
+        let jet = match self.derivative {
+            0 => it.drive.jet(self.output, output, time),
+            _ => it.drive.acceleration_jet(self.output, output, time),
+        };
+        [jet.value, jet.slope, jet.curvature]
     }
 
-    /// The function at `count + 1` equal steps over the flight.
+    /// Magnitudes of the function at `count + 1` equal steps over the flight.
     fn on_grid(&self, count: usize) -> Vec<f64> {
         let blocks = &self.integrator.blocks;
         let n = blocks.count();
         let step = self.flown.duration / count as f64;
-        let propagators: Vec<Propagator> =
-            (0..n).map(|i| Propagator::new(blocks.stiffness[i], blocks.damping[i], step)).collect();
-        let mut state = self.flown.state.clone();
+        let mut propagators = Vec::with_capacity(n);
+        blocks.propagators(step, &mut propagators);
+        let mut state = self.flown.state.to_vec();
         let mut values = Vec::with_capacity(count + 1);
         for place in 0..=count {
-            let jet = self.integrator.drive.jet(
-                self.output,
-                &self.integrator.outputs[self.output],
-                self.flown.start + place as f64 * step,
-            );
-            let mut value = if self.derivative == 0 { jet.value } else { jet.curvature };
+            let mut value = self.driven(place as f64 * step)[0];
             for i in 0..n {
                 value += self.rows[0][i] * state[i] + self.rows[0][n + i] * state[n + i];
                 (state[i], state[n + i]) = propagators[i].apply(state[i], state[n + i]);
             }
-            values.push(value);
+            values.push(value.abs());
         }
         values
     }

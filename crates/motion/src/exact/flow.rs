@@ -31,12 +31,19 @@ impl ExactIntegrator {
     pub fn steady_state(&mut self, stretch: &Stretch) -> Vec<f64> {
         self.let_go();
         let n = self.blocks.count();
-        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
+        self.drive_over(stretch);
         let mut block = vec![0.0; 2 * n];
         self.drive.add_state(0.0, 1.0, &mut block);
         let mut modal = vec![0.0; 2 * n];
         self.blocks.to_modal(&block, &mut modal);
         modal
+    }
+
+    /// Readies the particular solution over a stretch.
+    pub(super) fn drive_over(&mut self, stretch: &Stretch) {
+        if !self.drive.turn_to(stretch) {
+            self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
+        }
     }
 
     /// Flow over a stretch: the state at its end and its sensitivities.
@@ -67,7 +74,7 @@ impl ExactIntegrator {
         self.stretch = *stretch;
         self.contraction = 0.0;
         let n = self.blocks.count();
-        self.drive = Drive::new(&self.system, &self.blocks, &self.outputs, stretch);
+        self.drive_over(stretch);
         let mut run = std::mem::take(&mut self.run);
         run.time = 0.0;
         run.proposal = 0.0;

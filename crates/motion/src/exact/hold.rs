@@ -7,7 +7,6 @@
 
 use super::{
     ExactIntegrator, MotionError,
-    block::Propagator,
     change::Change,
     drive::Drive,
     flight::Boundary,
@@ -164,7 +163,7 @@ impl ExactIntegrator {
     /// Integrals of the pressing forces over a flight of the held structure, by Gauss' rule over panels that resolve every block [N s].
     pub(super) fn held_impulses(&self, state: &[f64], start: f64, duration: f64) -> Vec<f64> {
         let Some(holding) = &self.holding else { return Vec::new() };
-        let (n, s) = (self.blocks.count(), holding.held.elements.len());
+        let s = holding.held.elements.len();
         let rates = self.blocks.rates();
         let orders = self.system.orders().iter().copied().max().unwrap_or(0);
         let driven = f64::from(orders) * self.drive.circular_frequency();
@@ -177,10 +176,7 @@ impl ExactIntegrator {
             (0..panels).flat_map(|panel| gauss_sixteen().iter().map(move |node| (panel, node)))
         {
             let time = (panel as f64 + x) * width;
-            for i in 0..n {
-                let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
-                (moved[i], moved[n + i]) = propagator.apply(state[i], state[n + i]);
-            }
+            self.blocks.fly(state, time, &mut moved);
             for (j, sum) in sums.iter_mut().enumerate() {
                 let force = self.output_jet(&moved, self.outputs.len() - s + j, start + time).value;
                 *sum += weight * width * force;

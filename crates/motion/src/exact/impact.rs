@@ -33,7 +33,6 @@
 
 use super::{
     ExactIntegrator, MotionError,
-    block::Propagator,
     drive::Jet,
     flight::{Boundary, Touch},
     run::Run,
@@ -94,7 +93,7 @@ impl ExactIntegrator {
     ///
     /// A stretch may also start behind the stop, where a method asks for the motion from a state that cannot be. Then the impact was before, and the run goes back to it, to a negative
     /// time, so that the flow has a smooth continuation there.
-    fn settle_on_the_touch(&self, run: &mut Run, touch: Touch) {
+    fn settle_on_the_touch(&mut self, run: &mut Run, touch: Touch) {
         if self.forces_act(run) {
             return;
         }
@@ -112,7 +111,7 @@ impl ExactIntegrator {
             }
             shift += step;
             run.state.copy_from_slice(&start);
-            self.carry(&mut run.state, shift);
+            self.blocks.carry(&mut run.state, shift);
             if step.abs() <= 4.0 * f64::EPSILON * (run.time + shift).abs() || step.abs() <= 1e-9 * shift.abs()
             {
                 break;
@@ -124,19 +123,9 @@ impl ExactIntegrator {
         }
         run.time += shift;
         if let Some(sensitivity) = &mut run.sensitivity {
-            let blocks = self.blocks.stiffness.iter().zip(&self.blocks.damping);
-            let propagators: Vec<Propagator> = blocks.map(|(&k, &c)| Propagator::new(k, c, shift)).collect();
-            sensitivity.propagate(&propagators);
+            self.blocks.propagators(shift, &mut self.propagators);
+            sensitivity.propagate(&self.propagators);
             self.add_damped_flight(shift, &start, sensitivity);
-        }
-    }
-
-    /// Takes a homogeneous block state over a time of flight.
-    fn carry(&self, state: &mut [f64], time: f64) {
-        let n = self.blocks.count();
-        for i in 0..n {
-            let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], time);
-            (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
         }
     }
 
@@ -231,7 +220,7 @@ impl ExactIntegrator {
     /// `r''` of an element after a time of flight from now.
     fn press_after(&self, run: &Run, element: usize, time: f64) -> f64 {
         let mut state = run.state.clone();
-        self.carry(&mut state, time);
+        self.blocks.carry(&mut state, time);
         self.output_jet(&state, element, run.time + time).curvature
     }
 

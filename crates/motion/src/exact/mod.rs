@@ -5,25 +5,25 @@
 //! | file | idea |
 //! |---|---|
 //! | `flow.rs`, `run.rs` | a run over a stretch |
-//! | `block.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
-//! | `drive.rs`, `secular.rs` | the particular solution of the load |
+//! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
+//! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
 //! | `clearance.rs`, `flight.rs` | certified search for the next contact |
 //! | `collocation.rs`, `recurrence.rs` | the nodes of a step and its constants |
-//! | `weights.rs`, `series.rs`, `quadrature.rs` | the matrices of a step |
+//! | `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs` | the matrices of a step |
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `memory.rs` | laws that remember the speed of an impact |
 //! | `impact.rs` | impacts on rigid stops, chatter |
 //! | `held.rs`, `hold.rs` | the structure that is left while rigid stops are held; going over to it and back |
-//! | `lu.rs`, `lanes.rs` | small dense equations, loops on vectors |
+//! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
 //! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
 //! | `course.rs` | what a motion went through |
-//! | `maxima.rs`, `flight_maximum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 
 mod attempt;
@@ -38,7 +38,11 @@ mod course;
 mod damped_step;
 mod decouple;
 mod drive;
+mod drive_bounds;
+mod drive_values;
+mod elementary;
 mod event;
+mod extremum;
 mod flight;
 mod flight_maximum;
 mod flow;
@@ -52,11 +56,13 @@ mod lanes;
 mod lu;
 mod maxima;
 mod memory;
+mod moments;
 mod newton;
 mod onset;
 mod output;
 mod plane;
 mod polynomial;
+mod propagator;
 mod quadrature;
 mod recurrence;
 mod run;
@@ -65,6 +71,7 @@ mod secular;
 mod sensitivity;
 mod series;
 mod step_error;
+mod step_maximum;
 mod touching;
 mod trace;
 mod weights;
@@ -79,12 +86,13 @@ pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use trace::{ContactPiece, Touchdown, Trace};
 
-use block::{Blocks, Propagator};
+use block::Blocks;
 use collocation::Grading;
 use course::Course;
 use drive::Drive;
 use force_step::ForceStep;
 use output::Output;
+use propagator::Propagator;
 use run::Run;
 use series::Series;
 use weights::StepWeights;

@@ -11,6 +11,9 @@ pub(crate) struct Output {
     pub velocity_row: Vec<f64>,
     /// `row A^2`: the acceleration, apart from inputs.
     pub acceleration_row: Vec<f64>,
+    /// `row A^3` and `row A^4`.
+    pub jerk_row: Vec<f64>,
+    pub snap_row: Vec<f64>,
     /// Part of the support displacement [-].
     pub support_ratio: f64,
     /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the value, as far as its stiffness bounds it.
@@ -23,6 +26,8 @@ pub(crate) struct Output {
     pub third_bound: Vec<f64>,
     /// The same for the fourth derivative.
     pub fourth_bound: Vec<f64>,
+    /// The same for the fifth derivative.
+    pub fifth_bound: Vec<f64>,
 }
 
 impl Output {
@@ -38,19 +43,24 @@ impl Output {
         let jerk_row = blocks.row_times_system(&acceleration_row);
         let second_bound = energy_factors(blocks, &acceleration_row);
         let third_bound = energy_factors(blocks, &jerk_row);
-        let fourth_bound = energy_factors(blocks, &blocks.row_times_system(&jerk_row));
+        let snap_row = blocks.row_times_system(&jerk_row);
+        let fourth_bound = energy_factors(blocks, &snap_row);
+        let fifth_bound = energy_factors(blocks, &blocks.row_times_system(&snap_row));
         let (value_bound, first_bound) =
             (energy_factors(blocks, &row), energy_factors(blocks, &velocity_row));
         Self {
             row,
             velocity_row,
             acceleration_row,
+            jerk_row,
+            snap_row,
             support_ratio,
             value_bound,
             first_bound,
             second_bound,
             third_bound,
             fourth_bound,
+            fifth_bound,
         }
     }
 }

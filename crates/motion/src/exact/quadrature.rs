@@ -4,9 +4,10 @@
 //! one pass over the step serves all nodes.
 
 use super::{
-    block::{Blocks, Propagator},
+    block::Blocks,
     collocation::{Grading, NODES},
     output::Output,
+    propagator::Propagator,
     recurrence::gauss_sixteen,
     weights::StepWeights,
 };

@@ -48,6 +48,22 @@ impl Recurrence {
         values
     }
 
+    /// Sums of an expansion in the orthonormal polynomials at several places.
+    #[inline(always)]
+    pub fn sums<const N: usize>(&self, expansion: &[f64; NODES], places: &[f64; N]) -> [f64; N] {
+        let (mut before, mut current) = ([0.0; N], [1.0 / self.beta[0]; N]);
+        let mut sums = current.map(|first| expansion[0] * first);
+        for degree in 0..NODES - 1 {
+            let inverse = 1.0 / self.beta[degree + 1];
+            for i in 0..N {
+                let next = (places[i] - self.alpha[degree]) * current[i] - self.beta[degree] * before[i];
+                (before[i], current[i]) = (current[i], next * inverse);
+                sums[i] += expansion[degree + 1] * current[i];
+            }
+        }
+        sums
+    }
+
     /// Largest magnitude of the two polynomials of highest degree: like all Jacobi polynomials with weights that do not grow beyond
     /// the ends faster than a root, they have it at an end.
     pub fn highest(&self) -> f64 {
@@ -73,9 +89,12 @@ impl Recurrence {
 }
 
 /// Sixteen nodes and weights of Gauss-Legendre on [0, 1], made once.
-pub(crate) fn gauss_sixteen() -> &'static [(f64, f64)] {
-    static SIXTEEN: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
-    SIXTEEN.get_or_init(|| gauss_legendre(16))
+pub(crate) fn gauss_sixteen() -> &'static [(f64, f64); 16] {
+    static SIXTEEN: OnceLock<[(f64, f64); 16]> = OnceLock::new();
+    SIXTEEN.get_or_init(|| {
+        let rule = gauss_legendre(16);
+        std::array::from_fn(|k| rule[k])
+    })
 }
 
 /// Nodes and weights of Gauss-Legendre on [0, 1], by Newton's method on the Legendre polynomial.

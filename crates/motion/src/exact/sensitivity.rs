@@ -3,9 +3,10 @@
 use faer::Mat;
 
 use super::{
-    block::{Blocks, Propagator},
+    block::Blocks,
     collocation::NODES,
     lanes::{add_products, raise, vectorised},
+    propagator::Propagator,
     step_error::Tail,
 };
 

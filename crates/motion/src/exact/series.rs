@@ -21,19 +21,19 @@ pub(crate) type Readings = [f64; TERMS + 2];
 /// What the weights are made of: powers of the system on the rows and columns of the elements.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
-    rate: f64,
+    pub(super) rate: f64,
     /// Rate of each block [1/s].
     rates: Vec<f64>,
     /// Row of element e times `(A/rate)^m`, `[e][m][i]`.
     rows: Vec<Vec<Vec<f64>>>,
     /// `(A/rate)^m` times the column of element e, `[e][m][i]`.
-    columns: Vec<Vec<Vec<f64>>>,
+    pub(super) columns: Vec<Vec<Vec<f64>>>,
     /// The same of each element entry by entry, `[i * TERMS + m]`: rows and columns.
     entries: Vec<(Vec<f64>, Vec<f64>)>,
     /// Rows entry by entry from the first power on: those that read velocities, over the rate.
     velocity_entries: Vec<Vec<f64>>,
     /// `C_e (A/rate)^m B_f`, `[e * count + f][m]`.
-    markov: Vec<Vec<f64>>,
+    pub(super) markov: Vec<Vec<f64>>,
 }
 
 impl Series {
@@ -97,17 +97,6 @@ impl Series {
         REACH / self.rate
     }
 
-    /// Impulse response `C_e A^d exp(A t) B_f` of output e to input f (d = 0, 1, 2), for `t` within the reach.
-    pub fn impulse_response(&self, e: usize, f: usize, derivative: usize, time: f64) -> f64 {
-        let markov = &self.markov[e * self.columns.len() + f];
-        let z = time * self.rate;
-        let mut sum = 0.0;
-        for m in (derivative..=(Self::terms(z) + derivative).min(TERMS)).rev() {
-            sum = markov[m] + sum * z / (m - derivative + 1) as f64;
-        }
-        sum * self.rate.powi(derivative as i32)
-    }
-
     /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part and from direct forces:
     /// `C A^d (exp(A t) x + int exp(A (t - s)) B F ds)`.
     ///
@@ -122,29 +111,30 @@ impl Series {
         let rule = grading.rule();
         let z = length * self.rate;
         let terms = Self::terms(z).min(TERMS - derivative);
-        let mut values = [0.0; NODES];
-        let mut powers = [1.0; NODES];
-        let mut factor = length;
-        let count = self.columns.len();
-        for m in 0..terms {
-            let row = &self.rows[output][m + derivative];
-            let free = dot(row, state);
-            (0..NODES).for_each(|k| values[k] += powers[k] * free);
-            (0..NODES).for_each(|k| powers[k] *= z * rule.c[k] / (m + 1) as f64);
-            for (a, &e) in active.iter().enumerate() {
-                let weight = factor * self.markov[output * count + e][m + derivative];
-                let force = &force[a * NODES..(a + 1) * NODES];
-                for (row, force) in rule.at_nodes[m].iter().zip(force) {
-                    add_multiple(&mut values, weight * force, row);
-                }
+        let (powers, factors) = (Self::factors(1.0, z, terms), Self::factors(length, z, terms));
+        let (mut values, mut weights) = ([0.0; NODES], [[0.0; NODES]; TERMS]);
+        let mut free = [0.0; TERMS];
+        vectorised(
+            #[inline(always)]
+            || {
+                let rows = self.rows[output][derivative..].iter().zip(&powers[..terms]);
+                free.iter_mut().zip(rows).for_each(|(free, (row, power))| *free = power * dot(row, state));
+            },
+        );
+        add_products(&mut values, rule.powers.as_flattened(), NODES, |_| free[..terms].iter().copied());
+        for (&e, force) in active.iter().zip(force.as_chunks::<NODES>().0) {
+            let markov = &self.markov[output * self.columns.len() + e][derivative..];
+            for ((weights, factor), markov) in weights.iter_mut().zip(&factors[..terms]).zip(markov) {
+                *weights = force.map(|force| factor * markov * force);
             }
-            factor *= z;
+            let source = rule.at_nodes.as_flattened().as_flattened();
+            add_products(&mut values, source, NODES, |_| weights[..terms].as_flattened().iter().copied());
         }
         values.map(|value| value * self.rate.powi(derivative as i32))
     }
 
     /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
-    fn terms(z: f64) -> usize {
+    pub(super) fn terms(z: f64) -> usize {
         // Up to which z the term m is rounding: `z^m/m! < 1e-18`.
         static LIMITS: OnceLock<Vec<f64>> = OnceLock::new();
         let limits = LIMITS.get_or_init(|| {

@@ -76,7 +76,7 @@ impl ExactIntegrator {
             + (0..self.blocks.count()).map(|i| o.first_bound[i] * self.energy_norm(state, i)).sum::<f64>()
     }
 
-    fn energy_norm(&self, state: &[f64], block: usize) -> f64 {
+    pub(super) fn energy_norm(&self, state: &[f64], block: usize) -> f64 {
         let (p, s) = (state[block], state[self.blocks.count() + block]);
         (self.blocks.stiffness[block] * p * p + s * s).sqrt()
     }

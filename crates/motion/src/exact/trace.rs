@@ -10,8 +10,7 @@
 //! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
 use super::{
-    ExactIntegrator, MotionError, block::Propagator, collocation::NODES, flight::Touch,
-    flight_maximum::Flown, run::Run,
+    ExactIntegrator, MotionError, collocation::NODES, flight::Touch, flight_maximum::Flown, run::Run,
 };
 use crate::Stretch;
 
@@ -139,14 +138,9 @@ impl ExactIntegrator {
     pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
         let Some(mut tracing) = self.tracing.take() else { return };
         tracing.end_open(run);
-        let n = self.blocks.count();
         while let Some(time) = tracing.due(run.time + duration) {
             let mut state = self.flight_start.clone();
-            for i in 0..n {
-                let after = (time - run.time).max(0.0);
-                let propagator = Propagator::new(self.blocks.stiffness[i], self.blocks.damping[i], after);
-                (state[i], state[n + i]) = propagator.apply(state[i], state[n + i]);
-            }
+            self.blocks.carry(&mut state, (time - run.time).max(0.0));
             let pressing = self.pressing_forces(&state, time);
             tracing.trace.forces.push(pressing.into_iter().map(|force| 0.0 - force).collect());
             tracing.trace.samples.push(self.modal_of(state, time));
@@ -160,8 +154,8 @@ impl ExactIntegrator {
     /// Adds what held stops press with during a flight from the state at its start.
     fn trace_held(&self, run: &Run, duration: f64, tracing: &mut Tracing) {
         let impulses = self.held_impulses(&self.flight_start, run.time, duration);
-        let state = self.flight_start.clone();
-        let flown = Flown { piece: 0, start: run.time, duration, state, held: run.stuck.clone() };
+        let flown =
+            Flown { piece: 0, start: run.time, duration, state: &self.flight_start, held: &run.stuck };
         let first = self.outputs.len() - run.stuck.len();
         for (j, (&element, impulse)) in run.stuck.iter().zip(impulses).enumerate() {
             let Some(piece) = tracing.open[element] else { continue };
@@ -219,7 +213,7 @@ impl ExactIntegrator {
             piece.impulse += impulse.abs();
             piece.energy_lost += energy_lost;
             let force = &self.step.force[a * NODES..(a + 1) * NODES];
-            piece.peak_force = piece.peak_force.max(self.largest_of_polynomial(force).0);
+            piece.peak_force = piece.peak_force.max(self.step.grading().rule().extremum(force).0);
         }
         self.tracing = Some(tracing);
     }

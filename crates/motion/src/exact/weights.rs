@@ -9,8 +9,9 @@
 //! instead of C (`C B` vanishes); elsewhere they are not made.
 
 use super::{
-    block::{Blocks, Propagator},
+    block::Blocks,
     collocation::{NODES, NodeMatrix},
+    propagator::Propagator,
 };
 
 /// Row over the block state at each node, `[i * NODES + k]`.
@@ -47,8 +48,6 @@ impl StepWeights {
     }
 
     pub fn set_propagators(&mut self, blocks: &Blocks, length: f64) {
-        self.propagators.clear();
-        let pairs = blocks.stiffness.iter().zip(&blocks.damping);
-        self.propagators.extend(pairs.map(|(&k, &c)| Propagator::new(k, c, length)));
+        blocks.propagators(length, &mut self.propagators);
     }
 }

@@ -1,0 +1,69 @@
+//! Bounds on the particular solution (`drive.rs`) and on its derivatives: sums of the amplitudes of its orders, and what resonant loads can reach.
+
+use faer::c64;
+
+use super::{
+    drive::{Drive, Order},
+    output::Output,
+};
+
+impl Drive {
+    /// Bounds on the second and third derivative of the particular part of output `index` until `until`.
+    pub fn bounds(&self, index: usize, output: &Output, until: f64) -> (f64, f64) {
+        let mut bounds = (0.0, 0.0);
+        for order in &self.orders {
+            let w = order.order * self.circular_frequency;
+            let amplitude = magnitude(order.outputs[index].0);
+            bounds.0 += amplitude * w * w;
+            bounds.1 += amplitude * w * w * w;
+        }
+        for load in &self.secular {
+            let (second, third) = load.bounds(output, until);
+            bounds.0 += second;
+            bounds.1 += third;
+        }
+        bounds
+    }
+
+    /// Bound on the fourth derivative of the particular part of output `index` until `until`.
+    pub fn fourth_bound(&self, index: usize, output: &Output, until: f64) -> f64 {
+        let of_order = |order: &Order| {
+            magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(4)
+        };
+        self.orders.iter().map(of_order).sum::<f64>()
+            + self.secular.iter().map(|load| load.fourth_bound(output, until)).sum::<f64>()
+    }
+
+    /// Bound on the fifth derivative of the steady part of output `index`; infinite where a load is resonant.
+    pub fn fifth_bound(&self, index: usize) -> f64 {
+        if !self.secular.is_empty() {
+            return f64::INFINITY;
+        }
+        let of_order = |order: &Order| {
+            magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(5)
+        };
+        self.orders.iter().map(of_order).sum()
+    }
+
+    /// Largest value that the part of resonant loads in an output can take until `until`, for rounding margins.
+    pub fn secular_magnitude(&self, output: &Output, until: f64) -> f64 {
+        self.secular.iter().map(|load| load.magnitude(output, until)).sum()
+    }
+
+    /// Largest velocity that the steady part of output `index` can take.
+    pub fn speed(&self, index: usize) -> f64 {
+        let of_order =
+            |order: &Order| magnitude(order.outputs[index].0) * order.order * self.circular_frequency;
+        self.orders.iter().map(of_order).sum()
+    }
+
+    /// Largest value that the steady part of output `index` can take, for rounding margins.
+    pub fn magnitude(&self, index: usize) -> f64 {
+        self.orders.iter().map(|order| magnitude(order.outputs[index].0)).sum()
+    }
+}
+
+/// Magnitude of an amplitude; as far from the ends of the range of numbers as amplitudes are, no care is needed.
+fn magnitude(amplitude: c64) -> f64 {
+    amplitude.norm_sqr().sqrt()
+}
