@@ -13,22 +13,18 @@ mod common;
 
 use std::hint::black_box;
 
-use common::{beam, walk};
+use common::{beam, orbit_at, walk};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hammerbeam_motion::{
     Flow, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
 };
-use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, Side, find_start};
+use hammerbeam_orbit::{OrbitSettings, Side};
 
 /// Whether only a trial run is asked for.
 fn trial() -> bool {
     std::env::args().any(|argument| argument == "--test")
-}
-
-fn orbit((system, response): &(System, Response), frequency_hz: f64) -> PeriodicSolution {
-    find_start(system, response, frequency_hz, 1, &OrbitSettings::default()).unwrap()
 }
 
 /// Largest difference of the fundamental matrices in the energy norm's units, relative to the largest entry.
@@ -46,7 +42,7 @@ fn evaluation(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("evaluation");
     group.sample_size(20);
     for frequency_hz in [36.2, 33.6, 27.55] {
-        let orbit = orbit(&beam, frequency_hz);
+        let orbit = orbit_at(&beam, frequency_hz);
         let (system, state) = (&beam.0, &orbit.nodes[0]);
         let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
         let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-11 }).unwrap();
@@ -77,7 +73,7 @@ fn evaluation(criterion: &mut Criterion) {
 fn stretch_of_branch(criterion: &mut Criterion, (from_hz, to_hz): (f64, f64), max_step_hz: f64) {
     let beam = beam();
     let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
-    let start = orbit(&beam, from_hz);
+    let start = orbit_at(&beam, from_hz);
     let side = if to_hz > from_hz { Side::Up } else { Side::Down };
     let range = (from_hz.min(to_hz), from_hz.max(to_hz));
     let go = || walk(&beam.0, &beam.1, &start, side, range, &settings);
@@ -97,7 +93,7 @@ fn stretch_of_branch(criterion: &mut Criterion, (from_hz, to_hz): (f64, f64), ma
 fn whole_range((from_hz, range): (f64, (f64, f64)), max_step_hz: f64) {
     let beam = beam();
     let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
-    let start = orbit(&beam, from_hz);
+    let start = orbit_at(&beam, from_hz);
     let begun = std::time::Instant::now();
     let (mut solutions, mut evaluations) = (0, 0);
     for side in [Side::Down, Side::Up] {

@@ -6,17 +6,18 @@
 
 mod common;
 
-use common::{beam, walk};
-use hammerbeam_orbit::{OrbitSettings, Side, find_start};
+use common::{beam, orbit_at, walk};
+use hammerbeam_orbit::{OrbitSettings, Side};
 
 /// Evaluations per accepted solution on the way from one frequency to the other.
 fn evaluations_per_solution(from_hz: f64, to_hz: f64, max_step_hz: f64) -> f64 {
-    let (system, response) = beam();
+    let subject = beam();
+    let (system, response) = &subject;
     let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
-    let start = find_start(&system, &response, from_hz, 1, &settings).unwrap();
+    let start = orbit_at(&subject, from_hz);
     let side = if to_hz > from_hz { Side::Up } else { Side::Down };
     let range = (from_hz.min(to_hz), from_hz.max(to_hz));
-    let (rows, evaluations) = walk(&system, &response, &start, side, range, &settings);
+    let (rows, evaluations) = walk(system, response, &start, side, range, &settings);
     evaluations as f64 / (rows.len() - 1) as f64
 }
 

@@ -11,6 +11,7 @@ use hammerbeam_motion::{
 };
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason, find_start,
+    reach_orbit,
 };
 use hammerbeam_structure::{
     Beam, BeamPoint, Connection, Damping, End, GROUND, Lumped, LumpedMass, PointOutput, ReducedModel,
@@ -93,6 +94,11 @@ pub fn duffing() -> (System, Response) {
     let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
     let system = System::new(model, &load, vec![spring]).unwrap();
     (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+}
+
+/// The harmonic orbit at a frequency, along its branch from where motions settle on it.
+pub fn orbit_at((system, response): &(System, Response), frequency_hz: f64) -> PeriodicSolution {
+    reach_orbit(system, response, (frequency_hz, 1), &OrbitSettings::default(), &mut || false).unwrap()
 }
 
 /// Both sides of a harmonic branch joined, the lower end first, and the shooting evaluations they took.
