@@ -9,8 +9,8 @@ use std::sync::atomic::AtomicBool;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use faer::Mat;
 use hammerbeam_attractor::{
-    AttractorError, Axis, Basins, Effort, Grid, LyapunovSettings, Patience, SectionMap, SystemMap, lyapunov,
-    settle, state_scales,
+    AttractorError, Axis, Basins, Effort, Grid, LyapunovSettings, Part, Patience, SectionMap, SystemMap,
+    lyapunov, settle, state_scales,
 };
 use hammerbeam_motion::{
     Stretch, System,
@@ -57,7 +57,7 @@ impl SectionMap for GeneralMap {
         Ok(self.run(state, false).0)
     }
 
-    fn flow(&mut self, _: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+    fn flow(&mut self, _: Part, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
         Ok(self.run(state, true))
     }
 }

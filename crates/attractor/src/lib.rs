@@ -14,7 +14,7 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `section.rs` | motions, advanced section by section |
+//! | `section.rs`, `part.rs` | motions, advanced section by section; parts of sections |
 //! | `simulate.rs`, `poincare.rs` | motion in time with every contact; sections at a phase and at touches |
 //! | `sweep.rs` | stepped sweeps with the state carried over, diagrams from many states |
 //! | `grid.rs`, `basins.rs` | where the motions from a grid of states lead |
@@ -46,6 +46,7 @@ mod error;
 mod grid;
 mod lyapunov;
 mod parallel;
+mod part;
 mod poincare;
 mod random;
 mod section;
@@ -59,10 +60,9 @@ pub use basins::{Attractor, Basins, Round, fractions};
 pub use classify::{Class, Classified, Doubt, Effort, classify, examine};
 pub use error::AttractorError;
 pub use grid::{Axis, Grid};
-pub use lyapunov::{
-    BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov, sections_needed,
-};
+pub use lyapunov::{BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Spectrum, lyapunov};
 pub use parallel::in_order;
+pub use part::Part;
 pub use poincare::{Section, SectionPoint, poincare};
 pub use section::{FieldMap, SectionMap, StepMap, SystemMap, state_scales};
 pub use settle::{Patience, Settled, distance, settle};

@@ -20,7 +20,7 @@
 //! # Source
 //! See `tangents.rs`; Kaplan and Yorke, Lecture Notes in Mathematics 730 (1979), 204-227.
 
-use crate::{AttractorError, SectionMap, SystemMap, Tangents, error::ensure};
+use crate::{AttractorError, SectionMap, Tangents, error::ensure};
 
 /// Number of blocks.
 pub const BLOCKS: u64 = 20;
@@ -151,7 +151,7 @@ impl Lyapunov {
         if done == all {
             return Ok(false);
         }
-        let growth = self.tangents.step(map)?;
+        self.tangents.step(map)?;
         self.sections += 1;
         let averaged = self.sections.saturating_sub(self.settings.aligning);
         if averaged == 0 {
@@ -159,14 +159,14 @@ impl Lyapunov {
         }
         let length = self.settings.averaged / BLOCKS;
         if (averaged - 1).is_multiple_of(length) {
-            self.blocks.push(vec![0.0; growth.len()]);
+            self.blocks.push(vec![0.0; self.total.len()]);
             self.expected.push(Some(0.0));
         }
         if let Some(expected) = self.expected.last_mut() {
-            *expected = expected.zip(map.growth_of_volume()).map(|(sum, growth)| sum + growth);
+            *expected = expected.zip(self.tangents.growth_of_volume()).map(|(sum, growth)| sum + growth);
         }
         let block = self.blocks.last_mut().expect("the first section of a block begins it");
-        for ((total, block), growth) in self.total.iter_mut().zip(block).zip(growth) {
+        for ((total, block), growth) in self.total.iter_mut().zip(block).zip(self.tangents.growth()) {
             *total += growth;
             *block += growth;
         }
@@ -209,46 +209,6 @@ impl Lyapunov {
             convergence: self.convergence.clone(),
             time: whole as f64 * time,
         })
-    }
-}
-
-/// Largest difference of the logarithms of growth in one section at which all directions are told apart to six digits.
-const SPREAD: f64 = 13.8;
-/// Periods after which a number of sections is judged.
-const PILOT: u64 = 4;
-
-/// Number of sections into which a period has to be cut so that in none of them one direction grows by more than 1e6 against another.
-///
-/// # Errors
-/// The motion cannot be computed.
-pub fn sections_needed(map: &mut SystemMap, state: &[f64]) -> Result<u64, AttractorError> {
-    let (given, memory) = (map.parts(), map.integrator().memory());
-    let mut parts = 1;
-    loop {
-        map.set_parts(parts);
-        map.integrator().set_memory(memory.clone());
-        let mut tangents = Tangents::new(map, 0, state)?;
-        let mut spread = 0.0_f64;
-        for _ in 0..PILOT * parts {
-            let spread_now = tangents.step(map).map(|growth| {
-                let ends = growth
-                    .iter()
-                    .filter(|growth| growth.is_finite())
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), g| (low.min(*g), high.max(*g)));
-                ends.1 - ends.0
-            });
-            match spread_now {
-                Ok(now) => spread = spread.max(now),
-                Err(AttractorError::TangentsLost { .. }) => spread = f64::INFINITY,
-                Err(error) => return Err(error),
-            }
-        }
-        if spread <= SPREAD || parts >= 64 {
-            map.set_parts(given);
-            map.integrator().set_memory(memory);
-            return Ok(parts);
-        }
-        parts *= 2;
     }
 }
 

@@ -1,19 +1,23 @@
 //! What this room needs of a motion: the state, and the fundamental matrix, over one section.
 //!
 //! A section is a stretch of the motion that always has the same duration: a part of the excitation period of a [`System`], of the period or of the
-//! time of a vector field, or one step of a map. Sections are counted, so that a motion that depends on time knows its phase.
+//! time of a vector field, or one step of a map. Sections are counted, so that a motion that depends on time knows its phase. A fundamental matrix may be asked for over a part of a section
+//! ([`Part`]): over all of it one direction may grow so much more than another that this one is lost in rounding.
 
 use faer::Mat;
 use hammerbeam_motion::{
     Stretch, System,
-    exact::{ExactIntegrator, ExactSettings},
+    exact::{ContactMemory, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, VectorField, integrate},
 };
 
-use crate::AttractorError;
+use crate::{AttractorError, Part};
 
 /// How far behind a rigid stop a state counts as on it, relative to the displacement there.
 const ON_THE_STOP: f64 = 1e-9;
+
+/// Sections of motions in time can be halved so often.
+const MOST_HALVINGS: u32 = 12;
 
 /// A motion that is advanced section by section.
 pub trait SectionMap {
@@ -34,11 +38,19 @@ pub trait SectionMap {
     /// The motion cannot be computed.
     fn advance(&mut self, section: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError>;
 
-    /// State after the section of that number, and its derivative by the state before it.
+    /// State after a part of a section, and its derivative by the state before it.
     ///
     /// # Errors
     /// The motion cannot be computed.
-    fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError>;
+    fn flow(&mut self, part: Part, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError>;
+
+    /// How often a section can be halved.
+    fn most_halvings(&self) -> u32 {
+        0
+    }
+
+    /// Takes the last [`SectionMap::flow`] back, where the map holds more than the state says.
+    fn take_back(&mut self) {}
 
     /// What `ln |det P|` of the last [`SectionMap::flow`] has to be, where that is known otherwise; minus infinity where the motion lost directions for good.
     fn growth_of_volume(&self) -> Option<f64> {
@@ -52,6 +64,10 @@ pub struct SystemMap {
     integrator: ExactIntegrator,
     frequency_hz: f64,
     parts: u64,
+    /// What the integrator remembered before the last flow.
+    memory_before: Option<ContactMemory>,
+    /// Of the last flow.
+    growth_of_volume: Option<f64>,
 }
 
 impl SystemMap {
@@ -73,7 +89,8 @@ impl SystemMap {
             "1 to 1024",
             (1..=1024).contains(&parts),
         )?;
-        Ok(Self { integrator: ExactIntegrator::new(system, settings)?, frequency_hz, parts })
+        let integrator = ExactIntegrator::new(system, settings)?;
+        Ok(Self { integrator, frequency_hz, parts, memory_before: None, growth_of_volume: None })
     }
 
     /// The integrator, for what is not advanced in sections.
@@ -123,9 +140,9 @@ impl SystemMap {
         })
     }
 
-    fn stretch(&self, section: u64) -> Stretch {
-        let (part, parts) = ((section % self.parts) as f64, self.parts as f64);
-        Stretch { frequency_hz: self.frequency_hz, start: part / parts, end: (part + 1.0) / parts }
+    fn stretch(&self, part: Part) -> Stretch {
+        let ((start, end), parts) = (part.ends(self.parts), self.parts as f64);
+        Stretch { frequency_hz: self.frequency_hz, start: start / parts, end: end / parts }
     }
 }
 
@@ -151,18 +168,29 @@ impl SectionMap for SystemMap {
     }
 
     fn advance(&mut self, section: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError> {
-        Ok(self.integrator.advance(&self.stretch(section), state)?)
+        Ok(self.integrator.advance(&self.stretch(Part::whole(section)), state)?)
     }
 
-    fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
-        let flow = self.integrator.flow_onwards(&self.stretch(section), state)?;
+    fn flow(&mut self, part: Part, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+        self.memory_before = self.integrator.memory();
+        let flow = self.integrator.flow_onwards(&self.stretch(part), state)?;
+        let known = !self.integrator.system().remembers_impacts();
+        let of_damping = self.divergence() * self.duration() * part.share();
+        self.growth_of_volume = known.then(|| of_damping + self.integrator.contraction());
         Ok((flow.state, flow.by_state))
+    }
+
+    fn most_halvings(&self) -> u32 {
+        MOST_HALVINGS
+    }
+
+    fn take_back(&mut self) {
+        self.integrator.set_memory(self.memory_before.clone());
     }
 
     /// `-tr(M^-1 C)` times the duration, and what contacts contribute. Of laws that remember their impacts it is not known.
     fn growth_of_volume(&self) -> Option<f64> {
-        let known = !self.integrator.system().remembers_impacts();
-        known.then(|| self.divergence() * self.duration() + self.integrator.contraction())
+        self.growth_of_volume
     }
 }
 
@@ -194,13 +222,13 @@ impl<F: VectorField> FieldMap<F> {
 
     fn run(
         &mut self,
-        section: u64,
+        part: Part,
         state: &[f64],
         sensitivities: bool,
     ) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
-        let start = (section % self.parts) as f64 * self.duration;
+        let (start, end) = part.ends(self.parts);
         let settings = GeneralSettings { sensitivities, ..self.settings };
-        let flow = integrate(&mut self.field, start, start + self.duration, state, &settings)?;
+        let flow = integrate(&mut self.field, start * self.duration, end * self.duration, state, &settings)?;
         Ok((flow.state, flow.by_state))
     }
 }
@@ -215,11 +243,15 @@ impl<F: VectorField> SectionMap for FieldMap<F> {
     }
 
     fn advance(&mut self, section: u64, state: &[f64]) -> Result<Vec<f64>, AttractorError> {
-        Ok(self.run(section, state, false)?.0)
+        Ok(self.run(Part::whole(section), state, false)?.0)
     }
 
-    fn flow(&mut self, section: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
-        self.run(section, state, true)
+    fn flow(&mut self, part: Part, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+        self.run(part, state, true)
+    }
+
+    fn most_halvings(&self) -> u32 {
+        MOST_HALVINGS
     }
 }
 
@@ -250,7 +282,7 @@ impl<M: FnMut(&[f64]) -> (Vec<f64>, Mat<f64>)> SectionMap for StepMap<M> {
         Ok((self.map)(state).0)
     }
 
-    fn flow(&mut self, _: u64, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
+    fn flow(&mut self, _: Part, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
         Ok((self.map)(state))
     }
 }

@@ -4,16 +4,28 @@
 //! diagonal. The diagonal holds the growth of the volumes of order one, two and so on: their logarithms, summed, are what exponents are made of, and
 //! the sum over all of them is `ln |det P|` whatever the frame.
 //!
+//! **Parts.** Of a direction that shrinks by more than 1e16 against another over a section only rounding is left. So a section is cut into halves, and those again, until none has more than
+//! [`SPREAD`] between what its directions grow by: an impact on a rigid stop with the speed `v` stretches one direction by `1/v` and another by `v`, and in chaos that may be any speed. The
+//! next section begins with parts of the size with which this one has ended.
+//!
 //! # Source
 //! Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980), 9-20 and 21-30; Eckmann and Ruelle, Rev. Mod. Phys. 57 (1985), 617-656, section V.C. What differs: Householder's
 //! reflections instead of Gram-Schmidt, which loses the directions that shrink most.
 
 use faer::Mat;
 
-use crate::{AttractorError, SectionMap};
+use crate::{AttractorError, Part, SectionMap};
 
-/// Size of directions that are lost, relative to the largest.
-const LOST: f64 = 1e-20;
+/// Largest difference of the logarithms of growth in one part at which all directions are told apart to six digits and more.
+const SPREAD: f64 = 13.8;
+/// Parts are joined where it is less than this share of that.
+const CALM: f64 = 0.25;
+/// Logarithm of the growth against the largest below which a direction is rounding where some are lost for good.
+const LOST: f64 = -25.0;
+/// Directions that are lost with every stop that sticks.
+const LOST_AT_ONCE: usize = 2;
+/// What stands for directions that are lost, relative to the largest entry.
+const NOTHING: f64 = 1e-20;
 
 /// A state with its frame of tangent vectors.
 #[derive(Debug, Clone)]
@@ -23,8 +35,20 @@ pub struct Tangents {
     scales: Vec<f64>,
     /// Columns of `Q`, one after another, in scaled coordinates.
     frame: Vec<f64>,
-    /// Logarithms of the diagonal of the last `R`.
+    /// Logarithms of growth over the last section.
     growth: Vec<f64>,
+    /// What their sum has to be.
+    growth_of_volume: Option<f64>,
+    /// Halvings of the next section to begin with.
+    halvings: u32,
+}
+
+/// A frame after a part of a section, with the logarithms of the diagonal of `R`.
+struct Carried {
+    frame: Vec<f64>,
+    growth: Vec<f64>,
+    /// Difference between the largest and the smallest of those that are finite.
+    spread: f64,
 }
 
 impl Tangents {
@@ -39,50 +63,56 @@ impl Tangents {
         }
         let mut frame = vec![0.0; expected * expected];
         (0..expected).for_each(|i| frame[i * expected + i] = 1.0);
-        let scales = map.scales();
-        Ok(Self { state: state.to_vec(), section, scales, frame, growth: vec![0.0; expected] })
+        let (state, scales, growth) = (state.to_vec(), map.scales(), vec![0.0; expected]);
+        Ok(Self { state, section, scales, frame, growth, growth_of_volume: None, halvings: 0 })
     }
 
     /// Goes over the next section.
     ///
-    /// # Returns
-    /// `ln R_ii`, in descending order of volume: what each direction grew by.
     /// # Errors
     /// The motion cannot be computed, or the directions cannot be told apart any more.
-    pub fn step(&mut self, map: &mut impl SectionMap) -> Result<&[f64], AttractorError> {
-        let (state, matrix) = map.flow(self.section, &self.state)?;
-        self.state = state;
-        self.section += 1;
-        let n = self.state.len();
-        let mut product = self.times_frame(&matrix);
-        if map.growth_of_volume() == Some(f64::NEG_INFINITY) {
-            self.forget(&mut product);
-            return Ok(&self.growth);
-        }
-        if !triangularise(&mut product, n, &mut self.frame, &mut self.growth) {
-            return Err(AttractorError::TangentsLost { section: self.section });
-        }
-        Ok(&self.growth)
-    }
-
-    /// The same over a section in which directions are lost for good: what is left of them is rounding, so their growth is minus infinity. The frame keeps its size.
-    fn forget(&mut self, product: &mut [f64]) {
-        let n = self.state.len();
-        let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        if largest == 0.0 {
-            self.growth.fill(f64::NEG_INFINITY);
-            return;
-        }
-        // What is lost is made up for by directions far below all others, so that the frame stays one of unit vectors.
-        for (k, entry) in product.iter_mut().enumerate() {
-            if k / n == k % n {
-                *entry += LOST * largest;
+    pub fn step(&mut self, map: &mut impl SectionMap) -> Result<(), AttractorError> {
+        self.growth.fill(0.0);
+        self.growth_of_volume = Some(0.0);
+        let mut part = Part { section: self.section, number: 0, halvings: self.halvings };
+        while part.number >> part.halvings == 0 {
+            let (state, matrix) = map.flow(part, &self.state)?;
+            let product = self.times_frame(&matrix);
+            let volume = map.growth_of_volume();
+            let can_halve = part.halvings < map.most_halvings();
+            let carried = match carry(product, self.state.len(), volume == Some(f64::NEG_INFINITY)) {
+                Some(carried) if carried.spread <= SPREAD || !can_halve => carried,
+                None if !can_halve => return Err(AttractorError::TangentsLost { section: self.section }),
+                _ => {
+                    map.take_back();
+                    part = Part { number: 2 * part.number, halvings: part.halvings + 1, ..part };
+                    continue;
+                }
+            };
+            self.state = state;
+            self.frame = carried.frame;
+            self.growth.iter_mut().zip(carried.growth).for_each(|(sum, growth)| *sum += growth);
+            self.growth_of_volume = self.growth_of_volume.zip(volume).map(|(sum, volume)| sum + volume);
+            part.number += 1;
+            if carried.spread < CALM * SPREAD && part.halvings > 0 && part.number.is_multiple_of(2) {
+                part = Part { number: part.number / 2, halvings: part.halvings - 1, ..part };
             }
         }
-        triangularise(product, n, &mut self.frame, &mut self.growth);
-        let most = self.growth.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let lost = self.growth.iter_mut().filter(|growth| **growth < most + LOST.ln() + 9.0);
-        lost.for_each(|growth| *growth = f64::NEG_INFINITY);
+        self.section += 1;
+        self.halvings = part.halvings;
+        Ok(())
+    }
+
+    /// `ln R_ii` of the last section, in descending order of volume: what each direction grew by; minus infinity where it is lost for good.
+    #[must_use]
+    pub fn growth(&self) -> &[f64] {
+        &self.growth
+    }
+
+    /// What the sum over the growth of the last section has to be, where [`SectionMap::growth_of_volume`] tells.
+    #[must_use]
+    pub fn growth_of_volume(&self) -> Option<f64> {
+        self.growth_of_volume
     }
 
     /// The state.
@@ -112,6 +142,35 @@ impl Tangents {
         }
         product
     }
+}
+
+/// The frame and its growth from the product of a fundamental matrix and a frame; `None` if the product is singular or not finite.
+///
+/// * `loses`: directions are lost for good; their growth is minus infinity, and the frame keeps its size by directions that nothing says anything of.
+fn carry(mut product: Vec<f64>, n: usize, loses: bool) -> Option<Carried> {
+    let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    if loses {
+        let nothing = if largest > 0.0 { NOTHING * largest } else { 1.0 };
+        (0..n).for_each(|i| product[i * (n + 1)] += nothing);
+    }
+    let (mut frame, mut growth) = (vec![0.0; n * n], vec![0.0; n]);
+    if !triangularise(&mut product, n, &mut frame, &mut growth) {
+        return None;
+    }
+    let mut all_told = true;
+    if loses {
+        let most =
+            if largest > 0.0 { growth.iter().copied().fold(f64::MIN, f64::max) } else { f64::INFINITY };
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&i, &j| growth[i].total_cmp(&growth[j]));
+        let lost = order.iter().take_while(|&&i| growth[i] < most + LOST).count();
+        all_told = lost >= LOST_AT_ONCE;
+        order.iter().take(lost.max(LOST_AT_ONCE)).for_each(|&i| growth[i] = f64::NEG_INFINITY);
+    }
+    let finite = || growth.iter().copied().filter(|growth| growth.is_finite());
+    let spread = finite().fold(f64::MIN, f64::max) - finite().fold(f64::MAX, f64::min);
+    let spread = if all_told { spread } else { f64::INFINITY };
+    Some(Carried { frame, growth, spread })
 }
 
 /// `A = Q R` by reflections: writes Q by columns and the logarithms of the diagonal of R, made positive. False if R is singular or not finite.

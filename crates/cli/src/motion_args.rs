@@ -70,9 +70,9 @@ pub struct LyapunovOptions {
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
     pub transient_periods: u64,
 
-    /// Orthonormalisations in a period [default: as many as the growth of the tangent vectors demands]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1024))]
-    pub sections_per_period: Option<u64>,
+    /// Sections in a period to begin with; each is cut further where tangent vectors grow too differently
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    pub sections_per_period: u64,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
     pub initial: String,
