@@ -90,13 +90,13 @@ impl System {
         std::array::from_fn(|k| dot(&element.shape, parts[k]) + element.support_ratio * u[k])
     }
 
-    /// Whether a state lies within a contact whose law remembers its impact, or at the very edge of one: how that contact began is not in the state.
+    /// Whether a state lies within a contact whose law remembers its impact: how that contact began is not in the state.
     #[must_use]
     pub fn is_in_remembered_contact(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> bool {
         let of_law = self.elements().iter().enumerate().filter(|(_, element)| element.law.remembers_impact());
         of_law.into_iter().any(|(number, element)| {
             let [r, ..] = self.relative_motion(number, frequency_hz, phase, state);
-            element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) >= 0.0)
+            element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) > 0.0)
         })
     }
 }

@@ -86,6 +86,36 @@ impl<'a> Cut<'a> {
         }
         Ok(scale)
     }
+
+    /// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to the orbit, as the root of the mean of squares over the states of its
+    /// first excitation period; infinite for an orbit of one excitation period.
+    ///
+    /// At a single phase the orbits of a structure that rests there on its stop are all alike.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn distance_to_shorter_period(
+        &self,
+        integrator: &mut ExactIntegrator,
+        scale: &StateScale,
+    ) -> Result<f64, MotionError> {
+        let multiple = self.period_multiple as usize;
+        let divisors: Vec<usize> = (1..multiple).filter(|part| multiple.is_multiple_of(*part)).collect();
+        let Some(&largest) = divisors.last() else { return Ok(f64::INFINITY) };
+        let (start, count) = (self.phase, PER_PERIOD * (largest + 1));
+        let phases: Vec<f64> = (0..count).map(|k| start + k as f64 / PER_PERIOD as f64).collect();
+        let stretch = Stretch { frequency_hz: self.frequency_hz, start, end: phases[count - 1] };
+        let states = integrator.trace(&stretch, &self.nodes[0], &phases)?.samples;
+        let first = &states[..PER_PERIOD];
+        let scaled = first.iter().flat_map(|state| state.iter().zip(scale.values()).map(|(z, s)| z / s));
+        let size = scale.size_of_scaled(scaled, PER_PERIOD).max(1e-3);
+        let distance = |periods: usize| {
+            let later = &states[periods * PER_PERIOD..];
+            let squares = first.iter().zip(later).map(|(a, b)| scale.distance(a, b).powi(2));
+            (squares.sum::<f64>() / PER_PERIOD as f64).sqrt() / size
+        };
+        Ok(divisors.into_iter().map(distance).fold(f64::INFINITY, f64::min))
+    }
 }
 
 /// The units in which the motion over the excitation period that begins with a state at phase 0 has the size one; those of the state alone where laws remember their impacts: the integrator
@@ -114,36 +144,6 @@ pub(crate) fn orbit_scale(
     orbit: &PeriodicSolution,
 ) -> Result<StateScale, MotionError> {
     Cut::of(orbit).scale(integrator)
-}
-
-/// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to the orbit, as the root of the mean of squares over the states of its
-/// first excitation period; infinite for an orbit of one excitation period.
-///
-/// At a single phase the orbits of a structure that rests there on its stop are all alike.
-///
-/// # Errors
-/// [`MotionError`] if the motion cannot be computed.
-pub(crate) fn distance_to_shorter_period(
-    integrator: &mut ExactIntegrator,
-    scale: &StateScale,
-    orbit: &PeriodicSolution,
-) -> Result<f64, MotionError> {
-    let multiple = orbit.period_multiple as usize;
-    let divisors: Vec<usize> = (1..multiple).filter(|part| multiple.is_multiple_of(*part)).collect();
-    let Some(&largest) = divisors.last() else { return Ok(f64::INFINITY) };
-    let (start, count) = (orbit.phase, PER_PERIOD * (largest + 1));
-    let phases: Vec<f64> = (0..count).map(|k| start + k as f64 / PER_PERIOD as f64).collect();
-    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start, end: phases[count - 1] };
-    let states = integrator.trace(&stretch, &orbit.nodes[0], &phases)?.samples;
-    let first = &states[..PER_PERIOD];
-    let scaled = first.iter().flat_map(|state| state.iter().zip(scale.values()).map(|(z, s)| z / s));
-    let size = scale.size_of_scaled(scaled, PER_PERIOD).max(1e-3);
-    let distance = |periods: usize| {
-        let later = &states[periods * PER_PERIOD..];
-        let squares = first.iter().zip(later).map(|(a, b)| scale.distance(a, b).powi(2));
-        (squares.sum::<f64>() / PER_PERIOD as f64).sqrt() / size
-    };
-    Ok(divisors.into_iter().map(distance).fold(f64::INFINITY, f64::min))
 }
 
 #[cfg(test)]

@@ -7,9 +7,7 @@ use hammerbeam_motion::{
 use hammerbeam_path::PathProblem;
 
 use crate::{
-    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response,
-    shooting::ShootingProblem,
-    size::{Cut, distance_to_shorter_period},
+    OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, shooting::ShootingProblem, size::Cut,
     state_scale::StateScale,
 };
 
@@ -226,7 +224,7 @@ pub(crate) fn has_minimal_period(
 ) -> Result<bool, OrbitError> {
     // What is wrong with the start grows with the multiplier.
     let largest = solution.largest_multiplier();
-    let distance = distance_to_shorter_period(integrator, scale, solution)?;
+    let distance = Cut::of(solution).distance_to_shorter_period(integrator, scale)?;
     Ok(distance >= 1e-6 * (1e-3 * largest).max(1.0))
 }
 

@@ -1,6 +1,9 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
-use hammerbeam_motion::System;
+use hammerbeam_motion::{
+    System,
+    exact::{ExactIntegrator, MotionError},
+};
 use hammerbeam_path::{
     ContinuationPoint, Direction, Follower, ParameterRange, PathProblem, Settings, StepOutcome,
 };
@@ -14,8 +17,9 @@ use crate::{
     located,
     recut::Origin,
     shooting::ShootingProblem,
-    size::{Cut, distance_to_shorter_period, orbit_scale},
+    size::{Cut, orbit_scale},
     solve::{evaluate, integrator, nodes_from, solution},
+    state_scale::StateScale,
 };
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
@@ -124,9 +128,7 @@ impl BranchWalk {
         problem.vary(varied)?;
         let value = match varied.parameter() {
             None => frequency,
-            Some(parameter) => {
-                system.parameter(parameter).map_err(hammerbeam_motion::exact::MotionError::from)?
-            }
+            Some(parameter) => system.parameter(parameter).map_err(MotionError::from)?,
         };
         let point = problem.point(&nodes, value);
         let direction = match side {
@@ -181,26 +183,24 @@ impl BranchWalk {
 
     /// Whether the present orbit is, within [`MERGED`], one of shorter period.
     fn is_near_shorter_period(&mut self) -> bool {
-        let multiple = self.problem.period_multiple();
-        if multiple == 1 {
-            return false;
-        }
+        self.problem.period_multiple() > 1
+            && self
+                .of_present(|orbit, integrator, scale| orbit.distance_to_shorter_period(integrator, scale))
+                .is_some_and(|distance| distance < MERGED)
+    }
+
+    /// Something about the present orbit in the units of the walk; `None` if its motion cannot be computed.
+    fn of_present(
+        &mut self,
+        ask: impl FnOnce(Cut<'_>, &mut ExactIntegrator, &StateScale) -> Result<f64, MotionError>,
+    ) -> Option<f64> {
         let point = &self.follower.current().point;
-        if self.problem.move_to(point).is_err() {
-            return false;
-        }
-        let orbit = PeriodicSolution {
-            frequency_hz: self.problem.frequency(point),
-            period_multiple: multiple,
-            phase: self.problem.phase().fract(),
-            nodes: self.problem.nodes(point),
-            floquet_multipliers: Vec::new(),
-            residual: 0.0,
-            error_estimate: 0.0,
-            maxima: crate::OrbitMaxima::default(),
-        };
+        self.problem.move_to(point).ok()?;
+        let (frequency_hz, nodes) = (self.problem.frequency(point), self.problem.nodes(point));
+        let (phase, period_multiple) = (self.problem.phase(), self.problem.period_multiple());
         let scale = self.problem.scale().clone();
-        distance_to_shorter_period(self.problem.integrator(), &scale, &orbit).is_ok_and(|d| d < MERGED)
+        let orbit = Cut { phase, nodes: &nodes, frequency_hz, period_multiple };
+        ask(orbit, self.problem.integrator(), &scale).ok()
     }
 
     /// Goes to the next solution and appends its row, after those that belong between it and the row before; or says why the walk has ended.
@@ -255,7 +255,8 @@ impl BranchWalk {
         if !due && self.problem.size(&self.follower.current().point) <= OUTGROWN {
             return;
         }
-        let Some(size) = self.size_of_motion() else { return };
+        let size = self.of_present(|orbit, integrator, scale| orbit.size(integrator, scale));
+        let Some(size) = size else { return };
         if (1.0 / OUTGROWN..=OUTGROWN).contains(&size) || !size.is_normal() {
             return;
         }
@@ -264,17 +265,6 @@ impl BranchWalk {
         self.problem.rescale(factor);
         self.follower.rescale(factor);
         self.last_rows.keep_newest();
-    }
-
-    /// Size of the present orbit relative to the scale; `None` if its motion cannot be computed.
-    fn size_of_motion(&mut self) -> Option<f64> {
-        let point = &self.follower.current().point;
-        self.problem.move_to(point).ok()?;
-        let (frequency_hz, nodes) = (self.problem.frequency(point), self.problem.nodes(point));
-        let (phase, period_multiple) = (self.problem.phase(), self.problem.period_multiple());
-        let scale = self.problem.scale().clone();
-        let orbit = Cut { phase, nodes: &nodes, frequency_hz, period_multiple };
-        orbit.size(self.problem.integrator(), &scale).ok()
     }
 
     /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so short that the walk crawls.

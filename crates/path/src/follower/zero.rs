@@ -39,10 +39,8 @@ impl Follower {
         arrival.zeros_near = self.stay_behind_zeros();
         for index in 0..self.trial.tests.len() {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
-            if apart >= 2 && step > self.settings.signature_step {
-                return Err(Doubt::HiddenZeros);
-            }
-            if apart == 0 && step > self.settings.signature_step && self.dips(index) {
+            let hides_zeros = apart >= 2 || apart == 0 && self.dips(index);
+            if hides_zeros && step > self.settings.signature_step {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
