@@ -11,7 +11,12 @@ use hammerbeam_study::{
 };
 use serde_json::{Value, json};
 
-use crate::{args::StudyOptions, drift, failure::Failure, output::Output};
+use crate::{
+    args::StudyOptions,
+    drift,
+    failure::Failure,
+    output::{Output, rounded},
+};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
@@ -79,11 +84,6 @@ fn text(study: &Study, model: &Model) -> String {
         continuation.budget_solutions
     ));
     lines.join("\n")
-}
-
-/// A number to six significant digits: a five-thousandth of a range has no short decimal fraction.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 fn beam_text(beam: &Beam) -> String {

@@ -8,11 +8,11 @@ use serde_json::json;
 
 use super::{
     filter::write_record,
-    input::{self, Input, largest, named, rounded},
+    input::{self, Input, largest, named},
 };
 use crate::{
     failure::Failure,
-    output::Output,
+    output::{Output, rounded},
     signal_args::{ChainOptions, Sensor},
 };
 

@@ -8,8 +8,12 @@ use hammerbeam_signal::{
 use hammerbeam_study::export::{Table, number};
 use serde_json::json;
 
-use super::input::{self, Input, largest, named, rounded, title};
-use crate::{failure::Failure, output::Output, signal_args::FilterOptions};
+use super::input::{self, Input, largest, named, title};
+use crate::{
+    failure::Failure,
+    output::{Output, rounded},
+    signal_args::FilterOptions,
+};
 
 pub fn run(options: &FilterOptions, output: Output) -> Result<(), Failure> {
     let input = input::open(&options.input, None)?;

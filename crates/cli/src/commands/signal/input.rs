@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use crate::{
     failure::Failure,
+    output::rounded,
     signal_args::{BandOptions, InputOptions, Repair},
 };
 
@@ -132,11 +133,6 @@ impl Input {
     pub fn notes(&self) -> Vec<String> {
         self.record.findings.iter().map(|finding| format!("note: {finding}")).collect()
     }
-}
-
-/// A number without the digits that rounding leaves.
-pub fn rounded(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
 }
 
 /// Unit in which a channel's samples are.
