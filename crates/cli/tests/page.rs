@@ -15,9 +15,11 @@ use std::{
 
 use common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_figure::{
-    MotionKind, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
+    MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
     PageSolution, PageStop, PageStructure,
 };
+use hammerbeam_orbit::Side;
+use hammerbeam_study::Store;
 use rusqlite::Connection;
 use serde_json::{Value, json};
 
@@ -53,11 +55,31 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
         "branches": branches.len(),
         "first_branch": branches[0]["branch"],
         "range": [30.0, 40.0],
+        "multipliers": multipliers(&workshop),
     });
     let odd = odd_pages(&workshop);
     in_a_browser(&json!({ "run": run, "odd": odd }));
     while_a_run_writes(&workshop);
     without_anything(&workshop);
+}
+
+/// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to end.
+fn multipliers(workshop: &Workshop) -> Value {
+    let store = Store::open(&workshop.path("results")).unwrap();
+    let mut keys = Vec::new();
+    for branch in store.branches().unwrap() {
+        let places = |side: Side, count: u64| (0..count as u32).map(move |number| (side, number));
+        let down = places(Side::Down, branch.down.solutions).rev();
+        let all = down.chain(places(Side::Up, branch.up.solutions));
+        keys.extend(all.map(|(side, number)| (branch.start, side, number)));
+    }
+    let of = |(number, &(start, side, place)): (usize, &(u32, Side, u32))| {
+        json!({
+            "solution": number,
+            "stored": store.solution(start, side, place).unwrap().floquet_multipliers,
+        })
+    };
+    keys.iter().enumerate().step_by(keys.len() / 60).map(of).collect()
 }
 
 /// A walk that has not ended is told on the page.
@@ -122,7 +144,7 @@ fn odd_pages(workshop: &Workshop) -> Value {
             "everything at once",
             everything(),
             1,
-            vec!["measured: sweep up", "chaotic motion", "Poincare section", "0.2500 ± 0.010"],
+            vec!["measured: sweep up", "chaotic motion", "Poincare section", "0.2500 ± 0.010", "Outside the frame: ∞, –, −250.0."],
             "the orbit of",
         ),
     ];
@@ -156,8 +178,11 @@ fn everything() -> Page {
         support_m: vec![0.0; 30],
         modes: vec![wave(30, 1e-3), wave(30, -5e-4)],
         spectrum_m_s2: vec![10.0, 0.0, f64::NAN],
-        multipliers: vec![[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]],
     };
+    let mut multipliers = MultiplierRecords::default();
+    (0..20).for_each(|_| {
+        multipliers.push(&[[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]]);
+    });
     let mut orbits = OrbitRecords::default();
     assert!(orbits.insert(0, orbit.record(), usize::MAX));
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
@@ -185,6 +210,7 @@ fn everything() -> Page {
             solutions: (0..20).map(solution).collect(),
         }],
         orbits,
+        multipliers,
         structure: Some(PageStructure {
             is_beam: false,
             places: vec![place("first", 0.0, [1.0, 0.0]), place("second", 1.0, [0.0, 1.0])],

@@ -100,7 +100,7 @@ pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitSample};
 pub use page::{
-    OrbitRecord, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
+    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
     PageSolution, PageStop, PageStructure, room_for_orbits,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};

@@ -1,7 +1,7 @@
 //! The page: everything in a results folder in one HTML file, which any browser opens without a server or a network.
 //!
-//! The file holds a short script and the data it shows: what is small as JSON, solutions and orbits as little-endian arrays in base64.
-//! Solutions are decoded when the page opens. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
+//! The file holds a short script and the data it shows: what is small as JSON, solutions, their multipliers and orbits as little-endian arrays in base64.
+//! Solutions are decoded when the page opens, multipliers when a solution is selected for the first time. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
 //! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to a 4095th of the range of their series.
 //!
 //! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
@@ -10,8 +10,10 @@
 mod base64;
 mod columns;
 mod document;
+mod multipliers;
 mod orbits;
 
+pub use multipliers::MultiplierRecords;
 pub use orbits::{OrbitRecord, OrbitRecords, PageOrbit, room_for_orbits};
 
 use crate::MotionKind;
@@ -31,6 +33,8 @@ pub struct Page {
     pub branches: Vec<PageBranch>,
     /// Orbits of some of their solutions.
     pub orbits: OrbitRecords,
+    /// Multipliers of all of them, or of none.
+    pub multipliers: MultiplierRecords,
     /// The structure; `None` if it is not known.
     pub structure: Option<PageStructure>,
     /// Motions of sweeps that did not settle on a periodic one.

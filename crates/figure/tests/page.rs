@@ -1,6 +1,6 @@
 //! The page as a whole: its size, and that it is a function of what it is given.
 
-use hammerbeam_figure::{OrbitRecords, Page, PageBranch, PageOrbit, PageSolution, room_for_orbits};
+use hammerbeam_figure::{MultiplierRecords, OrbitRecords, Page, PageBranch, PageOrbit, PageSolution, room_for_orbits};
 
 /// What the page of the full response diagram of the paper may take.
 const MOST_BYTES: usize = 15_000_000;
@@ -24,17 +24,21 @@ fn figure_3(solutions: usize) -> Page {
         ends: ["end of the frequency range at 110 Hz".to_owned(), "not finished".to_owned()],
         solutions: (0..of_branch).map(solution).collect(),
     };
+    // Twelve, all of them real: none is longer.
+    let mut multipliers = MultiplierRecords::default();
+    (0..of_branch * branches).for_each(|_| multipliers.push(&[[-1.5, 0.0]; 12]));
     Page {
         title: "as many solutions as in figure 3".to_owned(),
         frequency_range_hz: (19.0, 110.0),
         branches: (1..=branches as u32).map(branch).collect(),
-        orbits: orbits(of_branch * branches),
+        orbits: orbits(of_branch * branches, &multipliers),
+        multipliers,
         ..Page::default()
     }
 }
 
 /// Orbits until there is no room for another one.
-fn orbits(solutions: usize) -> OrbitRecords {
+fn orbits(solutions: usize, multipliers: &MultiplierRecords) -> OrbitRecords {
     let wave = |count: usize, rate: f64| (0..count).map(|k| (rate * k as f64).sin()).collect::<Vec<f64>>();
     let pairs = |rate| wave(240, rate).iter().map(|value| [*value, value + 0.3]).collect::<Vec<_>>();
     let orbit = PageOrbit {
@@ -45,10 +49,9 @@ fn orbits(solutions: usize) -> OrbitRecords {
         support_m: wave(120, 0.05),
         modes: (1..7).map(|mode| wave(120, 0.05 * f64::from(mode))).collect(),
         spectrum_m_s2: wave(200, 0.4).iter().map(|value| value.exp()).collect(),
-        multipliers: vec![[0.1, 0.2]; 12],
     };
     let mut records = OrbitRecords::default();
-    let room = room_for_orbits(solutions);
+    let room = room_for_orbits(solutions, multipliers);
     let mut number = 0;
     while records.insert(number, orbit.record(), room) {
         number += 1;

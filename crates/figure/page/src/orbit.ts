@@ -18,7 +18,6 @@ export interface Orbit {
     modes: Float64Array[];
     /** Common logarithms of the amplitudes of the harmonics of the acceleration. */
     spectrum: Float64Array;
-    multipliers: [number, number][];
 }
 
 /** Place in the list of the carried orbits of the one nearest to a solution on its branch; -1 where its branch has none. */
@@ -54,21 +53,16 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
     const bytes = bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4));
     const view = new DataView(bytes.buffer);
     const count = (k: number): number => view.getUint16(2 * k, true);
-    const [samples, elements, ofMode, modes, multipliers, harmonics] = [count(0), count(1), count(2), count(3), count(4), count(5)];
+    const [samples, elements, ofMode, modes, harmonics] = [count(0), count(1), count(2), count(3), count(4)];
     const repeated = (length: number, times: number): number[] => new Array<number>(times).fill(length);
     const lengths = [samples, samples, 2 * samples, ofMode, ...repeated(2 * samples, elements), ...repeated(ofMode, modes), harmonics];
-    const ranges = 12;
-    const pairs = ranges + 8 * lengths.length;
-    let at = pairs + 8 * multipliers;
+    const ranges = 10;
+    let at = ranges + 8 * lengths.length;
     const series = lengths.map((length, k) => {
         const values = new Float64Array(length);
         at = readSeries(bytes, at, values, view.getFloat32(ranges + 8 * k, true), view.getFloat32(ranges + 8 * k + 4, true));
         return values;
     });
-    const pair = (k: number): [number, number] => [
-        view.getFloat32(pairs + 8 * k, true),
-        view.getFloat32(pairs + 8 * k + 4, true),
-    ];
     const solution = meta.orbits.solutions[place] ?? 0;
     const none = new Float64Array(0);
     return {
@@ -81,7 +75,6 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
         forces: series.slice(4, 4 + elements),
         modes: series.slice(4 + elements, 4 + elements + modes),
         spectrum: series.at(-1) ?? none,
-        multipliers: Array.from({ length: multipliers }, (_, k) => pair(k)),
     };
 }
 

@@ -115,6 +115,36 @@ test("a click opens the orbit of the solution, and its peaks are those of the st
     assert.deepEqual(tab.complaints, []);
 });
 
+test("multipliers are those of the selected solution, whether its orbit is carried or not", options, async () => {
+    const tab = await open(pages.run);
+    const { orbits, branches } = await tab.value(meta);
+    const carried = new Set(orbits.solutions);
+    const without = pages.run.multipliers.filter(({ solution }) => !carried.has(solution));
+    assert.ok(without.length > 20);
+    const near = (found, stored, tolerance) => Math.abs(found - stored) <= tolerance * Math.abs(stored);
+    for (const { solution, stored } of pages.run.multipliers) {
+        const found = await tab.value(`hammerbeam.multipliersOf(${solution})`);
+        assert.equal(found.length, stored.length);
+        const sorted = (all) => all.map(([re, im]) => [re, Math.abs(im)]);
+        sorted(found).forEach(([re, im], k) => {
+            const [storedRe, storedIm] = sorted(stored)[k];
+            // An f32 without its lowest byte.
+            assert.ok(near(re, storedRe, 2 ** -15) && near(im, storedIm, 2 ** -15), `${solution}: ${re} ${im} of ${stored[k]}`);
+        });
+    }
+    // What is read on the page, of a solution whose orbit is not carried.
+    const { solution, stored } = without[10];
+    const place = branches.findLast(({ first, count }) => count > 0 && first <= solution);
+    await tab.value(`location.hash = "#at=${place.id}:${solution - place.first}"`);
+    await tab.until(`hammerbeam.state().selected === ${solution}`);
+    const read = await tab.value(`[...document.querySelectorAll("#multipliers li")].map((one) => one.textContent)`);
+    const parts = read[0].replaceAll("−", "-").replace("i", "").split(" ± ").map(Number);
+    assert.ok(near(parts[0], stored[0][0], 1e-3) && near(parts[1] ?? 0, Math.abs(stored[0][1]), 1e-3), `${read[0]} of ${stored[0]}`);
+    const whose = await tab.value(`document.querySelector("#multipliers .note").textContent`);
+    assert.ok(whose.includes("of the selected solution, at "), whose);
+    assert.deepEqual(tab.complaints, []);
+});
+
 test("the structure moves, and stands still when it is paused", options, async () => {
     const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
     await tab.until(orbitIsOpen);

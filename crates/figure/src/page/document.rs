@@ -14,6 +14,7 @@ pub(super) fn html(page: &Page) -> String {
     let title = escaped(&page.title);
     let meta = in_script(&meta(page).to_string());
     let solutions = base64::encode(&columns::pack(&page.branches));
+    let multipliers = base64::encode(page.multipliers.bytes());
     let orbits = base64::encode(&page.orbits.bytes());
     [
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
@@ -28,6 +29,7 @@ pub(super) fn html(page: &Page) -> String {
         "<noscript>This page draws with a script that it holds itself; scripts are switched off in this browser.</noscript>\n",
         &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
         &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
+        &format!("<script id=\"multipliers\" type=\"text/plain\">{multipliers}</script>\n"),
         &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
         "<script>\n",
         SCRIPT,
@@ -76,6 +78,7 @@ fn meta(page: &Page) -> Value {
             "offsets": page.orbits.offsets(),
             "length": page.orbits.length(),
         },
+        "multipliers": { "solutions": page.multipliers.count(), "most": page.multipliers.most() },
         "structure": page.structure.as_ref().map(structure),
         "motions": motions.collect::<Vec<_>>(),
         "chaos": page.chaotic_ranges_hz,

@@ -1,7 +1,7 @@
 //! Orbits as records that are decoded one at a time.
 //!
-//! A record, little-endian: six u16 (samples N, local elements E, samples of a mode K, modes M, multipliers, harmonics H), then for each series its least value and its
-//! step as f32, then the multipliers as pairs of f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
+//! A record, little-endian: five u16 (samples N, local elements E, samples of a mode K, modes M, harmonics H), then for each series its least value and its
+//! step as f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
 //! velocity (N), acceleration (2 N), displacement of the support (K), the force of each local element (2 N), the coordinate of each mode (K), and the common logarithms of the
 //! amplitudes of the harmonics of the acceleration (H).
 //!
@@ -14,20 +14,21 @@
 
 use std::collections::BTreeMap;
 
-use super::columns::BYTES_OF_A_SOLUTION;
+use super::{columns::BYTES_OF_A_SOLUTION, multipliers::MultiplierRecords};
 
 /// Steps in the range of a series.
 const STEPS: f64 = 4_095.0;
 
-/// Length of solutions and orbits together before they are text (bytes): a page of 14 MB.
-const MOST_BYTES: usize = 10_400_000;
+/// Length of solutions, multipliers and orbits together before they are text (bytes): a page of 14.5 MB.
+const MOST_BYTES: usize = 10_800_000;
 /// What orbits get at least, however many solutions there are (bytes).
 const LEAST_ORBIT_BYTES: usize = 2_000_000;
 
-/// Length of the records of orbits (bytes) for which a page of so many solutions has room.
+/// Length of the records of orbits (bytes) for which a page of so many solutions with these multipliers has room.
 #[must_use]
-pub fn room_for_orbits(solutions: usize) -> usize {
-    MOST_BYTES.saturating_sub(BYTES_OF_A_SOLUTION * solutions).max(LEAST_ORBIT_BYTES)
+pub fn room_for_orbits(solutions: usize, multipliers: &MultiplierRecords) -> usize {
+    let others = BYTES_OF_A_SOLUTION * solutions + multipliers.length();
+    MOST_BYTES.saturating_sub(others).max(LEAST_ORBIT_BYTES)
 }
 
 /// An orbit over its period, from phase 0 of the excitation on, the end of the period left out. All lengths at most 65 535.
@@ -47,8 +48,6 @@ pub struct PageOrbit {
     pub modes: Vec<Vec<f64>>,
     /// Amplitudes of the harmonics 1, 2, ... of the orbit frequency in the acceleration (m/s²).
     pub spectrum_m_s2: Vec<f64>,
-    /// Floquet multipliers.
-    pub multipliers: Vec<[f64; 2]>,
 }
 
 /// An orbit, packed.
@@ -127,7 +126,6 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
         orbit.forces_n.len(),
         orbit.support_m.len(),
         orbit.modes.len(),
-        orbit.multipliers.len(),
         orbit.spectrum_m_s2.len(),
     ];
     let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u16).to_le_bytes()).collect();
@@ -136,7 +134,6 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
     let coarsest = modes.iter().fold(0.0_f32, |most, [_, step]| most.max(*step));
     modes.iter_mut().for_each(|[_, step]| *step = coarsest);
     bytes.extend(ranges.iter().flatten().flat_map(|number| number.to_le_bytes()));
-    bytes.extend(orbit.multipliers.iter().flatten().flat_map(|number| (*number as f32).to_le_bytes()));
     for (values, range) in series.iter().zip(ranges) {
         write(&mut bytes, values, range);
     }
@@ -198,15 +195,15 @@ mod tests {
     fn read(record: &[u8]) -> Vec<Vec<f64>> {
         let count = |k: usize| usize::from(u16::from_le_bytes(record[2 * k..2 * k + 2].try_into().unwrap()));
         let number = |at: usize| f64::from(f32::from_le_bytes(record[at..at + 4].try_into().unwrap()));
-        let [n, elements, of_mode, modes, multipliers, harmonics] = std::array::from_fn(count);
+        let [n, elements, of_mode, modes, harmonics] = std::array::from_fn(count);
         let mut lengths = vec![n, n, 2 * n, of_mode];
         lengths.extend(vec![2 * n; elements]);
         lengths.extend(vec![of_mode; modes]);
         lengths.push(harmonics);
-        let mut at = 12 + 8 * (lengths.len() + multipliers);
+        let mut at = 10 + 8 * lengths.len();
         let mut series = Vec::new();
         for (k, length) in lengths.into_iter().enumerate() {
-            let (low, step) = (number(12 + 8 * k), number(16 + 8 * k));
+            let (low, step) = (number(10 + 8 * k), number(14 + 8 * k));
             let (mut last, mut slope, mut zeros, mut values) = (0_i64, 0_i64, 0_i64, Vec::new());
             let mut next = || {
                 let (mut found, mut shift) = (0_i64, 0);
@@ -249,7 +246,6 @@ mod tests {
                 .map(|size| (0..samples / 2).map(|k| size * (k as f64).cos()).collect())
                 .to_vec(),
             spectrum_m_s2: vec![100.0, 0.0, 1e-3],
-            multipliers: vec![[f64::INFINITY, 0.0]; 2],
         }
     }
 

@@ -126,7 +126,6 @@ impl Drawing {
         let mut orbit = PageOrbit {
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
-            multipliers: solution.floquet_multipliers.clone(),
             ..PageOrbit::default()
         };
         let mut regular = Vec::with_capacity(2 * count);
