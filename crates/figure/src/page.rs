@@ -7,7 +7,6 @@
 //! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
 //! needs Node; a test says that it is what the sources give.
 
-mod base64;
 mod columns;
 mod document;
 mod multipliers;

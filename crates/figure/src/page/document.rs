@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{Page, PageStop, PageStructure, base64, columns};
-use crate::{MotionKind, style};
+use super::{Page, PageStop, PageStructure, columns};
+use crate::{MotionKind, base64, style};
 
 const SCRIPT: &str = include_str!("../../page/dist/page.js");
 const LOOK: &str = include_str!("../../page/dist/page.css");
