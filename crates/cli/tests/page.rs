@@ -15,8 +15,8 @@ use std::{
 
 use common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_figure::{
-    MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure,
+    MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageLink, PageMeasured, PageMotion,
+    PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure,
 };
 use hammerbeam_orbit::Side;
 use hammerbeam_study::Store;
@@ -144,7 +144,13 @@ fn odd_pages(workshop: &Workshop) -> Value {
             "everything at once",
             everything(),
             1,
-            vec!["measured: sweep up", "chaotic motion", "Poincare section", "0.2500 ± 0.010", "Outside the frame: ∞, –, −250.0."],
+            vec![
+                "measured: sweep up",
+                "chaotic motion",
+                "Poincaré section",
+                "0.2500 ± 0.010",
+                "Outside the frame: ∞, –, −250.0.",
+            ],
             "the orbit of",
         ),
     ];
@@ -218,7 +224,11 @@ fn everything() -> Page {
                 stop(0, Some(1), vec![(5e-4, true)]),
                 stop(1, None, vec![(1e-3, true), (-1e-3, false)]),
             ],
-            links: vec![[Some(0), None], [Some(0), Some(1)], [None, Some(1)]],
+            links: [[Some(0), None], [Some(0), Some(1)], [None, Some(1)], [Some(0), Some(1)]]
+                .into_iter()
+                .enumerate()
+                .map(|(k, ends)| PageLink { ends, is_damper: k == 3 })
+                .collect(),
             eigenfrequencies_hz: vec![12.0, 25.0],
         }),
         motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 5e-3 }],
@@ -278,6 +288,7 @@ fn in_a_browser(pages: &Value) {
     };
     run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
     run(&["build.mjs", "--compare"]);
+    run(&["--test", "test/ticks.test.mjs"]);
     let report = run(&["--test", "--test-reporter=tap", "test/page.test.mjs"]);
     let skipped: Vec<&str> = report.lines().filter(|line| line.contains("# SKIP")).collect();
     if let Some(line) = skipped.first() {

@@ -100,8 +100,8 @@ pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitSample};
 pub use page::{
-    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure, room_for_orbits,
+    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageLink, PageMeasured, PageMotion,
+    PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure, room_for_orbits,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
@@ -114,3 +114,4 @@ pub use structure_diagram::{
 };
 pub use style::Style;
 pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};
+pub use text::plain_number;

@@ -40,7 +40,7 @@ pub struct Page {
     pub motions: Vec<PageMotion>,
     /// Ranges of the frequency with chaotic motion (Hz).
     pub chaotic_ranges_hz: Vec<(f64, f64)>,
-    /// Poincare sections.
+    /// Poincaré sections.
     pub sections: Vec<PageSection>,
     /// Measured points, laid over the response diagram.
     pub measured: Vec<PageMeasured>,
@@ -100,8 +100,8 @@ pub struct PageStructure {
     pub places: Vec<PagePlace>,
     /// Stops.
     pub stops: Vec<PageStop>,
-    /// Springs and dampers between masses, by their places; `None` is the ground.
-    pub links: Vec<[Option<u32>; 2]>,
+    /// Springs and dampers between masses.
+    pub links: Vec<PageLink>,
     /// Eigenfrequencies without local elements (Hz).
     pub eigenfrequencies_hz: Vec<f64>,
 }
@@ -117,6 +117,15 @@ pub struct PagePlace {
     pub shape: Vec<f64>,
     /// Displacement per unit displacement of the support.
     pub support_ratio: f64,
+}
+
+/// A spring or a damper between masses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PageLink {
+    /// The places that it joins; `None` is the ground.
+    pub ends: [Option<u32>; 2],
+    /// Whether it is a damper.
+    pub is_damper: bool,
 }
 
 /// What a place of a structure can hit.

@@ -1,6 +1,8 @@
 //! The page as a whole: its size, and that it is a function of what it is given.
 
-use hammerbeam_figure::{MultiplierRecords, OrbitRecords, Page, PageBranch, PageOrbit, PageSolution, room_for_orbits};
+use hammerbeam_figure::{
+    MultiplierRecords, OrbitRecords, Page, PageBranch, PageOrbit, PageSolution, room_for_orbits,
+};
 
 /// What the page of the full response diagram of the paper may take.
 const MOST_BYTES: usize = 15_000_000;
@@ -42,8 +44,8 @@ fn orbits(solutions: usize, multipliers: &MultiplierRecords) -> OrbitRecords {
     let wave = |count: usize, rate: f64| (0..count).map(|k| (rate * k as f64).sin()).collect::<Vec<f64>>();
     let pairs = |rate| wave(240, rate).iter().map(|value| [*value, value + 0.3]).collect::<Vec<_>>();
     let orbit = PageOrbit {
-        displacement_m: wave(240, 0.03),
-        velocity_m_s: wave(240, 0.1),
+        displacement_m: wave(384, 0.02),
+        velocity_m_s: wave(384, 0.06),
         acceleration_m_s2: pairs(0.7),
         forces_n: vec![pairs(0.0)],
         support_m: wave(120, 0.05),
@@ -60,9 +62,9 @@ fn orbits(solutions: usize, multipliers: &MultiplierRecords) -> OrbitRecords {
 }
 
 #[test]
-fn the_page_of_figure_3_is_under_15_megabytes_with_thousands_of_orbits() {
+fn the_page_of_figure_3_is_under_15_megabytes_with_all_multipliers_and_many_orbits() {
     let page = figure_3(65_000);
-    assert!(page.orbits.count() > 1900, "{}", page.orbits.count());
+    assert!(page.orbits.count() > 1300, "{}", page.orbits.count());
     let html = page.html();
     assert!(html.len() < MOST_BYTES, "{}", html.len());
     assert!(html == page.html(), "drawn twice it is the same");
@@ -71,6 +73,6 @@ fn the_page_of_figure_3_is_under_15_megabytes_with_thousands_of_orbits() {
 #[test]
 fn a_hundred_thousand_solutions_leave_room_for_orbits() {
     let page = figure_3(100_000);
-    assert!(page.orbits.count() > 1000, "{}", page.orbits.count());
+    assert!(page.orbits.count() > 700, "{}", page.orbits.count());
     assert!(page.html().len() < MOST_BYTES);
 }

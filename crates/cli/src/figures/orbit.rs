@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_attractor::Simulation;
-use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style};
+use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style, plain_number};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
 use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_signal::filter::periodic_low_pass;
@@ -83,7 +83,8 @@ fn diagram(
 ) -> Result<OrbitDiagram, Failure> {
     let frequency_hz = orbit.frequency_hz;
     let stability = if orbit.stable() { "stable" } else { "unstable" };
-    let title = format!("{title}, {frequency_hz} Hz, period {}, {stability}", orbit.period_multiple);
+    let (hz, multiple) = (plain_number(frequency_hz), orbit.period_multiple);
+    let title = format!("{title}, {hz} Hz, period {multiple}, {stability}");
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
     let samples = samples(model, orbit)?;

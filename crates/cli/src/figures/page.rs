@@ -5,7 +5,9 @@ mod orbits;
 mod shape;
 
 use hammerbeam_attractor::Class;
-use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageMotion, PageSection, PageSolution, room_for_orbits};
+use hammerbeam_figure::{
+    MultiplierRecords, Page, PageBranch, PageMotion, PageSection, PageSolution, room_for_orbits,
+};
 use hammerbeam_orbit::Side;
 use hammerbeam_study::{
     Model, Store, StoreError, StudyFile,

@@ -41,7 +41,7 @@ export interface Structure {
     beam: boolean;
     places: Place[];
     stops: Stop[];
-    links: [number | null, number | null][];
+    links: { ends: [number | null, number | null]; damper: boolean }[];
     eigenfrequencies: number[];
 }
 

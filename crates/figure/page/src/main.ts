@@ -105,6 +105,7 @@ declare global {
             placeOf: (solution: number) => [number, number];
             state: () => State;
             orbit: () => Orbit | null;
+            unitCircle: () => [across: number, up: number];
             multipliersOf: (solution: number) => Multiplier[];
         };
     }
@@ -115,5 +116,6 @@ window.hammerbeam = {
     placeOf: (solution) => response.placeOf(solution),
     state: () => store.state,
     orbit: () => view.orbit,
+    unitCircle: () => view.unitCircle(),
     multipliersOf: (solution) => view.multipliersOf(solution),
 };

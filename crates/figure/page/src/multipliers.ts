@@ -56,6 +56,12 @@ export class Multipliers {
         }
     }
 
+    /** Radii of the unit circle along both axes (canvas pixels). */
+    unitCircle(): [number, number] {
+        const frame = this.frame;
+        return frame === null ? [0, 0] : [frame.toX(1) - frame.toX(0), frame.toY(0) - frame.toY(1)];
+    }
+
     /** Distance from 0 that is drawn. */
     private reach(): number {
         const largest = this.multipliers.reduce((most, one) => Math.max(most, modulus(one)), 0);

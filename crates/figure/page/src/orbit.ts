@@ -53,10 +53,10 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
     const bytes = bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4));
     const view = new DataView(bytes.buffer);
     const count = (k: number): number => view.getUint16(2 * k, true);
-    const [samples, elements, ofMode, modes, harmonics] = [count(0), count(1), count(2), count(3), count(4)];
+    const [samples, steps, elements, ofMode, modes, harmonics] = [count(0), count(1), count(2), count(3), count(4), count(5)];
     const repeated = (length: number, times: number): number[] => new Array<number>(times).fill(length);
-    const lengths = [samples, samples, 2 * samples, ofMode, ...repeated(2 * samples, elements), ...repeated(ofMode, modes), harmonics];
-    const ranges = 10;
+    const lengths = [samples, samples, 2 * steps, ofMode, ...repeated(2 * steps, elements), ...repeated(ofMode, modes), harmonics];
+    const ranges = 12;
     let at = ranges + 8 * lengths.length;
     const series = lengths.map((length, k) => {
         const values = new Float64Array(length);

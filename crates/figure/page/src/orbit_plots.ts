@@ -92,7 +92,8 @@ export class OrbitPlots {
         const x = y.map((_, k) => (k + 1) * base);
         const eigenfrequencies = this.meta.structure?.eigenfrequencies ?? [];
         const largest = y.reduce((most, value) => Math.max(most, value), 0);
-        const highest = Math.min(x.at(-1) ?? 1, 1.2 * Math.max(20 * base, ...eigenfrequencies));
+        // As in print.
+        const highest = 1.2 * Math.max(10 * base * orbit.period, ...eigenfrequencies);
         const top = largest > 0 ? 2 * largest : 1;
         return {
             xLabel: "Frequency (Hz)",

@@ -77,6 +77,11 @@ export class SolutionView {
         return this.table.of(solution);
     }
 
+    /** Radii of the unit circle along both axes (canvas pixels). */
+    unitCircle(): [number, number] {
+        return this.multipliers.unitCircle();
+    }
+
     private whichOrbit(selected: number, shown: number): string {
         const frequency = hertz(this.solutions.frequency[shown] ?? NaN);
         const carried = `The page carries ${this.meta.orbits.solutions.length} orbits of ${this.solutions.count} solutions.`;

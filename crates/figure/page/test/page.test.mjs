@@ -183,6 +183,80 @@ test("keys step along the branch, zoom and show the list of keys; the wheel zoom
     assert.deepEqual(tab.complaints, []);
 });
 
+test("keys stay on branches that are drawn and in the view, and work after a click into a list", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    const { branches } = await tab.value(meta);
+    const selected = () => tab.value(`hammerbeam.state().selected`);
+    const branchOf = (solution) => branches.findLastIndex(({ first, count }) => count > 0 && first <= solution);
+    // All but the first and the last branch hidden.
+    const hide = (place) => tab.value(`document.querySelectorAll("#branches input[type=checkbox]")[${place}].click()`);
+    for (let place = 1; place + 1 < branches.length; place++) {
+        await hide(place);
+    }
+    await tab.press("ArrowDown");
+    assert.equal(branchOf(await selected()), branches.length - 1);
+    await tab.press("ArrowDown");
+    assert.equal(branchOf(await selected()), 0);
+    // The view follows what steps out of it.
+    const seen = async () => {
+        const solution = await selected();
+        await drawn(tab);
+        const [x, y] = await tab.value(`hammerbeam.placeOf(${solution})`);
+        const box = await tab.value(`(() => { const { left, right, top, bottom } = document.querySelector(".response .u-over").getBoundingClientRect(); return { left, right, top, bottom }; })()`);
+        return x >= box.left - 1 && x <= box.right + 1 && y >= box.top - 1 && y <= box.bottom + 1;
+    };
+    await tab.value(`hammerbeam.zoom(0.02)`);
+    for (let k = 0; k < 4; k++) {
+        await tab.press("PageDown");
+        assert.ok(await seen(), `out of the view after ${k + 1} steps`);
+    }
+    // A cell that is no button.
+    const [x, y] = await tab.value(`(() => { const cell = document.querySelector("#branches tbody td:last-child"); cell.scrollIntoView(); const box = cell.getBoundingClientRect(); return [box.left + 3, box.top + 3]; })()`);
+    await tab.click(x, y);
+    const before = await selected();
+    await tab.press("ArrowLeft");
+    assert.equal(await selected(), before - 1);
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("the unit circle stays one when the window changes", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    await tab.until(orbitIsOpen);
+    for (const width of [1400, 700, 1100, 420]) {
+        await tab.send("Emulation.setDeviceMetricsOverride", { width, height: 900, deviceScaleFactor: 1, mobile: false });
+        await drawn(tab);
+        await drawn(tab);
+        const [across, up] = await tab.value(`hammerbeam.unitCircle()`);
+        assert.ok(up > 10 && Math.abs(across - up) < 1.5, `${across} across, ${up} up at ${width} pixels`);
+    }
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("no corner is seen in the phase portraits of orbits of several periods", options, async () => {
+    const tab = await open(pages.run);
+    const { orbits, branches } = await tab.value(meta);
+    const several = branches.filter(({ period, count }) => period > 1 && count > 0);
+    assert.ok(several.length > 0);
+    for (const { id, first, count, period } of several) {
+        const own = orbits.solutions.filter((solution) => solution >= first && solution < first + count);
+        for (const solution of [own[0], own[own.length >> 1], own.at(-1)]) {
+            await tab.value(`location.hash = "#at=${id}:${solution - first}"`);
+            await tab.until(`document.querySelector(".solution").dataset.orbit === "${solution}"`);
+            // How far the curve through three points leaves the line between two of them: an eighth of the second difference.
+            const farthest = await tab.value(`(() => {
+                const { displacement, velocity } = hammerbeam.orbit();
+                const n = displacement.length;
+                const width = (values) => Math.max(...values) - Math.min(...values);
+                const bend = (values) => (k) => (values[k] - 2 * values[(k + 1) % n] + values[(k + 2) % n]) / width(values) / 8;
+                const [across, up] = [bend(displacement), bend(velocity)];
+                return Math.max(...Array.from({ length: n }, (_, k) => Math.hypot(across(k), up(k))));
+            })()`);
+            console.log(`solution ${solution}, period ${period}: ${farthest}`);
+            assert.ok(farthest < 0.01, `${farthest} of the size of the portrait`);
+        }
+    }
+});
+
 test("a row of the bifurcation table jumps to its point", options, async () => {
     const tab = await open(pages.run);
     const solution = await tab.value(`(() => { const row = document.querySelectorAll("#bifurcations tbody tr")[2]; row.querySelector("button").click(); return +row.dataset.solution; })()`);

@@ -92,11 +92,12 @@ fn structure(structure: &PageStructure) -> Value {
     let places = structure.places.iter().map(|place| {
         json!({ "name": place.name, "at": place.at, "shape": place.shape, "support": place.support_ratio })
     });
+    let links = structure.links.iter().map(|link| json!({ "ends": link.ends, "damper": link.is_damper }));
     json!({
         "beam": structure.is_beam,
         "places": places.collect::<Vec<_>>(),
         "stops": structure.stops.iter().map(stop).collect::<Vec<_>>(),
-        "links": structure.links,
+        "links": links.collect::<Vec<_>>(),
         "eigenfrequencies": structure.eigenfrequencies_hz,
     })
 }

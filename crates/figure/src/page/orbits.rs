@@ -1,12 +1,12 @@
 //! Orbits as records that are decoded one at a time.
 //!
-//! A record, little-endian: five u16 (samples N, local elements E, samples of a mode K, modes M, harmonics H), then for each series its least value and its
+//! A record, little-endian: six u16 (samples N, steps S, local elements E, samples of a mode K, modes M, harmonics H), then for each series its least value and its
 //! step as f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
-//! velocity (N), acceleration (2 N), displacement of the support (K), the force of each local element (2 N), the coordinate of each mode (K), and the common logarithms of the
+//! velocity (N), acceleration (2 S), displacement of the support (K), the force of each local element (2 S), the coordinate of each mode (K), and the common logarithms of the
 //! amplitudes of the harmonics of the acceleration (H).
 //!
 //! Displacement and velocity are smooth at this distance of samples. A contact may be much shorter: of acceleration and forces the least and the largest value
-//! between two samples are carried, in their order in time, so that no peak is lost.
+//! in each of some steps are carried, in their order in time, so that no peak is lost.
 //!
 //! A value is a whole number `k` of steps above the least one; written are the second differences `k_i - 2 k_(i-1) + k_(i-2)` (with zero
 //! before the first), signs folded (`2 d`, `-2 d - 1`), seven bits to a byte, the lowest first, the highest bit set where another byte follows; behind a zero stands, in the same way, how many more of them follow. Most take one byte.
@@ -38,7 +38,7 @@ pub struct PageOrbit {
     pub displacement_m: Vec<f64>,
     /// Its velocity at the same instants (m/s).
     pub velocity_m_s: Vec<f64>,
-    /// Least and largest acceleration in each step, in their order in time (m/s²).
+    /// Least and largest acceleration in each of some equal steps, in their order in time (m/s²).
     pub acceleration_m_s2: Vec<[f64; 2]>,
     /// The same of the force of each local element (N).
     pub forces_n: Vec<Vec<[f64; 2]>>,
@@ -123,6 +123,7 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
     series.push(orbit.spectrum_m_s2.iter().map(|amplitude| amplitude.log10()).collect());
     let counts = [
         orbit.displacement_m.len(),
+        orbit.acceleration_m_s2.len(),
         orbit.forces_n.len(),
         orbit.support_m.len(),
         orbit.modes.len(),
@@ -195,15 +196,15 @@ mod tests {
     fn read(record: &[u8]) -> Vec<Vec<f64>> {
         let count = |k: usize| usize::from(u16::from_le_bytes(record[2 * k..2 * k + 2].try_into().unwrap()));
         let number = |at: usize| f64::from(f32::from_le_bytes(record[at..at + 4].try_into().unwrap()));
-        let [n, elements, of_mode, modes, harmonics] = std::array::from_fn(count);
-        let mut lengths = vec![n, n, 2 * n, of_mode];
-        lengths.extend(vec![2 * n; elements]);
+        let [n, steps, elements, of_mode, modes, harmonics] = std::array::from_fn(count);
+        let mut lengths = vec![n, n, 2 * steps, of_mode];
+        lengths.extend(vec![2 * steps; elements]);
         lengths.extend(vec![of_mode; modes]);
         lengths.push(harmonics);
-        let mut at = 10 + 8 * lengths.len();
+        let mut at = 12 + 8 * lengths.len();
         let mut series = Vec::new();
         for (k, length) in lengths.into_iter().enumerate() {
-            let (low, step) = (number(10 + 8 * k), number(14 + 8 * k));
+            let (low, step) = (number(12 + 8 * k), number(16 + 8 * k));
             let (mut last, mut slope, mut zeros, mut values) = (0_i64, 0_i64, 0_i64, Vec::new());
             let mut next = || {
                 let (mut found, mut shift) = (0_i64, 0);

@@ -90,7 +90,7 @@ fn solution(
 struct Drawing {
     model: Model,
     is_moved: bool,
-    /// The frequency up to which spectra are carried.
+    /// The highest eigenfrequency.
     highest_hz: f64,
     interrupt: Option<Interrupt>,
 }
@@ -98,7 +98,7 @@ struct Drawing {
 impl Drawing {
     fn of(model: &Model, interrupt: Option<Interrupt>) -> Self {
         let eigenfrequencies = model.system.model().natural_frequencies.iter();
-        let highest_hz = 1.2 * eigenfrequencies.fold(0.0_f64, |most, rate| most.max(rate / TAU));
+        let highest_hz = eigenfrequencies.fold(0.0_f64, |most, rate| most.max(rate / TAU));
         let is_moved = model.system.model().support.is_some();
         Self { model: model.clone(), is_moved, highest_hz, interrupt }
     }
@@ -119,17 +119,16 @@ impl Drawing {
         integrator: &mut ExactIntegrator,
         solution: &PeriodicSolution,
     ) -> Result<PageOrbit, MotionError> {
-        let Sampling { steps, stride } = sampling(solution.period_multiple);
+        let Sampling { samples, stride, steps } = sampling(solution.period_multiple);
         let count = steps * solution.period_multiple as usize;
-        let instants = samples::of_orbit(integrator, solution, steps)?;
+        let instants = samples::of_orbit(integrator, solution, samples)?;
         let (model, frequency_hz) = (&self.model, solution.frequency_hz);
         let mut orbit = PageOrbit {
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
             ..PageOrbit::default()
         };
-        let mut regular = Vec::with_capacity(2 * count);
-        let mut states = Vec::with_capacity(count.div_ceil(stride));
+        let (mut regular, mut states) = (Vec::new(), Vec::new());
         for Instant { cycles, place, state, forces } in &instants {
             let phase = cycles.rem_euclid(1.0);
             let [displacement, velocity, acceleration] = initial::response(model, frequency_hz, phase, state);
@@ -152,7 +151,7 @@ impl Drawing {
         }
         orbit.modes = modes(&states);
         let base_hz = frequency_hz / f64::from(solution.period_multiple);
-        orbit.spectrum_m_s2 = spectrum(&regular, base_hz, self.highest_hz);
+        orbit.spectrum_m_s2 = spectrum(&regular, base_hz, 1.2 * self.highest_hz.max(10.0 * frequency_hz));
         Ok(orbit)
     }
 }
@@ -176,21 +175,24 @@ fn widen(pair: &mut [f64; 2], value: f64) {
 
 /// How finely an orbit is carried.
 struct Sampling {
-    /// Steps in an excitation period.
-    steps: usize,
-    /// Steps between two samples of a mode.
+    /// Samples in an excitation period.
+    samples: usize,
+    /// Samples from one of a mode to the next; divides them.
     stride: usize,
+    /// Steps in an excitation period of which the least and the largest acceleration and force are carried.
+    steps: usize,
 }
 
-/// 192 steps in an orbit period of one excitation period, more in a longer one, up to about a thousand; a stride divides the steps.
+/// A phase portrait bends within each excitation period as it does in one: 192 samples in each, where an orbit has more than about a thousand of them fewer.
+/// What is drawn over time has its width in common: fewer steps in each of more periods.
 fn sampling(period_multiple: u32) -> Sampling {
-    let (steps, stride) = match period_multiple {
-        0 | 1 => (192, 3),
-        2 => (112, 2),
-        3..=10 => (80, 2),
-        multiple => ((800 / multiple as usize).max(8) / 4 * 4, 2),
+    let samples = (960 / period_multiple.max(1) as usize).clamp(12, 192) / 12 * 12;
+    let (stride, steps) = match period_multiple {
+        0 | 1 => (3, 192),
+        2 => (3, 112),
+        _ => (4, 80),
     };
-    Sampling { steps, stride }
+    Sampling { samples, stride, steps: steps.min(samples) }
 }
 
 /// Coordinates of the modes up to the last one that moves visibly.
