@@ -46,6 +46,7 @@ fn orbits(solutions: usize, multipliers: &MultiplierRecords) -> OrbitRecords {
     let orbit = PageOrbit {
         displacement_m: wave(384, 0.02),
         velocity_m_s: wave(384, 0.06),
+        in_contacts: vec![(7, 0.1, 0.2); 24],
         acceleration_m_s2: pairs(0.7),
         forces_n: vec![pairs(0.0)],
         support_m: wave(120, 0.05),

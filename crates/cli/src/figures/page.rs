@@ -32,7 +32,10 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
     for record in &records {
         let places = places(store, record)?;
         store.each_multipliers::<StoreError>(record, |found| {
-            multipliers.push(&found?);
+            multipliers.push(&found.unwrap_or_else(|error| {
+                drawn.refuse("multipliers on the page", error.to_string());
+                Vec::new()
+            }));
             Ok(())
         })?;
         branches.push(branch(record, &places));

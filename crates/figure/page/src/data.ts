@@ -133,7 +133,7 @@ export function readSolutions(branches: Branch[]): Solutions {
 
 /** The base64 text of the multipliers of all solutions. */
 export function multiplierText(): string {
-    return textOf("multipliers");
+    return textOf("floquet");
 }
 
 /** The base64 text of all orbits. */

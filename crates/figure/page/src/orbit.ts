@@ -2,6 +2,7 @@
 
 import { bytesOf } from "./base64";
 import type { Meta, Solutions } from "./data";
+import { smooth } from "./motion";
 
 export interface Orbit {
     /** Number of the solution that it belongs to. */
@@ -9,6 +10,8 @@ export interface Orbit {
     period: number;
     displacement: Float64Array;
     velocity: Float64Array;
+    /** Displacements and velocities, those within contacts among them. */
+    portrait: [Float64Array, Float64Array];
     /** Least and largest in each step, in their order in time. */
     acceleration: Float64Array;
     /** At the instants of the modes. */
@@ -53,10 +56,10 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
     const bytes = bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4));
     const view = new DataView(bytes.buffer);
     const count = (k: number): number => view.getUint16(2 * k, true);
-    const [samples, steps, elements, ofMode, modes, harmonics] = [count(0), count(1), count(2), count(3), count(4), count(5)];
+    const [samples, steps, elements, ofMode, modes, harmonics, inside] = [count(0), count(1), count(2), count(3), count(4), count(5), count(6)];
     const repeated = (length: number, times: number): number[] => new Array<number>(times).fill(length);
-    const lengths = [samples, samples, 2 * steps, ofMode, ...repeated(2 * steps, elements), ...repeated(ofMode, modes), harmonics];
-    const ranges = 12;
+    const lengths = [samples, samples, 2 * steps, ofMode, ...repeated(2 * steps, elements), ...repeated(ofMode, modes), harmonics, ...repeated(inside, 3)];
+    const ranges = 14;
     let at = ranges + 8 * lengths.length;
     const series = lengths.map((length, k) => {
         const values = new Float64Array(length);
@@ -74,8 +77,34 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
         support: series[3] ?? none,
         forces: series.slice(4, 4 + elements),
         modes: series.slice(4 + elements, 4 + elements + modes),
-        spectrum: series.at(-1) ?? none,
+        spectrum: series.at(-4) ?? none,
+        portrait: portraitOf(series[0] ?? none, series[1] ?? none, series.slice(-3)),
     };
+}
+
+/** Parts of a step of a portrait that is drawn by cubics. */
+const PARTS = 4;
+
+/** Samples with those within contacts, each behind the sample whose number it has; away from contacts the motion is smooth, and cubics stand between samples. */
+function portraitOf(displacement: Float64Array, velocity: Float64Array, inside: Float64Array[]): [Float64Array, Float64Array] {
+    const [before, inDisplacement, inVelocity] = inside;
+    const [x, y]: [number[], number[]] = [[], []];
+    const struck = new Set(Array.from(before ?? [], Math.round));
+    let next = 0;
+    for (let k = 0; k < displacement.length; k++) {
+        x.push(displacement[k] ?? NaN);
+        y.push(velocity[k] ?? NaN);
+        const isSmooth = !struck.has(k - 1) && !struck.has(k) && !struck.has(k + 1);
+        for (let part = 1; isSmooth && part < PARTS; part++) {
+            x.push(smooth(displacement, k + part / PARTS));
+            y.push(smooth(velocity, k + part / PARTS));
+        }
+        for (; next < (before?.length ?? 0) && Math.round(before?.[next] ?? 0) <= k; next++) {
+            x.push(inDisplacement?.[next] ?? NaN);
+            y.push(inVelocity?.[next] ?? NaN);
+        }
+    }
+    return [Float64Array.from(x), Float64Array.from(y)];
 }
 
 /** Fills a series from its second differences; returns where the next one begins. */

@@ -80,9 +80,9 @@ export class OrbitPlots {
     }
 
     private phasePlot(orbit: Orbit, colour: string): Plot {
-        const [x, y] = [closed(orbit.displacement.map((value) => 1e3 * value)), closed(orbit.velocity)];
+        const [x, y] = [closed(orbit.portrait[0].map((value) => 1e3 * value)), closed(orbit.portrait[1])];
         const step = orbit.displacement.length / orbit.period;
-        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [x[k * step] ?? NaN, y[k * step] ?? NaN]);
+        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [1e3 * (orbit.displacement[k * step] ?? NaN), orbit.velocity[k * step] ?? NaN]);
         return { xLabel: "Displacement (mm)", yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }], circles };
     }
 

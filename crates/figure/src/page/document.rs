@@ -29,7 +29,7 @@ pub(super) fn html(page: &Page) -> String {
         "<noscript>This page draws with a script that it holds itself; scripts are switched off in this browser.</noscript>\n",
         &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
         &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
-        &format!("<script id=\"multipliers\" type=\"text/plain\">{multipliers}</script>\n"),
+        &format!("<script id=\"floquet\" type=\"text/plain\">{multipliers}</script>\n"),
         &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
         "<script>\n",
         SCRIPT,

@@ -1,9 +1,9 @@
 //! Orbits as records that are decoded one at a time.
 //!
-//! A record, little-endian: six u16 (samples N, steps S, local elements E, samples of a mode K, modes M, harmonics H), then for each series its least value and its
+//! A record, little-endian: seven u16 (samples N, steps S, local elements E, samples of a mode K, modes M, harmonics H, samples in contacts C), then for each series its least value and its
 //! step as f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
-//! velocity (N), acceleration (2 S), displacement of the support (K), the force of each local element (2 S), the coordinate of each mode (K), and the common logarithms of the
-//! amplitudes of the harmonics of the acceleration (H).
+//! velocity (N), acceleration (2 S), displacement of the support (K), the force of each local element (2 S), the coordinate of each mode (K), the common logarithms of the
+//! amplitudes of the harmonics of the acceleration (H), and of what is carried within contacts the number of the sample before it, displacement and velocity (C each).
 //!
 //! Displacement and velocity are smooth at this distance of samples. A contact may be much shorter: of acceleration and forces the least and the largest value
 //! in each of some steps are carried, in their order in time, so that no peak is lost.
@@ -38,6 +38,8 @@ pub struct PageOrbit {
     pub displacement_m: Vec<f64>,
     /// Its velocity at the same instants (m/s).
     pub velocity_m_s: Vec<f64>,
+    /// What happens within contacts, which may be shorter than the distance of samples: number of the sample before it, displacement (m) and velocity (m/s).
+    pub in_contacts: Vec<(usize, f64, f64)>,
     /// Least and largest acceleration in each of some equal steps, in their order in time (m/s²).
     pub acceleration_m_s2: Vec<[f64; 2]>,
     /// The same of the force of each local element (N).
@@ -121,6 +123,8 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
     series.extend(orbit.forces_n.iter().map(flat));
     series.extend(orbit.modes.iter().cloned());
     series.push(orbit.spectrum_m_s2.iter().map(|amplitude| amplitude.log10()).collect());
+    let inside = |value: fn(&(usize, f64, f64)) -> f64| orbit.in_contacts.iter().map(value).collect();
+    series.extend([inside(|at| at.0 as f64), inside(|at| at.1), inside(|at| at.2)]);
     let counts = [
         orbit.displacement_m.len(),
         orbit.acceleration_m_s2.len(),
@@ -128,6 +132,7 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
         orbit.support_m.len(),
         orbit.modes.len(),
         orbit.spectrum_m_s2.len(),
+        orbit.in_contacts.len(),
     ];
     let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u16).to_le_bytes()).collect();
     let mut ranges: Vec<[f32; 2]> = series.iter().map(|values| range(values)).collect();
@@ -196,15 +201,15 @@ mod tests {
     fn read(record: &[u8]) -> Vec<Vec<f64>> {
         let count = |k: usize| usize::from(u16::from_le_bytes(record[2 * k..2 * k + 2].try_into().unwrap()));
         let number = |at: usize| f64::from(f32::from_le_bytes(record[at..at + 4].try_into().unwrap()));
-        let [n, steps, elements, of_mode, modes, harmonics] = std::array::from_fn(count);
+        let [n, steps, elements, of_mode, modes, harmonics, inside] = std::array::from_fn(count);
         let mut lengths = vec![n, n, 2 * steps, of_mode];
         lengths.extend(vec![2 * steps; elements]);
         lengths.extend(vec![of_mode; modes]);
-        lengths.push(harmonics);
-        let mut at = 12 + 8 * lengths.len();
+        lengths.extend([harmonics, inside, inside, inside]);
+        let mut at = 14 + 8 * lengths.len();
         let mut series = Vec::new();
         for (k, length) in lengths.into_iter().enumerate() {
-            let (low, step) = (number(12 + 8 * k), number(16 + 8 * k));
+            let (low, step) = (number(14 + 8 * k), number(18 + 8 * k));
             let (mut last, mut slope, mut zeros, mut values) = (0_i64, 0_i64, 0_i64, Vec::new());
             let mut next = || {
                 let (mut found, mut shift) = (0_i64, 0);
@@ -240,6 +245,7 @@ mod tests {
         PageOrbit {
             displacement_m: times().map(|t| 1e-3 * (0.3 * t).sin()).collect(),
             velocity_m_s: times().map(|t| if t % 2.0 == 0.0 { -1e4 } else { 1e4 }).collect(),
+            in_contacts: vec![(3, 0.5, -1.0), (3, 0.75, 0.0), (samples - 1, 1.0, 1.0)],
             acceleration_m_s2: times().map(|t| [-t, t]).collect(),
             forces_n: vec![times().map(|t| [t, 0.0]).collect(), vec![[f64::NAN, 0.0]; samples]],
             support_m: vec![0.25; samples / 2],
@@ -254,7 +260,7 @@ mod tests {
     fn values_are_good_to_half_a_step() {
         let orbit = orbit(200);
         let series = read(&packed(&orbit));
-        assert_eq!(series.len(), 9);
+        assert_eq!(series.len(), 12);
         // Half a step, and the rounding of 4095 steps as f32.
         let good = 0.5 / STEPS + 1e-7;
         let near = |found: &[f64], meant: &[f64], range: f64| {
@@ -271,11 +277,14 @@ mod tests {
         near(&series[5], &vec![0.0; 400], 1.0);
         near(&series[6], &orbit.modes[0], 2.0);
         near(&series[7], &orbit.modes[1], 2.0);
+        near(&series[9], &[3.0, 3.0, 199.0], 196.0);
+        near(&series[10], &[0.5, 0.75, 1.0], 0.5);
+        near(&series[11], &[-1.0, 0.0, 1.0], 2.0);
     }
 
     #[test]
     fn spectra_are_logarithms_and_no_amplitude_is_the_least_one() {
-        let spectrum = read(&packed(&orbit(10))).pop().unwrap();
+        let spectrum = read(&packed(&orbit(10))).remove(8);
         for (found, meant) in spectrum.iter().zip([2.0, -3.0, -3.0]) {
             assert!((found - meant).abs() < 5.0 * (0.5 / STEPS + 1e-7));
         }

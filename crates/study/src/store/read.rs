@@ -159,12 +159,13 @@ impl Store {
         for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
             let walk = walk_id(branch.start, side);
             let select = format!(
-                "SELECT multiplier_count, multipliers FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
+                "SELECT multiplier_count, multipliers, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
             );
             let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
             let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
             while let Some(row) = rows.next().map_err(failed)? {
-                take(read_multipliers(row, 0))?;
+                let key = row.get(2).map_err(failed)?;
+                take(read_multipliers(row, 0).map_err(|error| self.damaged(key, error)))?;
             }
         }
         Ok(())
@@ -176,12 +177,13 @@ impl Store {
         order: &str,
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let select = format!("SELECT {ROW} FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
+        let select = format!("SELECT {ROW}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
         let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
         let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
         let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
         while let Some(row) = rows.next().map_err(failed)? {
-            take(read_row(row).map_err(failed)?)?;
+            let key = row.get(13).map_err(failed)?;
+            take(read_row(row).map_err(|error| self.damaged(key, error.into()))?)?;
         }
         Ok(())
     }
@@ -206,7 +208,20 @@ impl Store {
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, key >> 33])?;
         let row = rows.next()?.ok_or(rusqlite::Error::QueryReturnedNoRows)?;
-        read_solution(row)
+        read_solution(row).map_err(|error| self.damaged(key, error))
+    }
+
+    /// Says which solution it is that cannot be read.
+    fn damaged(&self, key: i64, error: StoreError) -> StoreError {
+        let select = "SELECT branch FROM start WHERE id = ?1";
+        let branch: Option<u32> =
+            self.connection.query_row(select, [key >> 33], |row| row.get(0)).unwrap_or_default();
+        StoreError::DamagedSolution {
+            branch: branch.map_or_else(|| "(none yet)".to_owned(), |branch| branch.to_string()),
+            side: if key >> 32 & 1 == 1 { "down" } else { "up" },
+            number: key as u32,
+            source: Box::new(error),
+        }
     }
 }
 

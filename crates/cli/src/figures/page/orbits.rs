@@ -50,8 +50,16 @@ pub fn carried(
     let (mut taken, mut full) = (0, false);
     while !drawn.is_stopped() {
         for part in parts.by_ref().take(UNDER_WAY * drawn.crew().threads() - under_way.len()) {
-            let solutions = part.iter().map(|&number| solution(store, records, stored, number));
-            let solutions = solutions.collect::<Result<Vec<_>, _>>()?;
+            let mut solutions = Vec::with_capacity(part.len());
+            for &number in part {
+                match solution(store, records, stored, number) {
+                    Err(error @ StoreError::DamagedSolution { .. }) => {
+                        drawn.refuse("an orbit of the page", error.to_string());
+                        solutions.push(None);
+                    }
+                    found => solutions.push(Some(found?)),
+                }
+            }
             let drawing = Arc::clone(&drawing);
             under_way.push_back((part, drawn.crew().hand(move || drawing.records(&solutions))));
         }
@@ -104,13 +112,16 @@ impl Drawing {
     }
 
     /// Orbits of solutions, in their order, by an integrator of their own; `None` where the motion cannot be computed, fewer when the user asks to stop.
-    fn records(&self, solutions: &[PeriodicSolution]) -> Vec<Option<OrbitRecord>> {
+    fn records(&self, solutions: &[Option<PeriodicSolution>]) -> Vec<Option<OrbitRecord>> {
         let settings = ExactSettings::default();
         let Ok(mut integrator) = ExactIntegrator::new(self.model.system.clone(), settings) else {
             return vec![None; solutions.len()];
         };
-        let is_wanted = |_: &&PeriodicSolution| !self.interrupt.as_ref().is_some_and(Interrupt::raised);
-        let record = |solution| Some(self.orbit(&mut integrator, solution).ok()?.record());
+        let is_wanted =
+            |_: &&Option<PeriodicSolution>| !self.interrupt.as_ref().is_some_and(Interrupt::raised);
+        let record = |solution: &Option<PeriodicSolution>| {
+            Some(self.orbit(&mut integrator, solution.as_ref()?).ok()?.record())
+        };
         solutions.iter().take_while(is_wanted).map(record).collect()
     }
 
@@ -137,7 +148,12 @@ impl Drawing {
             for (series, force) in orbit.forces_n.iter_mut().zip(forces) {
                 widen(&mut series[step], *force);
             }
-            let Some(place) = place else { continue };
+            let Some(place) = place else {
+                let before =
+                    ((cycles * samples as f64) as usize).min(samples * solution.period_multiple as usize - 1);
+                orbit.in_contacts.push((before, displacement, velocity));
+                continue;
+            };
             regular.push(displacement);
             if place.is_multiple_of(2) {
                 orbit.displacement_m.push(displacement);
