@@ -89,9 +89,29 @@ pub fn draw(
         if drawn.is_stopped() {
             break;
         }
-        draw_kind(store, (file, model), (kind, wishes), drawn)?;
+        let result = draw_kind(store, (file, model), (kind, wishes), drawn);
+        unless_damaged(result, &format!("{kind:?}").to_lowercase(), drawn)?;
     }
     Ok(())
+}
+
+/// Where a stored solution cannot be read, the figures that need it are named with the reason, and the others are drawn.
+fn unless_damaged<T>(
+    result: Result<T, impl Into<Failure>>,
+    name: &str,
+    drawn: &mut Drawn<'_>,
+) -> Result<Option<T>, Failure> {
+    let is_damage = |error: &anyhow::Error| {
+        matches!(error.downcast_ref::<StoreError>(), Some(StoreError::DamagedSolution { .. }))
+    };
+    match result.map_err(Into::into) {
+        Ok(found) => Ok(Some(found)),
+        Err(Failure::Other(error)) if is_damage(&error) => {
+            drawn.refuse(name, error.to_string());
+            Ok(None)
+        }
+        Err(failure) => Err(failure),
+    }
 }
 
 fn draw_kind(

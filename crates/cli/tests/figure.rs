@@ -178,22 +178,44 @@ fn an_orbit_that_is_added_to_the_study_is_drawn_by_the_next_run() {
 }
 
 #[test]
-fn an_orbit_that_no_branch_has_is_refused_with_a_sentence_and_the_rest_is_drawn() {
+fn an_orbit_that_no_branch_has_is_bad_input() {
     let workshop = short_run("");
-    let arguments = ["figure", "results", "--orbit", "13.7", "--orbit", "20", "--orbit", "13.7:3", "--json"];
-    let output = workshop.hammerbeam(&arguments);
-    assert_success(&output);
-    for sentence in [
-        "orbit_20Hz_period1: no stored branch of 1 excitation period(s) crosses 20 Hz",
-        "orbit_13.7Hz_period3: no stored branch of 3 excitation period(s) crosses 13.7 Hz",
+    for (orbit, sentence) in [
+        ("20", "no stored branch of 1 excitation period(s) crosses 20 Hz; they lie between 13.5 and 14 Hz"),
+        ("13.7:3", "no stored branch of 3 excitation period(s) crosses 13.7 Hz; there is no such branch"),
     ] {
-        assert!(stderr(&output).contains(sentence), "{}", stderr(&output));
+        let arguments = ["figure", "results", "--orbit", "13.7", "--orbit", orbit, "--out", "drawn"];
+        assert_bad_input(&workshop.hammerbeam(&arguments), &[sentence]);
+        assert!(!workshop.path("drawn").exists(), "nothing is drawn");
     }
-    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    assert_eq!(document["not_drawn"].as_array().unwrap().len(), 2);
+    assert_success(&workshop.hammerbeam(&["figure", "results", "--orbit", "13.7"]));
     assert!(workshop.path("results/orbit_13.7Hz_period1-spectrum.svg").is_file());
     let refused = workshop.hammerbeam(&["figure", "results", "--orbit", "13.7:0"]);
     assert_bad_input(&refused, &["a whole number from 1 to 64"]);
+}
+
+/// Solutions whose multipliers are cut: what needs them is named with the solution, everything else is drawn.
+#[test]
+fn a_damaged_solution_costs_only_the_figures_that_need_it() {
+    let workshop = short_run("");
+    let whole = files(&workshop, &["--out", "whole"]);
+    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let of_branch =
+        "UPDATE solution SET multipliers = x'00' WHERE id >> 33 = (SELECT id FROM start WHERE branch = 1)";
+    assert!(database.execute(of_branch, []).unwrap() > 0);
+    database.close().unwrap();
+    let output = workshop.hammerbeam(&["figure", "results", "--out", "drawn", "--json"]);
+    assert_success(&output);
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let drawn = document["files"].as_array().unwrap();
+    let missing: Vec<&String> = whole.iter().filter(|name| !drawn.contains(&name.as_str().into())).collect();
+    assert!(missing.iter().all(|name| name.starts_with("multipliers-1")), "{missing:?}");
+    assert!(!missing.is_empty());
+    let sentence = "side of branch 1 is damaged: the stored multipliers has 1 bytes";
+    for name in ["multipliers-1", "multipliers on the page"] {
+        let is_named = stderr(&output).lines().any(|line| line.starts_with(name) && line.contains(sentence));
+        assert!(is_named, "{name}: {}", stderr(&output));
+    }
 }
 
 #[test]

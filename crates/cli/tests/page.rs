@@ -15,9 +15,11 @@ use std::{
 
 use common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_figure::{
-    MotionKind, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure,
+    MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageLink, PageMeasured, PageMotion,
+    PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure,
 };
+use hammerbeam_orbit::Side;
+use hammerbeam_study::Store;
 use rusqlite::Connection;
 use serde_json::{Value, json};
 
@@ -53,11 +55,31 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
         "branches": branches.len(),
         "first_branch": branches[0]["branch"],
         "range": [30.0, 40.0],
+        "multipliers": multipliers(&workshop),
     });
     let odd = odd_pages(&workshop);
     in_a_browser(&json!({ "run": run, "odd": odd }));
     while_a_run_writes(&workshop);
     without_anything(&workshop);
+}
+
+/// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to end.
+fn multipliers(workshop: &Workshop) -> Value {
+    let store = Store::open(&workshop.path("results")).unwrap();
+    let mut keys = Vec::new();
+    for branch in store.branches().unwrap() {
+        let places = |side: Side, count: u64| (0..count as u32).map(move |number| (side, number));
+        let down = places(Side::Down, branch.down.solutions).rev();
+        let all = down.chain(places(Side::Up, branch.up.solutions));
+        keys.extend(all.map(|(side, number)| (branch.start, side, number)));
+    }
+    let of = |(number, &(start, side, place)): (usize, &(u32, Side, u32))| {
+        json!({
+            "solution": number,
+            "stored": store.solution(start, side, place).unwrap().floquet_multipliers,
+        })
+    };
+    keys.iter().enumerate().step_by(keys.len() / 60).map(of).collect()
 }
 
 /// A walk that has not ended is told on the page.
@@ -122,7 +144,7 @@ fn odd_pages(workshop: &Workshop) -> Value {
             "everything at once",
             everything(),
             1,
-            vec!["measured: sweep up", "chaotic motion", "Poincare section", "0.2500 ± 0.010"],
+            vec!["measured: sweep up", "chaotic motion", "Poincaré section", "0.2500 ± 0.010"],
             "the orbit of",
         ),
     ];
@@ -151,13 +173,17 @@ fn everything() -> Page {
     let orbit = PageOrbit {
         displacement_m: wave(60, 1e-3),
         velocity_m_s: wave(60, 1.0),
+        in_contacts: vec![(3, 1e-3, 0.5), (3, 1.1e-3, -0.5)],
         acceleration_m_s2: pairs(10.0),
         forces_n: vec![pairs(1.0), pairs(0.0)],
         support_m: vec![0.0; 30],
         modes: vec![wave(30, 1e-3), wave(30, -5e-4)],
         spectrum_m_s2: vec![10.0, 0.0, f64::NAN],
-        multipliers: vec![[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]],
     };
+    let mut multipliers = MultiplierRecords::default();
+    (0..20).for_each(|_| {
+        multipliers.push(&[[f64::INFINITY, 0.0], [f64::NAN, 0.0], [-250.0, 0.0], [0.3, 0.4], [0.3, -0.4]]);
+    });
     let mut orbits = OrbitRecords::default();
     assert!(orbits.insert(0, orbit.record(), usize::MAX));
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
@@ -185,6 +211,7 @@ fn everything() -> Page {
             solutions: (0..20).map(solution).collect(),
         }],
         orbits,
+        multipliers,
         structure: Some(PageStructure {
             is_beam: false,
             places: vec![place("first", 0.0, [1.0, 0.0]), place("second", 1.0, [0.0, 1.0])],
@@ -192,7 +219,11 @@ fn everything() -> Page {
                 stop(0, Some(1), vec![(5e-4, true)]),
                 stop(1, None, vec![(1e-3, true), (-1e-3, false)]),
             ],
-            links: vec![[Some(0), None], [Some(0), Some(1)], [None, Some(1)]],
+            links: [[Some(0), None], [Some(0), Some(1)], [None, Some(1)], [Some(0), Some(1)]]
+                .into_iter()
+                .enumerate()
+                .map(|(k, ends)| PageLink { ends, is_damper: k == 3 })
+                .collect(),
             eigenfrequencies_hz: vec![12.0, 25.0],
         }),
         motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 5e-3 }],
@@ -252,6 +283,7 @@ fn in_a_browser(pages: &Value) {
     };
     run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
     run(&["build.mjs", "--compare"]);
+    run(&["--test", "test/ticks.test.mjs"]);
     let report = run(&["--test", "--test-reporter=tap", "test/page.test.mjs"]);
     let skipped: Vec<&str> = report.lines().filter(|line| line.contains("# SKIP")).collect();
     if let Some(line) = skipped.first() {

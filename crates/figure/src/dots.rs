@@ -74,6 +74,6 @@ mod tests {
         let mut svg = SvgWriter::new(10.0, 10.0, "", "");
         let at = |x: f64| Point { x, y: 1.0 };
         dot.draw(&mut svg, &[at(1.0), at(1.0), at(1.001), at(2.0)]);
-        assert_eq!(svg.finish().matches('M').count(), 2);
+        assert_eq!(svg.finish().text.matches('M').count(), 2);
     }
 }

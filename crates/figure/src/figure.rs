@@ -1,25 +1,25 @@
 //! A finished figure.
 
-use crate::{FigureError, png};
+use crate::{FigureError, png, svg::Document};
 
 /// A finished figure: an SVG document and its size on paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    svg: String,
+    svg: Document,
     description: String,
     width_mm: f64,
     height_mm: f64,
 }
 
 impl Figure {
-    pub(crate) fn new(svg: String, description: String, width_mm: f64, height_mm: f64) -> Self {
+    pub(crate) fn new(svg: Document, description: String, width_mm: f64, height_mm: f64) -> Self {
         Self { svg, description, width_mm, height_mm }
     }
 
-    /// The figure as an SVG document, in UTF-8.
+    /// The figure as an SVG document, in UTF-8, with the glyphs that it uses.
     #[must_use]
     pub fn svg(&self) -> String {
-        self.svg.clone()
+        self.svg.with_fonts()
     }
 
     /// The figure as a PNG file; 300 pixels per inch is what journals ask for.
@@ -27,7 +27,7 @@ impl Figure {
     /// # Errors
     /// [`FigureError::Resolution`] outside 24 to 1200 pixels per inch.
     pub fn png(&self, pixels_per_inch: f64) -> Result<Vec<u8>, FigureError> {
-        png::png(&self.svg, self.width_mm, self.height_mm, pixels_per_inch)
+        png::png(&self.svg.text, self.width_mm, self.height_mm, pixels_per_inch)
     }
 
     /// What the figure shows, in words, with the number of solutions and of marks that were left out where

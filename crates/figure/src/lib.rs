@@ -49,11 +49,11 @@
 //!   kilobytes.
 //! - **Own PNG files, not the renderer's.** Figures are opaque and have few colours: one or three bytes a pixel, without filters, are deflated in half the time of
 //!   the four filtered ones that the renderer writes, into files that are a quarter smaller.
-//! - **The font is Arimo**, bundled for PNG and named first in the SVG; its widths are those of Arial and
-//!   Helvetica, so that the layout holds where it is missing. The SVG does not carry it: that would add 300 kB
-//!   to every figure.
+//! - **The font is Arimo**, bundled. An SVG carries the glyphs that it uses, some 10 kB, so that nothing has to be installed where it is opened; text stays text, to be
+//!   searched and changed. A program that does not read such fonts takes Arial or Helvetica, whose widths are the same.
 
 mod axis;
+mod base64;
 mod basin_map;
 mod chart;
 mod curve_diagram;
@@ -100,8 +100,8 @@ pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitSample};
 pub use page::{
-    OrbitRecord, OrbitRecords, Page, PageBranch, PageMeasured, PageMotion, PageOrbit, PagePlace, PageSection,
-    PageSolution, PageStop, PageStructure, room_for_orbits,
+    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageLink, PageMeasured, PageMotion,
+    PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure, room_for_orbits,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{
@@ -114,3 +114,4 @@ pub use structure_diagram::{
 };
 pub use style::Style;
 pub use sweep_diagram::{Origin, SweepDiagram, SweptMotion};
+pub use text::plain_number;

@@ -6,6 +6,7 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     style::period_colour,
+    text::plain_number,
 };
 
 /// Points up to which they are drawn larger.
@@ -38,7 +39,7 @@ impl SectionDiagram {
         let panels = vec![Panel { quantity: "point of the section", y, layers, heading: String::new() }];
         let count = self.points.len();
         let description =
-            format!("stroboscopic section at phase 0 at {} Hz, {count} points", self.frequency_hz);
+            format!("Poincaré section at phase 0 at {} Hz, {count} points", plain_number(self.frequency_hz));
         let x = Measure::new("Displacement (mm)");
         let title = self.title.clone();
         Chart { title, x, panels, legend: Vec::new(), description, aspect: Some(0.8) }.draw(style)

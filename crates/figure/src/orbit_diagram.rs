@@ -9,6 +9,7 @@ use crate::{
     layer::Layer,
     legend::{Entry, Sample},
     style::{INK, Pattern, line_pattern},
+    text::plain_number,
 };
 
 /// Ratio of the largest amplitude of a spectrum to the least that is drawn.
@@ -73,7 +74,8 @@ impl OrbitDiagram {
             plain("acceleration", "Accel. (m/s²)", self.over_time(|sample| sample.acceleration_m_s2), 0),
         ];
         if let Some(filtered) = &self.filtered {
-            let heading = format!("acceleration behind a low-pass filter of {} Hz", filtered.cut_off_hz);
+            let heading =
+                format!("acceleration behind a low-pass filter of {} Hz", plain_number(filtered.cut_off_hz));
             let points = self.closed(&filtered.values_m_s2);
             panels.push(Panel { heading, ..plain("filtered acceleration", "Accel. (m/s²)", points, 0) });
         }
@@ -190,7 +192,7 @@ impl OrbitDiagram {
         legend: Vec<Vec<Entry>>,
         aspect: Option<f64>,
     ) -> Chart {
-        let (frequency, multiple) = (self.frequency_hz, self.period_multiple);
+        let (frequency, multiple) = (plain_number(self.frequency_hz), self.period_multiple);
         let description =
             format!("{what}, at {frequency} Hz, period {multiple}, {} samples", self.samples.len());
         Chart { title: self.title.clone(), x, panels, legend, description, aspect }

@@ -1,17 +1,18 @@
 //! The page: everything in a results folder in one HTML file, which any browser opens without a server or a network.
 //!
-//! The file holds a short script and the data it shows: what is small as JSON, solutions and orbits as little-endian arrays in base64.
-//! Solutions are decoded when the page opens. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
+//! The file holds a short script and the data it shows: what is small as JSON, solutions, their multipliers and orbits as little-endian arrays in base64.
+//! Solutions are decoded when the page opens, multipliers when a solution is selected for the first time. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
 //! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to a 4095th of the range of their series.
 //!
 //! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
 //! needs Node; a test says that it is what the sources give.
 
-mod base64;
 mod columns;
 mod document;
+mod multipliers;
 mod orbits;
 
+pub use multipliers::MultiplierRecords;
 pub use orbits::{OrbitRecord, OrbitRecords, PageOrbit, room_for_orbits};
 
 use crate::MotionKind;
@@ -31,13 +32,15 @@ pub struct Page {
     pub branches: Vec<PageBranch>,
     /// Orbits of some of their solutions.
     pub orbits: OrbitRecords,
+    /// Multipliers of all of them, or of none.
+    pub multipliers: MultiplierRecords,
     /// The structure; `None` if it is not known.
     pub structure: Option<PageStructure>,
     /// Motions of sweeps that did not settle on a periodic one.
     pub motions: Vec<PageMotion>,
     /// Ranges of the frequency with chaotic motion (Hz).
     pub chaotic_ranges_hz: Vec<(f64, f64)>,
-    /// Poincare sections.
+    /// Poincaré sections.
     pub sections: Vec<PageSection>,
     /// Measured points, laid over the response diagram.
     pub measured: Vec<PageMeasured>,
@@ -97,8 +100,8 @@ pub struct PageStructure {
     pub places: Vec<PagePlace>,
     /// Stops.
     pub stops: Vec<PageStop>,
-    /// Springs and dampers between masses, by their places; `None` is the ground.
-    pub links: Vec<[Option<u32>; 2]>,
+    /// Springs and dampers between masses.
+    pub links: Vec<PageLink>,
     /// Eigenfrequencies without local elements (Hz).
     pub eigenfrequencies_hz: Vec<f64>,
 }
@@ -114,6 +117,15 @@ pub struct PagePlace {
     pub shape: Vec<f64>,
     /// Displacement per unit displacement of the support.
     pub support_ratio: f64,
+}
+
+/// A spring or a damper between masses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PageLink {
+    /// The places that it joins; `None` is the ground.
+    pub ends: [Option<u32>; 2],
+    /// Whether it is a damper.
+    pub is_damper: bool,
 }
 
 /// What a place of a structure can hit.

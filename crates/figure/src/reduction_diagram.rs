@@ -6,10 +6,10 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
-    style::stability_colour,
+    style::{INK, stability_colour},
 };
 
-/// The least error that is drawn: below it there is rounding alone.
+/// The least error that is drawn as it is: below it there is rounding alone.
 const LEAST: f64 = 1e-12;
 
 /// Errors of eigenfrequencies.
@@ -33,7 +33,7 @@ pub struct ReducedMode {
 }
 
 impl ReductionDiagram {
-    /// The figure, in that style; errors below 1e-12 are drawn there.
+    /// The figure, in that style; errors below 1e-12 stand there as triangles that point down, which the legend says.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no mode has a positive frequency and a finite error.
@@ -42,6 +42,7 @@ impl ReductionDiagram {
             let error = mode.relative_error.abs();
             (mode.full_hz, if error.is_finite() { error.max(LEAST) } else { f64::NAN })
         };
+        let is_rounding = |mode: &ReducedMode| mode.relative_error.abs() < LEAST;
         let mut layers = Vec::new();
         let mut legend = Vec::new();
         for (below, name) in [(true, "up to the cut-off"), (false, "above the cut-off")] {
@@ -49,12 +50,20 @@ impl ReductionDiagram {
                 (if below { Shape::Circle } else { Shape::Square }, stability_colour(below));
             let dot = Dot { shape, colour, full: below, radius: 1.3 * style.mark_radius };
             let modes = self.modes.iter().filter(|mode| mode.below_cut_off == below && mode.full_hz > 0.0);
-            let points: Vec<(f64, f64)> = modes.map(place).collect();
+            let points: Vec<(f64, f64)> = modes.filter(|mode| !is_rounding(mode)).map(place).collect();
             if !points.is_empty() {
                 legend.push(Entry { sample: Sample::Dot(dot), name: name.to_owned() });
             }
             layers.push(Layer::Dots { points, dot });
         }
+        let dot =
+            Dot { shape: Shape::TriangleDown, colour: INK, full: false, radius: 1.3 * style.mark_radius };
+        let lesser = self.modes.iter().filter(|mode| is_rounding(mode) && mode.full_hz > 0.0);
+        let points: Vec<(f64, f64)> = lesser.map(place).collect();
+        if !points.is_empty() {
+            legend.push(Entry { sample: Sample::Dot(dot), name: "less than 10⁻¹²".to_owned() });
+        }
+        layers.push(Layer::Dots { points, dot });
         let y = Measure::logarithmic("Error of eigenfrequency (–)");
         let panels = vec![Panel { quantity: "error", y, layers, heading: String::new() }];
         let description =

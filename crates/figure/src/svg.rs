@@ -5,7 +5,10 @@
 
 use std::fmt::Write;
 
-use crate::{font, text::Text};
+use crate::{
+    font::{self, Characters},
+    text::Text,
+};
 
 /// A place on the page (pt), y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +46,26 @@ pub(crate) struct TextStyle<'a> {
 #[derive(Debug)]
 pub(crate) struct SvgWriter {
     document: String,
+    /// Where the fonts stand in it (bytes).
+    fonts_at: usize,
+    characters: Characters,
+}
+
+/// An SVG document, and the fonts that it needs.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Document {
+    /// The document without fonts.
+    pub(crate) text: String,
+    fonts_at: usize,
+    characters: Characters,
+}
+
+impl Document {
+    /// The document with the glyphs that it uses.
+    pub(crate) fn with_fonts(&self) -> String {
+        let (head, rest) = self.text.split_at(self.fonts_at);
+        [head, &self.characters.style_element(), rest].concat()
+    }
 }
 
 impl SvgWriter {
@@ -55,11 +78,13 @@ impl SvgWriter {
         let document = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width_mm}mm\" height=\"{height_mm}mm\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" font-family=\"{}\">\n\
-             <title>{title}</title>\n<desc>{description}</desc>\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n",
+             <title>{title}</title>\n<desc>{description}</desc>\n",
             font::FAMILIES
         );
-        Self { document }
+        let fonts_at = document.len();
+        let mut writer = Self { document, fonts_at, characters: Characters::default() };
+        writer.add(format_args!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"));
+        writer
     }
 
     /// A polyline with blunt ends.
@@ -120,6 +145,8 @@ impl SvgWriter {
         ));
         for span in &text.spans {
             let content = escape(&span.content);
+            let Characters { upright, italic } = &mut self.characters;
+            if span.italic { italic } else { upright }.extend(span.content.chars());
             match span.italic {
                 true => self.add(format_args!("<tspan font-style=\"italic\">{content}</tspan>")),
                 false => self.document.push_str(&content),
@@ -129,9 +156,9 @@ impl SvgWriter {
     }
 
     /// Ends the document.
-    pub(crate) fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> Document {
         self.document.push_str("</svg>\n");
-        self.document
+        Document { text: self.document, fonts_at: self.fonts_at, characters: self.characters }
     }
 
     fn add(&mut self, arguments: std::fmt::Arguments<'_>) {

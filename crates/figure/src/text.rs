@@ -86,6 +86,12 @@ fn grouped(whole: &str) -> String {
     grouped
 }
 
+/// A number as a reader would write it, without the last digits, which are rounding: up to nine of them.
+#[must_use]
+pub fn plain_number(value: f64) -> String {
+    format!("{value:.8e}").parse::<f64>().map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
+}
+
 /// `mantissa × 10^exponent`, without a mantissa of one.
 pub(crate) fn power_of_ten(mantissa: &str, exponent: i32) -> String {
     let power = format!("10{}", superscript(exponent));
@@ -113,6 +119,15 @@ mod tests {
         assert_eq!(decimal(1_234_567.0, 0), "1\u{2009}234\u{2009}567");
         assert_eq!(power_of_ten("1", -12), "10⁻¹²");
         assert_eq!(power_of_ten("2", 5), "2\u{2009}×\u{2009}10⁵");
+    }
+
+    #[test]
+    fn rounding_is_not_printed() {
+        assert_eq!(plain_number(0.1 + 0.24 - 1e-16), "0.34");
+        assert_eq!(plain_number(0.339_999_999_999_999_97), "0.34");
+        assert_eq!(plain_number(54.110_780_4), "54.1107804");
+        assert_eq!(plain_number(30.0), "30");
+        assert_eq!(plain_number(f64::NAN), "NaN");
     }
 
     #[test]

@@ -54,7 +54,8 @@ fn nice_step(step: f64) -> (u8, i32) {
 }
 
 fn linear_label(value: f64, step: f64, step_exponent: i32, magnitude: f64) -> String {
-    if (-4..=6).contains(&step_exponent) && magnitude < 1e7 {
+    let is_of_usual_size = (1e-3..1e7).contains(&magnitude) && step_exponent >= -9;
+    if (-4..=6).contains(&step_exponent) && magnitude < 1e7 || is_of_usual_size {
         return decimal(value, usize::try_from(-step_exponent).unwrap_or(0));
     }
     if value.abs() < 0.5 * step {
@@ -129,6 +130,13 @@ mod tests {
     #[test]
     fn linear_labels_of_very_small_values_have_powers_of_ten() {
         assert_eq!(labels(ScaleKind::Linear, (0.0, 2.1e-7), 3.0), ["0", "10⁻⁷", "2\u{2009}×\u{2009}10⁻⁷"]);
+    }
+
+    /// A section of a motion that nearly repeats: digits, not a power of ten behind eight of them.
+    #[test]
+    fn labels_of_values_close_to_each_other_are_plain() {
+        let found = labels(ScaleKind::Linear, (-112.178_25, -112.178_21), 3.0);
+        assert_eq!(found, ["−112.17824", "−112.17822"]);
     }
 
     #[test]

@@ -67,6 +67,17 @@ impl StoredBranches {
         &self.branches
     }
 
+    /// The range of the frequency [Hz] of each branch that is wanted, of those that have a solution.
+    pub fn ranges(&self, wanted: impl Fn(&BranchRecord) -> bool) -> Vec<(f64, f64)> {
+        let range = |branch: &StoredBranch| {
+            let frequencies = branch.rows.iter().map(|placed| placed.row.frequency_hz);
+            let (low, high) =
+                (frequencies.clone().fold(f64::INFINITY, f64::min), frequencies.fold(0.0, f64::max));
+            (low <= high).then_some((low, high))
+        };
+        self.branches.iter().filter(|branch| wanted(&branch.record)).filter_map(range).collect()
+    }
+
     /// The stored solution of a row.
     ///
     /// # Errors

@@ -5,9 +5,9 @@ use serde_json::json;
 
 use super::run::threads;
 use crate::{
-    args::FigureOptions,
+    args::{FigureKind, FigureOptions},
     failure::Failure,
-    figures::{self, Drawn, Files, Wishes},
+    figures::{self, Drawn, Files, Wishes, orbit},
     interrupt::Interrupt,
     output::Output,
 };
@@ -18,6 +18,9 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     let model = Model::build(&file)?;
     let folder = options.out.as_deref().unwrap_or(&options.results);
+    if wishes(options, &file).kinds.contains(&FigureKind::Orbits) {
+        orbit::refuse_unknown(store.folder(), &file, &options.orbit)?;
+    }
     let mut drawn = Drawn::into(folder)?.on(threads(options.jobs), Interrupt::listen()?);
     drawn.resolution = options.resolution;
     let wishes = wishes(options, &file);

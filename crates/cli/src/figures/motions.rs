@@ -3,7 +3,7 @@
 use hammerbeam_attractor::{Attractor, Class};
 use hammerbeam_figure::{
     BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, MotionKind, Origin,
-    SectionDiagram, Style, SweepDiagram, SweptMotion,
+    SectionDiagram, Style, SweepDiagram, SweptMotion, plain_number,
 };
 use hammerbeam_study::{
     Model, Store, StoreError, StoredBranches, StudyFile,
@@ -46,7 +46,7 @@ pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()
                 format!("-{}-{}", request.id, number + 1)
             };
             let frequency_hz = record.frequency_hz;
-            let title = format!("{title}, {frequency_hz} Hz");
+            let title = format!("{title}, {} Hz", plain_number(frequency_hz));
             let places = record
                 .spectrum
                 .convergence
@@ -101,7 +101,7 @@ pub fn draw_basins(
             ))
         };
         let map = BasinMap {
-            title: format!("{title}, {frequency_hz} Hz"),
+            title: format!("{title}, {} Hz", plain_number(frequency_hz)),
             x_label: coordinate(&request, "x"),
             y_label: coordinate(&request, "y"),
             x_range: range("x")?,

@@ -7,23 +7,27 @@ use hammerbeam_study::{
     store::{BranchRecord, Row},
 };
 
-use super::Drawn;
+use super::{Drawn, unless_damaged};
+use crate::failure::Failure;
 
 /// Solutions of a branch that are drawn at least, where it has so many, besides all bifurcations.
 const DRAWN: usize = 4000;
 
 /// Draws the multipliers of each branch, over the frequency and in the complex plane.
-pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> Result<(), Failure> {
     for branch in store.branches()? {
         if drawn.is_stopped() {
             break;
         }
         let title = format!("{}, branch {}", store.about("title")?, branch.id);
-        let diagram = MultiplierDiagram { title, solutions: solutions(store, &branch)? };
+        let name = format!("multipliers-{}", branch.id);
+        let found = unless_damaged(solutions(store, &branch), &name, drawn)?;
+        let Some(solutions) = found else { continue };
+        let diagram = MultiplierDiagram { title, solutions };
         let moduli = diagram.draw_moduli(&Style::double_column());
-        drawn.add(&format!("multipliers-{}", branch.id), moduli);
+        drawn.add(&name, moduli);
         let circle = diagram.draw_circle(&Style::single_column());
-        drawn.add(&format!("multipliers-{}-unit-circle", branch.id), circle);
+        drawn.add(&format!("{name}-unit-circle"), circle);
     }
     Ok(())
 }

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use hammerbeam_attractor::Simulation;
-use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style};
+use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style, plain_number};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
 use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{Model, StoredBranches, StudyFile, file::DrawnOrbit};
 
-use super::Drawn;
+use super::{Drawn, unless_damaged};
 use crate::{failure::Failure, initial};
 
 /// Samples in an excitation period.
@@ -33,6 +33,29 @@ pub fn draw(
     Ok(())
 }
 
+/// Refuses an orbit that the user asks for where no stored branch has one.
+pub fn refuse_unknown(folder: &Path, file: &StudyFile, orbits: &[DrawnOrbit]) -> Result<(), Failure> {
+    if orbits.is_empty() {
+        return Ok(());
+    }
+    let branches = StoredBranches::open(folder, file)?;
+    for &DrawnOrbit { frequency_hz, period_multiple } in orbits {
+        let ranges = branches.ranges(|record| record.period_multiple == period_multiple);
+        if !ranges.iter().any(|(low, high)| (*low..=*high).contains(&frequency_hz)) {
+            let low = ranges.iter().map(|range| range.0).fold(f64::INFINITY, f64::min);
+            let high = ranges.iter().map(|range| range.1).fold(0.0, f64::max);
+            let there = match ranges.len() {
+                0 => "there is no such branch".to_owned(),
+                _ => format!("they lie between {} and {} Hz", plain_number(low), plain_number(high)),
+            };
+            return Err(Failure::BadInput(format!(
+                "--orbit: no stored branch of {period_multiple} excitation period(s) crosses {frequency_hz} Hz; {there}"
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// Draws the orbits in which stored branches cross frequencies.
 pub fn draw_stored(
     folder: &Path,
@@ -50,7 +73,8 @@ pub fn draw_stored(
         }
         let name = format!("orbit_{frequency_hz}Hz_period{period_multiple}");
         let crossings =
-            branches.crossings(model, frequency_hz, |record| record.period_multiple == period_multiple)?;
+            branches.crossings(model, frequency_hz, |record| record.period_multiple == period_multiple);
+        let Some(crossings) = unless_damaged(crossings, &name, drawn)? else { continue };
         let mut found: Vec<PeriodicSolution> = crossings.into_iter().map(|(_, orbit)| orbit).collect();
         found.sort_by(|a, b| {
             let size = |orbit: &PeriodicSolution| orbit.maxima.displacement;
@@ -83,7 +107,8 @@ fn diagram(
 ) -> Result<OrbitDiagram, Failure> {
     let frequency_hz = orbit.frequency_hz;
     let stability = if orbit.stable() { "stable" } else { "unstable" };
-    let title = format!("{title}, {frequency_hz} Hz, period {}, {stability}", orbit.period_multiple);
+    let (hz, multiple) = (plain_number(frequency_hz), orbit.period_multiple);
+    let title = format!("{title}, {hz} Hz, period {multiple}, {stability}");
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
     let samples = samples(model, orbit)?;

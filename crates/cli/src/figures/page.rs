@@ -5,7 +5,9 @@ mod orbits;
 mod shape;
 
 use hammerbeam_attractor::Class;
-use hammerbeam_figure::{Page, PageBranch, PageMotion, PageSection, PageSolution, room_for_orbits};
+use hammerbeam_figure::{
+    MultiplierRecords, Page, PageBranch, PageMotion, PageSection, PageSolution, room_for_orbits,
+};
 use hammerbeam_orbit::Side;
 use hammerbeam_study::{
     Model, Store, StoreError, StudyFile,
@@ -26,13 +28,21 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
     }
     let mut stored = Vec::new();
     let mut branches = Vec::new();
+    let mut multipliers = MultiplierRecords::default();
     for record in &records {
         let places = places(store, record)?;
+        store.each_multipliers::<StoreError>(record, |found| {
+            multipliers.push(&found.unwrap_or_else(|error| {
+                drawn.refuse("multipliers on the page", error.to_string());
+                Vec::new()
+            }));
+            Ok(())
+        })?;
         branches.push(branch(record, &places));
         stored.push(places);
     }
     let solutions: usize = stored.iter().map(Vec::len).sum();
-    let most = room_for_orbits(solutions);
+    let most = room_for_orbits(solutions, &multipliers);
     let [low, high] = file.study.excitation.frequency_hz;
     let orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
     if drawn.is_stopped() {
@@ -45,6 +55,7 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
         notice: notice(store, &records)?,
         branches,
         orbits,
+        multipliers,
         structure: Some(shape::structure(file, model)),
         motions,
         chaotic_ranges_hz: motions::chaotic_ranges(store)?,

@@ -1,6 +1,6 @@
 //! Branches over another parameter than the frequency: a response diagram for each piece of the study.
 
-use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint};
+use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint, plain_number};
 use hammerbeam_study::{
     Store, StoreError,
     store::{PieceRecord, StoredVariedRow},
@@ -15,7 +15,7 @@ pub fn draw(store: &Store, scale: FigureScale, drawn: &mut Drawn<'_>) -> anyhow:
         let (curves, frequency_hz) = curves_of(store, &piece)?;
         let title = store.about("title")?;
         let diagram = ResponseDiagram {
-            title: format!("{title}, {frequency_hz} Hz").trim_start_matches(", ").to_owned(),
+            title: format!("{title}, {} Hz", plain_number(frequency_hz)).trim_start_matches(", ").to_owned(),
             parameter: axis_label(&piece.parameter),
             curves,
             ..ResponseDiagram::default()

@@ -41,7 +41,7 @@ export interface Structure {
     beam: boolean;
     places: Place[];
     stops: Stop[];
-    links: [number | null, number | null][];
+    links: { ends: [number | null, number | null]; damper: boolean }[];
     eigenfrequencies: number[];
 }
 
@@ -72,6 +72,8 @@ export interface Meta {
     notice: string;
     branches: Branch[];
     orbits: { solutions: number[]; offsets: number[]; length: number };
+    /** Of how many solutions, and how many of one of them at most, those that are not carried included. */
+    multipliers: { solutions: number; most: number };
     structure: Structure | null;
     motions: Motion[];
     chaos: [number, number][];
@@ -127,6 +129,11 @@ export function readSolutions(branches: Branch[]): Solutions {
     const branch = new Uint16Array(count);
     branches.forEach((of, place) => branch.fill(place, of.first, of.first + of.count));
     return { count, frequency, maxima, multiplierRe, multiplierIm, contacts, flags, branch };
+}
+
+/** The base64 text of the multipliers of all solutions. */
+export function multiplierText(): string {
+    return textOf("floquet");
 }
 
 /** The base64 text of all orbits. */

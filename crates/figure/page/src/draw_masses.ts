@@ -2,7 +2,7 @@
 
 import type { Stop, Structure } from "./data";
 import type { Pose } from "./motion";
-import { hatched, spring, type Sketch } from "./sketch";
+import { dashpot, hatched, spring, type Sketch } from "./sketch";
 
 const SIZE = 44;
 const WALL = 14;
@@ -30,24 +30,25 @@ export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, per
     const ground = Math.max(-EDGE, Math.min(EDGE, perMetre * pose.support));
     const last = structure.places.length - 1;
     hatched(sketch, [EDGE + ground, middle - 60, WALL, 120], theme.look.ink);
-    if (structure.links.some((ends) => ends.includes(null) && ends.includes(last) && last > 0)) {
+    if (structure.links.some(({ ends }) => ends.includes(null) && ends.includes(last) && last > 0)) {
         hatched(sketch, [width - WALL - EDGE + ground, middle - 60, WALL, 120], theme.look.ink);
     }
     context.lineWidth = 1.4;
     context.strokeStyle = theme.look.ink;
     const seen = new Map<string, number>();
-    for (const ends of structure.links) {
+    for (const { ends, damper } of structure.links) {
+        const join = damper ? dashpot : spring;
         const [a, b] = [...ends].sort((one, other) => (one ?? -1) - (other ?? -1));
         const key = `${a} ${b}`;
         const level = seen.get(key) ?? 0;
         seen.set(key, level + 1);
         const right = b ?? 0;
         if (a === null && right === last && last > 0) {
-            spring(sketch, x(right) + SIZE / 2, width - WALL - EDGE + ground, middle - 10 + 16 * level);
+            join(sketch, x(right) + SIZE / 2, width - WALL - EDGE + ground, middle - 10 + 16 * level);
         } else {
             const isFar = right - (a ?? -1) > 1;
             const from = a === null || a === undefined ? WALL + EDGE + ground : x(a) + SIZE / 2;
-            spring(sketch, from, x(right) - SIZE / 2, isFar ? middle + 46 + 14 * level : middle - 10 + 16 * level);
+            join(sketch, from, x(right) - SIZE / 2, isFar ? middle + 46 + 14 * level : middle - 10 + 16 * level);
         }
     }
     for (const stop of structure.stops) {

@@ -16,19 +16,22 @@ export function digits(value: number, count: number): string {
     return text.replace("e+", "e").replaceAll("-", "−");
 }
 
-/** Labels of ticks at a distance. */
+/** Labels of ticks at a distance, all of them with the digits that tell neighbours apart; powers of ten where they are very small or very large. */
 export function ticks(splits: readonly (number | null)[], distance: number): string[] {
-    let decimals = 0;
-    while (decimals < 12 && Math.abs(distance * 10 ** decimals - Math.round(distance * 10 ** decimals)) > 1e-6) {
-        decimals++;
-    }
-    return splits.map((value) => (value === null ? "" : plain(value, decimals)));
-}
-
-function plain(value: number, decimals: number): string {
-    const size = Math.abs(value);
-    const text = size >= 1e6 || (size !== 0 && size < 1e-4) ? value.toExponential(2) : value.toFixed(decimals);
-    return text.replaceAll("-", "−");
+    const largest = splits.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
+    // The last digit of the distance, which uPlot takes from 1, 2, 2.5 and 5 times a power of ten.
+    let last = Math.floor(Math.log10(distance) + 1e-9);
+    last -= Math.abs(distance / 10 ** last - Math.round(distance / 10 ** last)) > 1e-6 ? 1 : 0;
+    const plain = (value: number): string => {
+        if (Math.abs(value) < 0.5 * distance) {
+            return "0";
+        }
+        const size = Math.floor(Math.log10(Math.abs(value)) + 1e-12);
+        const text =
+            largest >= 1e6 || largest < 1e-3 ? value.toExponential(Math.min(15, Math.max(0, size - last))).replace("e+", "e") : value.toFixed(Math.min(15, Math.max(0, -last)));
+        return text.replaceAll("-", "−");
+    };
+    return splits.map((value) => (value === null ? "" : plain(value)));
 }
 
 /** Labels of the ticks of a logarithmic axis. */

@@ -2,7 +2,8 @@
 
 import uPlot from "uplot";
 
-import { logTicks, ticks } from "./format";
+import { ticks } from "./format";
+import { logAxis, type LogAxis } from "./log_axis";
 import type { Theme } from "./theme";
 
 export interface Range {
@@ -35,6 +36,14 @@ export const NARROWEST = 1e-10;
 
 const FONT = "12px system-ui, sans-serif";
 const LABEL_FONT = "13px system-ui, sans-serif";
+
+/** Distance of labels on a vertical axis (CSS pixels). */
+const TALL = 36;
+
+function logarithmic(plot: uPlot): LogAxis {
+    const { min, max } = plot.scales["y"] ?? {};
+    return logAxis(min ?? 0.1, max ?? 1, plot.bbox.height / uPlot.pxRatio / TALL);
+}
 
 export class Frame {
     plot: uPlot;
@@ -103,6 +112,8 @@ export class Frame {
         const size = this.size();
         if (size.width !== this.plot.width || size.height !== this.plot.height) {
             this.plot.setSize(size);
+            // Ends of axes may depend on the size: a circle stays one.
+            this.redraw();
         }
     }
 
@@ -142,8 +153,9 @@ export class Frame {
                     label: this.options.yLabel(),
                     labelSize: 20,
                     size: (_, labels) => Math.max(NARROW, 12 + 7.2 * Math.max(0, ...(labels ?? []).map((label) => label.length))),
-                    space: 36,
-                    values: (_, splits, __, ___, distance) => (logY ? logTicks(splits) : ticks(splits, distance)),
+                    space: TALL,
+                    ...(logY ? { splits: (plot: uPlot) => logarithmic(plot).splits, filter: (_: uPlot, splits: number[]) => splits } : {}),
+                    values: (plot, splits, __, ___, distance) => (logY ? logarithmic(plot).labels : ticks(splits, distance)),
                 },
             ],
             hooks: { draw: [(plot) => this.paint(plot)] },

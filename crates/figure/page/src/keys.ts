@@ -1,7 +1,7 @@
 // Keys, and the list of them.
 
 import { eventsOf } from "./bifurcations";
-import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Meta, type Quantity, type Solutions } from "./data";
+import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Branch, type Meta, type Quantity, type Solutions } from "./data";
 import { element } from "./dom";
 import type { Response } from "./response";
 import type { Store } from "./state";
@@ -39,6 +39,9 @@ const POINTER: readonly [string, string][] = [
     ["Double click", "everything"],
 ];
 
+/** What scrolls a list. */
+const SCROLLING: ReadonlySet<string> = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "End", " "]);
+
 const QUANTITIES: readonly Quantity[] = ["displacement", "acceleration", "force", "velocity"];
 
 export function helpDialog(): HTMLDialogElement {
@@ -50,26 +53,43 @@ export function helpDialog(): HTMLDialogElement {
 
 export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, actions: Actions): void {
     const bifurcations = eventsOf(solutions, FOLD | FLIP | NEIMARK_SACKER | BRANCH_POINT);
-    const select = (selected: number): void => store.update({ selected });
-    const step = (by: number): void => {
-        const { selected } = store.state;
-        const branch = meta.branches[solutions.branch[Math.max(0, selected)] ?? 0];
-        if (branch !== undefined && branch.count > 0) {
-            select(selected < 0 ? branch.first : Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by)));
+    const select = (selected: number): void => {
+        store.update({ selected });
+        if (selected >= 0) {
+            actions.response.follow(selected);
         }
     };
-    const stepBranch = (by: number): void => {
-        const { selected } = store.state;
+    /** The first branch that is drawn, from a place in the list on, forwards or backwards. */
+    const drawn = (from: number, by: 1 | -1): Branch | undefined => {
         const count = meta.branches.length;
-        const next = selected < 0 ? 0 : ((solutions.branch[selected] ?? 0) + by + count) % count;
-        const branch = meta.branches[next];
-        if (branch !== undefined && branch.count > 0) {
+        for (let k = 0; k < count; k++) {
+            const place = (((from + k * by) % count) + count) % count;
+            const branch = meta.branches[place];
+            if (branch !== undefined && branch.count > 0 && !store.state.hidden.has(place)) {
+                return branch;
+            }
+        }
+        return undefined;
+    };
+    const step = (by: number): void => {
+        const { selected, hidden } = store.state;
+        const place = solutions.branch[Math.max(0, selected)] ?? 0;
+        const branch = drawn(place, 1);
+        if (branch !== undefined) {
+            const isOn = selected >= 0 && !hidden.has(place);
+            select(isOn ? Math.min(branch.first + branch.count - 1, Math.max(branch.first, selected + by)) : branch.first);
+        }
+    };
+    const stepBranch = (by: 1 | -1): void => {
+        const { selected } = store.state;
+        const branch = drawn(selected < 0 ? 0 : (solutions.branch[selected] ?? 0) + by, by);
+        if (branch !== undefined) {
             select(branch.first + (branch.count >> 1));
         }
     };
     const stepEvent = (by: 1 | -1): void => {
-        const { selected } = store.state;
-        const own = bifurcations.filter((k) => selected < 0 || solutions.branch[k] === solutions.branch[selected]);
+        const { selected, hidden } = store.state;
+        const own = bifurcations.filter((k) => !hidden.has(solutions.branch[k] ?? 0) && (selected < 0 || solutions.branch[k] === solutions.branch[selected]));
         const found = by > 0 ? own.find((k) => k > selected) : own.findLast((k) => k < selected);
         if (found !== undefined) {
             select(found);
@@ -104,11 +124,16 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         ArrowUp: () => actions.response.pan([0, 0.1]),
         ArrowDown: () => actions.response.pan([0, -0.1]),
     };
+    // Keys scroll a list that was reached by Tab, not one that was clicked into.
+    let byTab = false;
+    document.addEventListener("pointerdown", () => (byTab = false), true);
     document.addEventListener("keydown", (event) => {
+        byTab ||= event.key === "Tab";
         const target = event.target instanceof HTMLElement ? event.target : null;
-        const writes = target?.closest("select, input:not([type=checkbox]), dialog, .scroll") ?? null;
+        const scrolls = byTab && SCROLLING.has(event.key) && target?.matches(".scroll") === true;
+        const writes = target?.closest("select, input:not([type=checkbox]), dialog") ?? null;
         const presses = event.key === " " && target?.closest("button, input") !== null;
-        if (event.ctrlKey || event.metaKey || event.altKey || writes !== null || presses) {
+        if (event.ctrlKey || event.metaKey || event.altKey || writes !== null || scrolls || presses) {
             return;
         }
         const act = (event.shiftKey ? shifted[event.key] : undefined) ?? plain[event.key] ?? plain[event.key.toLowerCase()];

@@ -32,7 +32,7 @@ export function legend(meta: Meta, solutions: Solutions, theme: Theme): HTMLElem
             }));
         }
         if (meta.sections.length > 0) {
-            items.push(item("the Poincare section shown", (context) => {
+            items.push(item("the Poincaré section shown", (context) => {
                 context.strokeStyle = theme.look.pale;
                 context.lineWidth = 1.5;
                 context.setLineDash([2, 3]);

@@ -9,6 +9,7 @@ import { element } from "./dom";
 import { fromHash, toHash } from "./hash";
 import { helpDialog, listenToKeys } from "./keys";
 import { legend } from "./legend";
+import type { Multiplier } from "./multiplier_table";
 import type { Orbit } from "./orbit";
 import { Response } from "./response";
 import { sectionPanel } from "./sections";
@@ -104,6 +105,8 @@ declare global {
             placeOf: (solution: number) => [number, number];
             state: () => State;
             orbit: () => Orbit | null;
+            unitCircle: () => [across: number, up: number];
+            multipliersOf: (solution: number) => Multiplier[];
         };
     }
 }
@@ -113,4 +116,6 @@ window.hammerbeam = {
     placeOf: (solution) => response.placeOf(solution),
     state: () => store.state,
     orbit: () => view.orbit,
+    unitCircle: () => view.unitCircle(),
+    multipliersOf: (solution) => view.multipliersOf(solution),
 };

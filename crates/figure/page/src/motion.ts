@@ -12,7 +12,7 @@ export interface Pose {
 }
 
 /** A periodic series between its samples, by cubics through four of them. */
-function smooth(values: Float64Array, place: number): number {
+export function smooth(values: Float64Array, place: number): number {
     const count = values.length;
     const at = (k: number): number => values[((k % count) + count) % count] ?? 0;
     const before = Math.floor(place);

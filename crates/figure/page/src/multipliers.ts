@@ -1,8 +1,9 @@
-// Floquet multipliers of an orbit in the complex plane, with the unit circle.
+// Floquet multipliers of a solution in the complex plane, with the unit circle.
 
 import { element, panel } from "./dom";
 import { complex } from "./format";
 import { Frame, MARGINS } from "./frame";
+import type { Multiplier } from "./multiplier_table";
 import type { Theme } from "./theme";
 
 const HEIGHT = 300;
@@ -14,17 +15,21 @@ const LISTED = 12;
 export class Multipliers {
     readonly root: HTMLElement;
     private readonly host = element("div", { class: "plot" });
+    private readonly whose = element("p", { class: "note" });
     private readonly outside = element("p", { class: "note" });
     private readonly list = element("ol", { class: "multipliers" });
     private frame: Frame | null = null;
-    private multipliers: [number, number][] = [];
+    private multipliers: Multiplier[] = [];
 
     constructor(private readonly theme: Theme) {
-        this.root = panel("Floquet multipliers", "multipliers", [this.host, this.outside, this.list]);
+        this.root = panel("Floquet multipliers", "multipliers", [this.whose, this.host, this.outside, this.list]);
     }
 
-    show(multipliers: [number, number][]): void {
+    /** * `whose`: in words; `most`: how many there are, those that are not carried included. */
+    show(multipliers: Multiplier[], whose: string, most: number): void {
         this.multipliers = multipliers;
+        this.whose.textContent =
+            multipliers.length === 0 ? `The page has no multipliers ${whose}.` : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
         const far = multipliers.filter((one) => !(modulus(one) <= this.reach()));
         this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.filter(([, im]) => im >= 0).map(([re, im]) => complex(re, im)).join(", ")}.`;
         // Of a pair the one above the axis stands for both.
@@ -49,6 +54,12 @@ export class Multipliers {
         } else {
             this.frame.redraw();
         }
+    }
+
+    /** Radii of the unit circle along both axes (canvas pixels). */
+    unitCircle(): [number, number] {
+        const frame = this.frame;
+        return frame === null ? [0, 0] : [frame.toX(1) - frame.toX(0), frame.toY(0) - frame.toY(1)];
     }
 
     /** Distance from 0 that is drawn. */
@@ -81,6 +92,6 @@ export class Multipliers {
     }
 }
 
-function modulus([re, im]: [number, number]): number {
+function modulus([re, im]: Multiplier): number {
     return Math.hypot(re, im);
 }

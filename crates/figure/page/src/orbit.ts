@@ -2,6 +2,7 @@
 
 import { bytesOf } from "./base64";
 import type { Meta, Solutions } from "./data";
+import { smooth } from "./motion";
 
 export interface Orbit {
     /** Number of the solution that it belongs to. */
@@ -9,6 +10,8 @@ export interface Orbit {
     period: number;
     displacement: Float64Array;
     velocity: Float64Array;
+    /** Displacements and velocities, those within contacts among them. */
+    portrait: [Float64Array, Float64Array];
     /** Least and largest in each step, in their order in time. */
     acceleration: Float64Array;
     /** At the instants of the modes. */
@@ -18,7 +21,6 @@ export interface Orbit {
     modes: Float64Array[];
     /** Common logarithms of the amplitudes of the harmonics of the acceleration. */
     spectrum: Float64Array;
-    multipliers: [number, number][];
 }
 
 /** Place in the list of the carried orbits of the one nearest to a solution on its branch; -1 where its branch has none. */
@@ -54,21 +56,16 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
     const bytes = bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4));
     const view = new DataView(bytes.buffer);
     const count = (k: number): number => view.getUint16(2 * k, true);
-    const [samples, elements, ofMode, modes, multipliers, harmonics] = [count(0), count(1), count(2), count(3), count(4), count(5)];
+    const [samples, steps, elements, ofMode, modes, harmonics, inside] = [count(0), count(1), count(2), count(3), count(4), count(5), count(6)];
     const repeated = (length: number, times: number): number[] => new Array<number>(times).fill(length);
-    const lengths = [samples, samples, 2 * samples, ofMode, ...repeated(2 * samples, elements), ...repeated(ofMode, modes), harmonics];
-    const ranges = 12;
-    const pairs = ranges + 8 * lengths.length;
-    let at = pairs + 8 * multipliers;
+    const lengths = [samples, samples, 2 * steps, ofMode, ...repeated(2 * steps, elements), ...repeated(ofMode, modes), harmonics, ...repeated(inside, 3)];
+    const ranges = 14;
+    let at = ranges + 8 * lengths.length;
     const series = lengths.map((length, k) => {
         const values = new Float64Array(length);
         at = readSeries(bytes, at, values, view.getFloat32(ranges + 8 * k, true), view.getFloat32(ranges + 8 * k + 4, true));
         return values;
     });
-    const pair = (k: number): [number, number] => [
-        view.getFloat32(pairs + 8 * k, true),
-        view.getFloat32(pairs + 8 * k + 4, true),
-    ];
     const solution = meta.orbits.solutions[place] ?? 0;
     const none = new Float64Array(0);
     return {
@@ -80,9 +77,34 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, place:
         support: series[3] ?? none,
         forces: series.slice(4, 4 + elements),
         modes: series.slice(4 + elements, 4 + elements + modes),
-        spectrum: series.at(-1) ?? none,
-        multipliers: Array.from({ length: multipliers }, (_, k) => pair(k)),
+        spectrum: series.at(-4) ?? none,
+        portrait: portraitOf(series[0] ?? none, series[1] ?? none, series.slice(-3)),
     };
+}
+
+/** Parts of a step of a portrait that is drawn by cubics. */
+const PARTS = 4;
+
+/** Samples with those within contacts, each behind the sample whose number it has; away from contacts the motion is smooth, and cubics stand between samples. */
+function portraitOf(displacement: Float64Array, velocity: Float64Array, inside: Float64Array[]): [Float64Array, Float64Array] {
+    const [before, inDisplacement, inVelocity] = inside;
+    const [x, y]: [number[], number[]] = [[], []];
+    const struck = new Set(Array.from(before ?? [], Math.round));
+    let next = 0;
+    for (let k = 0; k < displacement.length; k++) {
+        x.push(displacement[k] ?? NaN);
+        y.push(velocity[k] ?? NaN);
+        const isSmooth = !struck.has(k - 1) && !struck.has(k) && !struck.has(k + 1);
+        for (let part = 1; isSmooth && part < PARTS; part++) {
+            x.push(smooth(displacement, k + part / PARTS));
+            y.push(smooth(velocity, k + part / PARTS));
+        }
+        for (; next < (before?.length ?? 0) && Math.round(before?.[next] ?? 0) <= k; next++) {
+            x.push(inDisplacement?.[next] ?? NaN);
+            y.push(inVelocity?.[next] ?? NaN);
+        }
+    }
+    return [Float64Array.from(x), Float64Array.from(y)];
 }
 
 /** Fills a series from its second differences; returns where the next one begins. */

@@ -80,9 +80,9 @@ export class OrbitPlots {
     }
 
     private phasePlot(orbit: Orbit, colour: string): Plot {
-        const [x, y] = [closed(orbit.displacement.map((value) => 1e3 * value)), closed(orbit.velocity)];
+        const [x, y] = [closed(orbit.portrait[0].map((value) => 1e3 * value)), closed(orbit.portrait[1])];
         const step = orbit.displacement.length / orbit.period;
-        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [x[k * step] ?? NaN, y[k * step] ?? NaN]);
+        const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [1e3 * (orbit.displacement[k * step] ?? NaN), orbit.velocity[k * step] ?? NaN]);
         return { xLabel: "Displacement (mm)", yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }], circles };
     }
 
@@ -92,7 +92,8 @@ export class OrbitPlots {
         const x = y.map((_, k) => (k + 1) * base);
         const eigenfrequencies = this.meta.structure?.eigenfrequencies ?? [];
         const largest = y.reduce((most, value) => Math.max(most, value), 0);
-        const highest = Math.min(x.at(-1) ?? 1, 1.2 * Math.max(20 * base, ...eigenfrequencies));
+        // As in print.
+        const highest = 1.2 * Math.max(10 * base * orbit.period, ...eigenfrequencies);
         const top = largest > 0 ? 2 * largest : 1;
         return {
             xLabel: "Frequency (Hz)",

@@ -131,6 +131,20 @@ export class Response {
         });
     }
 
+    /** Moves the view to a solution that is not in it. */
+    follow(solution: number): void {
+        const { quantity, log, view } = this.store.state;
+        const at = [this.solutions.frequency[solution], this.curves.levels(quantity, log)[solution]];
+        if (view !== null) {
+            this.change((low, high, axis) => {
+                const place = at[axis];
+                const isSeen = place === undefined || !Number.isFinite(place) || (place >= low && place <= high);
+                const half = 0.5 * (high - low);
+                return isSeen ? [low, high] : [place - half, place + half];
+            });
+        }
+    }
+
     /** Changes the ends of both axes, levels of a logarithmic one. */
     private change(of: (low: number, high: number, axis: 0 | 1) => [number, number]): void {
         const { x, y, logY } = this.range();

@@ -16,7 +16,7 @@ export function sectionPanel(meta: Meta, store: Store, theme: Theme): HTMLElemen
     const words = element("p", { class: "note" });
     const options = meta.sections.map((section, k) => [String(k), hertz(section.frequency)] as const);
     const chosen = choice("Excitation frequency", options, (value) => store.update({ section: Number(value) }));
-    const root = panel("Poincare section", "section", [element("div", { class: "controls" }, [chosen.root]), host, words]);
+    const root = panel("Poincaré section", "section", [element("div", { class: "controls" }, [chosen.root]), host, words]);
     const points = (): [number, number][] => {
         const all = meta.sections[store.state.section]?.points ?? [];
         return all.filter((point): point is [number, number] => point[0] !== null && point[1] !== null).map(([y, v]) => [1e3 * y, v]);

@@ -45,3 +45,21 @@ export function spring({ context }: Sketch, from: number, to: number, y: number)
     context.lineTo(to, y);
     context.stroke();
 }
+
+/** A damper between two places on a horizontal line: a piston in a pot, which is open towards the second place. */
+export function dashpot({ context }: Sketch, from: number, to: number, y: number): void {
+    const at = (share: number): number => from + share * (to - from);
+    context.beginPath();
+    for (const [x1, y1, x2, y2] of [
+        [from, y, at(0.35), y],
+        [at(0.35), y - 6, at(0.35), y + 6],
+        [at(0.35), y - 6, at(0.65), y - 6],
+        [at(0.35), y + 6, at(0.65), y + 6],
+        [at(0.5), y - 4, at(0.5), y + 4],
+        [at(0.5), y, to, y],
+    ] as const) {
+        context.moveTo(x1, y1);
+        context.lineTo(x2, y2);
+    }
+    context.stroke();
+}

@@ -1,9 +1,10 @@
-// The selected solution: its numbers, its orbit or the nearest one carried, its multipliers, the structure in motion.
+// The selected solution: its numbers and multipliers, its orbit or the nearest one carried, the structure in motion.
 
 import { Animation } from "./animation";
-import { orbitText, type Meta, type Solutions } from "./data";
+import { multiplierText, orbitText, type Meta, type Solutions } from "./data";
 import { element, panel } from "./dom";
 import { hertz } from "./format";
+import { MultiplierTable, type Multiplier } from "./multiplier_table";
 import { Multipliers } from "./multipliers";
 import { numbersOf } from "./numbers";
 import { nearestOrbit, readOrbit, type Orbit } from "./orbit";
@@ -20,6 +21,7 @@ export class SolutionView {
     private readonly multipliers: Multipliers;
     private readonly orbitParts: HTMLElement[];
     private text: string | null = null;
+    private table: MultiplierTable | null = null;
     /** The orbit that is shown. */
     orbit: Orbit | null = null;
 
@@ -27,7 +29,7 @@ export class SolutionView {
         this.plots = new OrbitPlots(meta, solutions, theme);
         this.multipliers = new Multipliers(theme);
         this.animation = new Animation(meta.structure, theme, (instant) => this.plots.point(instant));
-        this.orbitParts = [this.animation.root, this.multipliers.root, this.plots.root];
+        this.orbitParts = [this.animation.root, this.plots.root];
         const heading = panel("Selected solution", "selected", [this.numbers, this.which]);
         const top = element("div", { class: "top" }, [heading, this.animation.root, this.multipliers.root]);
         this.root.append(top, this.plots.root);
@@ -44,12 +46,15 @@ export class SolutionView {
         if (selected < 0) {
             this.numbers.replaceChildren();
             this.which.textContent = this.solutions.count === 0 ? "No periodic solution is stored." : "Click on a solution of the diagram, or press an arrow key.";
-            this.orbitParts.forEach((part) => (part.hidden = true));
+            [...this.orbitParts, this.multipliers.root].forEach((part) => (part.hidden = true));
             this.root.dataset["orbit"] = "";
             return;
         }
         const rows = numbersOf(this.meta, this.solutions, selected);
         this.numbers.replaceChildren(...rows.flatMap(([name, text]) => [element("dt", {}, [name]), element("dd", {}, [text])]));
+        this.multipliers.root.hidden = false;
+        const whose = `of the selected solution, at ${hertz(this.solutions.frequency[selected] ?? NaN)}`;
+        this.multipliers.show(this.multipliersOf(selected), whose, this.meta.multipliers.most);
         const place = nearestOrbit(this.meta, this.solutions, selected);
         this.orbitParts.forEach((part) => (part.hidden = place < 0));
         if (place < 0) {
@@ -61,10 +66,20 @@ export class SolutionView {
         const orbit = readOrbit(this.meta, this.solutions, this.text, place);
         this.orbit = orbit;
         this.which.textContent = this.whichOrbit(selected, orbit.solution);
-        this.multipliers.show(orbit.multipliers);
         this.plots.show(orbit);
         this.animation.show(orbit, this.solutions.frequency[orbit.solution] ?? 1);
         this.root.dataset["orbit"] = String(orbit.solution);
+    }
+
+    /** Multipliers of a solution, largest first. */
+    multipliersOf(solution: number): Multiplier[] {
+        this.table ??= new MultiplierTable(multiplierText(), this.meta.multipliers.solutions);
+        return this.table.of(solution);
+    }
+
+    /** Radii of the unit circle along both axes (canvas pixels). */
+    unitCircle(): [number, number] {
+        return this.multipliers.unitCircle();
     }
 
     private whichOrbit(selected: number, shown: number): string {

@@ -115,6 +115,36 @@ test("a click opens the orbit of the solution, and its peaks are those of the st
     assert.deepEqual(tab.complaints, []);
 });
 
+test("multipliers are those of the selected solution, whether its orbit is carried or not", options, async () => {
+    const tab = await open(pages.run);
+    const { orbits, branches } = await tab.value(meta);
+    const carried = new Set(orbits.solutions);
+    const without = pages.run.multipliers.filter(({ solution }) => !carried.has(solution));
+    assert.ok(without.length > 20);
+    const near = (found, stored, tolerance) => Math.abs(found - stored) <= tolerance * Math.abs(stored);
+    for (const { solution, stored } of pages.run.multipliers) {
+        const found = await tab.value(`hammerbeam.multipliersOf(${solution})`);
+        assert.equal(found.length, stored.length);
+        const sorted = (all) => all.map(([re, im]) => [re, Math.abs(im)]);
+        sorted(found).forEach(([re, im], k) => {
+            const [storedRe, storedIm] = sorted(stored)[k];
+            // An f32 without its lowest byte.
+            assert.ok(near(re, storedRe, 2 ** -15) && near(im, storedIm, 2 ** -15), `${solution}: ${re} ${im} of ${stored[k]}`);
+        });
+    }
+    // What is read on the page, of a solution whose orbit is not carried.
+    const { solution, stored } = without[10];
+    const place = branches.findLast(({ first, count }) => count > 0 && first <= solution);
+    await tab.value(`location.hash = "#at=${place.id}:${solution - place.first}"`);
+    await tab.until(`hammerbeam.state().selected === ${solution}`);
+    const read = await tab.value(`[...document.querySelectorAll("#multipliers li")].map((one) => one.textContent)`);
+    const parts = read[0].replaceAll("−", "-").replace("i", "").split(" ± ").map(Number);
+    assert.ok(near(parts[0], stored[0][0], 1e-3) && near(parts[1] ?? 0, Math.abs(stored[0][1]), 1e-3), `${read[0]} of ${stored[0]}`);
+    const whose = await tab.value(`document.querySelector("#multipliers .note").textContent`);
+    assert.ok(whose.includes("of the selected solution, at "), whose);
+    assert.deepEqual(tab.complaints, []);
+});
+
 test("the structure moves, and stands still when it is paused", options, async () => {
     const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
     await tab.until(orbitIsOpen);
@@ -151,6 +181,79 @@ test("keys step along the branch, zoom and show the list of keys; the wheel zoom
     await tab.press("?");
     assert.equal(await tab.value(`document.querySelector("dialog").open`), true);
     assert.deepEqual(tab.complaints, []);
+});
+
+test("keys stay on branches that are drawn and in the view, and work after a click into a list", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    const { branches } = await tab.value(meta);
+    const selected = () => tab.value(`hammerbeam.state().selected`);
+    const branchOf = (solution) => branches.findLastIndex(({ first, count }) => count > 0 && first <= solution);
+    // All but the first and the last branch hidden.
+    const hide = (place) => tab.value(`document.querySelectorAll("#branches input[type=checkbox]")[${place}].click()`);
+    for (let place = 1; place + 1 < branches.length; place++) {
+        await hide(place);
+    }
+    await tab.press("ArrowDown");
+    assert.equal(branchOf(await selected()), branches.length - 1);
+    await tab.press("ArrowDown");
+    assert.equal(branchOf(await selected()), 0);
+    // The view follows what steps out of it.
+    const seen = async () => {
+        const solution = await selected();
+        await drawn(tab);
+        const [x, y] = await tab.value(`hammerbeam.placeOf(${solution})`);
+        const box = await tab.value(`(() => { const { left, right, top, bottom } = document.querySelector(".response .u-over").getBoundingClientRect(); return { left, right, top, bottom }; })()`);
+        return x >= box.left - 1 && x <= box.right + 1 && y >= box.top - 1 && y <= box.bottom + 1;
+    };
+    await tab.value(`hammerbeam.zoom(0.02)`);
+    for (let k = 0; k < 4; k++) {
+        await tab.press("PageDown");
+        assert.ok(await seen(), `out of the view after ${k + 1} steps`);
+    }
+    // A cell that is no button.
+    const [x, y] = await tab.value(`(() => { const cell = document.querySelector("#branches tbody td:last-child"); cell.scrollIntoView(); const box = cell.getBoundingClientRect(); return [box.left + 3, box.top + 3]; })()`);
+    await tab.click(x, y);
+    const before = await selected();
+    await tab.press("ArrowLeft");
+    assert.equal(await selected(), before - 1);
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("the unit circle stays one when the window changes", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    await tab.until(orbitIsOpen);
+    for (const width of [1400, 700, 1100, 420]) {
+        await tab.send("Emulation.setDeviceMetricsOverride", { width, height: 900, deviceScaleFactor: 1, mobile: false });
+        await drawn(tab);
+        await drawn(tab);
+        const [across, up] = await tab.value(`hammerbeam.unitCircle()`);
+        assert.ok(up > 10 && Math.abs(across - up) < 1.5, `${across} across, ${up} up at ${width} pixels`);
+    }
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("no corner is seen in the phase portraits of orbits of several periods", options, async () => {
+    const { orbits, branches } = await (await open(pages.run)).value(meta);
+    const several = branches.filter(({ period, count }) => period > 1 && count > 0);
+    assert.ok(several.length > 0);
+    for (const { id, first, count, period } of several) {
+        const own = orbits.solutions.filter((solution) => solution >= first && solution < first + count);
+        for (const solution of [own[0], own[own.length >> 1]]) {
+            const tab = await open(pages.run, `#at=${id}:${solution - first}`);
+            await tab.until(`document.querySelector(".solution").dataset.orbit === "${solution}"`);
+            // How far the curve through three points leaves the line between two of them: an eighth of the second difference.
+            const farthest = await tab.value(`(() => {
+                const [displacement, velocity] = hammerbeam.orbit().portrait;
+                const n = displacement.length;
+                const width = (values) => Math.max(...values) - Math.min(...values);
+                const bend = (values) => (k) => (values[k] - 2 * values[(k + 1) % n] + values[(k + 2) % n]) / width(values) / 8;
+                const [across, up] = [bend(displacement), bend(velocity)];
+                return Math.max(...Array.from({ length: n }, (_, k) => Math.hypot(across(k), up(k))));
+            })()`);
+            // Three pixels of a hundred; without the samples within contacts it is twelve.
+            assert.ok(farthest < 0.03, `${farthest} of the size of the portrait of solution ${solution}, period ${period}`);
+        }
+    }
 });
 
 test("a row of the bifurcation table jumps to its point", options, async () => {

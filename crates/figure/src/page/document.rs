@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{Page, PageStop, PageStructure, base64, columns};
-use crate::{MotionKind, style};
+use super::{Page, PageStop, PageStructure, columns};
+use crate::{MotionKind, base64, style};
 
 const SCRIPT: &str = include_str!("../../page/dist/page.js");
 const LOOK: &str = include_str!("../../page/dist/page.css");
@@ -14,6 +14,7 @@ pub(super) fn html(page: &Page) -> String {
     let title = escaped(&page.title);
     let meta = in_script(&meta(page).to_string());
     let solutions = base64::encode(&columns::pack(&page.branches));
+    let multipliers = base64::encode(page.multipliers.bytes());
     let orbits = base64::encode(&page.orbits.bytes());
     [
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
@@ -28,6 +29,7 @@ pub(super) fn html(page: &Page) -> String {
         "<noscript>This page draws with a script that it holds itself; scripts are switched off in this browser.</noscript>\n",
         &format!("<script id=\"meta\" type=\"application/json\">{meta}</script>\n"),
         &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
+        &format!("<script id=\"floquet\" type=\"text/plain\">{multipliers}</script>\n"),
         &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
         "<script>\n",
         SCRIPT,
@@ -76,6 +78,7 @@ fn meta(page: &Page) -> Value {
             "offsets": page.orbits.offsets(),
             "length": page.orbits.length(),
         },
+        "multipliers": { "solutions": page.multipliers.count(), "most": page.multipliers.most() },
         "structure": page.structure.as_ref().map(structure),
         "motions": motions.collect::<Vec<_>>(),
         "chaos": page.chaotic_ranges_hz,
@@ -89,11 +92,12 @@ fn structure(structure: &PageStructure) -> Value {
     let places = structure.places.iter().map(|place| {
         json!({ "name": place.name, "at": place.at, "shape": place.shape, "support": place.support_ratio })
     });
+    let links = structure.links.iter().map(|link| json!({ "ends": link.ends, "damper": link.is_damper }));
     json!({
         "beam": structure.is_beam,
         "places": places.collect::<Vec<_>>(),
         "stops": structure.stops.iter().map(stop).collect::<Vec<_>>(),
-        "links": structure.links,
+        "links": links.collect::<Vec<_>>(),
         "eigenfrequencies": structure.eigenfrequencies_hz,
     })
 }

@@ -1,12 +1,12 @@
 //! Orbits as records that are decoded one at a time.
 //!
-//! A record, little-endian: six u16 (samples N, local elements E, samples of a mode K, modes M, multipliers, harmonics H), then for each series its least value and its
-//! step as f32, then the multipliers as pairs of f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
-//! velocity (N), acceleration (2 N), displacement of the support (K), the force of each local element (2 N), the coordinate of each mode (K), and the common logarithms of the
-//! amplitudes of the harmonics of the acceleration (H).
+//! A record, little-endian: seven u16 (samples N, steps S, local elements E, samples of a mode K, modes M, harmonics H, samples in contacts C), then for each series its least value and its
+//! step as f32, then the series, then zeros up to a multiple of three bytes. The series are displacement (N),
+//! velocity (N), acceleration (2 S), displacement of the support (K), the force of each local element (2 S), the coordinate of each mode (K), the common logarithms of the
+//! amplitudes of the harmonics of the acceleration (H), and of what is carried within contacts the number of the sample before it, displacement and velocity (C each).
 //!
 //! Displacement and velocity are smooth at this distance of samples. A contact may be much shorter: of acceleration and forces the least and the largest value
-//! between two samples are carried, in their order in time, so that no peak is lost.
+//! in each of some steps are carried, in their order in time, so that no peak is lost.
 //!
 //! A value is a whole number `k` of steps above the least one; written are the second differences `k_i - 2 k_(i-1) + k_(i-2)` (with zero
 //! before the first), signs folded (`2 d`, `-2 d - 1`), seven bits to a byte, the lowest first, the highest bit set where another byte follows; behind a zero stands, in the same way, how many more of them follow. Most take one byte.
@@ -14,20 +14,21 @@
 
 use std::collections::BTreeMap;
 
-use super::columns::BYTES_OF_A_SOLUTION;
+use super::{columns::BYTES_OF_A_SOLUTION, multipliers::MultiplierRecords};
 
 /// Steps in the range of a series.
 const STEPS: f64 = 4_095.0;
 
-/// Length of solutions and orbits together before they are text (bytes): a page of 14 MB.
-const MOST_BYTES: usize = 10_400_000;
+/// Length of solutions, multipliers and orbits together before they are text (bytes): a page of 14.5 MB.
+const MOST_BYTES: usize = 10_800_000;
 /// What orbits get at least, however many solutions there are (bytes).
 const LEAST_ORBIT_BYTES: usize = 2_000_000;
 
-/// Length of the records of orbits (bytes) for which a page of so many solutions has room.
+/// Length of the records of orbits (bytes) for which a page of so many solutions with these multipliers has room.
 #[must_use]
-pub fn room_for_orbits(solutions: usize) -> usize {
-    MOST_BYTES.saturating_sub(BYTES_OF_A_SOLUTION * solutions).max(LEAST_ORBIT_BYTES)
+pub fn room_for_orbits(solutions: usize, multipliers: &MultiplierRecords) -> usize {
+    let others = BYTES_OF_A_SOLUTION * solutions + multipliers.length();
+    MOST_BYTES.saturating_sub(others).max(LEAST_ORBIT_BYTES)
 }
 
 /// An orbit over its period, from phase 0 of the excitation on, the end of the period left out. All lengths at most 65 535.
@@ -37,7 +38,9 @@ pub struct PageOrbit {
     pub displacement_m: Vec<f64>,
     /// Its velocity at the same instants (m/s).
     pub velocity_m_s: Vec<f64>,
-    /// Least and largest acceleration in each step, in their order in time (m/s²).
+    /// What happens within contacts, which may be shorter than the distance of samples: number of the sample before it, displacement (m) and velocity (m/s).
+    pub in_contacts: Vec<(usize, f64, f64)>,
+    /// Least and largest acceleration in each of some equal steps, in their order in time (m/s²).
     pub acceleration_m_s2: Vec<[f64; 2]>,
     /// The same of the force of each local element (N).
     pub forces_n: Vec<Vec<[f64; 2]>>,
@@ -47,8 +50,6 @@ pub struct PageOrbit {
     pub modes: Vec<Vec<f64>>,
     /// Amplitudes of the harmonics 1, 2, ... of the orbit frequency in the acceleration (m/s²).
     pub spectrum_m_s2: Vec<f64>,
-    /// Floquet multipliers.
-    pub multipliers: Vec<[f64; 2]>,
 }
 
 /// An orbit, packed.
@@ -122,13 +123,16 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
     series.extend(orbit.forces_n.iter().map(flat));
     series.extend(orbit.modes.iter().cloned());
     series.push(orbit.spectrum_m_s2.iter().map(|amplitude| amplitude.log10()).collect());
+    let inside = |value: fn(&(usize, f64, f64)) -> f64| orbit.in_contacts.iter().map(value).collect();
+    series.extend([inside(|at| at.0 as f64), inside(|at| at.1), inside(|at| at.2)]);
     let counts = [
         orbit.displacement_m.len(),
+        orbit.acceleration_m_s2.len(),
         orbit.forces_n.len(),
         orbit.support_m.len(),
         orbit.modes.len(),
-        orbit.multipliers.len(),
         orbit.spectrum_m_s2.len(),
+        orbit.in_contacts.len(),
     ];
     let mut bytes: Vec<u8> = counts.iter().flat_map(|&count| (count as u16).to_le_bytes()).collect();
     let mut ranges: Vec<[f32; 2]> = series.iter().map(|values| range(values)).collect();
@@ -136,7 +140,6 @@ fn packed(orbit: &PageOrbit) -> Vec<u8> {
     let coarsest = modes.iter().fold(0.0_f32, |most, [_, step]| most.max(*step));
     modes.iter_mut().for_each(|[_, step]| *step = coarsest);
     bytes.extend(ranges.iter().flatten().flat_map(|number| number.to_le_bytes()));
-    bytes.extend(orbit.multipliers.iter().flatten().flat_map(|number| (*number as f32).to_le_bytes()));
     for (values, range) in series.iter().zip(ranges) {
         write(&mut bytes, values, range);
     }
@@ -198,15 +201,15 @@ mod tests {
     fn read(record: &[u8]) -> Vec<Vec<f64>> {
         let count = |k: usize| usize::from(u16::from_le_bytes(record[2 * k..2 * k + 2].try_into().unwrap()));
         let number = |at: usize| f64::from(f32::from_le_bytes(record[at..at + 4].try_into().unwrap()));
-        let [n, elements, of_mode, modes, multipliers, harmonics] = std::array::from_fn(count);
-        let mut lengths = vec![n, n, 2 * n, of_mode];
-        lengths.extend(vec![2 * n; elements]);
+        let [n, steps, elements, of_mode, modes, harmonics, inside] = std::array::from_fn(count);
+        let mut lengths = vec![n, n, 2 * steps, of_mode];
+        lengths.extend(vec![2 * steps; elements]);
         lengths.extend(vec![of_mode; modes]);
-        lengths.push(harmonics);
-        let mut at = 12 + 8 * (lengths.len() + multipliers);
+        lengths.extend([harmonics, inside, inside, inside]);
+        let mut at = 14 + 8 * lengths.len();
         let mut series = Vec::new();
         for (k, length) in lengths.into_iter().enumerate() {
-            let (low, step) = (number(12 + 8 * k), number(16 + 8 * k));
+            let (low, step) = (number(14 + 8 * k), number(18 + 8 * k));
             let (mut last, mut slope, mut zeros, mut values) = (0_i64, 0_i64, 0_i64, Vec::new());
             let mut next = || {
                 let (mut found, mut shift) = (0_i64, 0);
@@ -242,6 +245,7 @@ mod tests {
         PageOrbit {
             displacement_m: times().map(|t| 1e-3 * (0.3 * t).sin()).collect(),
             velocity_m_s: times().map(|t| if t % 2.0 == 0.0 { -1e4 } else { 1e4 }).collect(),
+            in_contacts: vec![(3, 0.5, -1.0), (3, 0.75, 0.0), (samples - 1, 1.0, 1.0)],
             acceleration_m_s2: times().map(|t| [-t, t]).collect(),
             forces_n: vec![times().map(|t| [t, 0.0]).collect(), vec![[f64::NAN, 0.0]; samples]],
             support_m: vec![0.25; samples / 2],
@@ -249,7 +253,6 @@ mod tests {
                 .map(|size| (0..samples / 2).map(|k| size * (k as f64).cos()).collect())
                 .to_vec(),
             spectrum_m_s2: vec![100.0, 0.0, 1e-3],
-            multipliers: vec![[f64::INFINITY, 0.0]; 2],
         }
     }
 
@@ -257,7 +260,7 @@ mod tests {
     fn values_are_good_to_half_a_step() {
         let orbit = orbit(200);
         let series = read(&packed(&orbit));
-        assert_eq!(series.len(), 9);
+        assert_eq!(series.len(), 12);
         // Half a step, and the rounding of 4095 steps as f32.
         let good = 0.5 / STEPS + 1e-7;
         let near = |found: &[f64], meant: &[f64], range: f64| {
@@ -274,11 +277,14 @@ mod tests {
         near(&series[5], &vec![0.0; 400], 1.0);
         near(&series[6], &orbit.modes[0], 2.0);
         near(&series[7], &orbit.modes[1], 2.0);
+        near(&series[9], &[3.0, 3.0, 199.0], 196.0);
+        near(&series[10], &[0.5, 0.75, 1.0], 0.5);
+        near(&series[11], &[-1.0, 0.0, 1.0], 2.0);
     }
 
     #[test]
     fn spectra_are_logarithms_and_no_amplitude_is_the_least_one() {
-        let spectrum = read(&packed(&orbit(10))).pop().unwrap();
+        let spectrum = read(&packed(&orbit(10))).remove(8);
         for (found, meant) in spectrum.iter().zip([2.0, -3.0, -3.0]) {
             assert!((found - meant).abs() < 5.0 * (0.5 / STEPS + 1e-7));
         }

@@ -31,6 +31,9 @@ pub enum StoreError {
     /// Something stored has an impossible size.
     #[error("the stored {what} has {found} bytes, {expected} are expected")]
     Damaged { what: &'static str, found: usize, expected: usize },
+    /// What is stored of a solution cannot be read.
+    #[error("solution {number} on the {side} side of branch {branch} is damaged: {source}")]
+    DamagedSolution { branch: String, side: &'static str, number: u32, source: Box<StoreError> },
     /// Something stored has a name that this program does not know.
     #[error("the stored {what} {found} is unknown")]
     Unknown { what: &'static str, found: String },
@@ -55,7 +58,11 @@ impl StoreError {
     pub fn is_bad_input(&self) -> bool {
         !matches!(
             self,
-            Self::Database(_) | Self::Damaged { .. } | Self::Unknown { .. } | Self::OutOfOrder { .. }
+            Self::Database(_)
+                | Self::Damaged { .. }
+                | Self::DamagedSolution { .. }
+                | Self::Unknown { .. }
+                | Self::OutOfOrder { .. }
         )
     }
 }

@@ -146,18 +146,44 @@ impl Store {
         Ok(())
     }
 
+    /// Hands over the multipliers of the solutions of a branch, end to end as [`Self::each_row`] does; largest modulus first. Where they are damaged it says so.
+    ///
+    /// # Errors
+    /// The database refuses, or `take` does.
+    pub fn each_multipliers<E: From<StoreError>>(
+        &self,
+        branch: &BranchRecord,
+        mut take: impl FnMut(Result<Vec<[f64; 2]>, StoreError>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
+        for (side, order) in [(Side::Down, "DESC"), (Side::Up, "ASC")] {
+            let walk = walk_id(branch.start, side);
+            let select = format!(
+                "SELECT multiplier_count, multipliers, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}"
+            );
+            let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
+            let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
+            while let Some(row) = rows.next().map_err(failed)? {
+                let key = row.get(2).map_err(failed)?;
+                take(read_multipliers(row, 0).map_err(|error| self.damaged(key, error)))?;
+            }
+        }
+        Ok(())
+    }
+
     fn each_row_of_walk<E: From<StoreError>>(
         &self,
         walk: i64,
         order: &str,
         mut take: impl FnMut(Row) -> Result<(), E>,
     ) -> Result<(), E> {
-        let select = format!("SELECT {ROW} FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
+        let select = format!("SELECT {ROW}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
         let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
         let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
         let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
         while let Some(row) = rows.next().map_err(failed)? {
-            take(read_row(row).map_err(failed)?)?;
+            let key = row.get(13).map_err(failed)?;
+            take(read_row(row).map_err(|error| self.damaged(key, error.into()))?)?;
         }
         Ok(())
     }
@@ -182,7 +208,20 @@ impl Store {
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, key >> 33])?;
         let row = rows.next()?.ok_or(rusqlite::Error::QueryReturnedNoRows)?;
-        read_solution(row)
+        read_solution(row).map_err(|error| self.damaged(key, error))
+    }
+
+    /// Says which solution it is that cannot be read.
+    fn damaged(&self, key: i64, error: StoreError) -> StoreError {
+        let select = "SELECT branch FROM start WHERE id = ?1";
+        let branch: Option<u32> =
+            self.connection.query_row(select, [key >> 33], |row| row.get(0)).unwrap_or_default();
+        StoreError::DamagedSolution {
+            branch: branch.map_or_else(|| "(none yet)".to_owned(), |branch| branch.to_string()),
+            side: if key >> 32 & 1 == 1 { "down" } else { "up" },
+            number: key as u32,
+            source: Box::new(error),
+        }
     }
 }
 
@@ -249,19 +288,25 @@ fn read_row(row: &SqlRow<'_>) -> rusqlite::Result<Row> {
 fn read_solution(row: &SqlRow<'_>) -> Result<PeriodicSolution, StoreError> {
     let shown = read_row(row)?;
     let size = |column| row.get::<_, u32>(column).map(|size| size as usize);
-    let (segments, state_length, multipliers) = (size(13)?, size(14)?, size(15)?);
-    let multiplier_bytes: Vec<u8> = row.get(16)?;
+    let (segments, state_length) = (size(13)?, size(14)?);
     let node_bytes: Vec<u8> = row.get(17)?;
-    let pairs = blob::unpack("multipliers", &multiplier_bytes, 2 * multipliers)?;
     let nodes = blob::unpack("nodes", &node_bytes, segments * state_length)?;
     Ok(PeriodicSolution {
         frequency_hz: shown.frequency_hz,
         period_multiple: row.get(18)?,
         phase: row.get(19)?,
         nodes: nodes.chunks(state_length.max(1)).map(<[f64]>::to_vec).collect(),
-        floquet_multipliers: pairs.chunks(2).map(|pair| [pair[0], pair[1]]).collect(),
+        floquet_multipliers: read_multipliers(row, 15)?,
         residual: shown.residual,
         error_estimate: shown.error_estimate,
         maxima: shown.maxima,
     })
+}
+
+/// Multipliers from the column of their number and the one behind it.
+fn read_multipliers(row: &SqlRow<'_>, column: usize) -> Result<Vec<[f64; 2]>, StoreError> {
+    let count: u32 = row.get(column)?;
+    let bytes: Vec<u8> = row.get(column + 1)?;
+    let numbers = blob::unpack("multipliers", &bytes, 2 * count as usize)?;
+    Ok(numbers.chunks(2).map(|pair| [pair[0], pair[1]]).collect())
 }

@@ -50,8 +50,16 @@ pub fn carried(
     let (mut taken, mut full) = (0, false);
     while !drawn.is_stopped() {
         for part in parts.by_ref().take(UNDER_WAY * drawn.crew().threads() - under_way.len()) {
-            let solutions = part.iter().map(|&number| solution(store, records, stored, number));
-            let solutions = solutions.collect::<Result<Vec<_>, _>>()?;
+            let mut solutions = Vec::with_capacity(part.len());
+            for &number in part {
+                match solution(store, records, stored, number) {
+                    Err(error @ StoreError::DamagedSolution { .. }) => {
+                        drawn.refuse("an orbit of the page", error.to_string());
+                        solutions.push(None);
+                    }
+                    found => solutions.push(Some(found?)),
+                }
+            }
             let drawing = Arc::clone(&drawing);
             under_way.push_back((part, drawn.crew().hand(move || drawing.records(&solutions))));
         }
@@ -90,7 +98,7 @@ fn solution(
 struct Drawing {
     model: Model,
     is_moved: bool,
-    /// The frequency up to which spectra are carried.
+    /// The highest eigenfrequency.
     highest_hz: f64,
     interrupt: Option<Interrupt>,
 }
@@ -98,19 +106,22 @@ struct Drawing {
 impl Drawing {
     fn of(model: &Model, interrupt: Option<Interrupt>) -> Self {
         let eigenfrequencies = model.system.model().natural_frequencies.iter();
-        let highest_hz = 1.2 * eigenfrequencies.fold(0.0_f64, |most, rate| most.max(rate / TAU));
+        let highest_hz = eigenfrequencies.fold(0.0_f64, |most, rate| most.max(rate / TAU));
         let is_moved = model.system.model().support.is_some();
         Self { model: model.clone(), is_moved, highest_hz, interrupt }
     }
 
     /// Orbits of solutions, in their order, by an integrator of their own; `None` where the motion cannot be computed, fewer when the user asks to stop.
-    fn records(&self, solutions: &[PeriodicSolution]) -> Vec<Option<OrbitRecord>> {
+    fn records(&self, solutions: &[Option<PeriodicSolution>]) -> Vec<Option<OrbitRecord>> {
         let settings = ExactSettings::default();
         let Ok(mut integrator) = ExactIntegrator::new(self.model.system.clone(), settings) else {
             return vec![None; solutions.len()];
         };
-        let is_wanted = |_: &&PeriodicSolution| !self.interrupt.as_ref().is_some_and(Interrupt::raised);
-        let record = |solution| Some(self.orbit(&mut integrator, solution).ok()?.record());
+        let is_wanted =
+            |_: &&Option<PeriodicSolution>| !self.interrupt.as_ref().is_some_and(Interrupt::raised);
+        let record = |solution: &Option<PeriodicSolution>| {
+            Some(self.orbit(&mut integrator, solution.as_ref()?).ok()?.record())
+        };
         solutions.iter().take_while(is_wanted).map(record).collect()
     }
 
@@ -119,18 +130,16 @@ impl Drawing {
         integrator: &mut ExactIntegrator,
         solution: &PeriodicSolution,
     ) -> Result<PageOrbit, MotionError> {
-        let Sampling { steps, stride } = sampling(solution.period_multiple);
+        let Sampling { samples, stride, steps } = sampling(solution.period_multiple);
         let count = steps * solution.period_multiple as usize;
-        let instants = samples::of_orbit(integrator, solution, steps)?;
+        let instants = samples::of_orbit(integrator, solution, samples)?;
         let (model, frequency_hz) = (&self.model, solution.frequency_hz);
         let mut orbit = PageOrbit {
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
-            multipliers: solution.floquet_multipliers.clone(),
             ..PageOrbit::default()
         };
-        let mut regular = Vec::with_capacity(2 * count);
-        let mut states = Vec::with_capacity(count.div_ceil(stride));
+        let (mut regular, mut states) = (Vec::new(), Vec::new());
         for Instant { cycles, place, state, forces } in &instants {
             let phase = cycles.rem_euclid(1.0);
             let [displacement, velocity, acceleration] = initial::response(model, frequency_hz, phase, state);
@@ -139,7 +148,12 @@ impl Drawing {
             for (series, force) in orbit.forces_n.iter_mut().zip(forces) {
                 widen(&mut series[step], *force);
             }
-            let Some(place) = place else { continue };
+            let Some(place) = place else {
+                let before =
+                    ((cycles * samples as f64) as usize).min(samples * solution.period_multiple as usize - 1);
+                orbit.in_contacts.push((before, displacement, velocity));
+                continue;
+            };
             regular.push(displacement);
             if place.is_multiple_of(2) {
                 orbit.displacement_m.push(displacement);
@@ -153,7 +167,7 @@ impl Drawing {
         }
         orbit.modes = modes(&states);
         let base_hz = frequency_hz / f64::from(solution.period_multiple);
-        orbit.spectrum_m_s2 = spectrum(&regular, base_hz, self.highest_hz);
+        orbit.spectrum_m_s2 = spectrum(&regular, base_hz, 1.2 * self.highest_hz.max(10.0 * frequency_hz));
         Ok(orbit)
     }
 }
@@ -177,21 +191,24 @@ fn widen(pair: &mut [f64; 2], value: f64) {
 
 /// How finely an orbit is carried.
 struct Sampling {
-    /// Steps in an excitation period.
-    steps: usize,
-    /// Steps between two samples of a mode.
+    /// Samples in an excitation period.
+    samples: usize,
+    /// Samples from one of a mode to the next; divides them.
     stride: usize,
+    /// Steps in an excitation period of which the least and the largest acceleration and force are carried.
+    steps: usize,
 }
 
-/// 192 steps in an orbit period of one excitation period, more in a longer one, up to about a thousand; a stride divides the steps.
+/// A phase portrait bends within each excitation period as it does in one: 192 samples in each, where an orbit has more than about a thousand of them fewer.
+/// What is drawn over time has its width in common: fewer steps in each of more periods.
 fn sampling(period_multiple: u32) -> Sampling {
-    let (steps, stride) = match period_multiple {
-        0 | 1 => (192, 3),
-        2 => (112, 2),
-        3..=10 => (80, 2),
-        multiple => ((800 / multiple as usize).max(8) / 4 * 4, 2),
+    let samples = (960 / period_multiple.max(1) as usize).clamp(12, 192) / 12 * 12;
+    let (stride, steps) = match period_multiple {
+        0 | 1 => (3, 192),
+        2 => (3, 112),
+        _ => (4, 80),
     };
-    Sampling { steps, stride }
+    Sampling { samples, stride, steps: steps.min(samples) }
 }
 
 /// Coordinates of the modes up to the last one that moves visibly.

@@ -1,6 +1,6 @@
 //! The structure as a page draws it.
 
-use hammerbeam_figure::{PagePlace, PageStop, PageStructure};
+use hammerbeam_figure::{PageLink, PagePlace, PageStop, PageStructure};
 use hammerbeam_motion::LocalElement;
 use hammerbeam_study::{
     Model, StudyFile,
@@ -30,8 +30,10 @@ pub fn structure(file: &StudyFile, model: &Model) -> PageStructure {
             let mass = |name: &String| lumped.masses.iter().position(|mass| mass.name == *name);
             let ends =
                 |between: &[String; 2]| [&between[0], &between[1]].map(|name| mass(name).map(|at| at as u32));
-            let springs = lumped.springs.iter().map(|spring| ends(&spring.between));
-            springs.chain(lumped.dampers.iter().map(|damper| ends(&damper.between))).collect()
+            let springs = lumped.springs.iter().map(|spring| (&spring.between, false));
+            let dampers = lumped.dampers.iter().map(|damper| (&damper.between, true));
+            let link = |(between, is_damper)| PageLink { ends: ends(between), is_damper };
+            springs.chain(dampers).map(link).collect()
         }
     };
     let frequencies = model.system.model().natural_frequencies.iter();

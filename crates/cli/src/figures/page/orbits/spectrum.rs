@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use hammerbeam_signal::spectrum::{Window, amplitude_spectrum};
 
 /// Harmonics that are carried at most.
-const MOST_HARMONICS: usize = 300;
+const MOST_HARMONICS: usize = 600;
 
 /// Amplitudes of the harmonics of the acceleration up to a frequency, from samples of the displacement `y` at equal steps: `(2 pi k f)^2 |y_k|`.
 ///
