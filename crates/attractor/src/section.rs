@@ -52,6 +52,11 @@ pub trait SectionMap {
     /// Takes the last [`SectionMap::flow`] back, where the map holds more than the state says.
     fn take_back(&mut self) {}
 
+    /// How many directions the last [`SectionMap::flow`] has lost for good.
+    fn directions_lost(&self) -> usize {
+        0
+    }
+
     /// What `ln |det P|` of the last [`SectionMap::flow`] has to be, where that is known otherwise; minus infinity where the motion lost directions for good.
     fn growth_of_volume(&self) -> Option<f64> {
         None
@@ -186,6 +191,11 @@ impl SectionMap for SystemMap {
 
     fn take_back(&mut self) {
         self.integrator.set_memory(self.memory_before.clone());
+    }
+
+    /// Two with each rigid stop that held the structure.
+    fn directions_lost(&self) -> usize {
+        2 * self.integrator.held_at_once()
     }
 
     /// `-tr(M^-1 C)` times the duration, and what contacts contribute. Of laws that remember their impacts it is not known.

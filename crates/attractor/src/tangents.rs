@@ -5,8 +5,9 @@
 //! the sum over all of them is `ln |det P|` whatever the frame.
 //!
 //! **Parts.** Of a direction that shrinks by more than 1e16 against another over a section only rounding is left. So a section is cut into halves, and those again, until none has more than
-//! [`SPREAD`] between what its directions grow by: an impact on a rigid stop with the speed `v` stretches one direction by `1/v` and another by `v`, and in chaos that may be any speed. The
-//! next section begins with parts of the size with which this one has ended.
+//! [`SPREAD`] between what its directions grow by: an impact on a rigid stop with the speed `v` stretches one direction by `1/v` and another by `v`, and in chaos that may be any speed. What a
+//! single impact does no cut takes apart: so parts are not cut more often than the map allows ([`SectionMap::most_halvings`]), and taken as they are then; an impact 1e-4 times as fast as the
+//! motion leaves eight digits. The next section begins with parts of the size with which this one has ended.
 //!
 //! # Source
 //! Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980), 9-20 and 21-30; Eckmann and Ruelle, Rev. Mod. Phys. 57 (1985), 617-656, section V.C. What differs: Householder's
@@ -20,10 +21,6 @@ use crate::{AttractorError, Part, SectionMap};
 const SPREAD: f64 = 13.8;
 /// Parts are joined where it is less than this share of that.
 const CALM: f64 = 0.25;
-/// Logarithm of the growth against the largest below which a direction is rounding where some are lost for good.
-const LOST: f64 = -25.0;
-/// Directions that are lost with every stop that sticks.
-const LOST_AT_ONCE: usize = 2;
 /// What stands for directions that are lost, relative to the largest entry.
 const NOTHING: f64 = 1e-20;
 
@@ -47,7 +44,7 @@ pub struct Tangents {
 struct Carried {
     frame: Vec<f64>,
     growth: Vec<f64>,
-    /// Difference between the largest and the smallest of those that are finite.
+    /// Difference between the largest and the smallest of those that are not lost.
     spread: f64,
 }
 
@@ -67,7 +64,7 @@ impl Tangents {
         Ok(Self { state, section, scales, frame, growth, growth_of_volume: None, halvings: 0 })
     }
 
-    /// Goes over the next section.
+    /// Goes over the next section. After an error it cannot go on.
     ///
     /// # Errors
     /// The motion cannot be computed, or the directions cannot be told apart any more.
@@ -80,7 +77,7 @@ impl Tangents {
             let product = self.times_frame(&matrix);
             let volume = map.growth_of_volume();
             let can_halve = part.halvings < map.most_halvings();
-            let carried = match carry(product, self.state.len(), volume == Some(f64::NEG_INFINITY)) {
+            let carried = match carry(product, self.state.len(), map.directions_lost()) {
                 Some(carried) if carried.spread <= SPREAD || !can_halve => carried,
                 None if !can_halve => return Err(AttractorError::TangentsLost { section: self.section }),
                 _ => {
@@ -146,10 +143,10 @@ impl Tangents {
 
 /// The frame and its growth from the product of a fundamental matrix and a frame; `None` if the product is singular or not finite.
 ///
-/// * `loses`: directions are lost for good; their growth is minus infinity, and the frame keeps its size by directions that nothing says anything of.
-fn carry(mut product: Vec<f64>, n: usize, loses: bool) -> Option<Carried> {
-    let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    if loses {
+/// * `lost`: so many directions are lost for good; their growth is minus infinity, and the frame keeps its size by directions that nothing says anything of.
+fn carry(mut product: Vec<f64>, n: usize, lost: usize) -> Option<Carried> {
+    if lost > 0 {
+        let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let nothing = if largest > 0.0 { NOTHING * largest } else { 1.0 };
         (0..n).for_each(|i| product[i * (n + 1)] += nothing);
     }
@@ -157,19 +154,14 @@ fn carry(mut product: Vec<f64>, n: usize, loses: bool) -> Option<Carried> {
     if !triangularise(&mut product, n, &mut frame, &mut growth) {
         return None;
     }
-    let mut all_told = true;
-    if loses {
-        let most =
-            if largest > 0.0 { growth.iter().copied().fold(f64::MIN, f64::max) } else { f64::INFINITY };
-        let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|&i, &j| growth[i].total_cmp(&growth[j]));
-        let lost = order.iter().take_while(|&&i| growth[i] < most + LOST).count();
-        all_told = lost >= LOST_AT_ONCE;
-        order.iter().take(lost.max(LOST_AT_ONCE)).for_each(|&i| growth[i] = f64::NEG_INFINITY);
-    }
-    let finite = || growth.iter().copied().filter(|growth| growth.is_finite());
-    let spread = finite().fold(f64::MIN, f64::max) - finite().fold(f64::MAX, f64::min);
-    let spread = if all_told { spread } else { f64::INFINITY };
+    let mut ascending: Vec<usize> = (0..n).collect();
+    ascending.sort_by(|&i, &j| growth[i].total_cmp(&growth[j]));
+    let spread = match ascending.get(lost) {
+        Some(&smallest) => growth[ascending[n - 1]] - growth[smallest],
+        None => 0.0,
+    };
+    // What is left of lost directions is rounding: they are those that grow least, once no other one shrinks nearly as much.
+    ascending.iter().take(lost).for_each(|&i| growth[i] = f64::NEG_INFINITY);
     Some(Carried { frame, growth, spread })
 }
 

@@ -5,10 +5,10 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{beam_with, element, oscillator};
+use common::{beam_with, element, model, oscillator};
 use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, Tangents, lyapunov};
 use hammerbeam_motion::{
-    Law, System,
+    Harmonic, HarmonicForce, Law, Load, System,
     exact::ExactSettings,
     law::{HertzStop, HuntCrossleyStop, LinearStop, RigidStop},
 };
@@ -102,6 +102,26 @@ fn volumes_beside_a_rigid_stop_change_by_what_dampers_and_impacts_take() {
         }
     }
     assert!(impacts > 500 && sticks > 0, "{impacts} periods with impacts, {sticks} with sticking");
+}
+
+/// Beside a mode that sticks in every period, one with little damping and one of which 1e-27 is left after a period: what is damped is not what is lost.
+#[test]
+fn strongly_damped_directions_are_not_lost_where_another_one_sticks() {
+    let damping = faer::mat![[0.05, 0.0, 0.0], [0.0, 0.04, 0.0], [0.0, 0.0, 10.0]];
+    let model = model(&[1.0, 2.0, 10.0], damping);
+    let force = HarmonicForce {
+        shape: vec![1.0, 0.3, 0.3],
+        harmonic: Harmonic { order: 1, amplitude: 1.0, phase: 0.0 },
+    };
+    let load = Load { support: vec![], forces: vec![force] };
+    let system = System::new(model, &load, vec![element(&[1.0, 0.0, 0.0], 0.0, rigid(0.3, 0.0))]).unwrap();
+    let (found, _) = spectrum(system, 0.5 / TAU, 40);
+    let values: Vec<f64> = found.exponents.iter().map(|exponent| exponent.value).collect();
+    for (value, expected) in values.iter().zip([-0.02, -0.02, -5.0, -5.0]) {
+        // Real ones of a pair that turns are known up to one over the time.
+        assert!((value - expected).abs() < 1e-3, "{values:?}");
+    }
+    assert_eq!(values[4..], [f64::NEG_INFINITY; 2]);
 }
 
 /// Pressed on, the mass sticks once in every period: both directions are forgotten, and so is any neighbouring state.

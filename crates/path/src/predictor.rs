@@ -183,6 +183,22 @@ mod tests {
         }
     }
 
+    /// Of errors `a h^2`, `b h^4`, `c h^6` in the last step.
+    #[test]
+    fn the_best_predictor_is_the_one_with_the_least_error_in_the_next_step() {
+        let unknown = f64::INFINITY;
+        // Twice the step: 4e-6, 1.6e-6, 6.4e-6.
+        assert_eq!(best_predictor(&[1e-6, 1e-7, 1e-7], 2.0, 0.0), 1);
+        assert_eq!(best_predictor(&[1e-6, 1e-7, 1e-7], 1.0, 0.0), 2);
+        assert_eq!(best_predictor(&[1e-9, 1e-8, 1e-7], 1.0, 0.0), 0);
+        // Below what does no harm all are as good, and the highest order bears the longest steps.
+        assert_eq!(best_predictor(&[1e-9, 1e-8, 1e-7], 1.0, 1e-6), 2);
+        // Where the best of the known ones has the highest order, a higher one may be better still.
+        assert_eq!(best_predictor(&[1e-6, 1e-7, unknown], 1.0, 0.0), 2);
+        assert_eq!(best_predictor(&[1e-7, 1e-6, unknown], 1.0, 0.0), 0);
+        assert_eq!(best_predictor(&[1e-6, unknown, unknown], 1.0, 0.0), 2);
+    }
+
     #[test]
     fn prediction_lies_in_the_plane_of_the_step() {
         let mut history = History::new(2);

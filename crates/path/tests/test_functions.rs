@@ -92,6 +92,28 @@ fn two_zeros_of_one_function_within_a_step_are_both_found() {
     }
 }
 
+/// Negative between x = 0.300 and x = 0.302 only, so that count and sign are the same on both sides of a step over both zeros: the values before it tell that the function comes down.
+#[test]
+fn two_zeros_within_a_step_that_leave_no_trace_in_the_count_are_found() {
+    for step in [0.3, 0.1, 0.03] {
+        let found = zeros(&round(vec![|z| signed((z[0] - 0.300) * (z[0] - 0.302))], step), 0);
+        let mut places: Vec<f64> = found.iter().map(|point| point.0).collect();
+        places.sort_by(f64::total_cmp);
+        assert_eq!(places.len(), 4, "step {step}: {places:?}");
+        for (place, expected) in places.iter().zip([0.300, 0.300, 0.302, 0.302]) {
+            assert!((place - expected).abs() < 1e-8, "{place}");
+        }
+    }
+}
+
+#[test]
+fn a_function_that_only_comes_near_zero_has_none() {
+    for step in [0.3, 0.1, 0.03] {
+        let near: fn(&[f64]) -> TestValue = |z| signed((z[0] - 0.301).powi(2) + 1e-6);
+        assert_eq!(zeros(&round(vec![near], step), 0), [], "step {step}");
+    }
+}
+
 /// Where a pair of multipliers beyond the unit circle becomes real, one test function jumps; where one of both then passes -1, another vanishes. In one step the jump must not
 /// undo what is known behind the zero, where the sign of the function is rounding.
 #[test]

@@ -170,8 +170,11 @@ mod tests {
 
     #[test]
     fn propagators_of_many_blocks_are_those_of_each() {
-        for damping in [vec![0.3; 7], vec![0.3, 2.0, 0.1, 5.0, 0.0]] {
-            let stiffness: Vec<f64> = (0..damping.len()).map(|i| (1 + i * i) as f64).collect();
+        // Weakly damped ones; then among them critical, overdamped, undamped and rigid ones.
+        let weak = (0..7).map(|i| (f64::from(1 + i * i), 0.3)).collect::<Vec<_>>();
+        let mixed = [(1.0, 0.3), (1.0, 2.0), (5.0, 0.1), (10.0, 8.0), (17.0, 0.0), (0.0, 0.0), (0.0, 0.7)];
+        for pairs in [weak, mixed.to_vec()] {
+            let (stiffness, damping) = pairs.into_iter().unzip();
             let blocks = Blocks { stiffness, damping, transform: None };
             for time in [0.0, 1e-6, 0.7, 30.0, 1e7] {
                 let mut found = Vec::new();

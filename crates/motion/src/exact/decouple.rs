@@ -118,6 +118,7 @@ fn decouple(
         let mut plane = InvariantPlane { stiffness, damping, p: displacements(&p), s: displacements(&s) };
         if copies == 1 {
             plane.refine(model, group);
+            plane.stiffness = plane.stiffness.max(0.0);
         }
         let block = group[slot];
         blocks.stiffness[block] = plane.stiffness;
@@ -173,7 +174,8 @@ fn eigenvalue_pairs(system: &Mat<f64>) -> Result<Vec<(f64, f64)>, MergedModes> {
     let mut real: Vec<f64> = eigenvalues.iter().filter(|l| l.im == 0.0).map(|l| l.re).collect();
     real.iter_mut().filter(|l| l.abs() < 1e-15 * scale).for_each(|l| *l = 0.0);
     real.sort_by(f64::total_cmp);
-    pairs.extend(real.chunks_exact(2).map(|pair| (pair[0] * pair[1], -(pair[0] + pair[1]))));
+    // Dampers and springs of a structure do not drive it: a stiffness below zero is the rounding of a rigid one.
+    pairs.extend(real.chunks_exact(2).map(|pair| ((pair[0] * pair[1]).max(0.0), -(pair[0] + pair[1]))));
     pairs.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1)));
     Ok(pairs)
 }

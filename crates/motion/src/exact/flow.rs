@@ -73,6 +73,7 @@ impl ExactIntegrator {
         self.let_go();
         self.stretch = *stretch;
         self.contraction = 0.0;
+        self.held_at_once = 0;
         let n = self.blocks.count();
         self.drive_over(stretch);
         let mut run = std::mem::take(&mut self.run);

@@ -23,6 +23,7 @@
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
 //! | `course.rs` | what a motion went through |
+//! | `near_miss.rs` | least clearance of flights and least speed of touches: what vanishes at grazing |
 //! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 
@@ -57,6 +58,7 @@ mod lu;
 mod maxima;
 mod memory;
 mod moments;
+mod near_miss;
 mod newton;
 mod onset;
 mod output;
@@ -84,6 +86,7 @@ use std::{collections::HashMap, sync::Arc};
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
 pub use memory::ContactMemory;
+pub use near_miss::NearMisses;
 pub use trace::{ContactPiece, Touchdown, Trace};
 
 use block::Blocks;
@@ -221,6 +224,8 @@ pub struct ExactIntegrator {
     holding: Option<Box<hold::Holding>>,
     known_held: Vec<held::Held>,
     contraction: f64,
+    /// Rigid stops that held the structure at once in the last stretch, at most.
+    held_at_once: usize,
 }
 
 impl ExactIntegrator {
@@ -294,6 +299,7 @@ impl ExactIntegrator {
             holding: None,
             known_held: Vec::new(),
             contraction: 0.0,
+            held_at_once: 0,
         })
     }
 
@@ -322,6 +328,12 @@ impl ExactIntegrator {
     #[must_use]
     pub fn contraction(&self) -> f64 {
         self.contraction
+    }
+
+    /// Rigid stops that held the structure at once in the last stretch, at most: the rank of its sensitivities is that of the state less two for each.
+    #[must_use]
+    pub fn held_at_once(&self) -> usize {
+        self.held_at_once
     }
 
     /// Elements that were closed all through the last stretch, one bit each (the first 64).

@@ -22,7 +22,7 @@ impl Propagator {
     #[inline]
     pub fn new(stiffness: f64, damping: f64, time: f64) -> Self {
         let half = 0.5 * damping;
-        Self::of(stiffness, half, decayed_cosine_and_sine(stiffness - half * half, half, time))
+        Self::of(stiffness, half, decayed_cosine_and_sine(stiffness, half, time))
     }
 
     /// From half the damping, `exp(-h t) C` and `exp(-h t) S`.
@@ -38,7 +38,7 @@ impl Propagator {
     pub fn with_derivatives(stiffness: f64, damping: f64, time: f64) -> (Self, Self, Self) {
         let (k, half, t) = (stiffness, 0.5 * damping, time);
         let discriminant = k - half * half;
-        let (cosine, sine) = decayed_cosine_and_sine(discriminant, half, t);
+        let (cosine, sine) = decayed_cosine_and_sine(stiffness, half, t);
         let square = discriminant * t * t;
         let cosine_k = -0.5 * t * sine;
         let (sine_k, cosine_c, sine_c);
@@ -151,7 +151,8 @@ fn sine_series_slope(x: f64) -> f64 {
 
 /// `exp(-h t) C(t)` and `exp(-h t) S(t)` of [`Propagator::new`].
 #[inline]
-fn decayed_cosine_and_sine(discriminant: f64, half: f64, time: f64) -> (f64, f64) {
+fn decayed_cosine_and_sine(stiffness: f64, half: f64, time: f64) -> (f64, f64) {
+    let discriminant = stiffness - half * half;
     let square = discriminant * time * time;
     if discriminant >= f64::MIN_POSITIVE {
         let frequency = discriminant.sqrt();
@@ -162,7 +163,7 @@ fn decayed_cosine_and_sine(discriminant: f64, half: f64, time: f64) -> (f64, f64
     if square < -1e-4 {
         let rate = (-discriminant).sqrt();
         // The slow root is k / (h + rate), free of the cancellation in h - rate.
-        let slow = exponential(-(discriminant + half * half) / (half + rate) * time);
+        let slow = exponential(-stiffness / (half + rate) * time);
         let fast = exponential(-(half + rate) * time);
         return (0.5 * (slow + fast), 0.5 * (slow - fast) / rate);
     }
@@ -252,5 +253,9 @@ mod tests {
         let propagator = Propagator::new(1e-3, 1e3, 1e4);
         let slow = 2e-3 / (1e3 + (1e6_f64 - 4e-3).sqrt());
         assert!((propagator.a / (-slow * 1e4_f64).exp() - 1.0).abs() < 1e-8);
+        // A stiffness of which the square of the damping leaves next to nothing: over 2e6 s the slow root makes exp(-1.3).
+        let stiff = Propagator::new(1.3, 2e6, 2e6);
+        let slow = 2.6 / (2e6 + (4e12_f64 - 5.2).sqrt());
+        assert!((stiff.a / (-slow * 2e6_f64).exp() - 1.0).abs() < 1e-12, "{}", stiff.a);
     }
 }

@@ -84,9 +84,10 @@ impl ExactIntegrator {
         for &(piece, step) in steps {
             self.recall(course, piece, &step);
             let state = course.numbers(step.state);
-            if self.acceleration_bound(state) > peaks.bar() {
-                peaks.note((piece, step), response, &self.response_nodes(state, 2));
+            if self.acceleration_bound(state) <= peaks.bar() {
+                continue;
             }
+            peaks.note((piece, step), response, &self.response_nodes(state, 2));
         }
         peaks.peaks.iter().fold(0.0, |largest, peak| largest.max(self.exact_acceleration(course, peak)))
     }
@@ -102,9 +103,10 @@ impl ExactIntegrator {
         for &(piece, step) in steps {
             self.recall(course, piece, &step);
             let state = course.numbers(step.state);
-            if self.displacement_bound(state) > peaks.bar() {
-                peaks.note((piece, step), response, &self.response_nodes(state, 0));
+            if self.displacement_bound(state) <= peaks.bar() {
+                continue;
             }
+            peaks.note((piece, step), response, &self.response_nodes(state, 0));
         }
         let peaks = peaks.peaks.iter();
         peaks.fold(elsewhere, |largest, peak| largest.max(self.exact_extremum(course, peak, f64::abs)))

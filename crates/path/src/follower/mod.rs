@@ -283,6 +283,10 @@ impl Follower {
         state.counters.short_in_a_row = if is_short { state.counters.short_in_a_row + 1 } else { 0 };
         state.zeros_near = arrival.zeros_near | arrival.events.zeros;
         std::mem::swap(&mut state.tests, &mut state.tests_before);
+        // Where a function was zero, what was noted is its value beyond.
+        let zeros = state.current.events.zeros;
+        let at_zero = state.tests_before.iter_mut().enumerate().filter(|(k, _)| zeros >> k & 1 == 1);
+        at_zero.for_each(|(_, test)| test.value = 0.0);
         state.tests.clone_from(&self.trial.tests);
         state.outside = arrival.outside;
         // Where something else was located, the change of signature lies anywhere in the step.
