@@ -34,7 +34,8 @@ pub struct Determinant {
 /// A test function at the last evaluated point. Its zeros along the path become points of their own.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TestValue {
-    /// The value: continuous where it is zero, and with the sign of `(−1)^count`.
+    /// The value: continuous where it is zero, and with the sign of `(−1)^count`. A function that is never negative has no zeros as events, but says where the signature may change
+    /// twice within a step: where it comes near zero between two points.
     pub value: f64,
     /// How often the function has gone through zero since some common reference: two zeros within one step show here.
     pub count: u32,

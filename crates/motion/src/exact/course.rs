@@ -88,6 +88,12 @@ impl Course {
         &self.numbers[first..end]
     }
 
+    /// What happened in one stretch.
+    pub fn of_stretch(&self, piece: usize) -> &[Passage] {
+        let end = self.stretches.get(piece + 1).map_or(self.passages.len(), |next| next.first_passage);
+        &self.passages[self.stretches[piece].first_passage..end]
+    }
+
     /// The elements that act in a step, and their laws.
     pub fn active(&self, step: &CourseStep) -> &[(usize, Law)] {
         &self.elements[step.active.0..step.active.1]

@@ -11,6 +11,8 @@ use super::ExactIntegrator;
 const ACCURACY: f64 = 1e-12;
 /// Part of the best value by which an interval of the first grid may exceed its ends.
 const EXCESS: f64 = 0.01;
+/// Steps of Newton's method to a turn.
+const NEWTON: usize = 8;
 
 /// A flight that was flown.
 #[derive(Debug, Clone, Copy)]
@@ -39,11 +41,10 @@ impl ExactIntegrator {
         let flight = FlightFunction::new(self, flown, (output, derivative));
         let ends = [flight.at(0.0).0.abs(), flight.at(flown.duration).0.abs()];
         let mut best = best.max(ends[0]).max(ends[1]);
-        // Short enough for the curvature to add little, and at most four thousand intervals to begin with.
-        let spacing =
-            if flight.bound > 0.0 { (8.0 * EXCESS * best / flight.bound).sqrt() } else { flown.duration };
-        let count = (flown.duration / spacing).ceil().clamp(1.0, 4096.0) as usize;
-        let values = flight.on_grid(count);
+        // At most four thousand intervals to begin with.
+        let count = flight.places(EXCESS * best).min(4096);
+        let mut values = flight.on_grid(count);
+        values.iter_mut().for_each(|value| *value = value.abs());
         let highest = (0..=count).fold(0, |high, i| if values[i] > values[high] { i } else { high });
         best = best.max(values[highest]);
         let width = flown.duration / count as f64;
@@ -57,7 +58,7 @@ impl ExactIntegrator {
     }
 
     /// Bound on the magnitude of displacement (0) or acceleration (2) of an output over a flight: each block within its energy norm.
-    fn flight_bound(&self, flown: &Flown, (index, derivative): (usize, usize)) -> f64 {
+    pub(super) fn flight_bound(&self, flown: &Flown, (index, derivative): (usize, usize)) -> f64 {
         let (output, n) = (&self.outputs[index], self.blocks.count());
         let until = flown.start + flown.duration;
         let (factors, mut bound) = if derivative == 0 {
@@ -69,7 +70,7 @@ impl ExactIntegrator {
         for i in 0..n {
             bound += factors[i] * self.energy_norm(flown.state, i);
             // A rigid block moves on.
-            if derivative == 0 && self.blocks.stiffness[i] == 0.0 {
+            if derivative == 0 && self.blocks.stiffness[i] <= 0.0 {
                 let (p, s) = (flown.state[i], flown.state[n + i]);
                 bound += output.row[i].abs() * (p.abs() + s.abs() * flown.duration);
             }
@@ -79,7 +80,7 @@ impl ExactIntegrator {
 }
 
 /// A function of the time of a flight: an output or its second derivative.
-struct FlightFunction<'a> {
+pub(super) struct FlightFunction<'a> {
     integrator: &'a ExactIntegrator,
     flown: &'a Flown<'a>,
     output: usize,
@@ -93,7 +94,7 @@ struct FlightFunction<'a> {
 }
 
 impl<'a> FlightFunction<'a> {
-    fn new(
+    pub fn new(
         integrator: &'a ExactIntegrator,
         flown: &'a Flown<'a>,
         (index, derivative): (usize, usize),
@@ -123,8 +124,36 @@ impl<'a> FlightFunction<'a> {
         }
     }
 
+    /// Duration of the flight.
+    pub fn duration(&self) -> f64 {
+        self.flown.duration
+    }
+
+    /// Number of equal intervals over which the curvature adds at most this to the values at their ends; one where nothing bends.
+    pub fn places(&self, excess: f64) -> usize {
+        let spacing = if self.bound > 0.0 { (8.0 * excess / self.bound).sqrt() } else { self.flown.duration };
+        (self.flown.duration / spacing).ceil().max(1.0) as usize
+    }
+
+    /// Where Newton's method comes to a rest of the function from near one, and the value there.
+    pub fn turn(&self, near: f64) -> (f64, f64) {
+        let (mut time, mut value) = (near, self.at(near));
+        for _ in 0..NEWTON {
+            let step = -value.1 / value.2;
+            if !step.is_finite() {
+                break;
+            }
+            time += step;
+            value = self.at(time);
+            if step.abs() <= 1e-9 * self.flown.duration {
+                break;
+            }
+        }
+        (time, value.0)
+    }
+
     /// Function and its first two derivatives at `time` after the start of the flight.
-    fn at(&self, time: f64) -> (f64, f64, f64) {
+    pub fn at(&self, time: f64) -> (f64, f64, f64) {
         let blocks = &self.integrator.blocks;
         let n = blocks.count();
         let mut sums = self.driven(time);
@@ -148,8 +177,8 @@ impl<'a> FlightFunction<'a> {
         [jet.value, jet.slope, jet.curvature]
     }
 
-    /// Magnitudes of the function at `count + 1` equal steps over the flight.
-    fn on_grid(&self, count: usize) -> Vec<f64> {
+    /// The function at `count + 1` equal steps over the flight.
+    pub fn on_grid(&self, count: usize) -> Vec<f64> {
         let blocks = &self.integrator.blocks;
         let n = blocks.count();
         let step = self.flown.duration / count as f64;
@@ -163,7 +192,7 @@ impl<'a> FlightFunction<'a> {
                 value += self.rows[0][i] * state[i] + self.rows[0][n + i] * state[n + i];
                 (state[i], state[n + i]) = propagators[i].apply(state[i], state[n + i]);
             }
-            values.push(value.abs());
+            values.push(value);
         }
         values
     }

@@ -124,11 +124,9 @@ impl ExactIntegrator {
 
     /// Notes what happened in one stretch of a course.
     fn look_through<'a>(&mut self, course: &'a Course, piece: usize, observation: &mut Observation<'a>) {
-        let passed = &course.stretches[piece];
-        let end = course.stretches.get(piece + 1).map_or(course.passages.len(), |next| next.first_passage);
         let maxima = &mut observation.maxima;
-        maxima.closed_throughout &= passed.closed;
-        for passage in &course.passages[passed.first_passage..end] {
+        maxima.closed_throughout &= course.stretches[piece].closed;
+        for passage in course.of_stretch(piece) {
             match *passage {
                 Passage::Flight { start, duration, state, held, impulses } => {
                     let (state, held) = (course.numbers(state), course.held(held));
