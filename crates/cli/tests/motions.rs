@@ -435,6 +435,85 @@ fn states_in_which_no_motion_begins_are_refused_by_name() {
     }
 }
 
+/// Above its first grazing the linear motion of the impact oscillator goes beyond the stop: at phase 0 by `Re F/(1 - W^2 + i c W) - g`.
+#[test]
+fn the_motion_without_contacts_is_refused_where_it_lies_behind_the_stop() {
+    let workshop = Workshop::with(IMPACT_OSCILLATOR);
+    let frequency = "0.14";
+    let w = std::f64::consts::TAU * 0.14;
+    let real = 1.0 - w * w;
+    let depth = 0.4 * real / (real * real + (0.04 * w).powi(2)) - 1.0;
+    let part = format!("--initial linear, at 0.14 Hz: the state lies {depth:.3e} m behind the rigid stop");
+    let before = workshop.listing();
+    for command in [
+        &["simulate", "study.toml", "--frequency", frequency][..],
+        &["lyapunov", "study.toml", "--frequency", frequency],
+        &["sweep", "study.toml", "--from", frequency, "--to", frequency],
+    ] {
+        let arguments = [command, &["--initial", "linear", "--out", "out"]].concat();
+        assert_bad_input(&workshop.hammerbeam(&arguments), &[&part]);
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
+    // A diagram leaves it out, and has states in front of the stop for all others.
+    let diagram = ["sweep", "study.toml", "--from", frequency, "--to", frequency, "--starts", "6", "--json"];
+    let output = workshop.hammerbeam(&diagram);
+    assert_success(&output);
+    assert_eq!(stderr(&output).lines().count(), 1, "{}", stderr(&output));
+    assert!(
+        stderr(&output).contains(&format!("start 2: the state lies {depth:.3e} m behind the rigid stop"))
+    );
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["motions"].as_array().unwrap().len(), 5);
+}
+
+/// A support that is 3 mm beyond its middle at phase 0, and a stop in space 1 mm away.
+#[test]
+fn rest_is_refused_where_the_support_lies_beyond_the_stop() {
+    let study = r#"
+title = "Moving support"
+[structure]
+kind = "beam"
+length_m = 0.4
+elements = 10
+section = { width_m = 0.02, height_m = 0.002 }
+youngs_modulus_pa = 7.0e10
+density_kg_m3 = 2700.0
+left = "clamped"
+right = "free"
+[reduction]
+method = "truncation"
+cut_off_hz = 100.0
+[damping]
+modal_ratio = 0.05
+[excitation]
+kind = "support-motion"
+at = "left"
+amplitude_m = 3e-3
+frequency_hz = [0.5, 2.0]
+[[stop]]
+name = "wall"
+at = "right"
+law = "rigid"
+restitution = 0.8
+gap_m = 1e-3
+side = "above"
+fixed_to = "space"
+[response]
+point = "right"
+"#;
+    let workshop = Workshop::with(study);
+    for command in [
+        &["simulate", "study.toml", "--frequency", "1"][..],
+        &["lyapunov", "study.toml", "--frequency", "1"],
+        &["sweep", "study.toml"],
+    ] {
+        assert_bad_input(
+            &workshop.hammerbeam(command),
+            &["--initial rest, at", "the state lies 2.000e-3 m behind the rigid stop \"wall\""],
+        );
+    }
+}
+
 /// A sweep whose motions are in contact at phase 0, which their states do not tell all of: killed and taken up again it has the same bytes.
 #[test]
 fn a_sweep_within_contacts_that_remember_goes_on_with_the_same_bytes() {
