@@ -54,7 +54,7 @@ pub struct LyapunovOptions {
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub frequency: f64,
 
-    /// Last frequency of a series; the motion begins anew at each
+    /// Last frequency of a series, above the first, or the same for that one alone; the motion begins anew at each
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub to: Option<f64>,
 
@@ -127,7 +127,7 @@ pub struct SweepOptions {
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub from: Option<f64>,
 
-    /// Last frequency, above the first [default: the high end of the study's range]
+    /// Last frequency, above the first, or the same for that one alone [default: the high end of the study's range]
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub to: Option<f64>,
 

@@ -366,6 +366,24 @@ fn exponents_over_a_series_of_frequencies_are_those_of_each() {
     }
 }
 
+/// What the help says of `--to`: above the first frequency, or the same.
+#[test]
+fn a_series_may_be_of_one_frequency_and_the_help_says_so() {
+    let workshop = Workshop::with(DUFFING);
+    for (command, options) in [
+        ("lyapunov", &["--frequency", "0.1", "--to", "0.1", "--periods", "20"][..]),
+        ("sweep", &["--from", "0.1", "--to", "0.1"]),
+    ] {
+        let help = workshop.hammerbeam(&[command, "--help"]);
+        let words = stdout(&help).split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("above the first, or the same for that one alone"), "{words}");
+        let document = document(&workshop, &[&[command, "study.toml", "--json"], options].concat());
+        let rows = document.get("motions").or(document.get("spectra")).unwrap();
+        assert_eq!(rows.as_array().unwrap().len(), 1);
+        assert_eq!(rows[0]["frequency_hz"], 0.1);
+    }
+}
+
 #[test]
 fn options_that_make_no_sense_are_refused() {
     let workshop = Workshop::with(TWO_MASSES);

@@ -349,9 +349,7 @@ fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
 }
 
 fn read_side(table: &Table<'_>) -> Option<Side> {
-    table
-        .required("side")
-        .and_then(|value| value.choice(&[("above", Side::Above), ("below", Side::Below)]))
+    table.required("side").and_then(|value| value.choice(&[("above", Side::Above), ("below", Side::Below)]))
 }
 
 fn read_gap(table: &Table<'_>) -> Option<Approach> {
@@ -363,10 +361,7 @@ fn read_gap(table: &Table<'_>) -> Option<Approach> {
 /// Gap and side of a law that takes no preload.
 ///
 /// * `why`, `allowed`: why it takes none, and what it takes instead.
-fn read_with_gap(
-    table: &Table<'_>,
-    (why, allowed): (&str, &str),
-) -> (Option<Approach>, Option<Side>) {
+fn read_with_gap(table: &Table<'_>, (why, allowed): (&str, &str)) -> (Option<Approach>, Option<Side>) {
     let side = read_side(table);
     let gap = read_gap(table);
     if !table.has("preload_n") {
