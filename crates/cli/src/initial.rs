@@ -7,7 +7,7 @@ use hammerbeam_motion::Stretch;
 use hammerbeam_orbit::states_at_phase;
 use hammerbeam_study::{Model, StoredBranches, StudyFile};
 
-use crate::failure::Failure;
+use crate::{failure::Failure, motion_args::MOST_OF_A_STATE};
 
 impl From<AttractorError> for Failure {
     fn from(error: AttractorError) -> Self {
@@ -59,14 +59,14 @@ fn meant(
 fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
     let refused = |found: &str| {
         let allowed = format!(
-            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas"
+            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
         );
         Failure::BadInput(format!("--initial: {found}; allowed: {allowed}"))
     };
     let mut state = Vec::new();
     for part in text.split(',') {
         match part.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => state.push(number),
+            Ok(number) if number.abs() <= MOST_OF_A_STATE => state.push(number),
             _ => return Err(refused(&format!("found {:?}", part.trim()))),
         }
     }
