@@ -459,6 +459,21 @@ fn states_in_which_no_motion_begins_are_refused_by_name() {
     }
 }
 
+/// At rest the mass is pressed against a stop whose law needs the speed of an impact, and some states about it lie in the contact: the search begins beside, and its orbit is the motion that
+/// settles from a state that a motion can begin at.
+#[test]
+fn a_search_does_not_miss_what_no_motion_can_begin_at() {
+    let workshop = Workshop::with(&remembering());
+    let orbit = document(&workshop, &["orbit", "study.toml", "--frequency", "0.3", "--json"]);
+    assert_eq!(orbit["search_complete"], true);
+    let sweep = ["sweep", "study.toml", "--from", "0.3", "--to", "0.3", "--initial", "-0.1,0", "--json"];
+    let settled = document(&workshop, &sweep);
+    let largest = |of: &Value| of["max_abs_displacement_m"].as_f64().unwrap();
+    // Motions have settled when they repeat within 1e-8.
+    let (orbit, settled) = (largest(&orbit), largest(&settled["motions"][0]));
+    assert!((orbit / settled - 1.0).abs() < 1e-7, "{orbit} {settled}");
+}
+
 /// Above its first grazing the linear motion of the impact oscillator goes beyond the stop: at phase 0 by `Re F/(1 - W^2 + i c W) - g`.
 #[test]
 fn the_motion_without_contacts_is_refused_where_it_lies_behind_the_stop() {
