@@ -157,9 +157,7 @@ impl Basins {
         let scales = map.scales();
         let mut patience = self.effort.patience;
         let mut state = self.grid.state(cell);
-        if map.behind_rigid_stop(&state).is_some() {
-            return Ok(Destination::Lost);
-        }
+        map.check_in_front_of_stops(&state)?;
         loop {
             let mut arrived = None;
             let settled = settle_unless(map, 1, &state, patience, |states| {

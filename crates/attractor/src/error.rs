@@ -19,6 +19,9 @@ pub enum AttractorError {
     /// A state has the wrong length.
     #[error("the state has {found} entries, the motion has {expected}")]
     StateLength { found: usize, expected: usize },
+    /// A motion is to begin behind a rigid stop, where no motion comes.
+    #[error("the state lies {depth:.3e} m behind the rigid stop {stop:?}, where no motion comes")]
+    BehindRigidStop { stop: String, depth: f64 },
     /// Tangent vectors have become linearly dependent or infinite: the sections are too long for the growth in them.
     #[error("tangent vectors cannot be told apart after section {section}: a shorter section is needed")]
     TangentsLost { section: u64 },

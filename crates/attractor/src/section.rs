@@ -132,17 +132,23 @@ impl SystemMap {
         -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
     }
 
-    /// The first rigid stop that a state at phase 0 lies behind, where no motion comes, and how far [m].
-    #[must_use]
-    pub fn behind_rigid_stop(&self, state: &[f64]) -> Option<(&str, f64)> {
+    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes.
+    ///
+    /// # Errors
+    /// [`AttractorError::BehindRigidStop`], of the first such stop.
+    pub fn check_in_front_of_stops(&self, state: &[f64]) -> Result<(), AttractorError> {
         let system = self.integrator.system();
-        system.elements().iter().enumerate().find_map(|(number, element)| {
-            let level = element.law.rigid()?.level();
+        for (number, element) in system.elements().iter().enumerate() {
+            let Some(stop) = element.law.rigid() else { continue };
+            let level = stop.level();
             let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
             // A state on the stop may have come from a motion, with its rounding.
             let depth = r - level;
-            (depth > ON_THE_STOP * r.abs().max(level.abs())).then_some((element.name.as_str(), depth))
-        })
+            if depth > ON_THE_STOP * r.abs().max(level.abs()) {
+                return Err(AttractorError::BehindRigidStop { stop: element.name.clone(), depth });
+            }
+        }
+        Ok(())
     }
 
     fn stretch(&self, part: Part) -> Stretch {

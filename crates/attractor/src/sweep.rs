@@ -14,6 +14,9 @@ use crate::{
     section::state_scales,
 };
 
+/// Draws of a state of a diagram until it lies before all rigid stops.
+const MOST_DRAWS: usize = 1000;
+
 /// What is read off a motion: `shape . q + support_ratio u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Observable {
@@ -80,6 +83,16 @@ impl Sweeper {
         Ok(Self { map, watching, observable: observable.clone(), settings })
     }
 
+    /// The motion that one which begins at this state at phase 0 settles to.
+    ///
+    /// # Errors
+    /// [`AttractorError::BehindRigidStop`], and those of [`Sweeper::at`].
+    pub fn begin_at(&mut self, frequency_hz: f64, state: &[f64]) -> Result<SweepPoint, AttractorError> {
+        self.map.set_frequency(frequency_hz);
+        self.map.check_in_front_of_stops(state)?;
+        self.at(frequency_hz, state)
+    }
+
     /// The motion that one from this state at phase 0 settles to.
     ///
     /// # Errors
@@ -134,7 +147,7 @@ impl Sweeper {
         })
     }
 
-    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always the same ones.
+    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always the same ones; of those about it, none behind a rigid stop.
     ///
     /// # Errors
     /// [`AttractorError::Input`]: the frequency makes no sense.
@@ -142,6 +155,7 @@ impl Sweeper {
         let positive = frequency_hz.is_finite() && frequency_hz > 0.0;
         ensure("the frequency", frequency_hz, "finite and more than 0 Hz", positive)?;
         let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+        self.map.set_frequency(frequency_hz);
         let steady = self.map.integrator().steady_state(&stretch);
         let scales = state_scales(self.map.integrator().system(), frequency_hz);
         let size = |state: &[f64]| {
@@ -157,7 +171,15 @@ impl Sweeper {
             let about = |i: usize, random: &mut Random| {
                 steady[i] + reach * scales[i] * random.signed() / (1 + i % n) as f64
             };
-            states.push((0..2 * n).map(|i| about(i, &mut random)).collect());
+            let mut drawn = || (0..2 * n).map(|i| about(i, &mut random)).collect::<Vec<f64>>();
+            let mut state = drawn();
+            for _ in 1..MOST_DRAWS {
+                if self.map.check_in_front_of_stops(&state).is_ok() {
+                    break;
+                }
+                state = drawn();
+            }
+            states.push(state);
         }
         states.truncate(count);
         Ok(states)

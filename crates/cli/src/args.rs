@@ -108,7 +108,7 @@ pub struct OrbitOptions {
     pub study: PathBuf,
 
     /// Excitation frequency
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
     /// Orbit period over excitation period; solutions of a shorter period are not given
@@ -278,6 +278,14 @@ pub struct VerifyOptions {
 pub enum Format {
     /// Comma-separated values
     Csv,
+}
+
+/// A frequency of the excitation, as a study may have it.
+pub fn excitation_frequency(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number <= 1e10 => Ok(number),
+        _ => Err("must be a number of hertz, more than 0 and at most 1e10".to_owned()),
+    }
 }
 
 pub fn positive(text: &str) -> Result<f64, String> {

@@ -7,31 +7,44 @@ use hammerbeam_motion::Stretch;
 use hammerbeam_orbit::states_at_phase;
 use hammerbeam_study::{Model, StoredBranches, StudyFile};
 
-use crate::failure::Failure;
+use crate::{failure::Failure, motion_args::MOST_OF_A_STATE};
 
 impl From<AttractorError> for Failure {
     fn from(error: AttractorError) -> Self {
         match error {
-            AttractorError::Input { .. } | AttractorError::StateLength { .. } => {
-                Self::BadInput(error.to_string())
-            }
+            AttractorError::Input { .. }
+            | AttractorError::StateLength { .. }
+            | AttractorError::BehindRigidStop { .. } => Self::BadInput(error.to_string()),
             other => Self::NoResult(other.to_string()),
         }
     }
 }
 
-/// The state that `--initial` means.
+/// The state that `--initial` means: one that a motion can begin at, in front of every rigid stop.
 ///
 /// * `map`: of the system at the frequency.
 pub fn state(
     text: &str,
     map: &mut SystemMap,
-    (file, model): (&StudyFile, &Model),
+    study: (&StudyFile, &Model),
+    results: Option<&Path>,
+) -> Result<Vec<f64>, Failure> {
+    let state = meant(text, map, study, results)?;
+    map.check_in_front_of_stops(&state).map_err(|error| {
+        Failure::BadInput(format!("--initial {text}, at {} Hz: {error}", map.frequency_hz()))
+    })?;
+    Ok(state)
+}
+
+fn meant(
+    text: &str,
+    map: &mut SystemMap,
+    study: (&StudyFile, &Model),
     results: Option<&Path>,
 ) -> Result<Vec<f64>, Failure> {
     let size = map.dimension();
     if let Some(branch) = text.strip_prefix("branch:") {
-        return of_branch(branch, map, (file, model), results);
+        return of_branch(branch, map, study, results);
     }
     match text {
         "rest" => Ok(vec![0.0; size]),
@@ -39,29 +52,21 @@ pub fn state(
             let stretch = Stretch { frequency_hz: map.frequency_hz(), start: 0.0, end: 1.0 };
             Ok(map.integrator().steady_state(&stretch))
         }
-        numbers => {
-            let state = numbers_of(numbers, size)?;
-            match map.behind_rigid_stop(&state) {
-                Some((stop, depth)) => Err(Failure::BadInput(format!(
-                    "--initial: the state lies {depth:.3e} m behind the rigid stop {stop:?}, where no motion comes"
-                ))),
-                None => Ok(state),
-            }
-        }
+        numbers => numbers_of(numbers, size),
     }
 }
 
 fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
     let refused = |found: &str| {
         let allowed = format!(
-            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas"
+            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
         );
         Failure::BadInput(format!("--initial: {found}; allowed: {allowed}"))
     };
     let mut state = Vec::new();
     for part in text.split(',') {
         match part.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => state.push(number),
+            Ok(number) if number.abs() <= MOST_OF_A_STATE => state.push(number),
             _ => return Err(refused(&format!("found {:?}", part.trim()))),
         }
     }

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::args::positive;
+use crate::args::excitation_frequency;
+
+/// Largest entry of a state that is given: its square and the energy of the motion are numbers.
+pub const MOST_OF_A_STATE: f64 = 1e100;
 
 const INITIAL: &str = "State at phase 0: `rest`; `linear`, the motion without contacts; the 2n numbers q1,..,qn,v1,..,vn of the modal state; or `branch:N` for the orbit in which that branch of --results crosses the frequency";
 
@@ -14,7 +17,7 @@ pub struct SimulateOptions {
     pub study: PathBuf,
 
     /// Excitation frequency
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
     /// Excitation periods that are written down
@@ -51,15 +54,15 @@ pub struct LyapunovOptions {
     pub study: PathBuf,
 
     /// Excitation frequency, or the first of a series
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
-    /// Last frequency of a series; the motion begins anew at each
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    /// Last frequency of a series, above the first, or the same for that one alone; the motion begins anew at each
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub to: Option<f64>,
 
     /// Step of the series [default: a hundredth of the way]
-    #[arg(long, value_name = "HZ", requires = "to", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", requires = "to", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub step: Option<f64>,
 
     /// Excitation periods averaged over, rounded up to a multiple of 20
@@ -124,15 +127,15 @@ pub struct SweepOptions {
     pub study: PathBuf,
 
     /// First frequency [default: the low end of the study's range]
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub from: Option<f64>,
 
-    /// Last frequency, above the first [default: the high end of the study's range]
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    /// Last frequency, above the first, or the same for that one alone [default: the high end of the study's range]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub to: Option<f64>,
 
     /// Step of the frequency [default: a hundredth of the way]
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub step: Option<f64>,
 
     /// Sweep down as well, from where the sweep up has ended
@@ -172,7 +175,7 @@ pub struct BasinsOptions {
     pub study: PathBuf,
 
     /// Excitation frequency
-    #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
     /// First coordinate and its range: q1 .. qn or v1 .. vn for modal displacements and velocities, displacement or velocity for those of the response point in the first mode
@@ -215,10 +218,15 @@ pub struct AxisOption {
 }
 
 fn axis(text: &str) -> Result<AxisOption, String> {
-    let form = || "must be NAME=LOW..HIGH, as in q1=-1e-3..1e-3".to_owned();
+    let form = || {
+        format!(
+            "must be NAME=LOW..HIGH, as in q1=-1e-3..1e-3, with numbers from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+        )
+    };
     let (name, range) = text.split_once('=').ok_or_else(form)?;
     let (low, high) = range.split_once("..").ok_or_else(form)?;
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let number =
+        |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.abs() <= MOST_OF_A_STATE);
     let (low, high) = number(low).zip(number(high)).ok_or_else(form)?;
     if high <= low {
         return Err(format!("the range {low}..{high} is empty; LOW must be below HIGH"));

@@ -13,6 +13,7 @@ use hammerbeam_motion::{Stretch, System};
 
 use crate::{
     Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    beginning::beginning_near,
     catalogue::Catalogue,
     crossings::Branches,
     cut::search_cut,
@@ -103,11 +104,11 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&mut self, starts: Vec<Vec<f64>>) -> Result<(), OrbitError> {
-        let dof = self.catalogue.system.dof();
+        let linear = starts[0].clone();
         for start in starts {
             self.search_motion(start)?;
         }
-        self.search_about_rest(dof)?;
+        self.search_about_rest(&linear)?;
         self.search_periods()
     }
 
@@ -116,9 +117,10 @@ impl Search<'_> {
     }
 
     /// Motions from rest and from states about it, as far away as the motion from rest goes: the linear response may be far from where the system
-    /// moves, as that of a ball that falls freely is.
-    fn search_about_rest(&mut self, dof: usize) -> Result<(), OrbitError> {
-        self.search_motion(vec![0.0; 2 * dof])?;
+    /// moves, as that of a ball that falls freely is. Where no motion can begin, it begins beside: for rest between it and the linear response.
+    fn search_about_rest(&mut self, linear: &[f64]) -> Result<(), OrbitError> {
+        let dof = self.catalogue.system.dof();
+        self.search_motion_near(vec![0.0; 2 * dof], linear)?;
         let motion = self.passed.motions.last().expect("the motion from rest is there");
         let unit = self.catalogue.scale(&vec![0.0; 2 * dof]);
         let largest = motion.iter().max_by(|a, b| unit.size(a).total_cmp(&unit.size(b))).expect("not empty");
@@ -127,9 +129,15 @@ impl Search<'_> {
         for reach in REACHES {
             let add = |i: usize, noise: f64| scale.values()[i] * reach * noise / (1 + i % dof) as f64;
             let start = (0..2 * dof).map(|i| add(i, noise.signed())).collect();
-            self.search_motion(start)?;
+            self.search_motion_near(start, linear)?;
         }
         Ok(())
+    }
+
+    fn search_motion_near(&mut self, start: Vec<f64>, other: &[f64]) -> Result<(), OrbitError> {
+        let frequency_hz = self.catalogue.frequency_hz;
+        let start = beginning_near(self.catalogue.integrator(), frequency_hz, start, other);
+        self.search_motion(start)
     }
 
     /// Where a motion settles, and its near-returns.

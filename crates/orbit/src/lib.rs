@@ -11,7 +11,7 @@
 //! | `continuation_parameter.rs`, `state_scale.rs`, `size.rs` | what varies along a branch; in which units states are measured; the size of an orbit |
 //! | `eigenvalues.rs` | multipliers, the eigenvalues of the product of the segments |
 //! | `start.rs`, `reach.rs`, `neighbour.rs` | the first orbit of a branch, by simulation; from an orbit elsewhere; from the orbit of a slightly different system |
-//! | `find.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, the orbits known, Newton's method from many states, where branches cross the frequency |
+//! | `find.rs`, `beginning.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, states at which a motion can begin, the orbits known, Newton's method from many states, where branches cross the frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `resegment.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
@@ -65,6 +65,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod beginning;
 mod catalogue;
 mod checkpoint;
 mod continuation_parameter;

@@ -4,10 +4,11 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
+    beginning::mirrored,
     cut::search_cut,
     noise::Noise,
     size::scale_from,
-    solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_of_rest, state_scale},
+    solve::{has_minimal_period, integrator, nodes_from, orbit_near, state_scale},
 };
 
 /// Excitation periods simulated between two attempts of Newton's method.
@@ -125,10 +126,9 @@ pub(crate) fn starting_states(
         states.push((0..2 * n).map(|i| linear[i] + add(i, noise.signed())).collect());
     }
     if system.remembers_impacts() {
-        let rest = state_of_rest(system);
         for state in &mut states {
             if system.is_in_remembered_contact(frequency_hz, 0.0, state) {
-                state.iter_mut().zip(&rest).for_each(|(z, rest)| *z = 2.0 * rest - *z);
+                *state = mirrored(system, state);
             }
         }
     }

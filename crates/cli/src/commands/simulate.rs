@@ -35,13 +35,22 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         simulation.skip_period()?;
         ticker.at(period, String::new);
     }
-    let mut record = Record::begin(options, &model)?;
     let phases = Phases::of(options);
+    // A motion that cannot be computed leaves no tables.
+    let mut next = Some(simulation.period_at(&phases.all)?);
+    let mut record = Record::begin(options, &model)?;
+    let mut failure = None;
     for period in 0..options.periods {
         if interrupt.raised() {
             break;
         }
-        let (samples, contacts) = simulation.period_at(&phases.all)?;
+        let (samples, contacts) = match next.take().map_or_else(|| simulation.period_at(&phases.all), Ok) {
+            Ok(observed) => observed,
+            Err(error) => {
+                failure = Some(error);
+                break;
+            }
+        };
         record.take(&model, (options, &phases), &samples, &contacts)?;
         ticker.at(options.transient_periods + period, String::new);
     }
@@ -49,8 +58,11 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     record.take(&model, (options, &phases), &[], &simulation.unfinished())?;
     let periods = record.periods;
     let summary = record.finish(&simulation)?;
+    let kept = if options.out.is_some() { "are kept" } else { "were computed" };
+    if let Some(error) = failure {
+        return Err(Failure::NoResult(format!("{error}; {periods} periods {kept}")));
+    }
     if interrupt.raised() {
-        let kept = if options.out.is_some() { "are kept" } else { "were computed" };
         return Err(Failure::Interrupted(format!("interrupted; {periods} periods {kept}")));
     }
     output.give(&summary.document(options), || summary.text(options));

@@ -48,8 +48,14 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let settings =
         SweepSettings { effort: (&options.effort).into(), sampled: options.samples as usize, motion };
     let make = || Sweeper::new(&model.system, &observable, settings);
-    let mut first = SystemMap::new(model.system.clone(), upward[0], 1, motion)?;
-    let state = initial::state(&options.initial, &mut first, (&file, &model), options.results.as_deref())?;
+    let state = match options.starts {
+        // A diagram has states of its own.
+        Some(_) => Vec::new(),
+        None => {
+            let mut first = SystemMap::new(model.system.clone(), upward[0], 1, motion)?;
+            initial::state(&options.initial, &mut first, (&file, &model), results)?
+        }
+    };
     let (kind, pieces) = pieces(options, &upward);
     let words = words(options, &upward, &state);
     let kept = Kept::open(out, &file, (kind, &words), pieces.len() as u64)?;
@@ -182,7 +188,7 @@ impl Work<'_> {
         for (piece, &(_, frequency_hz)) in (0..).zip(pieces).skip(self.kept.done as usize) {
             let states = make()?.starts(frequency_hz, starts)?;
             let at = |sweeper: &mut Result<Sweeper, AttractorError>, state: &Vec<f64>| match sweeper {
-                Ok(sweeper) => sweeper.at(frequency_hz, state),
+                Ok(sweeper) => sweeper.begin_at(frequency_hz, state),
                 Err(error) => Err(error.clone()),
             };
             let Some(points) = in_order(&states, threads, self.interrupt.flag(), make, at) else {

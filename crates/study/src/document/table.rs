@@ -13,6 +13,8 @@ pub(crate) struct Table<'a> {
     span: Range<usize>,
     entries: &'a DeTable<'a>,
     asked: RefCell<Vec<&'static str>>,
+    /// Keys refused by name: neither unknown nor offered.
+    refused: RefCell<Vec<&'static str>>,
 }
 
 impl<'a> Table<'a> {
@@ -22,7 +24,7 @@ impl<'a> Table<'a> {
         span: Range<usize>,
         entries: &'a DeTable<'a>,
     ) -> Self {
-        Self { reading, path, span, entries, asked: RefCell::default() }
+        Self { reading, path, span, entries, asked: RefCell::default(), refused: RefCell::default() }
     }
 
     /// Path of a key of this table.
@@ -69,10 +71,17 @@ impl<'a> Table<'a> {
         self.reading.problem(&path, Some(span), message, help);
     }
 
+    /// Notes the fault of a key that this table does not take.
+    pub(crate) fn refuse(&self, key: &'static str, message: String, help: Vec<String>) {
+        self.refused.borrow_mut().push(key);
+        self.problem(key, message, help);
+    }
+
     /// Notes every key that was never asked for.
     pub(crate) fn finish(self) {
-        let asked = self.asked.borrow();
-        for key in self.entries.keys().filter(|key| !asked.contains(&key.get_ref().as_ref())) {
+        let (asked, refused) = (self.asked.borrow(), self.refused.borrow());
+        let told = |key: &str| asked.contains(&key) || refused.contains(&key);
+        for key in self.entries.keys().filter(|key| !told(key.get_ref().as_ref())) {
             let name = key.get_ref().as_ref();
             let mut help = vec![format!("known keys: {}", asked.join(", "))];
             if let Some(close) = closest(name, asked.iter().copied()) {

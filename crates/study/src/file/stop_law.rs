@@ -257,16 +257,8 @@ pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<StopLaw> {
 
 fn read_rigid(table: &Table<'_>) -> Option<StopLaw> {
     let restitution = required(table, "restitution", &quantity::RIGID_RESTITUTION);
-    let (approach, side) = read_one_sided(table);
-    if let Some(Approach::Preload { .. }) = approach {
-        let help = vec!["allowed: a gap".into()];
-        table.problem(
-            "preload_n",
-            "`preload_n` is given, but a rigid stop has no stiffness to press with".into(),
-            help,
-        );
-        return None;
-    }
+    let why = "a rigid stop has no stiffness to press with";
+    let (approach, side) = read_with_gap(table, (why, "allowed: a gap"));
     Some(StopLaw::Rigid { restitution: restitution?, approach: approach?, side: side? })
 }
 
@@ -297,16 +289,9 @@ fn read_hunt_crossley(table: &Table<'_>) -> Option<StopLaw> {
 fn read_restitution(table: &Table<'_>, model: ImpactModel) -> Option<StopLaw> {
     let stiffness = read_hertz(table);
     let restitution = required(table, "restitution", &quantity::RESTITUTION);
-    let (approach, side) = read_one_sided(table);
-    if let Some(Approach::Preload { .. }) = approach {
-        let help = vec!["allowed: a gap; a contact that is closed at rest has no impact to remember".into()];
-        table.problem(
-            "preload_n",
-            "`preload_n` is given, but the law needs the speed of each impact".into(),
-            help,
-        );
-        return None;
-    }
+    let why = "the law needs the speed of each impact";
+    let allowed = "allowed: a gap; a contact that is closed at rest has no impact to remember";
+    let (approach, side) = read_with_gap(table, (why, allowed));
     Some(StopLaw::Restitution {
         model,
         stiffness: stiffness?,
@@ -363,16 +348,34 @@ fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
     Some(radii)
 }
 
+fn read_side(table: &Table<'_>) -> Option<Side> {
+    table.required("side").and_then(|value| value.choice(&[("above", Side::Above), ("below", Side::Below)]))
+}
+
+fn read_gap(table: &Table<'_>) -> Option<Approach> {
+    let gap = table.optional("gap_m").map_or(Some(0.0), |value| value.number(&quantity::GAP));
+    let measured = read_measured(table);
+    gap.zip(measured).map(|(gap_m, measured)| Approach::Gap { gap_m, measured })
+}
+
+/// Gap and side of a law that takes no preload.
+///
+/// * `why`, `allowed`: why it takes none, and what it takes instead.
+fn read_with_gap(table: &Table<'_>, (why, allowed): (&str, &str)) -> (Option<Approach>, Option<Side>) {
+    let side = read_side(table);
+    let gap = read_gap(table);
+    if !table.has("preload_n") {
+        return (gap, side);
+    }
+    table.refuse("preload_n", format!("`preload_n` is given, but {why}"), vec![allowed.to_owned()]);
+    (None, side)
+}
+
 /// Gap or preload, and the side.
 fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Side>) {
-    let side = table
-        .required("side")
-        .and_then(|value| value.choice(&[("above", Side::Above), ("below", Side::Below)]));
+    let side = read_side(table);
     let Some(preload) = table.optional("preload_n") else {
-        let gap = table.optional("gap_m").map_or(Some(0.0), |value| value.number(&quantity::GAP));
-        let measured = read_measured(table);
-        let approach = gap.zip(measured).map(|(gap_m, measured)| Approach::Gap { gap_m, measured });
-        return (approach, side);
+        return (read_gap(table), side);
     };
     for key in ["gap_m", "gap_measured"] {
         if let Some(value) = table.optional(key) {

@@ -390,6 +390,14 @@ fn a_rigid_stop_is_read_and_refuses_what_it_cannot_be() {
         "law = \"rigid\"\nrestitution = 0.8\nstiffness_n_m15 = 4.5e9",
         &["unknown key `stiffness_n_m15`"],
     );
+    // What is offered is what a rigid stop takes: no preload.
+    for law in ["rigid", "flores"] {
+        let study =
+            PAPER.replace("law = \"hertz\"", &format!("law = \"{law}\"\nrestitution = 0.9\nspeed = 1.0"));
+        let report = parse(&study).unwrap_err();
+        assert!(report.contains("known keys: ") && report.contains("gap_m"), "{report}");
+        assert!(!report.contains("preload_n"), "{report}");
+    }
     let preloaded = PAPER
         .replace("law = \"hertz\"", "law = \"rigid\"\nrestitution = 0.9")
         .replace("stiffness_n_m15 = 4.5e9", "")

@@ -1,0 +1,39 @@
+//! States at which a motion can begin, beside those at which none can: a law that needs the speed of its impact is not told it by a state within the contact, and there is none where the
+//! structure is pressed against the stop on which it rests.
+
+use hammerbeam_motion::{
+    Stretch, System,
+    exact::{ExactIntegrator, MotionError},
+};
+
+use crate::solve::state_of_rest;
+
+/// Cycles within which a motion that cannot begin has said so.
+const INSTANT: f64 = 1.0 / 1024.0;
+
+/// Whether a motion can begin at a state at phase 0.
+fn begins(integrator: &mut ExactIntegrator, frequency_hz: f64, state: &[f64]) -> bool {
+    let instant = Stretch { frequency_hz, start: 0.0, end: INSTANT };
+    let begun = integrator.advance(&instant, state);
+    !matches!(begun, Err(MotionError::StartsInContact { .. } | MotionError::PressedWithoutImpact { .. }))
+}
+
+/// A state at phase 0 at which a motion can begin: the given one, or its mirror image about the place of rest, or the one half-way to `other`. The given one, too, if there is no motion from any.
+pub(crate) fn beginning_near(
+    integrator: &mut ExactIntegrator,
+    frequency_hz: f64,
+    state: Vec<f64>,
+    other: &[f64],
+) -> Vec<f64> {
+    if !integrator.system().remembers_impacts() || begins(integrator, frequency_hz, &state) {
+        return state;
+    }
+    let half_way = state.iter().zip(other).map(|(a, b)| 0.5 * (a + b)).collect();
+    let candidates = [mirrored(integrator.system(), &state), half_way];
+    candidates.into_iter().find(|candidate| begins(integrator, frequency_hz, candidate)).unwrap_or(state)
+}
+
+/// The mirror image of a state about the place of rest.
+pub(crate) fn mirrored(system: &System, state: &[f64]) -> Vec<f64> {
+    state.iter().zip(state_of_rest(system)).map(|(z, rest)| 2.0 * rest - z).collect()
+}
