@@ -45,7 +45,7 @@ impl Default for OrbitSettings {
         Self {
             max_step_hz: 0.02,
             tolerance: 1e-10,
-            motion_tolerance: 1e-11,
+            motion_tolerance: 5e-12,
             segments: Segments::Automatic,
             max_solutions: 1_000_000,
             locates_stability_changes: true,

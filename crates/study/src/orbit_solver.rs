@@ -79,13 +79,13 @@ const CLOSEST_MOTION: f64 = 1e-13;
 
 /// Settings of the orbit crate from those of a study.
 ///
-/// A motion is computed ten times as closely as its orbit is asked for, down to where rounding decides, and never worse than by default.
+/// A motion is computed twenty times as closely as its orbit is asked for, down to where rounding decides, and never worse than by default.
 pub(crate) fn settings(continuation: &file::Continuation) -> OrbitSettings {
     let usual = OrbitSettings::default();
     OrbitSettings {
         max_step_hz: continuation.max_step_hz,
         tolerance: continuation.tolerance,
-        motion_tolerance: (0.1 * continuation.tolerance).clamp(CLOSEST_MOTION, usual.motion_tolerance),
+        motion_tolerance: (0.05 * continuation.tolerance).clamp(CLOSEST_MOTION, usual.motion_tolerance),
         segments: match continuation.segments {
             file::Segments::Auto => Segments::Automatic,
             file::Segments::Given(count) => Segments::Fixed(count as usize),
@@ -210,8 +210,8 @@ mod tests {
     }
 
     #[test]
-    fn motion_is_computed_ten_times_as_closely_as_its_orbit_is_asked_for() {
-        assert!((motion_tolerance_at(1e-11) / 1e-12 - 1.0).abs() < 1e-12);
+    fn motion_is_computed_twenty_times_as_closely_as_its_orbit_is_asked_for() {
+        assert!((motion_tolerance_at(1e-11) / 5e-13 - 1.0).abs() < 1e-12);
         assert_eq!(motion_tolerance_at(1e-13), CLOSEST_MOTION);
     }
 
