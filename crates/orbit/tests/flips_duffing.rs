@@ -70,7 +70,7 @@ fn orbit_of_doubled_period_grows_with_the_root_of_the_distance() {
     let subject = subject();
     for flip in flips(0.28, &step_of(5e-4)).iter().step_by(2) {
         let measure = |orbit: &PeriodicSolution| alternation(&subject.0, orbit);
-        let mut points = growth(&subject, flip, (RANGE, &step_of(1e-5)), 0.06, measure);
+        let mut points = growth(&subject, flip, (RANGE, &step_of(2e-6)), 0.06, measure);
         points.retain(|(_, grown)| *grown > 0.004);
         assert!(points.len() > 3, "{} points", points.len());
         let found = exponent(&points);

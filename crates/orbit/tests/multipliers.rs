@@ -18,13 +18,11 @@ const BOUND: f64 = 1e-8;
 /// Multipliers closer than this are compared by their sum and product: each alone is known to the square root only.
 const NEARLY_DOUBLE: f64 = 1e-4;
 
-/// The same closer than [`BESIDE`] to a fold or a grazing point, and wherever multipliers change by more than [`BOUND`] within [`OPEN`] of the frequency: they change there by up to 1e7 per
-/// relative change of the orbit, and rounding leaves 1e-13 of it open.
+/// The same closer than [`BESIDE`] to a fold or a grazing point: multipliers change there by up to 1e7 per relative change of the orbit, and
+/// rounding leaves 1e-13 of it open.
 const BOUND_BESIDE: f64 = 5e-6;
 /// Distance from a fold or a grazing point [Hz].
 const BESIDE: f64 = 2e-4;
-/// Relative change of the frequency.
-const OPEN: f64 = 2e-12;
 
 type Multiplier = [f64; 2];
 
@@ -33,7 +31,7 @@ fn subject() -> &'static (System, Response) {
     BEAM.get_or_init(beam)
 }
 
-/// An orbit of the harmonic branch, and whether a fold or a grazing point lies within [`BESIDE`] or its multipliers change as much.
+/// An orbit of the harmonic branch, and whether a fold or a grazing point lies within [`BESIDE`].
 struct Subject {
     orbit: PeriodicSolution,
     beside: bool,
@@ -56,12 +54,7 @@ fn subjects() -> &'static [Subject] {
         let near = |k: usize, j: usize| {
             (rows[k].solution.frequency_hz - rows[j].solution.frequency_hz).abs() < BESIDE
         };
-        let changes = |k: usize| {
-            let [a, b] = [&rows[k - 1].solution, &rows[k + 1].solution];
-            let slope = (largest(a) - largest(b)) / (a.frequency_hz / b.frequency_hz - 1.0);
-            slope.abs() * OPEN > BOUND * largest(&rows[k].solution).max(1.0)
-        };
-        let beside = |k: usize| changes(k) || (0..rows.len()).any(|j| special(j) && near(k, j));
+        let beside = |k: usize| (0..rows.len()).any(|j| special(j) && near(k, j));
         let subject = |k: usize| Subject { orbit: rows[k].solution.clone(), beside: beside(k) };
         chosen.into_iter().map(subject).collect()
     })

@@ -189,12 +189,18 @@ pub fn alternation(system: &System, orbit: &PeriodicSolution) -> f64 {
     0.5 * apart(system, &orbit.nodes[0], &later)
 }
 
-/// Exponent `p` of `y = c x^p` through points: the slope of the regression line of the logarithms.
+/// Exponent `p` at which `y` grows with `x` at first, `x = c y^(1/p) (1 + d y^2)`: what grows to either side alike has a next term of that
+/// order. A regression of `ln x` on `ln y` and `y^2`.
 pub fn exponent(points: &[(f64, f64)]) -> f64 {
-    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (x.ln(), y.ln())).collect();
-    let count = logs.len() as f64;
-    let mean = |pick: fn(&(f64, f64)) -> f64| logs.iter().map(pick).sum::<f64>() / count;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let covariance: f64 = logs.iter().map(|p| (p.0 - x) * (p.1 - y)).sum();
-    covariance / logs.iter().map(|p| (p.0 - x).powi(2)).sum::<f64>()
+    let count = points.len() as f64;
+    let deviations = |of: fn(&(f64, f64)) -> f64| -> Vec<f64> {
+        let mean = points.iter().map(of).sum::<f64>() / count;
+        points.iter().map(|point| of(point) - mean).collect()
+    };
+    let (power, next, distance) =
+        (deviations(|(_, y)| y.ln()), deviations(|(_, y)| y * y), deviations(|(x, _)| x.ln()));
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let (pp, pn, nn) = (dot(&power, &power), dot(&power, &next), dot(&next, &next));
+    let (pd, nd) = (dot(&power, &distance), dot(&next, &distance));
+    (pp * nn - pn * pn) / (nn * pd - pn * nd)
 }
