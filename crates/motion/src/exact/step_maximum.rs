@@ -156,7 +156,7 @@ impl ExactIntegrator {
     }
 
     /// Makes a step that was solved earlier the present one.
-    fn recall(&mut self, course: &Course, piece: usize, step: &CourseStep) {
+    pub(super) fn recall(&mut self, course: &Course, piece: usize, step: &CourseStep) {
         self.drive_over(&course.stretches[piece].stretch);
         self.step.grading = Some(step.grading);
         self.step.start = step.start;
