@@ -38,9 +38,10 @@ const PASSING: usize = 1;
 /// Solutions on all branches of a search.
 const MOST_SOLUTIONS: usize = 20_000;
 /// Trials from states that were passed,
-const PATIENCE: Patience = Patience { trials: 500, for_each: 20, most: 4000 };
+const PATIENCE: Patience = Patience { trials: 500, for_each: 20, asks_for_two_arrivals: true, most: 4000 };
 /// and for orbits of shorter period, which only lead to others.
-const PATIENCE_BELOW: Patience = Patience { trials: 100, for_each: 4, most: 400 };
+const PATIENCE_BELOW: Patience =
+    Patience { trials: 100, for_each: 4, asks_for_two_arrivals: true, most: 400 };
 /// Halvings of the period from which branches are followed to their flips.
 const HALVINGS: u32 = 2;
 /// Frequencies at which a start of the branch is looked for, as parts of the range.

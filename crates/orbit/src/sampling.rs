@@ -8,7 +8,12 @@
 //!   events, and the corrections are shared between the periods;
 //! - from a state at a random distance from one that was passed.
 //!
+//! Nothing new for long is not enough to end: as many orbits are still to be expected as were arrived at once only (Good, Biometrika 40 (1953), 237-264: the share of trials that would
+//! arrive at something unseen is that of the trials that arrived where no other did). So trials can be asked to go on until each orbit that they found was arrived at twice.
+//!
 //! They are states at phase 0; one within a contact whose law remembers its impact is no guess that counts.
+
+use std::collections::HashMap;
 
 use crate::{
     Interruption, OrbitError,
@@ -40,6 +45,25 @@ impl Passed {
     }
 }
 
+/// How often trials arrived at each orbit that they found.
+#[derive(Debug, Default)]
+struct Arrivals(HashMap<usize, usize>);
+
+impl Arrivals {
+    fn note(&mut self, arrived: Option<Arrived>) {
+        let Some(Arrived { place, is_new, .. }) = arrived else { return };
+        if is_new {
+            self.0.insert(place, 1);
+        } else if let Some(count) = self.0.get_mut(&place) {
+            *count += 1;
+        }
+    }
+
+    fn any_is_alone(&self) -> bool {
+        self.0.values().any(|count| *count == 1)
+    }
+}
+
 /// How long to go on.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Patience {
@@ -47,6 +71,8 @@ pub(crate) struct Patience {
     pub trials: usize,
     /// and more for each orbit that is known,
     pub for_each: usize,
+    /// and, if so, until each orbit that trials found was arrived at twice,
+    pub asks_for_two_arrivals: bool,
     /// but no more trials than these.
     pub most: usize,
 }
@@ -64,6 +90,7 @@ pub(crate) fn sample(
     }
     let mut noise = Noise::new(1);
     let (mut since, mut work) = (0, 0);
+    let mut arrivals = Arrivals::default();
     for trial in 0..patience.most {
         if interrupted() {
             return Err(OrbitError::Interrupted);
@@ -75,10 +102,13 @@ pub(crate) fn sample(
             None => None,
         };
         work += (catalogue.steps() - before) * (2 + 2 * catalogue.system.dof() as u64);
-        let is_new =
-            |a: Arrived| a.is_new && catalogue.known[a.place].solution.period_multiple == period_multiple;
-        since = if arrived.is_some_and(is_new) { 0 } else { since + 1 };
-        if since >= patience.trials + patience.for_each * catalogue.count(period_multiple) || work > MOST_WORK
+        let is_wanted = |a: &Arrived| catalogue.known[a.place].solution.period_multiple == period_multiple;
+        let arrived = arrived.filter(is_wanted);
+        since = if arrived.as_ref().is_some_and(|a| a.is_new) { 0 } else { since + 1 };
+        arrivals.note(arrived);
+        let patience_ends = patience.trials + patience.for_each * catalogue.count(period_multiple);
+        if since >= patience_ends && !(patience.asks_for_two_arrivals && arrivals.any_is_alone())
+            || work > MOST_WORK
         {
             break;
         }

@@ -46,7 +46,7 @@ pub fn harmonic_trials(
     if let (true, Some(error)) = (passed.motions.is_empty(), failure) {
         return Err(error);
     }
-    let patience = Patience { trials, for_each: FOR_EACH, most: 8 * trials };
+    let patience = Patience { trials, for_each: FOR_EACH, asks_for_two_arrivals: false, most: 8 * trials };
     sample(&mut catalogue, &passed, 1, patience, interrupted)?;
     Ok(catalogue.known.into_iter().map(|known| known.solution).collect())
 }

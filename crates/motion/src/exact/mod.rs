@@ -23,7 +23,7 @@
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
 //! | `course.rs` | what a motion went through |
-//! | `near_miss.rs` | least clearance of flights and least speed of touches: what vanishes at grazing |
+//! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
 //! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 
