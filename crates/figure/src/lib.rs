@@ -74,6 +74,7 @@ mod motion_section;
 mod multiplier_diagram;
 mod orbit_diagram;
 mod page;
+mod pdf;
 mod plot;
 mod png;
 mod reduction_diagram;
@@ -98,7 +99,7 @@ pub use mode_diagram::{DrawnMode, ModeDiagram};
 pub use motion::MotionKind;
 pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
-pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitSample};
+pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample};
 pub use page::{
     MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageLink, PageMeasured, PageMotion,
     PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure, room_for_orbits,
