@@ -10,7 +10,7 @@
 
 mod common;
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, fs};
 
 use common::{Workshop, assert_success, stdout};
 use serde_json::Value;
@@ -150,4 +150,23 @@ fn the_example_is_run_to_its_closed_form_and_verified() {
     assert_success(&verified);
     let verified: Value = serde_json::from_str(&stdout(&verified)).unwrap();
     assert_eq!(verified["disagreements"].as_array().map(Vec::len), Some(0), "{verified}");
+}
+
+/// The figures of an orbit with one impact: the impulse that stops unit mass at its speed and throws it back, and a velocity that jumps.
+#[test]
+fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
+    let workshop = Workshop::with(STUDY);
+    let output =
+        workshop.hammerbeam(&["orbit", "study.toml", "--frequency", "0.2", "--out", "drawn", "--json"]);
+    assert_success(&output);
+    let speeds = closed_form(0.2).unwrap().map(|[_, speed]| speed);
+    let read = |name: &str| fs::read_to_string(workshop.path("drawn").join(name)).unwrap();
+    let words = speeds.map(|speed| {
+        let impulse: f64 = format!("{:.3e}", (1.0 + RESTITUTION) * speed).parse().unwrap();
+        format!("impulse of the impact on a rigid stop: {impulse} N s")
+    });
+    let history = read("orbit-1-history.svg");
+    assert!(words.iter().any(|words| history.contains(words)), "{words:?}");
+    assert!(history.contains(">Impulse (N s)<") && !history.contains("Local force"));
+    assert!(read("orbit-1-phase.svg").contains(">jump at an impact<"));
 }

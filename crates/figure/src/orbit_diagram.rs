@@ -174,7 +174,7 @@ impl OrbitDiagram {
             Layer::Whiskers { intervals, colour: line_pattern(0).colour },
             Layer::Dots { points: shown, dot },
         ];
-        let pattern = Pattern { colour: crate::style::PALE_INK, dashes: Some((1.5, 1.5)) };
+        let pattern = Pattern { colour: PALE_INK, dashes: Some((1.5, 1.5)) };
         let mut legend = vec![Entry { sample: Sample::Dot(dot), name: "harmonic".to_owned() }];
         if !self.eigenfrequencies_hz.is_empty() {
             legend.push(Entry { sample: Sample::Pattern(pattern), name: "eigenfrequency".to_owned() });
