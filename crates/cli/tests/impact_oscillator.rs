@@ -170,3 +170,25 @@ fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
     assert!(history.contains(">Impulse (N s)<") && !history.contains("Local force"));
     assert!(read("orbit-1-phase.svg").contains(">jump at an impact<"));
 }
+
+/// While a constant force holds the mass on its stop, it is at rest: what the stop presses with is part of its acceleration.
+#[test]
+fn a_mass_that_is_held_has_no_acceleration() {
+    let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 0.9\norder = 0\n";
+    let workshop = Workshop::with(&format!("{}\n{load}", STUDY.replacen("[0.08, 0.5]", "[0.02, 0.5]", 1)));
+    let arguments = ["simulate", "study.toml", "--frequency", "0.05", "--out", "motion"];
+    assert_success(&workshop.hammerbeam(&arguments));
+    let table = fs::read_to_string(workshop.path("motion/samples.csv")).unwrap();
+    let titles: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |word: &str| titles.iter().position(|title| title.contains(word)).unwrap();
+    let wanted = ["velocity", "acceleration", "force"].map(column);
+    let rows = table.lines().skip(1).map(|line| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        wanted.map(|column| cells[column])
+    });
+    let held: Vec<[f64; 3]> = rows.filter(|[_, _, force]| *force < -0.1).collect();
+    assert!(held.len() > 100, "{} samples", held.len());
+    assert!(
+        held.iter().all(|[velocity, acceleration, _]| velocity.abs() < 1e-12 && acceleration.abs() < 1e-12)
+    );
+}

@@ -161,7 +161,7 @@ impl Style {
             mark_radius: 1.3,
             mark_distance: 2.6,
             stroke_spacing: (24.0, 1.6),
-            stroke_reach: 1.8,
+            stroke_reach: 2.2,
             line_tolerance: 0.024, // a tenth of a pixel at 300 pixels per inch
         }
     }

@@ -167,7 +167,7 @@ fn course(model: &Model, orbit: &PeriodicSolution) -> Result<(Vec<OrbitSample>, 
         contacts.extend(ended);
         for sample in sampled {
             let [displacement_m, velocity_m_s, acceleration_m_s2] =
-                initial::response(model, frequency_hz, sample.phase, &sample.state);
+                initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces);
             let support = model.system.support_motion(frequency_hz, sample.phase)[0];
             samples.push(OrbitSample {
                 displacement_m,
@@ -189,7 +189,7 @@ fn course(model: &Model, orbit: &PeriodicSolution) -> Result<(Vec<OrbitSample>, 
 fn impulse(model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Option<OrbitImpulse> {
     let (touch, jump) = (contact.begin.as_ref()?, contact.jump.as_ref()?);
     let cycles = touch.time * frequency_hz;
-    let at = |state: &[f64]| initial::response(model, frequency_hz, cycles.fract(), state);
+    let at = |state: &[f64]| initial::response(model, frequency_hz, cycles.fract(), state, &[]);
     let [displacement_m, velocity, acceleration] = at(&touch.state);
     let [_, velocity_after, acceleration_after] = at(&jump.state);
     Some(OrbitImpulse {
