@@ -159,7 +159,7 @@ fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
     let output =
         workshop.hammerbeam(&["orbit", "study.toml", "--frequency", "0.2", "--out", "drawn", "--json"]);
     assert_success(&output);
-    let speeds = closed_form(0.2).unwrap().map(|[_, speed]| speed);
+    let speeds = closed_form(0.2).unwrap().map(|[speed, _]| speed);
     let read = |name: &str| fs::read_to_string(workshop.path("drawn").join(name)).unwrap();
     let words = speeds.map(|speed| {
         let impulse: f64 = format!("{:.3e}", (1.0 + RESTITUTION) * speed).parse().unwrap();
@@ -177,7 +177,8 @@ fn a_mass_that_is_held_has_no_acceleration() {
     let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 0.9\norder = 0\n";
     let workshop = Workshop::with(&format!("{}\n{load}", STUDY.replacen("[0.08, 0.5]", "[0.02, 0.5]", 1)));
     let arguments = ["simulate", "study.toml", "--frequency", "0.05", "--out", "motion"];
-    assert_success(&workshop.hammerbeam(&arguments));
+    let samples = ["--periods", "2", "--samples-per-period", "400"];
+    assert_success(&workshop.hammerbeam(&[&arguments[..], &samples].concat()));
     let table = fs::read_to_string(workshop.path("motion/samples.csv")).unwrap();
     let titles: Vec<&str> = table.lines().next().unwrap().split(',').collect();
     let column = |word: &str| titles.iter().position(|title| title.contains(word)).unwrap();
