@@ -175,9 +175,12 @@ fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
 #[test]
 fn a_mass_that_is_held_has_no_acceleration() {
     let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 0.9\norder = 0\n";
-    let workshop = Workshop::with(&format!("{}\n{load}", STUDY.replacen("[0.08, 0.5]", "[0.02, 0.5]", 1)));
+    // Bounces that lose more come to their end within the period.
+    let study =
+        STUDY.replacen("[0.08, 0.5]", "[0.02, 0.5]", 1).replacen("restitution = 0.8", "restitution = 0.5", 1);
+    let workshop = Workshop::with(&format!("{study}\n{load}"));
     let arguments = ["simulate", "study.toml", "--frequency", "0.05", "--out", "motion"];
-    let samples = ["--periods", "2", "--samples-per-period", "400"];
+    let samples = ["--periods", "2", "--samples-per-period", "400", "--transient-periods", "5"];
     assert_success(&workshop.hammerbeam(&[&arguments[..], &samples].concat()));
     let table = fs::read_to_string(workshop.path("motion/samples.csv")).unwrap();
     let titles: Vec<&str> = table.lines().next().unwrap().split(',').collect();
