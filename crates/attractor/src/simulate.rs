@@ -5,7 +5,7 @@
 
 use hammerbeam_motion::{
     Stretch, System,
-    exact::{ContactPiece, ExactIntegrator, ExactSettings, Touchdown},
+    exact::{ContactPiece, ExactIntegrator, ExactSettings, Jump, Touchdown},
 };
 
 use crate::{AttractorError, error::ensure};
@@ -37,6 +37,8 @@ pub struct ContactRecord {
     pub contact: usize,
     /// The touch, with its time since the motion was begun to be observed; `None` if it was closed then.
     pub begin: Option<Touchdown>,
+    /// Of an impact on a rigid stop what it did at the touch; `None` where a force acts over a time.
+    pub jump: Option<Jump>,
     /// When it opened [s]; `None` if it was still closed at the end.
     pub end: Option<f64>,
     /// Integral of the magnitude of the force [N s].
@@ -178,6 +180,7 @@ impl Simulation {
                 element,
                 contact: piece.contact,
                 begin: earlier.as_ref().map_or(begin, |record| record.begin.clone()),
+                jump: earlier.as_ref().map_or(piece.jump, |record| record.jump.clone()),
                 end: piece.end.map(|end| begun + end),
                 impulse: piece.impulse + earlier.as_ref().map_or(0.0, |record| record.impulse),
                 peak_force: piece.peak_force.max(earlier.as_ref().map_or(0.0, |record| record.peak_force)),

@@ -176,6 +176,10 @@ pub struct FigureOptions {
     #[arg(long, value_enum, value_delimiter = ',')]
     pub kind: Vec<FigureKind>,
 
+    /// Formats of the figures; may be given several times
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = FigureFormat::USUAL)]
+    pub format: Vec<FigureFormat>,
+
     /// Scale of the vertical axis of response diagrams
     #[arg(long, value_enum, default_value_t = FigureScale::Automatic)]
     pub scale: FigureScale,
@@ -195,6 +199,31 @@ pub struct FigureOptions {
     /// Number of threads [default: all cores]; the files do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
+}
+
+/// Format of a figure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FigureFormat {
+    /// Scalable Vector Graphics
+    Svg,
+    /// Portable Network Graphics, of pixels
+    Png,
+    /// Portable Document Format
+    Pdf,
+}
+
+impl FigureFormat {
+    /// What is drawn where none is asked for.
+    pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
+
+    /// Last part of the name of a file.
+    pub fn suffix(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Pdf => "pdf",
+        }
+    }
 }
 
 /// Scale of an axis.

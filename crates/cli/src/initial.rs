@@ -102,7 +102,7 @@ fn of_branch(
     }
 }
 
-/// Displacement, velocity and acceleration of the response point at a phase.
-pub fn response(model: &Model, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
-    model.response_motion(frequency_hz, phase, state)
+/// Displacement, velocity and acceleration of the response point at a phase, with the forces of held rigid stops.
+pub fn response(model: &Model, frequency_hz: f64, phase: f64, state: &[f64], forces: &[f64]) -> [f64; 3] {
+    model.response_motion(frequency_hz, phase, state, forces)
 }

@@ -66,8 +66,3 @@ fn document(failure: &Failure) -> Value {
     }
     document
 }
-
-/// A number without the digits that rounding leaves.
-pub fn rounded(value: f64) -> f64 {
-    format!("{value:.9e}").parse().unwrap_or(value)
-}

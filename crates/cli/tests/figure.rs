@@ -10,6 +10,8 @@ use serde_json::Value;
 
 const DUFFING: &str = include_str!("../../../studies/duffing.toml");
 
+const FORMATS: &str = "--format=svg,png,pdf";
+
 /// A folder with two sweeps, exponents and basins, without branches.
 fn motions() -> Workshop {
     let workshop = Workshop::with(DUFFING);
@@ -46,12 +48,12 @@ fn assert_same(workshop: &Workshop, names: &[String], folders: [&str; 2]) {
 #[test]
 fn everything_in_a_folder_is_drawn_and_the_same_on_any_number_of_threads() {
     let workshop = motions();
-    let first = files(&workshop, &["--out", "first", "--jobs", "1"]);
-    for name in ["sweep-1.svg", "exponents-2.png", "convergence-2-1.svg", "section-2-3.png", "basins-3.svg"] {
+    let first = files(&workshop, &["--out", "first", "--jobs", "1", FORMATS]);
+    for name in ["sweep-1.svg", "exponents-2.png", "convergence-2-1.pdf", "section-2-3.png", "basins-3.svg"] {
         assert!(first.iter().any(|file| file == name), "{name} is not among {first:?}");
     }
     assert!(!first.iter().any(|file| file.starts_with("response") || file.starts_with("multipliers")));
-    assert_eq!(files(&workshop, &["--out", "second", "--jobs", "3"]), first);
+    assert_eq!(files(&workshop, &["--out", "second", "--jobs", "3", FORMATS]), first);
     assert_same(&workshop, &first, ["first", "second"]);
     let map = fs::read_to_string(workshop.path("first/basins-3.svg")).unwrap();
     assert!(map.contains("1: period 1, ") && map.contains("2: period 1, "), "both motions of the oscillator");
@@ -162,6 +164,10 @@ fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
         assert_eq!(files(&workshop, &["--out", jobs, "--jobs", jobs]), drawn);
         assert_same(&workshop, &drawn, ["again", jobs]);
     }
+    let all = files(&workshop, &["--out", "pdf", "--jobs", "1", FORMATS]);
+    assert_eq!(2 * (all.len() - 1), 3 * (drawn.len() - 1), "a PDF of every figure, and none of the page");
+    assert_eq!(files(&workshop, &["--out", "pdf again", "--jobs", "3", FORMATS]), all);
+    assert_same(&workshop, &all, ["pdf", "pdf again"]);
     let history = fs::read_to_string(workshop.path("again/orbit_13.7Hz_period1-history.svg")).unwrap();
     assert!(history.contains("low-pass filter of 30 Hz") && history.contains("13.7 Hz, period 1"));
 }
@@ -218,6 +224,32 @@ fn a_damaged_solution_costs_only_the_figures_that_need_it() {
     }
 }
 
+/// Of a long branch not every solution is drawn. One that is not drawn and is damaged is told as well.
+#[test]
+fn a_damaged_solution_between_those_that_are_drawn_is_told() {
+    let workshop = short_run("[continuation]\nmax_step_hz = 0.0001\n");
+    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let one = |query: &str| database.query_row(query, [], |row| row.get::<_, i64>(0)).unwrap();
+    // Keys hold the start above bit 33, the side in bit 32, and the number on that side; the down side comes first, reversed.
+    let of_branch = "id >> 33 = (SELECT id FROM start WHERE branch = 1)";
+    let count =
+        |side: u8| one(&format!("SELECT count(*) FROM solution WHERE {of_branch} AND id >> 32 & 1 = {side}"));
+    let (down, up) = (count(1), count(0));
+    assert!(down + up > 4000, "only {} solutions, of which every one is drawn", down + up);
+    let (side, number) = if up > 10 { ("up", 2 + (down + 1) % 2) } else { ("down", 2 + down % 2) };
+    let first = one(&format!(
+        "SELECT min(id) FROM solution WHERE {of_branch} AND id >> 32 & 1 = {}",
+        u8::from(side == "down")
+    ));
+    let damage = format!("UPDATE solution SET multipliers = x'00' WHERE id = {}", first + number);
+    assert_eq!(database.execute(&damage, []).unwrap(), 1);
+    database.close().unwrap();
+    let output = workshop.hammerbeam(&["figure", "results", "--kind", "multipliers", "--out", "drawn"]);
+    assert_eq!(output.status.code(), Some(1), "there is one branch");
+    let sentence = format!("solution {number} on the {side} side of branch 1 is damaged");
+    assert!(stderr(&output).contains(&sentence), "{sentence}: {}", stderr(&output));
+}
+
 #[test]
 fn branches_over_another_parameter_are_drawn_over_it() {
     let study = include_str!("../../../studies/duffing-in-two-parameters.toml");
@@ -228,6 +260,13 @@ fn branches_over_another_parameter_are_drawn_over_it() {
     assert!(svg.contains(">Excitation amplitude (N)<") && svg.contains(">fold<"), "an S between two folds");
     assert!(svg.contains("0.25 Hz") && svg.contains(">unstable<"));
     assert!(workshop.path("results/curves_excitation_amplitude_n.svg").is_file());
+    let drawn = files(&workshop, &["--kind", "vary,curves", "--out", "first", "--jobs", "1", FORMATS]);
+    assert!(drawn.iter().any(|name| name == "curves_excitation_amplitude_n.pdf"));
+    assert_eq!(
+        files(&workshop, &["--kind", "vary,curves", "--out", "second", "--jobs", "2", FORMATS]),
+        drawn
+    );
+    assert_same(&workshop, &drawn, ["first", "second"]);
 }
 
 /// While a run writes its folder, it can be drawn as far as it has come; before there is anything, a sentence says so.

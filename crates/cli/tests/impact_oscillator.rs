@@ -10,7 +10,7 @@
 
 mod common;
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, fs};
 
 use common::{Workshop, assert_success, stdout};
 use serde_json::Value;
@@ -150,4 +150,49 @@ fn the_example_is_run_to_its_closed_form_and_verified() {
     assert_success(&verified);
     let verified: Value = serde_json::from_str(&stdout(&verified)).unwrap();
     assert_eq!(verified["disagreements"].as_array().map(Vec::len), Some(0), "{verified}");
+}
+
+/// The figures of an orbit with one impact: the impulse that stops unit mass at its speed and throws it back, and a velocity that jumps.
+#[test]
+fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
+    let workshop = Workshop::with(STUDY);
+    let output =
+        workshop.hammerbeam(&["orbit", "study.toml", "--frequency", "0.2", "--out", "drawn", "--json"]);
+    assert_success(&output);
+    let speeds = closed_form(0.2).unwrap().map(|[speed, _]| speed);
+    let read = |name: &str| fs::read_to_string(workshop.path("drawn").join(name)).unwrap();
+    let words = speeds.map(|speed| {
+        let impulse: f64 = format!("{:.3e}", (1.0 + RESTITUTION) * speed).parse().unwrap();
+        format!("impulse of the impact on a rigid stop: {impulse} N s")
+    });
+    let history = read("orbit-1-history.svg");
+    assert!(words.iter().any(|words| history.contains(words)), "{words:?}");
+    assert!(history.contains(">Impulse (N s)<") && !history.contains("Local force"));
+    assert!(read("orbit-1-phase.svg").contains(">jump at an impact<"));
+}
+
+/// While a constant force holds the mass on its stop, it is at rest: what the stop presses with is part of its acceleration.
+#[test]
+fn a_mass_that_is_held_has_no_acceleration() {
+    let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 0.9\norder = 0\n";
+    // Bounces that lose more come to their end within the period.
+    let study =
+        STUDY.replacen("[0.08, 0.5]", "[0.02, 0.5]", 1).replacen("restitution = 0.8", "restitution = 0.5", 1);
+    let workshop = Workshop::with(&format!("{study}\n{load}"));
+    let arguments = ["simulate", "study.toml", "--frequency", "0.05", "--out", "motion"];
+    let samples = ["--periods", "2", "--samples-per-period", "400", "--transient-periods", "5"];
+    assert_success(&workshop.hammerbeam(&[&arguments[..], &samples].concat()));
+    let table = fs::read_to_string(workshop.path("motion/samples.csv")).unwrap();
+    let titles: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |word: &str| titles.iter().position(|title| title.contains(word)).unwrap();
+    let wanted = ["velocity", "acceleration", "force"].map(column);
+    let rows = table.lines().skip(1).map(|line| {
+        let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+        wanted.map(|column| cells[column])
+    });
+    let held: Vec<[f64; 3]> = rows.filter(|[_, _, force]| *force < -0.1).collect();
+    assert!(held.len() > 100, "{} samples", held.len());
+    assert!(
+        held.iter().all(|[velocity, acceleration, _]| velocity.abs() < 1e-12 && acceleration.abs() < 1e-12)
+    );
 }

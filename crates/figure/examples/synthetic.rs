@@ -56,6 +56,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     write(&folder, "dense", &dense, &[Quantity::Displacement], &ResponseSettings::default())?;
     let both = [Quantity::Displacement, Quantity::Acceleration];
     write(&folder, "all", &all, &both, &logarithmic())?;
+    // Nine periods beside each other, to be looked at in grey as well.
+    let lines = (1..10).map(|period| {
+        let peaks = [(30.0 + f64::from(period), 2.0, 10.0 - f64::from(period), 6.0)];
+        let mut line = branch(period, &peaks, (20.0, 60.0), 2000);
+        line.points.iter_mut().for_each(|point| point.grazing = false);
+        line
+    });
+    let periods = ResponseDiagram { curves: lines.collect(), frequency_range_hz: None, ..all.clone() };
+    write(&folder, "periods", &periods, &[Quantity::Displacement], &ResponseSettings::default())?;
     let column = ResponseSettings { style: Style::single_column(), ..logarithmic() };
     write(&folder, "column", &all, &both, &column)
 }

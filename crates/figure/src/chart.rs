@@ -124,8 +124,10 @@ impl Chart {
                 .iter()
                 .filter(|layer| !layer.is_ground())
                 .for_each(|layer| layer.draw(&mut svg, plot, style));
-            let at = Point { x: plot.area.left, y: plot.area.top - 2.5 };
-            svg.text(at, &Text::upright(&panel.heading), lettering(style.tick_size, Anchor::Start));
+            if !panel.heading.is_empty() {
+                let at = Point { x: plot.area.left, y: plot.area.top - 2.5 };
+                svg.text(at, &Text::upright(&panel.heading), lettering(style.tick_size, Anchor::Start));
+            }
         }
         Ok(Figure::new(svg.finish(), self.description.clone(), style.width_mm, height_mm))
     }

@@ -1,6 +1,6 @@
 //! A finished figure.
 
-use crate::{FigureError, png, svg::Document};
+use crate::{FigureError, pdf, png, svg::Document};
 
 /// A finished figure: an SVG document and its size on paper.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +28,15 @@ impl Figure {
     /// [`FigureError::Resolution`] outside 24 to 1200 pixels per inch.
     pub fn png(&self, pixels_per_inch: f64) -> Result<Vec<u8>, FigureError> {
         png::png(&self.svg.text, self.width_mm, self.height_mm, pixels_per_inch)
+    }
+
+    /// The figure as a PDF file of one page; text is text, in the glyphs that it uses.
+    ///
+    /// # Errors
+    /// [`FigureError::Rendering`] if a figure has what the writer does not know, which is a bug of this crate.
+    pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
+        let (svg, size_mm) = (&self.svg, [self.width_mm, self.height_mm]);
+        pdf::pdf(&svg.text, &svg.characters, &self.description, size_mm)
     }
 
     /// What the figure shows, in words, with the number of solutions and of marks that were left out where

@@ -37,8 +37,7 @@ impl Characters {
         let faces =
             [(UPRIGHT, &self.upright, "Regular", ""), (ITALIC, &self.italic, "Italic", ";font-style:italic")];
         let rule = |(face, characters, name, slant): (&[u8], &BTreeSet<char>, &str, &str)| {
-            let subset =
-                subset::subset(face, characters, [BUNDLED_FAMILY, name, &format!("{BUNDLED_FAMILY}-{name}")]);
+            let subset = with_characters(face, characters, name);
             let bytes = base64::encode(&subset.filter(|_| !characters.is_empty())?);
             Some(format!(
                 "@font-face{{font-family:{BUNDLED_FAMILY}{slant};src:url(data:font/ttf;base64,{bytes})}}"
@@ -47,6 +46,13 @@ impl Characters {
         let rules: String = faces.into_iter().filter_map(rule).collect();
         if rules.is_empty() { rules } else { format!("<style>{rules}</style>\n") }
     }
+}
+
+/// A face with these characters alone; `None` where its tables cannot be read.
+///
+/// * `style`: the part of its name behind that of the family.
+pub(crate) fn with_characters(face: &[u8], characters: &BTreeSet<char>, style: &str) -> Option<Vec<u8>> {
+    subset::subset(face, characters, [BUNDLED_FAMILY, style, &format!("{BUNDLED_FAMILY}-{style}")])
 }
 
 /// Width of a character over the font size.
@@ -64,14 +70,14 @@ fn advance(face: &[u8], character: char) -> Option<f64> {
 }
 
 /// Start of a table of the font.
-fn table(face: &[u8], tag: &[u8; 4]) -> Option<usize> {
+pub(crate) fn table(face: &[u8], tag: &[u8; 4]) -> Option<usize> {
     let tables = usize::from(read_u16(face, 4)?);
     let record = face.get(12..12 + 16 * tables)?.chunks_exact(16).find(|record| &record[..4] == tag)?;
     Some(u32::from_be_bytes(record[8..12].try_into().ok()?) as usize)
 }
 
 /// Glyph of a character of the basic plane, by the format-4 subtable of `cmap`; 0 (missing) gives `None`.
-fn glyph_index(face: &[u8], code: u16) -> Option<u16> {
+pub(crate) fn glyph_index(face: &[u8], code: u16) -> Option<u16> {
     let cmap = table(face, b"cmap")?;
     let subtables = usize::from(read_u16(face, cmap + 2)?);
     let map = (0..subtables)
@@ -96,7 +102,7 @@ fn glyph_index(face: &[u8], code: u16) -> Option<u16> {
     (glyph != 0).then_some(glyph)
 }
 
-fn read_u16(face: &[u8], at: usize) -> Option<u16> {
+pub(crate) fn read_u16(face: &[u8], at: usize) -> Option<u16> {
     Some(u16::from_be_bytes(face.get(at..at + 2)?.try_into().ok()?))
 }
 

@@ -3,10 +3,10 @@
 use crate::{
     dots::Dot,
     font::CAPITAL_HEIGHT,
-    line::draw_stretches,
+    line::{draw_stretches, strokes},
     marks::{Mark, square},
     plot::lettering,
-    style::{INK, Pattern, Style},
+    style::{INK, Pattern, PeriodLook, Style},
     svg::{Anchor, Dashes, Point, Stroke, SvgWriter},
     text::Text,
 };
@@ -15,9 +15,9 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Sample {
     /// The line of a kind of solutions, stable or not.
-    Line { colour: &'static str, stable: bool },
-    /// A colour, as a broad line.
-    Colour(&'static str),
+    Line { look: PeriodLook, stable: bool },
+    /// What the lines of a period have in common, as a broad line.
+    Period(PeriodLook),
     /// The line of a kind of curves.
     Pattern(Pattern),
     /// An event.
@@ -48,7 +48,7 @@ impl Entry {
     fn sample_width(&self) -> f64 {
         match self.sample {
             Sample::Line { .. } | Sample::Pattern(_) => LINE_LENGTH,
-            Sample::Colour(_) => COLOUR_LENGTH,
+            Sample::Period(_) => COLOUR_LENGTH,
             Sample::Mark(_) | Sample::Dot(_) => MARK_WIDTH,
             Sample::Cell(_) => CELL_WIDTH,
         }
@@ -62,13 +62,19 @@ impl Entry {
         let y = at.y - 0.5 * CAPITAL_HEIGHT * style.tick_size;
         let ends = [Point { x: at.x, y }, Point { x: at.x + self.sample_width(), y }];
         match self.sample {
-            Sample::Line { colour, stable } => draw_stretches(svg, &[ends.to_vec()], stable, colour, style),
+            Sample::Line { look, stable } => draw_stretches(svg, &[ends.to_vec()], stable, look, style),
             Sample::Pattern(Pattern { colour, dashes }) => {
                 let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
                 let stroke = Stroke { colour, width: style.stable_width };
                 svg.polylines(std::iter::once((ends.as_slice(), dashes)), stroke);
             }
-            Sample::Colour(colour) => svg.polyline(&ends, Stroke { colour, width: COLOUR_WIDTH }),
+            Sample::Period(PeriodLook { colour, strokes: count }) => {
+                svg.polyline(&ends, Stroke { colour, width: COLOUR_WIDTH });
+                let style = Style { stroke_reach: COLOUR_WIDTH, ..style.clone() };
+                let strokes = strokes(&ends, count, &style);
+                let stroke = Stroke { colour, width: style.stable_width };
+                svg.polylines(strokes.iter().map(|ends| (ends.as_slice(), None)), stroke);
+            }
             Sample::Dot(dot) => {
                 let radius = dot.radius.max(SAMPLE_RADIUS);
                 Dot { radius, ..dot }.draw(svg, &[Point { x: at.x + 0.5 * MARK_WIDTH, y }]);
@@ -150,7 +156,7 @@ mod tests {
     #[test]
     fn rows_are_no_wider_than_the_plot_and_lose_nothing() {
         let style = Style::default();
-        let entry = |i: u32| Entry { sample: Sample::Colour("#000000"), name: format!("1/{i} subharmonic") };
+        let entry = |i: u32| Entry { sample: Sample::Cell("#000000"), name: format!("1/{i} subharmonic") };
         let legend =
             Legend::new(vec![(1..=5).map(entry).collect(), (6..=9).map(entry).collect()], &style, 200.0);
         assert!(legend.rows.len() > 1);

@@ -5,7 +5,7 @@ use crate::{
     chart::{Chart, Measure, Panel},
     dots::{Dot, Shape},
     layer::Layer,
-    style::period_colour,
+    style::PERIOD_COLOUR,
     text::plain_number,
 };
 
@@ -31,7 +31,7 @@ impl SectionDiagram {
     pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
         let (shape, radius) =
             if self.points.len() <= FEW { (Shape::Circle, style.mark_radius) } else { (Shape::Speck, 0.3) };
-        let dot = Dot { shape, colour: period_colour(1), full: true, radius };
+        let dot = Dot { shape, colour: PERIOD_COLOUR, full: true, radius };
         let points =
             self.points.iter().map(|&(displacement, velocity)| (1e3 * displacement, velocity)).collect();
         let layers = vec![Layer::Dots { points, dot }];

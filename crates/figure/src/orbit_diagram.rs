@@ -1,4 +1,6 @@
-//! An orbit: its motion and forces over a period, its phase portrait, and its spectrum. The samples come from the caller.
+//! An orbit: its motion, forces and impulses over a period, its phase portrait, and its spectrum. The samples come from the caller.
+
+mod impulse;
 
 use std::f64::consts::TAU;
 
@@ -8,9 +10,11 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
-    style::{INK, Pattern, line_pattern},
+    style::{INK, PALE_INK, Pattern, line_pattern},
     text::plain_number,
 };
+
+pub use impulse::OrbitImpulse;
 
 /// Ratio of the largest amplitude of a spectrum to the least that is drawn.
 const DEPTH: f64 = 1e5;
@@ -26,6 +30,8 @@ pub struct OrbitDiagram {
     pub period_multiple: u32,
     /// The samples.
     pub samples: Vec<OrbitSample>,
+    /// Impacts on rigid stops, in their order in time.
+    pub impulses: Vec<OrbitImpulse>,
     /// The acceleration behind a low-pass filter, as an instrument shows it.
     pub filtered: Option<FilteredAcceleration>,
     /// Eigenfrequencies of the structure without its local elements (Hz), marked in the spectrum.
@@ -57,7 +63,9 @@ pub struct OrbitSample {
 }
 
 impl OrbitDiagram {
-    /// Displacement, acceleration, forces of the local elements and support motion over the period.
+    /// Displacement, acceleration, forces of the local elements, impulses of rigid stops and support motion over the period.
+    ///
+    /// Where a velocity jumps the displacement has a corner and the acceleration a gap: it is an impulse there.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
@@ -70,8 +78,8 @@ impl OrbitDiagram {
         };
         let entry = |k: usize, name| Entry { sample: Sample::Pattern(line_pattern(k)), name };
         let mut panels = vec![
-            plain("displacement", "Displ. (mm)", self.over_time(|sample| 1e3 * sample.displacement_m), 0),
-            plain("acceleration", "Accel. (m/s²)", self.over_time(|sample| sample.acceleration_m_s2), 0),
+            plain("displacement", "Displ. (mm)", self.displacement(), 0),
+            plain("acceleration", "Accel. (m/s²)", self.acceleration(), 0),
         ];
         if let Some(filtered) = &self.filtered {
             let heading =
@@ -84,14 +92,15 @@ impl OrbitDiagram {
             let value = |sample: &OrbitSample| sample.forces_n.get(k).copied().unwrap_or(f64::NAN);
             Layer::Line { points: self.over_time(value), pattern: line_pattern(k) }
         };
-        if elements > 0 {
+        if self.has_forces() {
             let (y, layers) = (Measure::new("Local force (N)"), (0..elements).map(force).collect());
             panels.push(Panel { quantity: "force", y, layers, heading: String::new() });
         }
-        let mut legend: Vec<Entry> = (0..elements)
-            .filter(|_| elements > 1)
-            .map(|k| entry(k, format!("local element {}", k + 1)))
-            .collect();
+        let several = elements > 1 && self.has_forces();
+        let mut legend: Vec<Entry> =
+            (0..elements).filter(|_| several).map(|k| entry(k, format!("local element {}", k + 1))).collect();
+        panels.extend(self.impulse_panel());
+        legend.extend(self.impulse_entries());
         if self.samples.iter().any(|sample| sample.support_m.is_some()) {
             let points = self.over_time(|sample| sample.support_m.map_or(f64::NAN, |at| 1e3 * at));
             // Over the displacement it shows how the contact is reached.
@@ -105,38 +114,45 @@ impl OrbitDiagram {
         self.chart("one period of the orbit", x, panels, legend, Some(0.16)).draw(style)
     }
 
-    /// Velocity over displacement, with the points at phase 0; below it these points alone, the Poincaré section.
+    /// Velocity over displacement, with the points at phase 0; below it these points alone, the Poincaré section. A velocity that jumps is a gap with dots across it.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
     pub fn draw_phase(&self, style: &Style) -> Result<Figure, FigureError> {
         let at = |sample: &OrbitSample| (1e3 * sample.displacement_m, sample.velocity_m_s);
-        let points = self.samples.iter().chain(self.samples.first()).map(at).collect();
+        let points = self.portrait();
         let (count, multiple) = (self.samples.len(), self.period_multiple.max(1) as usize);
         let strobed: Vec<(f64, f64)> =
             (0..multiple).filter_map(|k| self.samples.get(k * count / multiple)).map(at).collect();
         let dot = Dot { shape: Shape::Circle, colour: INK, full: true, radius: 1.6 };
         let dots = Layer::Dots { points: strobed, dot };
-        let legend =
-            vec![vec![Entry { sample: Sample::Dot(dot), name: "phase 0 of the excitation".to_owned() }]];
+        let mut legend =
+            vec![Entry { sample: Sample::Dot(dot), name: "phase 0 of the excitation".to_owned() }];
+        let mut layers = vec![Layer::Line { points, pattern: line_pattern(0) }];
+        if !self.impulses.is_empty() {
+            let pattern = Pattern { colour: PALE_INK, dashes: Some((0.8, 1.2)) };
+            layers.push(Layer::Line { points: self.jumps(), pattern });
+            legend.push(Entry { sample: Sample::Pattern(pattern), name: "jump at an impact".to_owned() });
+        }
+        layers.push(dots.clone());
         let panel = |quantity, heading: &str, layers| Panel {
             quantity,
             y: Measure::new("Velocity (m/s)"),
             layers,
             heading: heading.to_owned(),
         };
-        let line = Layer::Line { points, pattern: line_pattern(0) };
         let panels = vec![
-            panel("velocity", "phase portrait", vec![line, dots.clone()]),
+            panel("velocity", "phase portrait", layers),
             panel("point of the section", "Poincaré section", vec![dots]),
         ];
         let x = Measure::new("Displacement (mm)");
-        self.chart("phase portrait and Poincaré section", x, panels, legend, Some(0.62)).draw(style)
+        self.chart("phase portrait and Poincaré section", x, panels, vec![legend], Some(0.62)).draw(style)
     }
 
     /// Amplitudes of the harmonics of the acceleration, with the eigenfrequencies marked.
     ///
-    /// The samples `x_j` of an orbit have the harmonics `c_k = 2/n |sum_j x_j exp(-2 pi i j k/n)|`; those up to a quarter of the samples are drawn.
+    /// The samples `x_j` of an orbit have the harmonics `c_k = 2/n |sum_j x_j exp(-2 pi i j k/n) + n/T sum_i dv_i exp(-2 pi i k t_i/T)|`, with the jumps `dv_i` of
+    /// the velocity at the times `t_i` of impacts, in the period T; those up to a quarter of the samples are drawn.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
@@ -145,8 +161,9 @@ impl OrbitDiagram {
         let highest = self.eigenfrequencies_hz.iter().copied().fold(10.0 * self.frequency_hz, f64::max);
         let step = self.frequency_hz / self.periods();
         let wanted = (1.2 * highest / step).ceil().max(1.0) as usize;
-        let lines: Vec<(f64, f64)> =
-            (1..=wanted.min(values.len() / 4)).map(|k| (k as f64 * step, amplitude(&values, k))).collect();
+        let lines: Vec<(f64, f64)> = (1..=wanted.min(values.len() / 4))
+            .map(|k| (k as f64 * step, self.amplitude(&values, k)))
+            .collect();
         let largest = lines.iter().map(|line| line.1).filter(|size| size.is_finite()).fold(0.0, f64::max);
         let shown: Vec<(f64, f64)> = lines.into_iter().filter(|line| line.1 > largest / DEPTH).collect();
         let floor = shown.iter().map(|line| line.1).fold(largest, f64::min) / 3.0;
@@ -157,7 +174,7 @@ impl OrbitDiagram {
             Layer::Whiskers { intervals, colour: line_pattern(0).colour },
             Layer::Dots { points: shown, dot },
         ];
-        let pattern = Pattern { colour: crate::style::PALE_INK, dashes: Some((1.5, 1.5)) };
+        let pattern = Pattern { colour: PALE_INK, dashes: Some((1.5, 1.5)) };
         let mut legend = vec![Entry { sample: Sample::Dot(dot), name: "harmonic".to_owned() }];
         if !self.eigenfrequencies_hz.is_empty() {
             legend.push(Entry { sample: Sample::Pattern(pattern), name: "eigenfrequency".to_owned() });
@@ -167,6 +184,22 @@ impl OrbitDiagram {
         let panels = vec![Panel { quantity: "harmonic", y, layers, heading: String::new() }];
         let x = Measure::new("Frequency (Hz)").between((0.0, 1.2 * highest));
         self.chart("spectrum of the acceleration", x, panels, vec![legend], None).draw(style)
+    }
+
+    /// Amplitude of a harmonic, by Goertzel's sum written out; the phase is reduced first, so that it stays exact.
+    fn amplitude(&self, values: &[f64], k: usize) -> f64 {
+        let n = values.len();
+        let angle = |j: usize| TAU * ((j * k) % n) as f64 / n as f64;
+        let term = |(value, angle): (f64, f64)| (value * angle.cos(), value * angle.sin());
+        let sampled = values.iter().enumerate().map(|(j, value)| (*value, angle(j)));
+        let per_sample = n as f64 * self.frequency_hz / self.periods();
+        let struck = self.impulses.iter().map(|impulse| {
+            let share = impulse.cycles / self.periods();
+            (per_sample * impulse.velocity_jump(), TAU * (share * k as f64).fract())
+        });
+        let terms = sampled.chain(struck).map(term);
+        let (re, im) = terms.fold((0.0, 0.0), |(re, im), (c, s)| (re + c, im + s));
+        2.0 / n as f64 * re.hypot(im)
     }
 
     fn periods(&self) -> f64 {
@@ -193,19 +226,13 @@ impl OrbitDiagram {
         aspect: Option<f64>,
     ) -> Chart {
         let (frequency, multiple) = (plain_number(self.frequency_hz), self.period_multiple);
-        let description =
+        let mut description =
             format!("{what}, at {frequency} Hz, period {multiple}, {} samples", self.samples.len());
+        if !self.impulses.is_empty() {
+            description.push_str(&format!("; {}", self.impulses_in_words()));
+        }
         Chart { title: self.title.clone(), x, panels, legend, description, aspect }
     }
-}
-
-/// Amplitude of a harmonic, by Goertzel's sum written out; the phase is reduced first, so that it stays exact.
-fn amplitude(values: &[f64], k: usize) -> f64 {
-    let n = values.len();
-    let angle = |j: usize| TAU * ((j * k) % n) as f64 / n as f64;
-    let sums = values.iter().enumerate().map(|(j, value)| (value * angle(j).cos(), value * angle(j).sin()));
-    let (re, im) = sums.fold((0.0, 0.0), |(re, im), (c, s)| (re + c, im + s));
-    2.0 / n as f64 * re.hypot(im)
 }
 
 #[cfg(test)]
@@ -220,9 +247,32 @@ mod tests {
         };
         let values: Vec<f64> = (0..64).map(value).collect();
         // Rounding of 64 terms of size 10.
-        let is = |k: usize, wanted: f64| assert!((amplitude(&values, k) - wanted).abs() < 1e-13, "{k}");
+        let orbit = OrbitDiagram::default();
+        let is = |k: usize, wanted: f64| {
+            assert!((orbit.amplitude(&values, k) - wanted).abs() < 1e-13, "{k}");
+        };
         is(1, 0.0);
         is(2, 3.0);
         is(5, 0.5);
+    }
+    /// Between two walls at constant speed V, thrown back from both: the acceleration is `2 V` times impulses of alternating sign, whose odd harmonics
+    /// are `8 V/T` and whose even ones vanish. At 3 Hz, over two excitation periods.
+    #[test]
+    fn impulses_have_the_harmonics_of_a_motion_between_two_walls() {
+        let impulse = |cycles: f64, speed: f64| OrbitImpulse {
+            cycles,
+            velocity_m_s: [speed, -speed],
+            ..OrbitImpulse::default()
+        };
+        let orbit = OrbitDiagram {
+            frequency_hz: 3.0,
+            period_multiple: 2,
+            impulses: vec![impulse(0.3, 5.0), impulse(1.3, -5.0)],
+            ..OrbitDiagram::default()
+        };
+        for k in 1..9 {
+            let wanted = if k % 2 == 1 { 8.0 * 5.0 * 1.5 } else { 0.0 };
+            assert!((orbit.amplitude(&[0.0; 64], k) - wanted).abs() < 1e-12, "{k}");
+        }
     }
 }

@@ -27,7 +27,7 @@ pub(crate) fn png(
     if !ALLOWED_PIXELS_PER_INCH.contains(&pixels_per_inch) {
         return Err(FigureError::Resolution { pixels_per_inch });
     }
-    let tree = Tree::from_str(svg, &options()).map_err(|error| rendering(&error))?;
+    let tree = tree(svg)?;
     let [width, height] = [width_mm, height_mm].map(|side| pixels(side, pixels_per_inch));
     let mut pixmap = Pixmap::new(width, height)
         .ok_or_else(|| FigureError::Rendering { reason: format!("no image of {width} x {height} pixels") })?;
@@ -36,6 +36,11 @@ pub(crate) fn png(
     pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale_x, scale_y), &mut pixmap.as_mut());
     file::encode(pixmap.data(), width, pixels_per_inch).map_err(|error| rendering(&error))
+}
+
+/// The elements of an SVG, text with the bundled font alone.
+pub(crate) fn tree(svg: &str) -> Result<Tree, FigureError> {
+    Tree::from_str(svg, &options()).map_err(|error| rendering(&error))
 }
 
 fn rendering(error: &dyn std::error::Error) -> FigureError {

@@ -57,7 +57,8 @@ pub(crate) struct Document {
     /// The document without fonts.
     pub(crate) text: String,
     fonts_at: usize,
-    characters: Characters,
+    /// Those of its text.
+    pub(crate) characters: Characters,
 }
 
 impl Document {

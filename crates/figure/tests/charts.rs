@@ -1,13 +1,13 @@
 //! What the figures of motions, multipliers and orbits promise to those who draw them.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, io::Read};
 
 use hammerbeam_figure::{
     BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, Figure, FigureError,
-    FilteredAcceleration, MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitSample, Origin,
-    Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, SectionDiagram,
-    Style, SweepDiagram, SweptMotion,
+    FilteredAcceleration, MotionKind, MultiplierDiagram, Multipliers, OrbitDiagram, OrbitImpulse,
+    OrbitSample, Origin, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
+    ScaleChoice, SectionDiagram, Style, SweepDiagram, SweptMotion,
 };
 
 fn basins() -> BasinMap {
@@ -93,9 +93,25 @@ fn orbit() -> OrbitDiagram {
         frequency_hz: 10.0,
         period_multiple: 1,
         samples: (0..256).map(sample).collect(),
+        impulses: Vec::new(),
         filtered: None,
         eigenfrequencies_hz: vec![18.0],
     }
+}
+
+/// The same with two rigid stops, of which each is struck once.
+fn struck() -> OrbitDiagram {
+    let impulse = |element: usize, cycles: f64| OrbitImpulse {
+        element,
+        cycles,
+        impulse_n_s: -0.5 - cycles,
+        displacement_m: 1e-3 * (TAU * cycles).cos(),
+        velocity_m_s: [-(TAU * cycles).sin(), 0.4],
+        acceleration_m_s2: [50.0, 40.0],
+    };
+    let samples = orbit().samples.into_iter();
+    let samples = samples.map(|sample| OrbitSample { forces_n: vec![0.0; 2], ..sample }).collect();
+    OrbitDiagram { samples, impulses: vec![impulse(0, 0.2), impulse(1, 0.7)], ..orbit() }
 }
 
 /// Every kind of figure, from the data above.
@@ -112,6 +128,9 @@ fn all() -> Vec<(&'static str, Figure)> {
         ("history", orbit().draw_history(&style).unwrap()),
         ("phase", orbit().draw_phase(&style).unwrap()),
         ("spectrum", orbit().draw_spectrum(&style).unwrap()),
+        ("history with impulses", struck().draw_history(&style).unwrap()),
+        ("phase with impulses", struck().draw_phase(&style).unwrap()),
+        ("spectrum with impulses", struck().draw_spectrum(&style).unwrap()),
     ]
 }
 
@@ -120,7 +139,50 @@ fn drawn_twice_every_figure_is_byte_for_byte_the_same() {
     for ((name, first), (_, second)) in all().into_iter().zip(all()) {
         assert_eq!(first.svg(), second.svg(), "{name}");
         assert_eq!(first.png(60.0).unwrap(), second.png(60.0).unwrap(), "{name}");
+        assert_eq!(first.pdf().unwrap(), second.pdf().unwrap(), "{name}");
     }
+}
+
+/// Of each line of text the PDF has the first letter, at the place where the SVG has it, and of each path one that is painted.
+#[test]
+fn a_pdf_has_the_texts_and_the_paths_of_the_svg() {
+    for (name, figure) in all() {
+        let (svg, file) = (figure.svg(), figure.pdf().unwrap());
+        let page = page(&file);
+        let count = |operator: &str| {
+            page.lines().filter(|line| line.split(' ').next_back() == Some(operator)).count()
+        };
+        assert_eq!(count("BT"), svg.matches("<text").count(), "{name}");
+        let painted: usize = ["S", "f", "B", "n"].map(count).iter().sum();
+        assert_eq!(painted, svg.matches("<path").count() + svg.matches("<rect").count(), "{name}");
+        assert_eq!(count("q"), count("Q"), "{name}");
+        assert!(file.len() < svg.len() + 40_000, "{name}: {} and {} bytes", file.len(), svg.len());
+    }
+}
+
+/// The content of the page of a PDF, inflated.
+fn page(file: &[u8]) -> String {
+    let find = |start: usize, word: &[u8]| {
+        start + file[start..].windows(word.len()).position(|part| part == word).unwrap()
+    };
+    let object = find(0, b"4 0 obj");
+    let stream = find(object, b"stream") + 7;
+    let mut page = String::new();
+    flate2::read::ZlibDecoder::new(&file[stream..]).read_to_string(&mut page).unwrap();
+    page
+}
+
+#[test]
+fn impulses_stand_in_a_panel_of_their_own_with_their_unit() {
+    let history = struck().draw_history(&Style::double_column()).unwrap();
+    let (svg, words) = (history.svg(), "impulses of 2 impacts on rigid stops: 0.7, 1.2 N s");
+    assert!(svg.contains(">Impulse (N s)<") && !svg.contains("Local force"), "no force acts over a time");
+    assert!(svg.contains(words) && history.description().contains(words));
+    assert!(svg.contains(">impulse of local element 2<"));
+    let phase = struck().draw_phase(&Style::single_column()).unwrap().svg();
+    assert!(phase.contains(">jump at an impact<"));
+    let without = orbit().draw_phase(&Style::single_column()).unwrap().svg();
+    assert!(!without.contains("jump at an impact"));
 }
 
 #[test]

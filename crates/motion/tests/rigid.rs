@@ -45,6 +45,10 @@ fn a_ball_bounces_as_the_closed_form_says() {
         assert!((contact.impulse / ((1.0 + e) * speed) - 1.0).abs() < relative, "{k}");
         assert!((contact.energy_lost / (0.5 * (1.0 - e * e) * speed * speed) - 1.0).abs() < relative, "{k}");
         assert_eq!(contact.end, Some(begin.time));
+        let jump = contact.jump.as_ref().unwrap();
+        assert_eq!(jump.impulse, contact.impulse);
+        assert!((jump.state[0] - h).abs() < 1e-14 && (begin.state[1] - speed).abs() < g * rounding, "{k}");
+        assert!((jump.state[1] + e * speed).abs() < g * rounding, "{k}: {:?}", jump.state);
         speed *= e;
         time += 2.0 * speed / g;
     }
@@ -69,6 +73,9 @@ fn chatter_ends_and_the_ball_rests() {
         let begin = stuck.begin.as_ref().unwrap();
         let rest = 2.0 * e * begin.velocity / (g * (1.0 - e));
         assert!((begin.time + rest - end).abs() < 1e-8, "{e}: {} {rest} {end}", begin.time);
+        // At the touch it takes what is left of the speed, and no more.
+        let jump = stuck.jump.as_ref().unwrap();
+        assert!((jump.impulse - begin.velocity).abs() < 1e-12 && jump.state[1].abs() < 1e-12, "{jump:?}");
         let lost: f64 = trace.contacts.iter().map(|contact| contact.energy_lost).sum();
         assert!((lost / (g * h) - 1.0).abs() < 1e-12, "{lost}");
         // All momentum that the weight gave was taken.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use hammerbeam_figure::plain_number;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile,
     file::{
@@ -11,12 +12,7 @@ use hammerbeam_study::{
 };
 use serde_json::{Value, json};
 
-use crate::{
-    args::StudyOptions,
-    drift,
-    failure::Failure,
-    output::{Output, rounded},
-};
+use crate::{args::StudyOptions, drift, failure::Failure, output::Output};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
@@ -79,7 +75,7 @@ fn text(study: &Study, model: &Model) -> String {
     let continuation = &study.continuation;
     lines.push(format!(
         "continuation steps of at most {} Hz, tolerance {:e}, at most {} solutions on each side of a start",
-        rounded(continuation.max_step_hz),
+        plain_number(continuation.max_step_hz),
         continuation.tolerance,
         continuation.budget_solutions
     ));

@@ -23,6 +23,7 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     }
     let mut drawn = Drawn::into(folder)?.on(threads(options.jobs), Interrupt::listen()?);
     drawn.resolution = options.resolution;
+    drawn.formats.clone_from(&options.format);
     let wishes = wishes(options, &file);
     figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
     drop(snapshot);

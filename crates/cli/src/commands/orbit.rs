@@ -108,6 +108,7 @@ fn solution_text(solution: &PeriodicSolution, point: &str) -> String {
         format!("  maximum acceleration of {point}   {:.9e} m/s^2", maxima.acceleration),
         format!("  maximum contact force       {:.9e} N", maxima.contact_force),
         format!("  maximum impact velocity     {:.9e} m/s", maxima.impact_velocity),
+        format!("  impulse of all contacts     {:.9e} N s", maxima.impulse),
         format!("  contacts in an orbit period {}", maxima.contacts),
         format!("  Floquet multipliers         {}{more}", multipliers.join(", ")),
         format!("  residual                    {:.1e}", solution.residual),

@@ -250,7 +250,7 @@ fn sample_header(model: &Model) -> Vec<String> {
 
 fn sample_row(model: &Model, frequency_hz: f64, sample: &Sample) -> Vec<f64> {
     let mut row = vec![sample.time, sample.phase];
-    row.extend(initial::response(model, frequency_hz, sample.phase, &sample.state));
+    row.extend(initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces));
     for (e, force) in sample.forces.iter().enumerate() {
         let [r, ..] = model.system.relative_motion(e, frequency_hz, sample.phase, &sample.state);
         row.extend([r, *force]);
@@ -268,7 +268,8 @@ fn section_header(model: &Model) -> Vec<String> {
 }
 
 fn section_row(model: &Model, frequency_hz: f64, sample: &Sample) -> Vec<String> {
-    let [displacement, velocity, _] = initial::response(model, frequency_hz, sample.phase, &sample.state);
+    let [displacement, velocity, _] =
+        initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces);
     let first = [sample.time, sample.phase, displacement, velocity];
     first.iter().chain(&sample.state).map(|value| number(*value)).collect()
 }
@@ -294,8 +295,9 @@ fn contact_header() -> Vec<String> {
 fn contact_row(model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Vec<String> {
     let begin = contact.begin.as_ref();
     let phase = begin.map(|touch| (touch.time * frequency_hz).fract());
-    let response =
-        begin.zip(phase).map(|(touch, phase)| initial::response(model, frequency_hz, phase, &touch.state));
+    let response = begin
+        .zip(phase)
+        .map(|(touch, phase)| initial::response(model, frequency_hz, phase, &touch.state, &[]));
     vec![
         word(&model.system.elements()[contact.element].name),
         number(begin.map(|touch| touch.time)),

@@ -14,6 +14,7 @@ use hammerbeam_figure::{Figure, FigureError};
 
 use super::RESOLUTION;
 use crate::{
+    args::FigureFormat,
     crew::{Crew, Pending},
     failure::Failure,
     interrupt::Interrupt,
@@ -27,6 +28,8 @@ pub struct Drawn<'a> {
     folder: &'a Path,
     /// Resolution of the PNG files, in pixels per inch.
     pub resolution: f64,
+    /// Formats of the figures.
+    pub formats: Vec<FigureFormat>,
     /// Names of the files.
     pub files: Vec<String>,
     refused: Vec<(String, String)>,
@@ -56,6 +59,7 @@ impl<'a> Drawn<'a> {
         Ok(Self {
             folder,
             resolution: RESOLUTION,
+            formats: FigureFormat::USUAL.to_vec(),
             files: Vec::new(),
             refused: Vec::new(),
             crew: Crew::of(1),
@@ -88,15 +92,19 @@ impl<'a> Drawn<'a> {
         self.is_cut
     }
 
-    /// Draws a figure as SVG and PNG, or notes why there is none.
+    /// Draws a figure in each format, or notes why there is none.
     pub fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
         match figure {
             Ok(figure) => {
-                let resolution = self.resolution;
-                let names = ["svg", "png"].map(|suffix| format!("{name}.{suffix}"));
-                self.hand(&names, move |[svg, png]| {
-                    replace(svg, figure.svg().as_bytes())?;
-                    replace(png, &figure.png(resolution)?)
+                let (resolution, formats) = (self.resolution, self.formats.clone());
+                let names: Vec<String> =
+                    formats.iter().map(|format| format!("{name}.{}", format.suffix())).collect();
+                self.hand(names, move |paths| {
+                    formats.iter().zip(paths).try_for_each(|(format, path)| match format {
+                        FigureFormat::Svg => replace(path, figure.svg().as_bytes()),
+                        FigureFormat::Png => replace(path, &figure.png(resolution)?),
+                        FigureFormat::Pdf => replace(path, &figure.pdf()?),
+                    })
                 });
             }
             Err(reason) => self.refuse(name, reason.to_string()),
@@ -117,27 +125,27 @@ impl<'a> Drawn<'a> {
 
     /// Writes a file that is no figure.
     pub fn write(&mut self, name: &str, content: impl FnOnce() -> String + Send + 'static) {
-        self.hand(&[name.to_owned()], move |[path]| replace(path, content().as_bytes()));
+        self.hand(vec![name.to_owned()], move |paths| replace(&paths[0], content().as_bytes()));
     }
 
     /// Hands over what writes these files.
-    fn hand<const N: usize>(
+    fn hand(
         &mut self,
-        names: &[String; N],
-        write: impl FnOnce(&[PathBuf; N]) -> anyhow::Result<()> + Send + 'static,
+        names: Vec<String>,
+        write: impl FnOnce(&[PathBuf]) -> anyhow::Result<()> + Send + 'static,
     ) {
         if self.is_stopped() {
             return;
         }
-        self.files.extend_from_slice(names);
-        let paths = names.each_ref().map(|name| self.folder.join(name));
+        let paths: Vec<PathBuf> = names.iter().map(|name| self.folder.join(name)).collect();
+        self.files.extend(names);
         let (interrupt, written) = (self.interrupt.clone(), Arc::clone(&self.written));
         self.pending.push(self.crew.hand(move || {
             if is_raised(interrupt.as_ref()) {
                 return Ok(false);
             }
             write(&paths)?;
-            written.fetch_add(N as u64, Ordering::Relaxed);
+            written.fetch_add(paths.len() as u64, Ordering::Relaxed);
             Ok(true)
         }));
         self.ticker.at(self.written.load(Ordering::Relaxed), String::new);

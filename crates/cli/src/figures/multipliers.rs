@@ -1,7 +1,6 @@
 //! Figures of the Floquet multipliers of the branches.
 
 use hammerbeam_figure::{MultiplierDiagram, Multipliers, Style};
-use hammerbeam_orbit::Side;
 use hammerbeam_study::{
     Store, StoreError,
     store::{BranchRecord, Row},
@@ -32,12 +31,14 @@ pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Multipliers along a branch, thinned; a damaged solution is told, drawn or not.
 fn solutions(store: &Store, branch: &BranchRecord) -> Result<Vec<Multipliers>, StoreError> {
-    let down = store.walked(branch.start, Side::Down)?;
-    let up = store.walked(branch.start, Side::Up)?;
-    let step = (down.len() + up.len()).div_ceil(DRAWN).max(1);
-    let places = (0..down.len()).rev().map(|number| (Side::Down, number, &down[number]));
-    let places = places.chain((0..up.len()).map(|number| (Side::Up, number, &up[number])));
+    let mut rows = Vec::new();
+    store.each_row::<StoreError>(branch, |row| {
+        rows.push(row);
+        Ok(())
+    })?;
+    let step = rows.len().div_ceil(DRAWN).max(1);
     let is_drawn = |place: usize, row: &Row| {
         let events = &row.events;
         place.is_multiple_of(step)
@@ -46,13 +47,13 @@ fn solutions(store: &Store, branch: &BranchRecord) -> Result<Vec<Multipliers>, S
             || events.neimark_sacker
             || events.branch_point
     };
-    places
-        .enumerate()
-        .filter(|(place, (_, _, row))| is_drawn(*place, row))
-        .map(|(_, (side, number, row))| {
-            let solution = store.solution(branch.start, side, number as u32)?;
-            let multipliers = solution.floquet_multipliers;
-            Ok(Multipliers { frequency_hz: row.frequency_hz, stable: row.stable, multipliers })
-        })
-        .collect()
+    let (mut rows, mut drawn) = (rows.iter().enumerate(), Vec::new());
+    store.each_multipliers::<StoreError>(branch, |found| {
+        let multipliers = found?;
+        if let Some((_, row)) = rows.next().filter(|(place, row)| is_drawn(*place, row)) {
+            drawn.push(Multipliers { frequency_hz: row.frequency_hz, stable: row.stable, multipliers });
+        }
+        Ok(())
+    })?;
+    Ok(drawn)
 }

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use hammerbeam_attractor::Simulation;
-use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style, plain_number};
+use hammerbeam_attractor::{ContactRecord, Simulation};
+use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample, Style, plain_number};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
 use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_signal::filter::periodic_low_pass;
@@ -111,21 +111,47 @@ fn diagram(
     let title = format!("{title}, {hz} Hz, period {multiple}, {stability}");
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
-    let samples = samples(model, orbit)?;
+    let (samples, impulses) = course(model, orbit)?;
     let duration_s = f64::from(orbit.period_multiple) / frequency_hz;
     let filtered = match low_pass_hz {
         Some(cut_off_hz) => {
-            let values: Vec<f64> = samples.iter().map(|sample| sample.acceleration_m_s2).collect();
+            let values = with_impulses(&samples, &impulses, duration_s);
             let values_m_s2 = periodic_low_pass(&values, duration_s, (ORDER, cut_off_hz))?;
             Some(FilteredAcceleration { cut_off_hz, values_m_s2 })
         }
         None => None,
     };
     let period_multiple = orbit.period_multiple;
-    Ok(OrbitDiagram { title, frequency_hz, period_multiple, samples, filtered, eigenfrequencies_hz })
+    Ok(OrbitDiagram {
+        title,
+        frequency_hz,
+        period_multiple,
+        samples,
+        impulses,
+        filtered,
+        eigenfrequencies_hz,
+    })
 }
 
-fn samples(model: &Model, orbit: &PeriodicSolution) -> Result<Vec<OrbitSample>, Failure> {
+/// The accelerations, each jump of the velocity among them as the acceleration that makes it within the step in which it lies.
+///
+/// * `duration_s`: of the orbit.
+fn with_impulses(samples: &[OrbitSample], impulses: &[OrbitImpulse], duration_s: f64) -> Vec<f64> {
+    let mut values: Vec<f64> = samples.iter().map(|sample| sample.acceleration_m_s2).collect();
+    let count = values.len();
+    for impulse in impulses {
+        let place = impulse.cycles * SAMPLES as f64;
+        let [before, after] = impulse.velocity_m_s;
+        let acceleration = (after - before) * count as f64 / duration_s;
+        // Shared so that the impulse keeps its time.
+        values[place as usize % count] += (1.0 - place.fract()) * acceleration;
+        values[(place as usize + 1) % count] += place.fract() * acceleration;
+    }
+    values
+}
+
+/// Samples of an orbit from phase 0 on, and its impacts on rigid stops.
+fn course(model: &Model, orbit: &PeriodicSolution) -> Result<(Vec<OrbitSample>, Vec<OrbitImpulse>), Failure> {
     let frequency_hz = orbit.frequency_hz;
     let refused = |error: MotionError| Failure::NoResult(error.to_string());
     let settings = ExactSettings::default();
@@ -135,11 +161,13 @@ fn samples(model: &Model, orbit: &PeriodicSolution) -> Result<Vec<OrbitSample>, 
     let first = states.first().map_or(&[][..], Vec::as_slice);
     let mut simulation = Simulation::new(model.system.clone(), frequency_hz, first, settings)?;
     let is_moved = model.system.model().support.is_some();
-    let mut samples = Vec::new();
+    let (mut samples, mut contacts) = (Vec::new(), Vec::new());
     for _ in 0..orbit.period_multiple {
-        for sample in simulation.period(SAMPLES)?.0 {
+        let (sampled, ended) = simulation.period(SAMPLES)?;
+        contacts.extend(ended);
+        for sample in sampled {
             let [displacement_m, velocity_m_s, acceleration_m_s2] =
-                initial::response(model, frequency_hz, sample.phase, &sample.state);
+                initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces);
             let support = model.system.support_motion(frequency_hz, sample.phase)[0];
             samples.push(OrbitSample {
                 displacement_m,
@@ -150,5 +178,52 @@ fn samples(model: &Model, orbit: &PeriodicSolution) -> Result<Vec<OrbitSample>, 
             });
         }
     }
-    Ok(samples)
+    contacts.extend(simulation.unfinished());
+    let mut impulses: Vec<OrbitImpulse> =
+        contacts.iter().filter_map(|contact| impulse(model, frequency_hz, contact)).collect();
+    impulses.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
+    Ok((samples, impulses))
+}
+
+/// The impact with which a contact begins, if it does.
+fn impulse(model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Option<OrbitImpulse> {
+    let (touch, jump) = (contact.begin.as_ref()?, contact.jump.as_ref()?);
+    let cycles = touch.time * frequency_hz;
+    let at = |state: &[f64]| initial::response(model, frequency_hz, cycles.fract(), state, &[]);
+    let [displacement_m, velocity, acceleration] = at(&touch.state);
+    let [_, velocity_after, acceleration_after] = at(&jump.state);
+    Some(OrbitImpulse {
+        element: contact.element,
+        cycles,
+        impulse_n_s: -jump.impulse,
+        displacement_m,
+        velocity_m_s: [velocity, velocity_after],
+        acceleration_m_s2: [acceleration, acceleration_after],
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sum and first moment of the accelerations are those of the jumps.
+    #[test]
+    fn accelerations_have_the_impulses_at_their_times() {
+        let samples = vec![OrbitSample::default(); 2 * SAMPLES];
+        let impulse = |cycles: f64, speed: f64| OrbitImpulse {
+            cycles,
+            velocity_m_s: [speed, -0.5 * speed],
+            ..OrbitImpulse::default()
+        };
+        let (duration_s, times) = (4.0, [0.3, 1.234_567]);
+        let values = with_impulses(&samples, &[impulse(times[0], 2.0), impulse(times[1], 4.0)], duration_s);
+        let step_s = duration_s / values.len() as f64;
+        let sum: f64 = values.iter().map(|value| value * step_s).sum();
+        let moment: f64 = (0..).zip(&values).map(|(k, value)| f64::from(k) * step_s * value * step_s).sum();
+        assert!((sum + 9.0).abs() < 1e-12, "{sum}");
+        assert!((moment + 2.0 * (3.0 * times[0] + 6.0 * times[1])).abs() < 1e-11, "{moment}");
+        // At the very end of the orbit it reaches into its beginning.
+        let last = with_impulses(&samples, &[impulse(2.0 - 0.5 / SAMPLES as f64, 1.0)], duration_s);
+        assert!((last[0] / last[2 * SAMPLES - 1] - 1.0).abs() < 1e-9 && last[0] < 0.0);
+    }
 }

@@ -10,7 +10,7 @@ use crate::{
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left},
     scale::{Scale, ScaleKind, extent},
-    style::{INK, SHADE, Style, period_colour},
+    style::{INK, PeriodLook, SHADE, Style, period_look},
     svg::{Anchor, Point, SvgWriter, points},
     text::{Text, wrap},
 };
@@ -185,18 +185,16 @@ fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
     let mut multiples: Vec<u32> = panels.iter().flat_map(Panel::period_multiples).collect();
     multiples.sort_unstable();
     multiples.dedup();
-    let line_colour = if let [single] = multiples[..] { period_colour(single) } else { INK };
+    let any = PeriodLook { colour: INK, strokes: 0 };
+    let look = if let [single] = multiples[..] { period_look(single) } else { any };
     let colours = multiples.iter().filter(|_| multiples.len() > 1).map(|&multiple| Entry {
-        sample: Sample::Colour(period_colour(multiple)),
+        sample: Sample::Period(period_look(multiple)),
         name: period_name(multiple),
     });
     let lines = [(true, "stable"), (false, "unstable")]
         .into_iter()
         .filter(|(stable, _)| panels.iter().any(|panel| panel.has(*stable)))
-        .map(|(stable, name)| Entry {
-            sample: Sample::Line { colour: line_colour, stable },
-            name: name.to_owned(),
-        });
+        .map(|(stable, name)| Entry { sample: Sample::Line { look, stable }, name: name.to_owned() });
     let marks = Mark::ALL
         .into_iter()
         .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))

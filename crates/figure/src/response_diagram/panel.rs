@@ -9,7 +9,7 @@ use crate::{
     plot::Plot,
     scale::{Scale, ScaleKind, extent},
     stretch::{Sample, Stretch, Vertex, stretches},
-    style::{Style, period_colour},
+    style::{Style, period_look},
     svg::{Point, SvgWriter},
     text::Text,
 };
@@ -108,11 +108,11 @@ impl Panel {
 
     fn draw_lines(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style, stable: bool) {
         for line in &self.lines {
-            let colour = period_colour(line.period_multiple);
+            let look = period_look(line.period_multiple);
             let stretches = line.stretches.iter().filter(|stretch| stretch.stable == stable);
             let stretches: Vec<_> =
                 stretches.map(|stretch| on_page(&stretch.vertices, plot, style)).collect();
-            draw_stretches(svg, &stretches, stable, colour, style);
+            draw_stretches(svg, &stretches, stable, look, style);
         }
     }
 

@@ -87,7 +87,7 @@ pub use decouple::MergedModes;
 pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use near_miss::NearMisses;
-pub use trace::{ContactPiece, Touchdown, Trace};
+pub use trace::{ContactPiece, Jump, Touchdown, Trace};
 
 use block::Blocks;
 use collocation::Grading;

@@ -25,6 +25,15 @@ pub struct Touchdown {
     pub state: Vec<f64>,
 }
 
+/// What an impact on a rigid stop does at once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jump {
+    /// Magnitude of the impulse [N s].
+    pub impulse: f64,
+    /// Modal state `[q; q']` right after it, length 2n.
+    pub state: Vec<f64>,
+}
+
 /// A contact, or the part of it that lies within a stretch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactPiece {
@@ -34,6 +43,8 @@ pub struct ContactPiece {
     pub contact: usize,
     /// Where it closed; `None` if it was closed at the start of the stretch.
     pub begin: Option<Touchdown>,
+    /// Of an impact on a rigid stop what it did then; `None` where a force acts over a time.
+    pub jump: Option<Jump>,
     /// When it opened, since the start of the stretch [s]; `None` if it is closed at the end of the stretch.
     pub end: Option<f64>,
     /// Integral of the magnitude of the force [N s].
@@ -94,6 +105,7 @@ impl Tracing {
             element,
             contact,
             begin,
+            jump: None,
             end: None,
             impulse: 0.0,
             peak_force: 0.0,
@@ -177,10 +189,14 @@ impl ExactIntegrator {
             return;
         }
         self.trace_touch(run, touch);
+        let mut after = run.state.clone();
+        after.iter_mut().zip(&self.inputs[touch.element]).for_each(|(x, b)| *x -= impulse * b);
+        let jump = Jump { impulse, state: self.modal_of(after, run.time) };
         let Some(tracing) = &mut self.tracing else { return };
         let open = if sticks { tracing.open[touch.element] } else { tracing.open[touch.element].take() };
         let Some(piece) = open else { return };
         let piece = &mut tracing.trace.contacts[piece];
+        piece.jump = (impulse > 0.0).then_some(jump);
         piece.impulse += impulse;
         piece.energy_lost += energy;
         piece.end = (!sticks).then_some(run.time);

@@ -76,7 +76,7 @@ pub fn follow(
     let mut course = Course { duration_s: f64::from(periods) / frequency_hz, ..Course::default() };
     for _ in 0..periods {
         for sample in simulation.period(samples)?.0 {
-            let [y, v, a] = model.response_motion(frequency_hz, sample.phase, &sample.state);
+            let [y, v, a] = model.response_motion(frequency_hz, sample.phase, &sample.state, &sample.forces);
             course.displacement.push(y);
             course.velocity.push(v);
             course.acceleration.push(a);

@@ -57,10 +57,16 @@ impl Model {
     /// Displacement, velocity and acceleration of the response point at a phase of the excitation.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    /// * `forces`: of the local elements along their relative displacements [N]: a state does not tell what a rigid stop presses with while it holds the structure; empty where none does.
     #[must_use]
-    pub fn response_motion(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 3] {
+    pub fn response_motion(&self, frequency_hz: f64, phase: f64, state: &[f64], forces: &[f64]) -> [f64; 3] {
         let n = self.system.dof();
-        let rate = self.system.rate(frequency_hz, phase, state);
+        let mut rate = self.system.rate(frequency_hz, phase, state);
+        for (element, force) in self.system.elements().iter().zip(forces) {
+            if element.law.rigid().is_some() {
+                (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
+            }
+        }
         let support = self.system.support_motion(frequency_hz, phase);
         let parts = [&state[..n], &state[n..], &rate[n..]];
         let dot = |values: &[f64]| self.response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();

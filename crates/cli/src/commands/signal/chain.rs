@@ -1,5 +1,6 @@
 //! `hammerbeam signal chain`: what an instrument would have shown of a computed motion.
 
+use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
     Quantity, Record,
     chain::{Converter, MeasuringChain, Motion},
@@ -12,7 +13,7 @@ use super::{
 };
 use crate::{
     failure::Failure,
-    output::{Output, rounded},
+    output::Output,
     signal_args::{ChainOptions, Sensor},
 };
 
@@ -66,7 +67,7 @@ fn text(input: &Input, chain: &MeasuringChain, measured: &Record, path: Option<&
         named(channel),
         chain.sensor.word(),
         measured.len(),
-        rounded(measured.sampling_rate_hz)
+        plain_number(measured.sampling_rate_hz)
     ));
     if let Some(before) = before(input, chain) {
         lines.push(format!("  largest in the file   {before:.6e}"));

@@ -1,5 +1,6 @@
 //! `hammerbeam signal filter`: channels filtered and resampled.
 
+use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
     Channel, Record,
     filter::Sections,
@@ -9,11 +10,7 @@ use hammerbeam_study::export::{Table, number};
 use serde_json::json;
 
 use super::input::{self, Input, largest, named, title};
-use crate::{
-    failure::Failure,
-    output::{Output, rounded},
-    signal_args::FilterOptions,
-};
+use crate::{failure::Failure, output::Output, signal_args::FilterOptions};
 
 pub fn run(options: &FilterOptions, output: Output) -> Result<(), Failure> {
     let input = input::open(&options.input, None)?;
@@ -102,7 +99,7 @@ fn text(input: &Input, filtered: &Record, path: Option<&str>) -> String {
     if filtered.sampling_rate_hz != input.record.sampling_rate_hz {
         lines.push(format!(
             "  resampled to {} Hz, {} samples",
-            rounded(filtered.sampling_rate_hz),
+            plain_number(filtered.sampling_rate_hz),
             filtered.len()
         ));
     }

@@ -1,5 +1,6 @@
 //! The record that a command works on, and what is said about it.
 
+use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
     Channel, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
     filter::{Band, Sections, butterworth},
@@ -10,7 +11,6 @@ use serde_json::{Value, json};
 
 use crate::{
     failure::Failure,
-    output::rounded,
     signal_args::{BandOptions, InputOptions, Repair},
 };
 
@@ -123,9 +123,9 @@ impl Input {
             self.file,
             self.format.word(),
             record.len(),
-            rounded(record.sampling_rate_hz),
-            rounded(record.duration_s()),
-            rounded(record.start_s),
+            plain_number(record.sampling_rate_hz),
+            plain_number(record.duration_s()),
+            plain_number(record.start_s),
         )
     }
 

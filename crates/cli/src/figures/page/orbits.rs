@@ -142,7 +142,8 @@ impl Drawing {
         let (mut regular, mut states) = (Vec::new(), Vec::new());
         for Instant { cycles, place, state, forces } in &instants {
             let phase = cycles.rem_euclid(1.0);
-            let [displacement, velocity, acceleration] = initial::response(model, frequency_hz, phase, state);
+            let [displacement, velocity, acceleration] =
+                initial::response(model, frequency_hz, phase, state, forces);
             let step = ((cycles * steps as f64).floor() as usize).min(count - 1);
             widen(&mut orbit.acceleration_m_s2[step], acceleration);
             for (series, force) in orbit.forces_n.iter_mut().zip(forces) {
