@@ -1,5 +1,6 @@
 // Puts the page together.
 
+import { Address } from "./address";
 import { bifurcationTable } from "./bifurcations";
 import { branchList } from "./branch_list";
 import { controls } from "./controls";
@@ -36,7 +37,7 @@ const showHelp = (): void => help.showModal();
 
 /** Copies the address of what is shown; where the clipboard is closed it says where the address stands. */
 async function copyLink(): Promise<void> {
-    writeHash();
+    address.write();
     try {
         await navigator.clipboard.writeText(location.href);
         said.textContent = "The link is copied.";
@@ -74,27 +75,11 @@ if (solutions.count === 0) {
 view.show();
 listenToKeys(meta, solutions, store, { response, quantity: show, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
 
-let written = location.hash;
-let planned = 0;
-
-/** Writes the state into the address, without a new entry of the history. */
-function writeHash(): void {
-    window.clearTimeout(planned);
-    planned = 0;
-    written = toHash(store.state, meta, solutions);
-    history.replaceState(null, "", written);
-}
-
-store.listen(() => {
-    if (planned === 0) {
-        planned = window.setTimeout(writeHash, 200);
-    }
-});
-window.addEventListener("hashchange", () => {
-    if (location.hash !== written) {
-        store.update(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
-    }
-});
+const address = new Address(
+    () => toHash(store.state, meta, solutions),
+    (hash) => store.update(fromHash(hash, meta, (quantity) => curves.spansMuch(quantity))),
+);
+store.listen(() => address.plan());
 
 // For tests and benchmarks.
 declare global {
