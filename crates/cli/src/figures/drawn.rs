@@ -20,6 +20,22 @@ use crate::{
     ticker::Ticker,
 };
 
+/// What figures are put into: files, or the page.
+pub trait Album {
+    /// Takes a figure, or the reason why there is none.
+    fn add(&mut self, name: &str, figure: Result<Figure, FigureError>);
+
+    /// Takes a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
+    fn add_unless_empty(&mut self, name: &str, figure: Result<Figure, FigureError>) {
+        if !matches!(figure, Err(FigureError::Empty { .. })) {
+            self.add(name, figure);
+        }
+    }
+
+    /// Whether the rest is left out, since the user has asked to stop.
+    fn is_stopped(&mut self) -> bool;
+}
+
 /// Files as they are drawn, and what cannot be.
 ///
 /// What is added is drawn at any time until [`Self::finish`], in whatever order; its bytes and the list of files do not depend on that.
@@ -82,34 +98,6 @@ impl<'a> Drawn<'a> {
         self.interrupt.clone()
     }
 
-    /// Whether the rest is left out, since the user has asked to stop.
-    pub fn is_stopped(&mut self) -> bool {
-        self.is_cut |= is_raised(self.interrupt.as_ref());
-        self.is_cut
-    }
-
-    /// Draws a figure as SVG and PNG, or notes why there is none.
-    pub fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
-        match figure {
-            Ok(figure) => {
-                let resolution = self.resolution;
-                let names = ["svg", "png"].map(|suffix| format!("{name}.{suffix}"));
-                self.hand(&names, move |[svg, png]| {
-                    replace(svg, figure.svg().as_bytes())?;
-                    replace(png, &figure.png(resolution)?)
-                });
-            }
-            Err(reason) => self.refuse(name, reason.to_string()),
-        }
-    }
-
-    /// Draws a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
-    pub fn add_unless_empty(&mut self, name: &str, figure: Result<Figure, FigureError>) {
-        if !matches!(figure, Err(FigureError::Empty { .. })) {
-            self.add(name, figure);
-        }
-    }
-
     /// Notes why there is no figure.
     pub fn refuse(&mut self, name: &str, reason: String) {
         self.refused.push((name.to_owned(), reason));
@@ -170,6 +158,28 @@ impl<'a> Drawn<'a> {
             anstream::eprintln!("{name}: {reason}");
         }
         Ok(Files { names: self.files, refused: self.refused })
+    }
+}
+
+impl Album for Drawn<'_> {
+    /// Draws a figure as SVG and PNG, or notes why there is none.
+    fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
+        match figure {
+            Ok(figure) => {
+                let resolution = self.resolution;
+                let names = ["svg", "png"].map(|suffix| format!("{name}.{suffix}"));
+                self.hand(&names, move |[svg, png]| {
+                    replace(svg, figure.svg().as_bytes())?;
+                    replace(png, &figure.png(resolution)?)
+                });
+            }
+            Err(reason) => self.refuse(name, reason.to_string()),
+        }
+    }
+
+    fn is_stopped(&mut self) -> bool {
+        self.is_cut |= is_raised(self.interrupt.as_ref());
+        self.is_cut
     }
 }
 
