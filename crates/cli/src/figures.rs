@@ -26,7 +26,7 @@ use crate::{
 };
 
 pub(crate) use drawn::replace;
-pub use drawn::{Drawn, Files};
+pub use drawn::{Album, Drawn, Files};
 
 /// Resolution of the PNG files, in pixels per inch, where none is asked for.
 pub const RESOLUTION: f64 = 300.0;
@@ -131,7 +131,11 @@ fn draw_kind(
             orbit::draw_stored(store.folder(), (file, model), asked, drawn)?;
         }
         FigureKind::Sweeps => motions::draw_sweeps(store, drawn)?,
-        FigureKind::Exponents => motions::draw_exponents(store, drawn)?,
+        FigureKind::Exponents => {
+            motions::draw_exponents(store, drawn)?;
+            motions::draw_convergence(store, drawn)?;
+            motions::draw_sections(store, drawn)?;
+        }
         FigureKind::Basins => motions::draw_basins(store, (file, model), drawn)?,
         FigureKind::Page => page::draw(store, file, model, drawn)?,
     }
@@ -139,7 +143,7 @@ fn draw_kind(
 }
 
 /// Draws the structure, its modes, the error of its reduction if it is reduced, and its excitation.
-pub fn draw_linear(drawn: &mut Drawn<'_>, file: &StudyFile, model: &Model) {
+pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
     let (study, tables): (_, &ModeTables) = (&file.study, &model.tables);
     drawn.add("structure", structure::sketch(study));
     drawn.add("modes", linear::modes(study, model));
@@ -190,7 +194,7 @@ fn settings(scale: FigureScale) -> ResponseSettings {
 }
 
 /// Draws the curves of bifurcations, one figure for each parameter that they are over.
-fn draw_curves(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+fn draw_curves(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
     let pieces: Vec<PieceRecord> = store.pieces()?.into_iter().filter(|piece| piece.is_curve).collect();
     let mut parameters: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
     parameters.sort_unstable();

@@ -5,7 +5,7 @@ mod common;
 
 use std::{f64::consts::PI, fmt::Write, fs};
 
-use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stdout};
+use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 use serde_json::Value;
 
 /// A linear oscillator of 1 kg, eigenfrequency 0.5 Hz, damping 5 %: its one branch is known in closed form.
@@ -248,4 +248,54 @@ fn a_virtual_rig_goes_through_the_whole_comparison() {
         let read = |folder: &str| fs::read(workshop.path(folder).join(file)).unwrap();
         assert!(read("one") == read("two"), "{file} differs");
     }
+}
+
+/// What the page is given, from its file.
+fn page(workshop: &Workshop) -> (Value, String) {
+    let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page"]);
+    assert_success(&drawn);
+    let html = fs::read_to_string(workshop.path("results/page.html")).unwrap();
+    let meta = html.split_once("<script id=\"meta\" type=\"application/json\">").unwrap().1;
+    let meta = meta.split_once("</script>").unwrap().0;
+    (serde_json::from_str(meta).unwrap(), stderr(&drawn))
+}
+
+#[test]
+fn the_page_has_the_points_of_a_comparison_with_their_kinds_and_what_filter_they_were_behind() {
+    let workshop = measured();
+    let found = document(&workshop, &["points.csv"]);
+    let compared = found["comparisons"][0]["points"].as_array().unwrap();
+    let (meta, complaints) = page(&workshop);
+    assert!(complaints.is_empty(), "{complaints}");
+    let series = &meta["measured"][0];
+    assert_eq!((&series["quantity"], &series["note"]), (&"displacement".into(), &"".into()));
+    let points = series["points"].as_array().unwrap();
+    assert_eq!(points.len(), compared.len());
+    for (point, outcome) in points.iter().zip(compared) {
+        let near = |place: usize, of: &str, key: &str| {
+            let (found, meant) = (number(&point[of][place]), number(&outcome[key]));
+            assert!((found / meant - 1.0).abs() < 1e-12, "{point} {outcome}");
+        };
+        near(0, "measured", "frequency_hz");
+        near(1, "measured", "value");
+        near(0, "shifted", "shifted_frequency_hz");
+        near(1, "shifted", "shifted_value");
+        let kind = match outcome["kind"].as_str().unwrap() {
+            kind @ ("periodic" | "aperiodic") => kind,
+            _ => "unknown",
+        };
+        assert_eq!((&point["motion"], &point["verdict"]), (&kind.into(), &outcome["verdict"]));
+    }
+    assert!(points.iter().any(|point| point["motion"] == "aperiodic"));
+
+    document(&workshop, &["points.csv", "--low-pass", "0.5"]);
+    let (meta, _) = page(&workshop);
+    assert!(meta["measured"][0]["note"].as_str().unwrap().contains("a low-pass filter of 0.5 Hz"));
+
+    // A table that is none is named; the rest of the page is there.
+    fs::write(workshop.path("results/compare/points_displacement.csv"), "origin,kind\nx,periodic\n").unwrap();
+    let (meta, complaints) = page(&workshop);
+    assert_eq!(meta["measured"], Value::Array(Vec::new()));
+    assert!(complaints.contains("points_displacement.csv has no column frequency_hz"), "{complaints}");
+    assert_eq!(meta["branches"].as_array().map(Vec::len), Some(1));
 }

@@ -15,8 +15,9 @@ use std::{
 
 use common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_figure::{
-    MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageLink, PageMeasured, PageMotion,
-    PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure,
+    MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageLink, PageMeasured,
+    PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure,
+    Quantity, SectionPlane,
 };
 use hammerbeam_orbit::Side;
 use hammerbeam_study::Store;
@@ -145,7 +146,7 @@ fn odd_pages(workshop: &Workshop) -> Value {
             "everything at once",
             everything(),
             1,
-            vec!["measured: sweep up", "chaotic motion", "Poincaré section", "0.2500 ± 0.010"],
+            vec!["measured, periodic", "chaotic motion", "Poincaré section", "50 points at phase 0"],
             "the orbit of",
         ),
     ];
@@ -227,23 +228,69 @@ fn everything() -> Page {
                 .collect(),
             eigenfrequencies_hz: vec![12.0, 25.0],
         }),
-        motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 5e-3 }],
-        chaotic_ranges_hz: vec![(14.0, 16.0)],
-        sections: vec![
-            PageSection { points: vec![(1e-3, 0.1), (1e-3 + 1e-19, 0.1)], ..PageSection::default() },
-            PageSection {
-                frequency_hz: 15.0,
-                exponent_per_s: Some((0.25, 0.01)),
-                dimension: Some(f64::NAN),
-                points: wave(200, 1e-3).into_iter().zip(wave(200, 0.1)).chain([(f64::NAN, 0.0)]).collect(),
-            },
-        ],
-        measured: vec![PageMeasured {
-            name: "sweep up".to_owned(),
-            displacement: vec![(12.0, 2e-3), (13.0, f64::INFINITY)],
-            acceleration: Vec::new(),
-        }],
+        motions: vec![PageMotion { frequency_hz: 15.0, kind: MotionKind::Chaotic, displacement_m: 12e-3 }],
+        chaotic_ranges_hz: vec![(14.0, 16.0), (28.0, 28.0)],
+        sections: sections(),
+        measured: vec![measured()],
         ..Page::default()
+    }
+}
+
+/// Sections of all kinds, by their frequencies, in the first of them a coordinate without a range.
+fn sections() -> Vec<PageSection> {
+    let circle = |count: u32| {
+        let angle = move |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(count);
+        (0..count).map(move |k| (1e-3 * angle(k).cos(), 0.1 * angle(k).sin()))
+    };
+    let chaotic = PageSection { kind: Some(MotionKind::Chaotic), ..PageSection::default() };
+    vec![
+        PageSection {
+            frequency_hz: 12.0,
+            origin: "sweep 2, up".to_owned(),
+            kind: Some(MotionKind::QuasiPeriodic),
+            plane: SectionPlane::NextDisplacement,
+            points: vec![(1e-3, 0.1), (1e-3, 0.2)],
+            ..PageSection::default()
+        },
+        PageSection {
+            frequency_hz: 15.0,
+            origin: "exponents 1".to_owned(),
+            exponent_per_s: Some((0.25, 0.01)),
+            dimension: Some(f64::NAN),
+            points: circle(200).chain([(f64::NAN, 0.0)]).collect(),
+            ..chaotic.clone()
+        },
+        PageSection {
+            frequency_hz: 15.0,
+            origin: "sweep 2, up".to_owned(),
+            plane: SectionPlane::NextDisplacement,
+            points: circle(63).collect(),
+            ..chaotic.clone()
+        },
+        PageSection { frequency_hz: 28.0, points: circle(50).collect(), ..chaotic },
+    ]
+}
+
+/// Points of each kind off the branch, one of them without a place, and one beside a solution.
+fn measured() -> PageMeasured {
+    let point = |motion, measured, shifted| PageMeasuredPoint {
+        origin: "points.csv__line_2".to_owned(),
+        motion,
+        period_multiple: (motion == MeasuredMotion::Periodic).then_some(2),
+        measured,
+        shifted,
+        verdict: "too-far".to_owned(),
+    };
+    PageMeasured {
+        name: "compare".to_owned(),
+        quantity: Quantity::Displacement,
+        note: "They were compared with branches behind a filter.".to_owned(),
+        points: vec![
+            point(MeasuredMotion::Periodic, (22.0, 3e-3), (24.0, 4e-3)),
+            point(MeasuredMotion::Aperiodic, (25.0, 5e-3), (26.0, 6e-3)),
+            point(MeasuredMotion::Periodic, (19.0, 10e-3), (20.2, 11e-3)),
+            point(MeasuredMotion::Unknown, (13.0, 9e-3), (13.0, f64::INFINITY)),
+        ],
     }
 }
 

@@ -9,13 +9,20 @@
 
 mod columns;
 mod document;
+mod figures;
+mod measured;
+mod motions;
 mod multipliers;
 mod orbits;
 
+pub use figures::{PageFigure, PageFigures};
+pub use measured::{PageMeasured, PageMeasuredPoint};
+pub use motions::{PageMotion, PageSection, SectionPlane};
 pub use multipliers::MultiplierRecords;
-pub use orbits::{OrbitRecord, OrbitRecords, PageOrbit, room_for_orbits};
+pub use orbits::{OrbitRecord, OrbitRecords, PageOrbit};
 
-use crate::MotionKind;
+/// Length of a page without the places of its orbits (bytes).
+const MOST_BYTES: usize = 14_400_000;
 
 /// Everything that the page shows.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -40,10 +47,12 @@ pub struct Page {
     pub motions: Vec<PageMotion>,
     /// Ranges of the frequency with chaotic motion (Hz).
     pub chaotic_ranges_hz: Vec<(f64, f64)>,
-    /// Poincaré sections.
+    /// Poincaré sections, by their frequencies.
     pub sections: Vec<PageSection>,
     /// Measured points, laid over the response diagram.
     pub measured: Vec<PageMeasured>,
+    /// Printed figures of what the page itself does not draw.
+    pub figures: PageFigures,
 }
 
 /// A branch.
@@ -145,41 +154,6 @@ pub struct PageStop {
     pub levels: Vec<(f64, bool)>,
 }
 
-/// A settled motion of a sweep.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PageMotion {
-    /// Excitation frequency (Hz).
-    pub frequency_hz: f64,
-    /// What it is.
-    pub kind: MotionKind,
-    /// Largest displacement of the response point (m).
-    pub displacement_m: f64,
-}
-
-/// Stroboscopic points of a motion.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct PageSection {
-    /// Excitation frequency (Hz).
-    pub frequency_hz: f64,
-    /// Largest Lyapunov exponent with its half-width (1/s).
-    pub exponent_per_s: Option<(f64, f64)>,
-    /// Kaplan-Yorke dimension.
-    pub dimension: Option<f64>,
-    /// Displacement (m) and velocity (m/s) of the response point at phase 0.
-    pub points: Vec<(f64, f64)>,
-}
-
-/// A measured series.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct PageMeasured {
-    /// Its name.
-    pub name: String,
-    /// Excitation frequency (Hz) and largest displacement (m), where it was measured.
-    pub displacement: Vec<(f64, f64)>,
-    /// Excitation frequency (Hz) and largest acceleration (m/s²), where it was measured.
-    pub acceleration: Vec<(f64, f64)>,
-}
-
 impl Page {
     /// The whole file.
     ///
@@ -187,5 +161,12 @@ impl Page {
     #[must_use]
     pub fn html(&self) -> String {
         document::html(self)
+    }
+
+    /// Length of the records of orbits (bytes) for which the page has room beside what it holds already.
+    #[must_use]
+    pub fn room_for_orbits(&self) -> usize {
+        // Three bytes are four letters.
+        (MOST_BYTES.saturating_sub(self.html().len()) / 4 * 3).max(orbits::LEAST_BYTES)
     }
 }

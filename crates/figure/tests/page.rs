@@ -1,7 +1,8 @@
 //! The page as a whole: its size, and that it is a function of what it is given.
 
 use hammerbeam_figure::{
-    MultiplierRecords, OrbitRecords, Page, PageBranch, PageOrbit, PageSolution, room_for_orbits,
+    MultiplierRecords, OrbitRecords, Page, PageBranch, PageFigure, PageFigures, PageOrbit, PageSection,
+    PageSolution, ReducedMode, ReductionDiagram, Style,
 };
 
 /// What the page of the full response diagram of the paper may take.
@@ -29,18 +30,19 @@ fn figure_3(solutions: usize) -> Page {
     // Twelve, all of them real: none is longer.
     let mut multipliers = MultiplierRecords::default();
     (0..of_branch * branches).for_each(|_| multipliers.push(&[[-1.5, 0.0]; 12]));
-    Page {
+    let mut page = Page {
         title: "as many solutions as in figure 3".to_owned(),
         frequency_range_hz: (19.0, 110.0),
         branches: (1..=branches as u32).map(branch).collect(),
-        orbits: orbits(of_branch * branches, &multipliers),
         multipliers,
         ..Page::default()
-    }
+    };
+    page.orbits = orbits(page.room_for_orbits());
+    page
 }
 
 /// Orbits until there is no room for another one.
-fn orbits(solutions: usize, multipliers: &MultiplierRecords) -> OrbitRecords {
+fn orbits(room: usize) -> OrbitRecords {
     let wave = |count: usize, rate: f64| (0..count).map(|k| (rate * k as f64).sin()).collect::<Vec<f64>>();
     let pairs = |rate| wave(240, rate).iter().map(|value| [*value, value + 0.3]).collect::<Vec<_>>();
     let orbit = PageOrbit {
@@ -54,7 +56,6 @@ fn orbits(solutions: usize, multipliers: &MultiplierRecords) -> OrbitRecords {
         spectrum_m_s2: wave(200, 0.4).iter().map(|value| value.exp()).collect(),
     };
     let mut records = OrbitRecords::default();
-    let room = room_for_orbits(solutions, multipliers);
     let mut number = 0;
     while records.insert(number, orbit.record(), room) {
         number += 1;
@@ -76,4 +77,29 @@ fn a_hundred_thousand_solutions_leave_room_for_orbits() {
     let page = figure_3(100_000);
     assert!(page.orbits.count() > 700, "{}", page.orbits.count());
     assert!(page.html().len() < MOST_BYTES);
+}
+
+/// More sections and printed figures than any folder has.
+#[test]
+fn a_page_with_sections_and_figures_is_under_15_megabytes_too() {
+    let mut page = figure_3(65_000);
+    let points = (0..5000).map(|k| (f64::from(k).sin(), f64::from(k).cos())).collect();
+    page.sections = vec![PageSection { points, ..PageSection::default() }; 200];
+    let modes = (1..200).map(|k| ReducedMode {
+        full_hz: f64::from(k),
+        relative_error: f64::from(k).exp2() * 1e-60,
+        below_cut_off: k < 100,
+    });
+    let diagram = ReductionDiagram { title: String::new(), modes: modes.collect() };
+    let figure = diagram.draw(&Style::single_column()).expect("it has modes");
+    page.figures = PageFigures::default();
+    for number in 0..300 {
+        page.figures.push(PageFigure::new(&format!("figure-{number}"), "Many", &figure));
+    }
+    page.orbits = OrbitRecords::default();
+    page.orbits = orbits(page.room_for_orbits());
+    assert!(page.orbits.count() > 600, "{}", page.orbits.count());
+    let html = page.html();
+    assert!(html.len() < MOST_BYTES, "{}", html.len());
+    assert!(html.contains(r#""noRoom":["figure-"#), "what has no room is named");
 }

@@ -21,6 +21,22 @@ use crate::{
     ticker::Ticker,
 };
 
+/// What figures are put into: files, or the page.
+pub trait Album {
+    /// Takes a figure, or the reason why there is none.
+    fn add(&mut self, name: &str, figure: Result<Figure, FigureError>);
+
+    /// Takes a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
+    fn add_unless_empty(&mut self, name: &str, figure: Result<Figure, FigureError>) {
+        if !matches!(figure, Err(FigureError::Empty { .. })) {
+            self.add(name, figure);
+        }
+    }
+
+    /// Whether the rest is left out, since the user has asked to stop.
+    fn is_stopped(&mut self) -> bool;
+}
+
 /// Files as they are drawn, and what cannot be.
 ///
 /// What is added is drawn at any time until [`Self::finish`], in whatever order; its bytes and the list of files do not depend on that.
@@ -86,38 +102,6 @@ impl<'a> Drawn<'a> {
         self.interrupt.clone()
     }
 
-    /// Whether the rest is left out, since the user has asked to stop.
-    pub fn is_stopped(&mut self) -> bool {
-        self.is_cut |= is_raised(self.interrupt.as_ref());
-        self.is_cut
-    }
-
-    /// Draws a figure in each format, or notes why there is none.
-    pub fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
-        match figure {
-            Ok(figure) => {
-                let (resolution, formats) = (self.resolution, self.formats.clone());
-                let names: Vec<String> =
-                    formats.iter().map(|format| format!("{name}.{}", format.suffix())).collect();
-                self.hand(names, move |paths| {
-                    formats.iter().zip(paths).try_for_each(|(format, path)| match format {
-                        FigureFormat::Svg => replace(path, figure.svg().as_bytes()),
-                        FigureFormat::Png => replace(path, &figure.png(resolution)?),
-                        FigureFormat::Pdf => replace(path, &figure.pdf()?),
-                    })
-                });
-            }
-            Err(reason) => self.refuse(name, reason.to_string()),
-        }
-    }
-
-    /// Draws a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
-    pub fn add_unless_empty(&mut self, name: &str, figure: Result<Figure, FigureError>) {
-        if !matches!(figure, Err(FigureError::Empty { .. })) {
-            self.add(name, figure);
-        }
-    }
-
     /// Notes why there is no figure.
     pub fn refuse(&mut self, name: &str, reason: String) {
         self.refused.push((name.to_owned(), reason));
@@ -178,6 +162,32 @@ impl<'a> Drawn<'a> {
             anstream::eprintln!("{name}: {reason}");
         }
         Ok(Files { names: self.files, refused: self.refused })
+    }
+}
+
+impl Album for Drawn<'_> {
+    /// Draws a figure in each format, or notes why there is none.
+    fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
+        match figure {
+            Ok(figure) => {
+                let (resolution, formats) = (self.resolution, self.formats.clone());
+                let names: Vec<String> =
+                    formats.iter().map(|format| format!("{name}.{}", format.suffix())).collect();
+                self.hand(names, move |paths| {
+                    formats.iter().zip(paths).try_for_each(|(format, path)| match format {
+                        FigureFormat::Svg => replace(path, figure.svg().as_bytes()),
+                        FigureFormat::Png => replace(path, &figure.png(resolution)?),
+                        FigureFormat::Pdf => replace(path, &figure.pdf()?),
+                    })
+                });
+            }
+            Err(reason) => self.refuse(name, reason.to_string()),
+        }
+    }
+
+    fn is_stopped(&mut self) -> bool {
+        self.is_cut |= is_raised(self.interrupt.as_ref());
+        self.is_cut
     }
 }
 

@@ -10,10 +10,10 @@ use hammerbeam_study::{
     store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion},
 };
 
-use super::Drawn;
+use super::Album;
 
 /// Draws the settled motions of every sweep.
-pub fn draw_sweeps(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw_sweeps(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
     let title = store.about("title")?;
     for request in store.requests()? {
         if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
@@ -25,8 +25,8 @@ pub fn draw_sweeps(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Draws exponents over the frequency where a request has several, their convergence where it has one, and every section.
-pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+/// Draws exponents over the frequency where a request has several.
+pub fn draw_exponents(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
     let title = store.about("title")?;
     for request in store.requests()? {
         if request.kind != RequestKind::Exponents {
@@ -39,26 +39,45 @@ pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()
             let figure = ExponentDiagram { title: title.clone(), points }.draw(&Style::double_column());
             drawn.add(&format!("exponents-{}", request.id), figure);
         }
+    }
+    Ok(())
+}
+
+/// Draws the convergence of the exponents of every motion.
+pub fn draw_convergence(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
+    each_spectrum(store, |title, suffix, record| {
+        let places = record.spectrum.convergence.iter();
+        let places = places.map(|place| (place.time, place.exponents.clone())).collect();
+        let diagram = ConvergenceDiagram { title, frequency_hz: record.frequency_hz, places };
+        drawn.add(&format!("convergence{suffix}"), diagram.draw(&Style::double_column()));
+    })
+}
+
+/// Draws the section of every motion whose exponents are stored.
+pub fn draw_sections(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
+    each_spectrum(store, |title, suffix, record| {
+        let points = record.section.iter().map(|[displacement, velocity]| (*displacement, *velocity));
+        let frequency_hz = record.frequency_hz;
+        let section = SectionDiagram { title, frequency_hz, points: points.collect() };
+        drawn.add(&format!("section{suffix}"), section.draw(&Style::single_column()));
+    })
+}
+
+/// Hands over every motion whose exponents are stored, with the title of its figures and the end of their names.
+fn each_spectrum(store: &Store, mut each: impl FnMut(String, String, &ExponentRecord)) -> anyhow::Result<()> {
+    let title = store.about("title")?;
+    for request in store.requests()? {
+        if request.kind != RequestKind::Exponents {
+            continue;
+        }
+        let records = store.exponents(request.id)?;
         for (number, record) in records.iter().enumerate() {
             let suffix = if records.len() == 1 {
                 format!("-{}", request.id)
             } else {
                 format!("-{}-{}", request.id, number + 1)
             };
-            let frequency_hz = record.frequency_hz;
-            let title = format!("{title}, {} Hz", plain_number(frequency_hz));
-            let places = record
-                .spectrum
-                .convergence
-                .iter()
-                .map(|place| (place.time, place.exponents.clone()))
-                .collect();
-            let convergence = ConvergenceDiagram { title: title.clone(), frequency_hz, places };
-            drawn.add(&format!("convergence{suffix}"), convergence.draw(&Style::double_column()));
-            let points =
-                record.section.iter().map(|[displacement, velocity]| (*displacement, *velocity)).collect();
-            let section = SectionDiagram { title, frequency_hz, points };
-            drawn.add(&format!("section{suffix}"), section.draw(&Style::single_column()));
+            each(format!("{title}, {} Hz", plain_number(record.frequency_hz)), suffix, record);
         }
     }
     Ok(())
@@ -68,7 +87,7 @@ pub fn draw_exponents(store: &Store, drawn: &mut Drawn<'_>) -> anyhow::Result<()
 pub fn draw_basins(
     store: &Store,
     (file, model): (&StudyFile, &Model),
-    drawn: &mut Drawn<'_>,
+    drawn: &mut impl Album,
 ) -> anyhow::Result<()> {
     let requests: Vec<RequestRecord> =
         store.requests()?.into_iter().filter(|request| request.kind == RequestKind::Basins).collect();

@@ -6,7 +6,7 @@ use hammerbeam_study::{
     store::{BranchRecord, Row},
 };
 
-use super::{Drawn, unless_damaged};
+use super::{Album, Drawn, unless_damaged};
 use crate::failure::Failure;
 
 /// Solutions of a branch that are drawn at least, where it has so many, besides all bifurcations.

@@ -9,7 +9,7 @@ use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{Model, StoredBranches, StudyFile, file::DrawnOrbit};
 
-use super::{Drawn, unless_damaged};
+use super::{Album, Drawn, unless_damaged};
 use crate::{failure::Failure, initial};
 
 /// Samples in an excitation period.

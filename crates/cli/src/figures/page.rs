@@ -1,36 +1,80 @@
 //! The page of a results folder: reads everything that is stored and hands it over as plain rows.
 
 mod choice;
+mod gallery;
+mod irregular;
+mod measured;
 mod orbits;
 mod shape;
 
-use hammerbeam_attractor::Class;
-use hammerbeam_figure::{
-    MultiplierRecords, Page, PageBranch, PageMotion, PageSection, PageSolution, room_for_orbits,
-};
+use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
 use hammerbeam_orbit::Side;
 use hammerbeam_study::{
     Model, Store, StoreError, StudyFile,
     store::{BranchRecord, RequestKind, Row, WalkRecord},
 };
 
-use super::{Drawn, motions};
+use super::{Album, Drawn, motions};
+use crate::failure::Failure;
 
 /// Name of the file.
 pub const NAME: &str = "page.html";
 
 /// Draws the page, unless nothing of what it shows is stored or the user asks to stop.
-pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_>) -> Result<(), Failure> {
     let records = store.branches()?;
-    let (motions, sections) = (swept(store)?, sections(store)?);
-    if records.is_empty() && motions.is_empty() && sections.is_empty() {
+    if records.is_empty() && !has_more(store)? {
         return Ok(());
     }
-    let mut stored = Vec::new();
-    let mut branches = Vec::new();
+    let stored: Vec<Vec<Placed>> =
+        records.iter().map(|record| places(store, record)).collect::<Result<_, _>>()?;
+    let [low, high] = file.study.excitation.frequency_hz;
+    let mut page = Page {
+        title: store.about("title")?,
+        point: file.study.response.point.clone(),
+        frequency_range_hz: (low, high),
+        notice: notice(store, &records)?,
+        branches: records.iter().zip(&stored).map(|(record, places)| branch(record, places)).collect(),
+        multipliers: multipliers(store, &records, drawn)?,
+        structure: Some(shape::structure(file, model)),
+        motions: irregular::of_sweeps(store)?,
+        chaotic_ranges_hz: motions::chaotic_ranges(store)?,
+        sections: irregular::sections(store)?,
+        measured: measured::series(store.folder(), drawn),
+        figures: gallery::figures(store, (file, model), drawn)?,
+        ..Page::default()
+    };
+    let most = page.room_for_orbits();
+    page.orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
+    if !drawn.is_stopped() {
+        drawn.write(NAME, move || page.html());
+    }
+    Ok(())
+}
+
+/// Whether there is more than branches: motions, or solutions over other parameters.
+fn has_more(store: &Store) -> Result<bool, StoreError> {
+    for request in store.requests()? {
+        let is_empty = match request.kind {
+            RequestKind::Sweep | RequestKind::Starts => store.settled(request.id)?.is_empty(),
+            RequestKind::Exponents => store.exponents(request.id)?.is_empty(),
+            RequestKind::Basins => store.basins(request.id)?.0.is_empty(),
+        };
+        if !is_empty {
+            return Ok(true);
+        }
+    }
+    Ok(store.pieces()?.iter().any(|piece| !piece.branches.is_empty()))
+}
+
+/// Multipliers of all solutions; those of a damaged one are named and left out.
+fn multipliers(
+    store: &Store,
+    records: &[BranchRecord],
+    drawn: &mut Drawn<'_>,
+) -> Result<MultiplierRecords, StoreError> {
     let mut multipliers = MultiplierRecords::default();
-    for record in &records {
-        let places = places(store, record)?;
+    for record in records {
         store.each_multipliers::<StoreError>(record, |found| {
             multipliers.push(&found.unwrap_or_else(|error| {
                 drawn.refuse("multipliers on the page", error.to_string());
@@ -38,32 +82,8 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
             }));
             Ok(())
         })?;
-        branches.push(branch(record, &places));
-        stored.push(places);
     }
-    let solutions: usize = stored.iter().map(Vec::len).sum();
-    let most = room_for_orbits(solutions, &multipliers);
-    let [low, high] = file.study.excitation.frequency_hz;
-    let orbits = orbits::carried(store, model, (&records, &stored), (most, drawn))?;
-    if drawn.is_stopped() {
-        return Ok(());
-    }
-    let page = Page {
-        title: store.about("title")?,
-        point: file.study.response.point.clone(),
-        frequency_range_hz: (low, high),
-        notice: notice(store, &records)?,
-        branches,
-        orbits,
-        multipliers,
-        structure: Some(shape::structure(file, model)),
-        motions,
-        chaotic_ranges_hz: motions::chaotic_ranges(store)?,
-        sections,
-        measured: Vec::new(),
-    };
-    drawn.write(NAME, move || page.html());
-    Ok(())
+    Ok(multipliers)
 }
 
 /// A row with the place of its solution in the store.
@@ -125,38 +145,4 @@ fn notice(store: &Store, records: &[BranchRecord]) -> Result<String, StoreError>
     }
     let (walks, jobs) = ("sides of branches under way", "searches, flips and branch points left");
     Ok(format!("The run was not finished when this page was drawn; {walks}: {open}; {jobs}: {left}."))
-}
-
-/// Motions of sweeps that do not repeat.
-fn swept(store: &Store) -> Result<Vec<PageMotion>, StoreError> {
-    let mut motions = Vec::new();
-    for request in store.requests()? {
-        if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
-            let settled = store.settled(request.id)?.into_iter();
-            let irregular = settled.filter(|motion| !matches!(motion.point.class, Class::Periodic { .. }));
-            motions.extend(irregular.map(|motion| PageMotion {
-                frequency_hz: motion.point.frequency_hz,
-                kind: motions::kind(motion.point.class),
-                displacement_m: motion.point.max_abs_displacement,
-            }));
-        }
-    }
-    Ok(motions)
-}
-
-/// Stroboscopic points of every motion whose exponents are stored.
-fn sections(store: &Store) -> Result<Vec<PageSection>, StoreError> {
-    let mut sections = Vec::new();
-    for request in store.requests()? {
-        if request.kind == RequestKind::Exponents {
-            sections.extend(store.exponents(request.id)?.into_iter().map(|record| PageSection {
-                frequency_hz: record.frequency_hz,
-                exponent_per_s:
-                    record.spectrum.exponents.first().map(|exponent| (exponent.value, exponent.half_width)),
-                dimension: Some(record.spectrum.kaplan_yorke_dimension),
-                points: record.section.iter().map(|point| (point[0], point[1])).collect(),
-            }));
-        }
-    }
-    Ok(sections)
 }

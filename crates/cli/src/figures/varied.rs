@@ -6,11 +6,11 @@ use hammerbeam_study::{
     store::{PieceRecord, StoredVariedRow},
 };
 
-use super::{Drawn, FIGURES, axis_label, file_name, settings};
+use super::{Album, FIGURES, axis_label, file_name, settings};
 use crate::args::FigureScale;
 
 /// Draws every `[[vary]]` of the study.
-pub fn draw(store: &Store, scale: FigureScale, drawn: &mut Drawn<'_>) -> anyhow::Result<()> {
+pub fn draw(store: &Store, scale: FigureScale, drawn: &mut impl Album) -> anyhow::Result<()> {
     for piece in store.pieces()?.into_iter().filter(|piece| !piece.is_curve && !piece.branches.is_empty()) {
         let (curves, frequency_hz) = curves_of(store, &piece)?;
         let title = store.about("title")?;

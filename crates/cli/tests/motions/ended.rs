@@ -11,7 +11,7 @@ use crate::{
     DUFFING,
     basins::BASINS,
     column,
-    common::{Workshop, assert_success, stderr, stdout},
+    common::{Workshop, assert_success, stderr},
     remembering, table,
 };
 

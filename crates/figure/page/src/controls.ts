@@ -19,18 +19,18 @@ export function controls(meta: Meta, store: Store, commands: Commands): HTMLElem
     const scale = choice("Scale", [["log", "logarithmic"], ["linear", "linear"]] as const, (value) => store.update({ log: value === "log", view: null }));
     const theme = choice("Colours", [["auto", "as the system"], ["light", "light"], ["dark", "dark"]] as const, (value) => store.update({ theme: value }));
     const marks = toggle("marks", (on) => store.update({ marks: on }));
-    const measured = toggle("measured and irregular motions", (on) => store.update({ measured: on }));
+    const measured = choice("Measured", [["shifted", "shifted as compared"], ["plain", "as measured"]] as const, (value) => store.update({ shifted: value === "shifted" }));
     const show = (): void => {
         const { state } = store;
         quantity.show(state.quantity);
         scale.show(state.log ? "log" : "linear");
         theme.show(state.theme);
         marks.show(state.marks);
-        measured.show(state.measured);
+        measured.show(state.shifted ? "shifted" : "plain");
     };
     store.listen(show);
     show();
-    const over = meta.measured.length + meta.motions.length > 0 ? [measured.root] : [];
+    const over = meta.measured.length > 0 ? [measured.root] : [];
     return element("div", { class: "controls" }, [
         quantity.root,
         scale.root,

@@ -53,8 +53,8 @@ export class Curves {
         return levels;
     }
 
-    /** Least and largest of a quantity among the branches that are drawn, widened a little; null where nothing is. */
-    extent(quantity: Quantity, log: boolean, hidden: ReadonlySet<number>): [number, number] | null {
+    /** Least and largest of a quantity among the branches that are drawn, and of other values, widened a little; null where nothing is. */
+    extent(quantity: Quantity, log: boolean, hidden: ReadonlySet<number>, others: readonly number[] = []): [number, number] | null {
         const levels = this.levels(quantity, log);
         let [low, high] = [Infinity, -Infinity];
         for (let k = 0; k < levels.length; k++) {
@@ -62,6 +62,12 @@ export class Curves {
             if (Number.isFinite(level) && !hidden.has(this.solutions.branch[k] ?? 0)) {
                 low = Math.min(low, level);
                 high = Math.max(high, level);
+            }
+        }
+        for (const value of others) {
+            const level = log ? Math.log10(value) : value;
+            if (Number.isFinite(level)) {
+                [low, high] = [Math.min(low, level), Math.max(high, level)];
             }
         }
         if (low > high) {
@@ -80,8 +86,8 @@ export class Curves {
         return extent !== null && extent[1] / extent[0] > 40;
     }
 
-    /** The solution nearest to a place in canvas pixels, within so many of them; -1 for none. */
-    nearest(quantity: Quantity, scales: Scales, hidden: ReadonlySet<number>, place: [number, number], within: number): number {
+    /** The solution nearest to a place in canvas pixels, within so many of them, and its distance; -1 for none. */
+    nearest(quantity: Quantity, scales: Scales, hidden: ReadonlySet<number>, place: [number, number], within: number): [solution: number, distance: number] {
         const levels = this.levels(quantity, scales.log);
         const { frequency, branch } = this.solutions;
         const [x, y] = [(place[0] - scales.left) / scales.perX + scales.lowX, (scales.top + scales.height - place[1]) / scales.perY + scales.lowY];
@@ -94,6 +100,6 @@ export class Curves {
                 [best, least] = [k, distance];
             }
         }
-        return best;
+        return [best, Math.sqrt(least)];
     }
 }

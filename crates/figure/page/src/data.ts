@@ -45,24 +45,55 @@ export interface Structure {
     eigenfrequencies: number[];
 }
 
+export type MotionKind = "periodic" | "quasi-periodic" | "chaotic" | "doubtful";
+
 export interface Section {
     frequency: number;
+    /** Where the motion is from, in words. */
+    origin: string;
+    kind: MotionKind | null;
     exponent: [number | null, number | null] | null;
     dimension: number | null;
-    points: [number | null, number | null][];
+    /** Whether a point is the displacement with that one period later, in place of the velocity. */
+    next: boolean;
+    /** How many points are stored; not all of them may be carried. */
+    count: number;
+    /** Least and largest value of each coordinate; null where there is no point. */
+    x: [number | null, number | null];
+    y: [number | null, number | null];
+    /** The points as base64: pairs of u16, from the least to the largest value. */
+    points: string;
+}
+
+export interface MeasuredPoint {
+    origin: string;
+    motion: "periodic" | "aperiodic" | "unknown";
+    period: number | null;
+    /** Frequency and value, as measured and as shifted by the comparison; null where not finite. */
+    measured: [number | null, number | null];
+    shifted: [number | null, number | null];
+    verdict: string;
 }
 
 export interface Measured {
     name: string;
-    /** Frequencies and values; null where a value is not finite. */
-    displacement: [number | null, number | null][];
-    acceleration: [number | null, number | null][];
+    quantity: Quantity;
+    /** What has to be known before points and branches are compared. */
+    note: string;
+    points: MeasuredPoint[];
+}
+
+/** A printed figure. */
+export interface Figure {
+    name: string;
+    heading: string;
+    description: string;
 }
 
 export interface Motion {
     frequency: number;
     displacement: number | null;
-    kind: "periodic" | "quasi-periodic" | "chaotic" | "doubtful";
+    kind: MotionKind;
 }
 
 export interface Meta {
@@ -79,6 +110,8 @@ export interface Meta {
     chaos: [number, number][];
     sections: Section[];
     measured: Measured[];
+    /** Printed figures; the names of those that had no room, and of those that could not be drawn with the reason. */
+    figures: { carried: Figure[]; noRoom: string[]; refused: [string, string][] };
     look: { light: Look; dark: Look };
 }
 
@@ -134,6 +167,19 @@ export function readSolutions(branches: Branch[]): Solutions {
 /** The base64 text of the multipliers of all solutions. */
 export function multiplierText(): string {
     return textOf("floquet");
+}
+
+/** The printed figures as SVG documents, in the order of their list. */
+export function readFigures(): string[] {
+    return JSON.parse(textOf("drawings")) as string[];
+}
+
+/** The points of a section. */
+export function readSection({ x, y, points }: Section): [number, number][] {
+    const bytes = bytesOf(points);
+    const steps = new Uint16Array(bytes.buffer, 0, bytes.length >> 1);
+    const value = ([low, high]: [number | null, number | null], step: number): number => (low ?? NaN) + ((high ?? NaN) - (low ?? NaN)) * (step / 65535);
+    return Array.from({ length: steps.length >> 1 }, (_, k) => [value(x, steps[2 * k] ?? 0), value(y, steps[2 * k + 1] ?? 0)]);
 }
 
 /** The base64 text of all orbits. */

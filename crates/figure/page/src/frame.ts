@@ -54,8 +54,10 @@ export class Frame {
         this.logY = options.range().logY;
         this.plot = this.create();
         new ResizeObserver(() => this.resize()).observe(host);
-        theme.listen(() => this.redraw());
-        window.addEventListener("beforeprint", () => this.resize());
+        theme.listen(() => {
+            this.resize();
+            this.redraw();
+        });
     }
 
     /** Calls now, and again whenever the elements of the plot are new ones. */

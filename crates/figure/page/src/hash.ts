@@ -1,7 +1,7 @@
 // The state as the part of the address after #, so that a link leads back to it.
 
 import type { Meta, Quantity, Solutions } from "./data";
-import { START, type State } from "./state";
+import { LAYERS, START, type State } from "./state";
 
 const QUANTITIES: readonly Quantity[] = ["displacement", "acceleration", "force", "velocity"];
 
@@ -36,8 +36,11 @@ export function toHash(state: State, meta: Meta, solutions: Solutions): string {
     if (!state.marks) {
         parts.push("marks=off");
     }
-    if (!state.measured) {
-        parts.push("measured=off");
+    if (state.off.size > 0) {
+        parts.push(`off=${LAYERS.filter((layer) => state.off.has(layer)).join(",")}`);
+    }
+    if (!state.shifted) {
+        parts.push("shifted=no");
     }
     if (state.section !== 0) {
         parts.push(`section=${state.section + 1}`);
@@ -63,6 +66,7 @@ export function fromHash(hash: string, meta: Meta, suits: (quantity: Quantity) =
     const branch = meta.branches.find((one) => one.id === id);
     const inside = branch !== undefined && number !== undefined && number >= 0 && number < branch.count;
     const hidden = (words.get("hide") ?? "").split(",").map((text) => meta.branches.findIndex((one) => one.id === Number(text)));
+    const off = (words.get("off") ?? "").split(",");
     const theme = words.get("theme");
     const section = Number(words.get("section") ?? 1) - 1;
     const scale = words.get("scale");
@@ -75,7 +79,8 @@ export function fromHash(hash: string, meta: Meta, suits: (quantity: Quantity) =
         hidden: new Set(hidden.filter((place) => place >= 0)),
         theme: theme === "light" || theme === "dark" ? theme : "auto",
         marks: words.get("marks") !== "off",
-        measured: words.get("measured") !== "off",
+        off: new Set(LAYERS.filter((layer) => off.includes(layer))),
+        shifted: words.get("shifted") !== "no",
         section: section >= 0 && section < meta.sections.length ? Math.trunc(section) : 0,
     };
 }

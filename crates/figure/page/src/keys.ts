@@ -1,6 +1,7 @@
 // Keys, and the list of them.
 
 import { eventsOf } from "./bifurcations";
+import { nextSection } from "./chaos";
 import { FOLD, FLIP, NEIMARK_SACKER, BRANCH_POINT, type Branch, type Meta, type Quantity, type Solutions } from "./data";
 import { element } from "./dom";
 import type { Response } from "./response";
@@ -9,6 +10,7 @@ import type { Store } from "./state";
 export interface Actions {
     response: Response;
     quantity: (quantity: Quantity) => void;
+    section: (place: number) => void;
     play: () => void;
     copyLink: () => void;
     help: () => void;
@@ -18,6 +20,7 @@ const LIST: readonly [string, string][] = [
     ["← →", "one solution back or on along its branch (with Page Up, Page Down: 100)"],
     ["↑ ↓", "the branch before or behind in the list"],
     ["[ ]", "the bifurcation before or behind on the branch"],
+    [", .", "the chaotic motion before or behind, with its Poincaré section"],
     ["+ −", "zoom in or out about the selected solution"],
     ["Shift and arrows", "move the view"],
     ["0", "everything"],
@@ -32,7 +35,7 @@ const LIST: readonly [string, string][] = [
 ];
 
 const POINTER: readonly [string, string][] = [
-    ["Click", "the nearest solution"],
+    ["Click", "the nearest solution; in a chaotic range, or on the strip above it, the nearest chaotic motion"],
     ["Wheel", "zoom (with Shift: frequency alone; with Alt: vertical axis alone)"],
     ["Drag", "zoom into a box"],
     ["Shift and drag", "move the view; so does the right button, or a finger"],
@@ -105,6 +108,8 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         ArrowDown: () => stepBranch(1),
         "[": () => stepEvent(-1),
         "]": () => stepEvent(1),
+        ",": () => actions.section(nextSection(meta, store.state.section, -1)),
+        ".": () => actions.section(nextSection(meta, store.state.section, 1)),
         "+": () => zoom(0.6),
         "=": () => zoom(0.6),
         "-": () => zoom(1 / 0.6),

@@ -1,11 +1,13 @@
 // Puts the page together.
 
+import { Address } from "./address";
 import { bifurcationTable } from "./bifurcations";
 import { branchList } from "./branch_list";
 import { controls } from "./controls";
 import { Curves } from "./curves";
 import { readMeta, readSolutions, type Quantity } from "./data";
 import { element } from "./dom";
+import { figurePanel } from "./figures";
 import { fromHash, toHash } from "./hash";
 import { helpDialog, listenToKeys } from "./keys";
 import { legend } from "./legend";
@@ -36,7 +38,7 @@ const showHelp = (): void => help.showModal();
 
 /** Copies the address of what is shown; where the clipboard is closed it says where the address stands. */
 async function copyLink(): Promise<void> {
-    writeHash();
+    address.write();
     try {
         await navigator.clipboard.writeText(location.href);
         said.textContent = "The link is copied.";
@@ -57,7 +59,14 @@ page.append(
     diagram,
 );
 const lists = element("div", { class: "lists" });
-const response = new Response(meta, solutions, curves, store, theme, diagram);
+/** Opens the section at a place of their list, and brings it to the reader. */
+const openSection = (place: number): void => {
+    if (place >= 0) {
+        store.update({ section: place });
+        document.getElementById("section")?.scrollIntoView({ block: "nearest" });
+    }
+};
+const response = new Response(meta, solutions, curves, store, theme, openSection, diagram);
 const jump = (solution: number): void => {
     store.update({ selected: solution });
     response.show(solution, 0.05);
@@ -65,36 +74,28 @@ const jump = (solution: number): void => {
 lists.append(
     branchList(meta, solutions, store, theme, (branch) => store.update({ selected: branch.first + (branch.count >> 1) })),
     bifurcationTable(meta, solutions, store, jump),
-    ...[sectionPanel(meta, store, theme)].filter((part) => part !== null),
+    ...[sectionPanel(meta, store, theme, openSection, (range) => response.showRange(range))].filter((part) => part !== null),
 );
-page.append(legend(meta, solutions, theme), view.root, lists, help);
+const notes = [...new Set(meta.measured.map((series) => series.note))].filter((note) => note !== "");
+page.append(
+    legend(meta, solutions, store, theme),
+    ...notes.map((note) => element("p", { class: "note" }, [`Measured points: ${note}`])),
+    view.root,
+    lists,
+    ...[figurePanel(meta)].filter((part) => part !== null),
+    help,
+);
 if (solutions.count === 0) {
     diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
 }
 view.show();
-listenToKeys(meta, solutions, store, { response, quantity: show, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
+listenToKeys(meta, solutions, store, { response, quantity: show, section: openSection, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
 
-let written = location.hash;
-let planned = 0;
-
-/** Writes the state into the address, without a new entry of the history. */
-function writeHash(): void {
-    window.clearTimeout(planned);
-    planned = 0;
-    written = toHash(store.state, meta, solutions);
-    history.replaceState(null, "", written);
-}
-
-store.listen(() => {
-    if (planned === 0) {
-        planned = window.setTimeout(writeHash, 200);
-    }
-});
-window.addEventListener("hashchange", () => {
-    if (location.hash !== written) {
-        store.update(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
-    }
-});
+const address = new Address(
+    () => toHash(store.state, meta, solutions),
+    (hash) => store.update(fromHash(hash, meta, (quantity) => curves.spansMuch(quantity))),
+);
+store.listen(() => address.plan());
 
 // For tests and benchmarks.
 declare global {
@@ -103,6 +104,7 @@ declare global {
             redraw: () => void;
             zoom: (factor: number) => void;
             placeOf: (solution: number) => [number, number];
+            pointAt: (frequency: number, value: number) => [number, number];
             state: () => State;
             orbit: () => Orbit | null;
             unitCircle: () => [across: number, up: number];
@@ -114,6 +116,7 @@ window.hammerbeam = {
     redraw: () => response.redraw(),
     zoom: (factor) => response.zoom([factor, factor]),
     placeOf: (solution) => response.placeOf(solution),
+    pointAt: (frequency, value) => response.pointAt(frequency, value),
     state: () => store.state,
     orbit: () => view.orbit,
     unitCircle: () => view.unitCircle(),

@@ -1,7 +1,6 @@
 // The numbers of a solution in words.
 
 import { STABLE, type Meta, type Solutions } from "./data";
-import { element } from "./dom";
 import { complex, digits, hertz, MEASURES, periodName } from "./format";
 import { eventNames } from "./marks";
 
@@ -30,11 +29,4 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
         ["Contacts per orbit period", String(solutions.contacts[solution] ?? 0)],
         ["Leading multiplier", `${complex(re, im)}, modulus ${digits(Math.hypot(re, im), 5)}`],
     ];
-}
-
-/** The same in few lines, for beside the pointer. */
-export function hoverText(meta: Meta, solutions: Solutions, solution: number): Node[] {
-    const wanted = ["Frequency", "Branch", "Stability", "Event", "Max. displacement", "Max. acceleration", "Max. contact force", "Leading multiplier"];
-    const rows = numbersOf(meta, solutions, solution).filter(([name]) => wanted.includes(name));
-    return rows.map(([name, text]) => element("div", {}, [element("b", {}, [name]), ` ${text}`]));
 }

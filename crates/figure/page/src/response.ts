@@ -1,18 +1,21 @@
 // The response diagram: its view, zoom and pan, hover and click.
 
-import { scalesOf, type Curves } from "./curves";
+import { nearestSection } from "./chaos";
+import type { Curves } from "./curves";
 import type { Meta, Solutions } from "./data";
 import { element } from "./dom";
 import { MEASURES } from "./format";
 import { Frame, NARROWEST, type Range } from "./frame";
 import { markedSolutions } from "./marks";
-import { hoverText } from "./numbers";
+import { dotsOf } from "./overlay";
+import { pick, type Picked } from "./pick";
 import { paintResponse } from "./response_paint";
 import type { Store, View } from "./state";
 import type { Theme } from "./theme";
+import { tipText } from "./tip";
 
-/** Distance (CSS pixels) from which a solution is meant by the pointer. */
-const REACH = 24;
+/** Height of the diagram on paper (CSS pixels). */
+const PRINTED_HEIGHT = 440;
 
 export class Response {
     readonly host = element("div", { class: "response", tabindex: "0", role: "application", "aria-label": "Response diagram" });
@@ -26,6 +29,7 @@ export class Response {
         private readonly curves: Curves,
         private readonly store: Store,
         theme: Theme,
+        private readonly openSection: (place: number) => void,
         parent: HTMLElement,
     ) {
         parent.append(this.host, this.tip);
@@ -40,13 +44,13 @@ export class Response {
                     const scene = { meta, solutions, curves, state: store.state, theme, marked };
                     this.host.dataset["branches"] = String(paintResponse(context, frame, scene));
                 },
-                height: () => Math.round(Math.max(320, Math.min(620, 0.58 * window.innerHeight))),
+                height: () => (theme.printing ? PRINTED_HEIGHT : Math.round(Math.max(320, Math.min(620, 0.58 * window.innerHeight)))),
             },
             theme,
         );
         this.frame.whenMade(() => this.attach());
         store.listen((_, changed) => {
-            if (["quantity", "log", "view", "selected", "hidden", "marks", "measured", "section"].some((key) => changed.has(key as never))) {
+            if (["quantity", "log", "view", "selected", "hidden", "marks", "off", "shifted", "section"].some((key) => changed.has(key as never))) {
                 this.plan();
             }
         });
@@ -72,9 +76,7 @@ export class Response {
     placeOf(solution: number): [number, number] {
         const { quantity, log } = this.store.state;
         const level = this.curves.levels(quantity, log)[solution] ?? NaN;
-        const box = this.frame.plot.over.getBoundingClientRect();
-        const x = this.frame.plot.valToPos(this.solutions.frequency[solution] ?? NaN, "x");
-        return [box.left + x, box.top + this.frame.plot.valToPos(log ? 10 ** level : level, "y")];
+        return this.pointAt(this.solutions.frequency[solution] ?? NaN, log ? 10 ** level : level);
     }
 
     private range(): Range {
@@ -90,7 +92,22 @@ export class Response {
     /** The range in which everything is seen. */
     private whole(): Range {
         const { quantity, log, hidden } = this.store.state;
-        return { x: this.meta.range, y: this.curves.extent(quantity, log, hidden) ?? (log ? [0.1, 1] : [0, 1]), logY: log };
+        const [low, high] = this.meta.range;
+        const over = dotsOf(this.meta, this.store.state).filter(({ frequency }) => frequency >= low && frequency <= high);
+        const y = this.curves.extent(quantity, log, hidden, over.map(({ value }) => value));
+        return { x: this.meta.range, y: y ?? (log ? [0.1, 1] : [0, 1]), logY: log };
+    }
+
+    /** Where a place of the diagram is, in the units of its axes (CSS pixels of the window). */
+    pointAt(frequency: number, value: number): [number, number] {
+        const box = this.frame.plot.over.getBoundingClientRect();
+        return [box.left + this.frame.plot.valToPos(frequency, "x"), box.top + this.frame.plot.valToPos(value, "y")];
+    }
+
+    /** Shows all of a range of the frequency, with something on both sides. */
+    showRange([low, high]: [number, number]): void {
+        const margin = 0.1 * (high - low) || 0.01 * (this.meta.range[1] - this.meta.range[0]);
+        this.change((from, to, axis) => (axis === 0 ? [low - margin, high + margin] : [from, to]));
     }
 
     /** Zooms by a factor about a place, given as shares of width and height from below. */
@@ -157,13 +174,25 @@ export class Response {
         }
     }
 
-    private nearest(left: number, top: number): number {
-        const { bbox } = this.frame.plot;
-        const density = this.frame.density;
-        const scales = scalesOf(this.frame.range(), bbox);
-        const { quantity, hidden } = this.store.state;
-        const place: [number, number] = [bbox.left + left * density, bbox.top + top * density];
-        return this.curves.nearest(quantity, scales, hidden, place, REACH * density);
+    private pick(left: number, top: number): Picked | null {
+        return pick(this.meta, this.curves, this.store.state, this.frame, left, top);
+    }
+
+    /** A click: on a solution, or on a measured point beside one, its orbit, on a motion that does not repeat or a chaotic range the nearest section. */
+    private choose(picked: Picked | null): void {
+        if (picked === null) {
+            return;
+        }
+        if ("solution" in picked) {
+            this.store.update({ selected: picked.solution });
+        } else if ("range" in picked) {
+            this.openSection(nearestSection(this.meta, picked.frequency, picked.range));
+        } else if ("motion" in picked.dot.of) {
+            const { frequency, kind } = picked.dot.of.motion;
+            this.openSection(this.meta.sections.findIndex((section) => section.frequency === frequency && section.kind === kind));
+        } else if (picked.beside >= 0) {
+            this.store.update({ selected: picked.beside });
+        }
     }
 
     private attach(): void {
@@ -189,12 +218,12 @@ export class Response {
     }
 
     private hover(left: number, top: number): void {
-        const solution = this.nearest(left, top);
-        if (solution < 0) {
+        const picked = this.pick(left, top);
+        if (picked === null) {
             this.hide();
             return;
         }
-        this.tip.replaceChildren(...hoverText(this.meta, this.solutions, solution));
+        this.tip.replaceChildren(...tipText(this.meta, this.solutions, this.store.state, picked));
         this.tip.classList.add("seen");
         const { over } = this.frame.plot;
         const isRight = left > 0.6 * over.clientWidth;
@@ -237,10 +266,7 @@ export class Response {
             }
             const now = shares(event);
             if (!moved) {
-                const solution = this.nearest(event.offsetX, event.offsetY);
-                if (solution >= 0) {
-                    this.store.update({ selected: solution });
-                }
+                this.choose(this.pick(event.offsetX, event.offsetY));
             } else if (!pans && now[0] !== first[0] && now[1] !== first[1]) {
                 this.change((low, high, axis) => {
                     const ends = [first[axis], now[axis]].sort((a, b) => a - b);

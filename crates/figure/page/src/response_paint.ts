@@ -1,12 +1,14 @@
 // What lies in the frame of the response diagram, from back to front.
 
 import { scalesOf, type Curves, type Scales } from "./curves";
+import { STRIP } from "./chaos";
 import type { Meta, Solutions } from "./data";
-import { MEASURES } from "./format";
 import type { Frame } from "./frame";
 import { drawMarks, MARKS, type Mark } from "./marks";
+import { dotsOf } from "./overlay";
+import { drawDots } from "./overlay_paint";
 import { linesOf } from "./paths";
-import type { State } from "./state";
+import { LAYERS, type State } from "./state";
 import type { Theme } from "./theme";
 
 export interface Scene {
@@ -29,20 +31,24 @@ export function paintResponse(context: CanvasRenderingContext2D, frame: Frame, s
     if (scene.state.marks) {
         paintMarks(context, frame, scene, scales, false);
     }
-    if (scene.state.measured) {
-        paintMeasured(context, frame, scene);
-    }
+    paintOverlay(context, frame, scene);
     paintSelected(context, frame, scene, scales);
     return drawn;
 }
 
-/** Chaotic ranges, and the frequency of the section that is shown. */
+/** Chaotic ranges with a strip above them, and the frequency of the section that is shown. */
 function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
+    if (state.off.has("chaos")) {
+        return;
+    }
     const { top, height } = frame.plot.bbox;
-    context.fillStyle = theme.look.shade;
     for (const [low, high] of meta.chaos) {
         const left = frame.toX(low);
-        context.fillRect(left, top, Math.max(frame.density, frame.toX(high) - left), height);
+        const width = Math.max(frame.density, frame.toX(high) - left);
+        context.fillStyle = theme.look.shade;
+        context.fillRect(left, top, width, height);
+        context.fillStyle = theme.look.pale;
+        context.fillRect(left, top, width, 0.5 * STRIP * frame.density);
     }
     const section = meta.sections[state.section];
     if (section !== undefined) {
@@ -111,37 +117,13 @@ function placeOf(solutions: Solutions, levels: Float64Array, k: number, scales: 
     ];
 }
 
-/** Measured points, and the largest displacements of motions that do not repeat. */
-function paintMeasured(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
-    const density = frame.density;
-    const { factor } = MEASURES[state.quantity];
-    const cross = (x: number, y: number, radius: number): void => {
-        context.moveTo(x - radius, y - radius);
-        context.lineTo(x + radius, y + radius);
-        context.moveTo(x - radius, y + radius);
-        context.lineTo(x + radius, y - radius);
-    };
-    context.setLineDash([]);
-    context.lineWidth = 1.3 * density;
-    context.strokeStyle = theme.look.ink;
-    context.beginPath();
-    for (const series of meta.measured) {
-        const points = state.quantity === "displacement" ? series.displacement : state.quantity === "acceleration" ? series.acceleration : [];
-        for (const [frequency, value] of points) {
-            if (frequency !== null && value !== null) {
-                cross(frame.toX(frequency), frame.toY(factor * value), 3 * density);
-            }
-        }
-    }
-    context.stroke();
-    if (state.quantity === "displacement") {
-        context.fillStyle = theme.look.pale;
-        for (const { frequency, displacement } of meta.motions) {
-            if (displacement !== null) {
-                context.beginPath();
-                context.arc(frame.toX(frequency), frame.toY(factor * displacement), 2 * density, 0, 2 * Math.PI);
-                context.fill();
-            }
+/** Measured points, and motions that do not repeat behind them. */
+function paintOverlay(context: CanvasRenderingContext2D, frame: Frame, { meta, state, theme }: Scene): void {
+    const dots = dotsOf(meta, state);
+    for (const layer of [...LAYERS].reverse()) {
+        if (layer !== "chaos") {
+            const places = dots.filter((dot) => dot.layer === layer).map((dot) => [frame.toX(dot.frequency), frame.toY(dot.value)] as const);
+            drawDots(context, layer, places, frame.density, theme.look);
         }
     }
 }

@@ -1,52 +1,73 @@
-// Motions that do not repeat: their stroboscopic points.
+// Motions that do not repeat: their stroboscopic points, and the ranges in which they are chaotic.
 
-import type { Meta } from "./data";
-import { choice, element, panel } from "./dom";
+import { nearestSection } from "./chaos";
+import { readSection, type Meta, type Section } from "./data";
+import { button, choice, element, panel } from "./dom";
 import { digits, hertz } from "./format";
 import { Frame } from "./frame";
 import { ends } from "./line_plot";
 import type { Store } from "./state";
 import type { Theme } from "./theme";
+import { rangeText } from "./tip";
 
-export function sectionPanel(meta: Meta, store: Store, theme: Theme): HTMLElement | null {
-    if (meta.sections.length === 0) {
+/** What a section is, in words. */
+function sectionText(section: Section, carried: number): string {
+    const [exponent, half] = section.exponent ?? [null, null];
+    const judged = section.kind === null ? "" : `, ${section.kind}`;
+    const parts = [`${hertz(section.frequency)}${judged} (${section.origin}).`];
+    parts.push(carried < section.count ? `${carried} of ${section.count} points at phase 0 of the excitation.` : `${carried} points at phase 0 of the excitation.`);
+    if (section.next) {
+        parts.push("A sweep keeps displacements alone: each is drawn over that of the period before.");
+    }
+    if (exponent !== null) {
+        parts.push(`Largest Lyapunov exponent ${digits(exponent, 4)} ± ${digits(half ?? NaN, 2)} 1/s (95 per cent).`);
+    }
+    if (section.dimension !== null) {
+        parts.push(`Kaplan-Yorke dimension ${digits(section.dimension, 3)}.`);
+    }
+    return parts.join(" ");
+}
+
+/** * `open`: opens a section, `show`: shows a range of the diagram. */
+export function sectionPanel(meta: Meta, store: Store, theme: Theme, open: (place: number) => void, show: (range: [number, number]) => void): HTMLElement | null {
+    if (meta.sections.length + meta.chaos.length === 0) {
         return null;
+    }
+    const ranges = meta.chaos.map((range) =>
+        button(rangeText(range), "Show this range and the chaotic motion nearest to its middle", () => {
+            show(range);
+            open(nearestSection(meta, 0.5 * (range[0] + range[1]), range));
+        }));
+    const head = ranges.length === 0 ? [] : [element("div", { class: "controls ranges" }, ["Chaotic ranges", ...ranges])];
+    if (meta.sections.length === 0) {
+        return panel("Chaotic motion", "section", [...head, element("p", { class: "note" }, ["No section of a motion is stored."])]);
     }
     const host = element("div", { class: "plot" });
     const words = element("p", { class: "note" });
-    const options = meta.sections.map((section, k) => [String(k), hertz(section.frequency)] as const);
-    const chosen = choice("Excitation frequency", options, (value) => store.update({ section: Number(value) }));
-    const root = panel("Poincaré section", "section", [element("div", { class: "controls" }, [chosen.root]), host, words]);
-    const points = (): [number, number][] => {
-        const all = meta.sections[store.state.section]?.points ?? [];
-        return all.filter((point): point is [number, number] => point[0] !== null && point[1] !== null).map(([y, v]) => [1e3 * y, v]);
-    };
-    const tell = (): void => {
-        const section = meta.sections[store.state.section];
-        const [exponent, half] = section?.exponent ?? [null, null];
-        const parts = [`${points().length} points at phase 0 of the excitation.`];
-        if (exponent !== null) {
-            parts.push(`Largest Lyapunov exponent ${digits(exponent, 4)} ± ${digits(half ?? NaN, 2)} 1/s (95 per cent).`);
-        }
-        if (section?.dimension !== null && section?.dimension !== undefined) {
-            parts.push(`Kaplan-Yorke dimension ${digits(section.dimension, 3)}.`);
-        }
-        words.textContent = parts.join(" ");
+    const options = meta.sections.map((section, k) => [String(k), `${digits(section.frequency, 7)} Hz${section.kind === null ? "" : `, ${section.kind}`} (${section.origin})`] as const);
+    const chosen = choice("Motion", options, (value) => store.update({ section: Number(value) }));
+    const root = panel("Poincaré section", "section", [...head, element("div", { class: "controls" }, [chosen.root]), host, words]);
+    const section = (): Section | undefined => meta.sections[store.state.section];
+    let points: [number, number][] = [];
+    const read = (): void => {
+        const shown = section();
+        points = shown === undefined ? [] : readSection(shown).map(([x, y]) => [1e3 * x, shown.next ? 1e3 * y : y]);
+        words.textContent = shown === undefined ? "" : sectionText(shown, points.length);
         chosen.show(String(store.state.section));
+        root.dataset["points"] = String(points.length);
     };
     let frame: Frame | null = null;
     // The frame needs its place on the page to know its width.
     queueMicrotask(() => {
         frame = new Frame(host, {
             xLabel: () => "Displacement (mm)",
-            yLabel: () => "Velocity (m/s)",
-            range: () => ({ x: ends([points().map(([x]) => x)]), y: ends([points().map(([, y]) => y)]), logY: false }),
+            yLabel: () => (section()?.next === true ? "One period later (mm)" : "Velocity (m/s)"),
+            range: () => ({ x: ends([points.map(([x]) => x)]), y: ends([points.map(([, y]) => y)]), logY: false }),
             height: () => 300,
             paint: (context, at) => {
                 context.fillStyle = theme.period(1);
-                const found = points();
-                const half = (found.length > 1000 ? 1 : 1.7) * at.density;
-                for (const [x, y] of found) {
+                const half = (points.length > 1000 ? 1 : 1.7) * at.density;
+                for (const [x, y] of points) {
                     context.fillRect(at.toX(x) - half, at.toY(y) - half, 2 * half, 2 * half);
                 }
             },
@@ -54,10 +75,10 @@ export function sectionPanel(meta: Meta, store: Store, theme: Theme): HTMLElemen
     });
     store.listen((_, changed) => {
         if (changed.has("section")) {
-            tell();
+            read();
             frame?.redraw();
         }
     });
-    tell();
+    read();
     return root;
 }

@@ -43,6 +43,7 @@ export class SolutionView {
     show(): void {
         const { selected } = this.store.state;
         this.orbit = null;
+        this.root.classList.toggle("none", selected < 0);
         if (selected < 0) {
             this.numbers.replaceChildren();
             this.which.textContent = this.solutions.count === 0 ? "No periodic solution is stored." : "Click on a solution of the diagram, or press an arrow key.";

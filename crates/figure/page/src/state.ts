@@ -9,6 +9,10 @@ export interface View {
     y: [number, number];
 }
 
+/** What lies over or behind the branches and has a switch in the legend: measured points by their kind, motions that do not repeat, chaotic ranges. */
+export const LAYERS = ["periodic", "aperiodic", "unknown", "irregular", "chaos"] as const;
+export type Layer = (typeof LAYERS)[number];
+
 export interface State {
     quantity: Quantity;
     log: boolean;
@@ -20,7 +24,10 @@ export interface State {
     hidden: ReadonlySet<number>;
     theme: "auto" | "light" | "dark";
     marks: boolean;
-    measured: boolean;
+    /** Layers that are not drawn. */
+    off: ReadonlySet<Layer>;
+    /** Whether measured points stand where the comparison has shifted them. */
+    shifted: boolean;
     /** Section that is shown. */
     section: number;
 }
@@ -55,6 +62,7 @@ export const START: State = {
     hidden: new Set(),
     theme: "auto",
     marks: true,
-    measured: true,
+    off: new Set(),
+    shifted: true,
     section: 0,
 };

@@ -1,4 +1,4 @@
-// Dark and light: the colours in use, as the system or the reader asks for.
+// Dark and light: the colours in use, as the system or the reader asks for. Paper is light, and of its own width.
 
 import type { Look, Meta } from "./data";
 import type { Store } from "./state";
@@ -9,12 +9,15 @@ const print = window.matchMedia("print");
 export class Theme {
     look: Look;
     private readonly listeners: (() => void)[] = [];
+    private prints = false;
 
     constructor(private readonly meta: Meta, private readonly store: Store) {
         this.look = meta.look.light;
         this.choose();
         system.addEventListener("change", () => this.change());
         print.addEventListener("change", () => this.change());
+        window.addEventListener("beforeprint", () => this.print(true));
+        window.addEventListener("afterprint", () => this.print(false));
         store.listen((_, changed) => {
             if (changed.has("theme")) {
                 this.change();
@@ -22,9 +25,14 @@ export class Theme {
         });
     }
 
+    /** Whether the page is laid out for paper: a browser says so before its media are those of print. */
+    get printing(): boolean {
+        return this.prints || print.matches;
+    }
+
     get dark(): boolean {
         const { theme } = this.store.state;
-        return !print.matches && (theme === "dark" || (theme === "auto" && system.matches));
+        return !this.printing && (theme === "dark" || (theme === "auto" && system.matches));
     }
 
     listen(listener: () => void): void {
@@ -36,6 +44,11 @@ export class Theme {
         return colours[(Math.max(1, period) - 1) % colours.length] ?? this.look.ink;
     }
 
+    private print(prints: boolean): void {
+        this.prints = prints;
+        this.change();
+    }
+
     private change(): void {
         this.choose();
         this.listeners.forEach((listener) => listener());
@@ -45,6 +58,7 @@ export class Theme {
         this.look = this.dark ? this.meta.look.dark : this.meta.look.light;
         const root = document.documentElement;
         root.dataset["theme"] = this.dark ? "dark" : "light";
+        root.toggleAttribute("data-printing", this.printing);
         for (const name of ["ink", "pale", "grid", "paper", "panel", "shade"] as const) {
             root.style.setProperty(`--${name}`, this.look[name]);
         }

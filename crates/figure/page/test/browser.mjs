@@ -75,6 +75,7 @@ export class Browser {
     #listeners = [];
     #number = 0;
     #rest = "";
+    #tabs = [];
 
     static async start(path) {
         const browser = new Browser();
@@ -131,6 +132,7 @@ export class Browser {
     async tab(width = 1400, height = 1000, features = []) {
         const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
         const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
+        this.#tabs.push(targetId);
         const tab = new Tab(this, sessionId);
         for (const domain of ["Page", "Runtime", "Log"]) {
             await tab.send(`${domain}.enable`);
@@ -138,6 +140,11 @@ export class Browser {
         await tab.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
         await tab.send("Emulation.setEmulatedMedia", { features });
         return tab;
+    }
+
+    /** Closes every tab. */
+    async closeTabs() {
+        await Promise.all(this.#tabs.splice(0).map((targetId) => this.send("Target.closeTarget", { targetId })));
     }
 
     async close() {

@@ -6,7 +6,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { after, afterEach, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 
 import { launch } from "./browser.mjs";
@@ -30,7 +30,11 @@ if (reason === "") {
 }
 const options = reason === "" ? {} : { skip: reason };
 before(() => pictures !== "" && mkdirSync(pictures, { recursive: true }));
+afterEach(() => browser?.closeTabs()); // what moves in them takes time
 after(() => browser?.close());
+
+/** The page with something of everything. */
+const rich = pages.odd?.find(({ name }) => name === "everything at once");
 
 /** Opens a page in a tab of its own. */
 async function open(page, hash = "", { width = 1400, height = 1000, features = LIGHT } = {}) {
@@ -43,6 +47,8 @@ async function open(page, hash = "", { width = 1400, height = 1000, features = L
 const drawn = (tab) => tab.value(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))`);
 
 const orbitIsOpen = `document.querySelector(".solution").dataset.orbit !== ""`;
+/** Whether an element is seen. */
+const isSeen = (selector) => `(() => { const one = document.querySelector(${JSON.stringify(selector)}); return one !== null && one.getClientRects().length > 0; })()`;
 const motion = `(() => { const c = document.querySelector("#motion canvas"); return c.width + ":" + c.toDataURL(); })()`;
 const meta = `JSON.parse(document.getElementById("meta").textContent)`;
 
@@ -285,6 +291,83 @@ test("a link restores what was shown", options, async () => {
     assert.deepEqual(again.complaints, []);
 });
 
+test("a link that is typed while an earlier change waits for its place in the address is followed", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
+    const { branches } = await tab.value(meta);
+    // The address is written at the end of the same task, before the browser tells of the link.
+    await tab.value(`(() => {
+        hammerbeam.zoom(0.5);
+        location.hash = "#at=${pages.run.first_branch}:60&show=acceleration";
+        [...document.querySelectorAll("button")].find((one) => one.textContent === "Copy link").click();
+    })()`);
+    await tab.until(`hammerbeam.state().quantity === "acceleration"`);
+    const after = await tab.value(`hammerbeam.state()`);
+    assert.deepEqual([after.selected, after.view], [branches[0].first + 60, null]);
+    await tab.until(`location.hash.includes("show=acceleration") && location.hash.includes(":60")`);
+    // The same with the timer of the change: the tab is busy until both it and the link are due.
+    await tab.value(`(() => {
+        hammerbeam.zoom(0.5);
+        setTimeout(() => {
+            location.hash = "#at=${pages.run.first_branch}:70";
+            for (const end = performance.now() + 200; performance.now() < end;);
+        }, 150);
+    })()`);
+    await tab.until(`hammerbeam.state().selected === ${branches[0].first + 70}`);
+    await new Promise((resolve) => setTimeout(resolve, 400));
+    assert.ok((await tab.value(`location.hash`)).includes(`at=${pages.run.first_branch}:70`));
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("what is pressed or scrolled is not printed, what is shown is, on light paper that nothing juts out of", options, async () => {
+    const tab = await open(pages.run, `#at=${pages.run.first_branch}:100&theme=dark`, { features: DARK });
+    await tab.until(orbitIsOpen);
+    const shown = ["h1", ".response canvas", ".legend", "#selected", "#motion canvas", "#multipliers canvas", "#displacement canvas", "#spectrum canvas"];
+    const pressed = [".controls", "#branches", "#bifurcations", "#figures"];
+    const seen = (selectors) => Promise.all(selectors.map((selector) => tab.value(isSeen(selector))));
+    assert.deepEqual(await seen([...shown, ...pressed]), [...shown, ...pressed].map(() => true));
+    const brightness = `getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).reduce((sum, part) => sum + +part, 0)`;
+    // As a browser announces that it prints; Page.printToPDF does it, too, but nothing can be asked then.
+    await tab.value(`window.dispatchEvent(new Event("beforeprint"))`);
+    await drawn(tab);
+    assert.deepEqual(await seen(shown), shown.map(() => true));
+    assert.deepEqual(await seen(pressed), pressed.map(() => false));
+    assert.ok((await tab.value(brightness)) > 700);
+    const juts = await tab.value(`(() => {
+        // 186 mm of A4 between its margins.
+        const right = document.querySelector("#page").getBoundingClientRect().left + (186 / 25.4) * 96;
+        return [...document.querySelectorAll("canvas, img, p, dl, table")].filter((one) => one.getBoundingClientRect().right > right).map((one) => one.outerHTML.slice(0, 80));
+    })()`);
+    assert.deepEqual(juts, []);
+    const cut = await tab.value(`[...document.querySelectorAll(".plot, .response")].filter((host) => host.querySelector("canvas")?.getBoundingClientRect().right > host.getBoundingClientRect().right + 1).length`);
+    assert.equal(cut, 0, "canvases are as wide as their places");
+    await tab.value(`document.querySelector("#figures details").open = true`);
+    await tab.until(`document.querySelector("#figures img")?.naturalWidth > 0`);
+    assert.equal(await tab.value(isSeen("#figures img")), true);
+    await tab.value(`window.dispatchEvent(new Event("afterprint"))`);
+    await drawn(tab);
+    assert.deepEqual(await seen(pressed), pressed.map(() => true));
+    assert.ok((await tab.value(brightness)) < 150);
+    const { data } = await tab.send("Page.printToPDF", { paperWidth: 8.27, paperHeight: 11.69 });
+    const pdf = Buffer.from(data, "base64");
+    if (pictures !== "") {
+        writeFileSync(join(pictures, "page.pdf"), pdf);
+    }
+    assert.deepEqual(tab.complaints, []);
+});
+
+test("printed figures are there, each under its heading, and are drawn when it is opened", options, async () => {
+    const tab = await open(pages.run);
+    const { carried } = (await tab.value(meta)).figures;
+    assert.ok(carried.some(({ name }) => name === "structure") && carried.some(({ name }) => name === "modes"));
+    assert.equal(await tab.value(`document.querySelectorAll("#figures img").length`), 0);
+    await tab.value(`document.querySelectorAll("#figures details").forEach((one) => (one.open = true))`);
+    await tab.until(`document.querySelectorAll("#figures img").length === ${carried.length}`);
+    await tab.until(`[...document.querySelectorAll("#figures img")].every((one) => one.complete)`);
+    const sizes = await tab.value(`[...document.querySelectorAll("#figures img")].map((one) => one.naturalWidth)`);
+    assert.ok(sizes.every((width) => width > 100), `${sizes}`);
+    assert.deepEqual(tab.complaints, []);
+});
+
 test("dark where the system is dark or the reader wants it, light on paper", options, async () => {
     const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`, { features: DARK });
     const brightness = `getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).reduce((sum, part) => sum + +part, 0)`;
@@ -310,9 +393,118 @@ test("a narrow window needs no scrolling sideways", options, async () => {
     const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`, { width: 400, height: 800 });
     await tab.until(orbitIsOpen);
     assert.equal(await tab.value(`document.documentElement.scrollWidth <= innerWidth`), true);
+    const full = await open(rich, "", { width: 400, height: 800 });
+    assert.equal(await full.value(`document.documentElement.scrollWidth <= innerWidth`), true);
     if (pictures !== "") {
         writeFileSync(join(pictures, "page-narrow.png"), await tab.picture());
     }
+});
+
+const INK = "#222222";
+
+/** Moves the pointer to a place of the diagram; what stands beside it then. */
+async function hover(tab, frequency, value) {
+    const [x, y] = await tab.value(`hammerbeam.pointAt(${frequency}, ${value})`);
+    await tab.mouse("mouseMoved", x, y, { button: "none" });
+    return tab.value(`(() => { const tip = document.querySelector(".tip"); return tip.classList.contains("seen") ? tip.innerText : ""; })()`);
+}
+
+/** Whether a place of the diagram has the colour of a mark. */
+const marked = (frequency, value) => `(() => {
+    const canvas = document.querySelector(".response canvas");
+    const box = canvas.getBoundingClientRect();
+    const [x, y] = hammerbeam.pointAt(${frequency}, ${value});
+    const density = canvas.width / box.width;
+    const data = canvas.getContext("2d").getImageData((x - box.left) * density - 4, (y - box.top) * density - 4, 9, 9).data;
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) count += data[k + 3] > 200 && [0, 1, 2].every((channel) => Math.abs(data[k + channel] - parseInt("${INK}".slice(1, 3), 16)) < 60);
+    return count;
+})()`;
+
+test("measured points are drawn by their kind, tell their numbers, and have switches that a link keeps", options, async () => {
+    const tab = await open(rich);
+    await drawn(tab);
+    const [open24, full26] = [await tab.value(marked(24, 4)), await tab.value(marked(26, 6))];
+    assert.ok(open24 > 10 && full26 > 1.4 * open24, `an outline has ${open24} pixels of ink, a full square ${full26}`);
+    const words = await hover(tab, 24, 4);
+    for (const part of ["Measured periodic, period 2 (1/2)", "As measured 3.0000 mm at 22.00000 Hz", "Shifted 4.0000 mm at 24.00000 Hz", "too far", "points.csv"]) {
+        assert.ok(words.includes(part), `${part} in ${words}`);
+    }
+    assert.ok((await hover(tab, 26, 6)).includes("Measured aperiodic"));
+    assert.ok((await tab.value(`document.body.innerText`)).includes("behind a filter"));
+    // A click on one that stands beside a solution means that.
+    assert.ok((await hover(tab, 20.2, 11)).includes("Measured periodic"));
+    await tab.click(...(await tab.value(`hammerbeam.pointAt(20.2, 11)`)));
+    assert.equal(await tab.value(`hammerbeam.state().selected`), 10);
+    // Off: neither drawn nor told; the other kind stays.
+    await tab.value(`document.querySelector("[data-layer=periodic]").click()`);
+    await drawn(tab);
+    assert.equal(await tab.value(`document.querySelector("[data-layer=periodic]").getAttribute("aria-pressed")`), "false");
+    await tab.until(`${marked(24, 4)} === 0`);
+    assert.ok((await tab.value(marked(26, 6))) > 10);
+    assert.ok(!(await hover(tab, 24, 4)).includes("Measured"));
+    // Where they were measured.
+    await tab.value(`(() => { const one = [...document.querySelectorAll("select")].find((two) => two.textContent.includes("as measured")); one.value = "plain"; one.dispatchEvent(new Event("change")); })()`);
+    await drawn(tab);
+    await tab.until(`${marked(26, 6)} === 0`);
+    assert.ok((await tab.value(marked(25, 5))) > 10);
+    assert.ok((await tab.value(marked(13, 9))) > 5, "what has no shifted place has a measured one");
+    await tab.until(`location.hash.includes("off=periodic") && location.hash.includes("shifted=no")`);
+    const again = await open(rich, await tab.value(`location.hash`));
+    assert.deepEqual(await again.value(`[[...hammerbeam.state().off], hammerbeam.state().shifted]`), [["periodic"], false]);
+    // Of another quantity nothing was measured.
+    await again.press("q");
+    await drawn(again);
+    assert.ok(!(await hover(again, 25, 5)).includes("Measured"));
+    assert.deepEqual([...tab.complaints, ...again.complaints], []);
+});
+
+test("a click on a chaotic range and keys open the nearest chaotic motion with its section", options, async () => {
+    const tab = await open(rich);
+    const section = () => tab.value(`hammerbeam.state().section`);
+    const points = () => tab.value(`document.querySelector("#section").dataset.points`);
+    const top = await tab.value(`(() => { const box = document.querySelector(".response .u-over").getBoundingClientRect(); return box.top; })()`);
+    const strip = async (frequency) => {
+        const [x] = await tab.value(`hammerbeam.pointAt(${frequency}, 1)`);
+        await tab.click(x, top + 4);
+    };
+    assert.equal(await section(), 0);
+    await strip(14.2);
+    // That with the velocity, of two of the same frequency; the point that is not finite has no place.
+    assert.deepEqual([await section(), await points()], [1, "200"]);
+    assert.ok((await tab.value(`document.querySelector("#section").innerText`)).includes("0.2500 ± 0.010"));
+    assert.equal(await tab.value(`(() => { const { top, bottom } = document.querySelector("#section").getBoundingClientRect(); return bottom > 0 && top < innerHeight; })()`), true);
+    await tab.value(`scrollTo(0, 0)`);
+    await strip(28);
+    assert.deepEqual([await section(), await points()], [3, "50"]);
+    await tab.value(`scrollTo(0, 0)`);
+    // A free place within a range, and what is told there.
+    assert.ok((await hover(tab, 15, 18)).includes("Chaotic motion 14.000 to 16.000 Hz"));
+    await tab.click(...(await tab.value(`hammerbeam.pointAt(15, 18)`)));
+    assert.equal(await section(), 1);
+    for (const [key, place] of [[".", 2], [".", 3], [",", 2], [",", 1], [",", 3]]) {
+        await tab.press(key);
+        assert.equal(await section(), place);
+    }
+    await tab.press(",");
+    const axis = await tab.value(`document.querySelector("#section").innerText`);
+    assert.ok(axis.includes("sweep 2, up") && axis.includes("period before"), axis);
+    // The motion of the sweep itself, and a solution, which a range does not hide.
+    await tab.value(`scrollTo(0, 0)`);
+    assert.ok((await hover(tab, 15, 12)).includes("chaotic"));
+    await tab.click(...(await tab.value(`hammerbeam.pointAt(15, 6)`)));
+    assert.equal(await tab.value(`hammerbeam.state().selected`), 5);
+    // A range whose switch is off is no place to click on.
+    await tab.value(`document.querySelector("[data-layer=chaos]").click()`);
+    await drawn(tab);
+    await strip(14.2);
+    assert.equal(await section(), 2);
+    // Its button shows it.
+    await tab.value(`document.querySelector("#section .ranges button").click()`);
+    const { x } = await tab.value(`hammerbeam.state().view`);
+    assert.ok(x[0] > 13 && x[0] < 14 && x[1] > 16 && x[1] < 17, `${x}`);
+    assert.equal(await section(), 1);
+    assert.deepEqual(tab.complaints, []);
 });
 
 for (const page of pages.odd ?? []) {

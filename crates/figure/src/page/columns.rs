@@ -5,9 +5,6 @@
 
 use super::{PageBranch, PageSolution};
 
-/// Length of the columns for one solution (bytes).
-pub(super) const BYTES_OF_A_SOLUTION: usize = 36;
-
 /// The columns of all branches.
 pub(super) fn pack(branches: &[PageBranch]) -> Vec<u8> {
     let solutions = || branches.iter().flat_map(|branch| &branch.solutions);
@@ -59,7 +56,7 @@ mod tests {
         };
         let branch = PageBranch { solutions: vec![solution; 2], ..PageBranch::default() };
         let bytes = pack(&[branch]);
-        assert_eq!(bytes.len(), 2 * BYTES_OF_A_SOLUTION);
+        assert_eq!(bytes.len(), 2 * 36);
         assert_eq!(bytes[8..16], 30.000_000_1_f64.to_le_bytes());
         let single = |column: usize| {
             let at = 16 + 8 * column;

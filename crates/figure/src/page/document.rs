@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{Page, PageStop, PageStructure, columns};
-use crate::{MotionKind, base64, style};
+use super::{Page, PageStop, PageStructure, columns, measured, motions};
+use crate::{base64, style};
 
 const SCRIPT: &str = include_str!("../../page/dist/page.js");
 const LOOK: &str = include_str!("../../page/dist/page.css");
@@ -16,6 +16,7 @@ pub(super) fn html(page: &Page) -> String {
     let solutions = base64::encode(&columns::pack(&page.branches));
     let multipliers = base64::encode(page.multipliers.bytes());
     let orbits = base64::encode(&page.orbits.bytes());
+    let figures = in_script(&page.figures.documents().to_string());
     [
         "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
@@ -31,6 +32,7 @@ pub(super) fn html(page: &Page) -> String {
         &format!("<script id=\"solutions\" type=\"text/plain\">{solutions}</script>\n"),
         &format!("<script id=\"floquet\" type=\"text/plain\">{multipliers}</script>\n"),
         &format!("<script id=\"orbits\" type=\"text/plain\">{orbits}</script>\n"),
+        &format!("<script id=\"drawings\" type=\"application/json\">{figures}</script>\n"),
         "<script>\n",
         SCRIPT,
         "</script>\n</body>\n</html>\n",
@@ -53,20 +55,6 @@ fn meta(page: &Page) -> Value {
         })
     });
     let branches: Vec<Value> = branches.collect();
-    let motions = page.motions.iter().map(|motion| {
-        json!({ "frequency": motion.frequency_hz, "displacement": motion.displacement_m, "kind": kind(motion.kind) })
-    });
-    let sections = page.sections.iter().map(|section| {
-        json!({
-            "frequency": section.frequency_hz,
-            "exponent": section.exponent_per_s,
-            "dimension": section.dimension,
-            "points": section.points,
-        })
-    });
-    let measured = page.measured.iter().map(|series| {
-        json!({ "name": series.name, "displacement": series.displacement, "acceleration": series.acceleration })
-    });
     json!({
         "title": page.title,
         "point": page.point,
@@ -80,10 +68,11 @@ fn meta(page: &Page) -> Value {
         },
         "multipliers": { "solutions": page.multipliers.count(), "most": page.multipliers.most() },
         "structure": page.structure.as_ref().map(structure),
-        "motions": motions.collect::<Vec<_>>(),
+        "motions": page.motions.iter().map(motions::motion).collect::<Vec<_>>(),
         "chaos": page.chaotic_ranges_hz,
-        "sections": sections.collect::<Vec<_>>(),
-        "measured": measured.collect::<Vec<_>>(),
+        "sections": motions::sections(&page.sections),
+        "measured": page.measured.iter().map(measured::series).collect::<Vec<_>>(),
+        "figures": page.figures.list(),
         "look": { "light": style::page_colours(false), "dark": style::page_colours(true) },
     })
 }
@@ -112,15 +101,6 @@ fn stop(stop: &PageStop) -> Value {
         "rides": stop.rides,
         "levels": levels.collect::<Vec<_>>(),
     })
-}
-
-fn kind(kind: MotionKind) -> &'static str {
-    match kind {
-        MotionKind::Periodic { .. } => "periodic",
-        MotionKind::QuasiPeriodic => "quasi-periodic",
-        MotionKind::Chaotic => "chaotic",
-        MotionKind::Doubtful => "doubtful",
-    }
 }
 
 /// Text between tags.

@@ -36,11 +36,6 @@ impl MultiplierRecords {
         self.most = self.most.max(multipliers.len());
     }
 
-    /// Length of all records (bytes).
-    pub(super) fn length(&self) -> usize {
-        self.bytes.len()
-    }
-
     /// Number of solutions.
     #[must_use]
     pub fn count(&self) -> usize {

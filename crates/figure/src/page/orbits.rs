@@ -14,22 +14,11 @@
 
 use std::collections::BTreeMap;
 
-use super::{columns::BYTES_OF_A_SOLUTION, multipliers::MultiplierRecords};
-
 /// Steps in the range of a series.
 const STEPS: f64 = 4_095.0;
 
-/// Length of solutions, multipliers and orbits together before they are text (bytes): a page of 14.5 MB.
-const MOST_BYTES: usize = 10_800_000;
-/// What orbits get at least, however many solutions there are (bytes).
-const LEAST_ORBIT_BYTES: usize = 2_000_000;
-
-/// Length of the records of orbits (bytes) for which a page of so many solutions with these multipliers has room.
-#[must_use]
-pub fn room_for_orbits(solutions: usize, multipliers: &MultiplierRecords) -> usize {
-    let others = BYTES_OF_A_SOLUTION * solutions + multipliers.length();
-    MOST_BYTES.saturating_sub(others).max(LEAST_ORBIT_BYTES)
-}
+/// What orbits get at least, however much else there is (bytes).
+pub(super) const LEAST_BYTES: usize = 2_000_000;
 
 /// An orbit over its period, from phase 0 of the excitation on, the end of the period left out. All lengths at most 65 535.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -11,7 +11,7 @@ use hammerbeam_study::{
 };
 
 use super::Compared;
-use crate::figures::Drawn;
+use crate::figures::{Album, Drawn};
 
 /// Draws a comparison, if its quantity has a response diagram.
 pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn<'_>) {

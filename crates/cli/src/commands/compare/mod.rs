@@ -4,6 +4,7 @@ mod document;
 mod figure;
 mod measured;
 mod records;
+mod stored;
 mod table;
 mod text;
 
@@ -15,6 +16,7 @@ use hammerbeam_study::{
 
 pub use document::comparison_document;
 pub use figure::draw;
+pub use stored::{StoredComparison, StoredPoint, stored};
 pub use table::write_points;
 
 use crate::{
@@ -32,6 +34,8 @@ const SAMPLES: usize = 4096;
 pub struct Compared {
     pub curves: Curves,
     pub comparison: Comparison,
+    /// Cut-off of the filter that the curves are behind (Hz), if there is one.
+    pub low_pass_hz: Option<f64>,
 }
 
 pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
@@ -55,13 +59,14 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let observation = Observation { quantity, filter, spacing_hz, samples: SAMPLES };
         let curves = curves(&branches, &model, &observation)?;
         let comparison = compare(&measured.points, &curves, quantity, &settings(options))?;
-        compared.push(Compared { curves, comparison });
+        let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
+        compared.push(Compared { curves, comparison, low_pass_hz });
     }
     let folder = options.out.clone().unwrap_or_else(|| options.results.join("compare"));
     let mut drawn = Drawn::into(&folder)?;
     for one in &compared {
         let name = format!("points_{}.csv", one.comparison.quantity.word());
-        write_points(&folder, &name, &one.comparison)?;
+        write_points(&folder, &name, (&one.comparison, one.low_pass_hz))?;
         drawn.files.push(name);
         let name = format!("compare_{}", one.comparison.quantity.word());
         draw(&file, one, &name, &mut drawn);

@@ -12,23 +12,29 @@ use hammerbeam_study::{
 use crate::failure::Failure;
 
 /// Writes every point with its branch.
-pub fn write_points(folder: &Path, name: &str, comparison: &Comparison) -> Result<(), Failure> {
+///
+/// * `low_pass_hz`: cut-off of the filter that the branches are behind, if there is one.
+pub fn write_points(
+    folder: &Path,
+    name: &str,
+    (comparison, low_pass_hz): (&Comparison, Option<f64>),
+) -> Result<(), Failure> {
     let unit = comparison.quantity.key();
     let value = |what: &str| format!("{what}_{}_{unit}", comparison.quantity.word());
     let mut titles = header(&["origin", "kind", "period_multiple", "frequency_hz", "shifted_frequency_hz"]);
     titles.extend([value("measured"), value("shifted")]);
     titles.extend(header(&["verdict", "branch", "branch_period_multiple", "branch_stable", "row"]));
     titles.push(value("branch"));
-    titles.extend(header(&["log_difference", "nearest_stable_hz", "stable_periods_there"]));
+    titles.extend(header(&["log_difference", "nearest_stable_hz", "stable_periods_there", "low_pass_hz"]));
     let mut table = Table::begin(folder, name, &titles)?;
     for point in &comparison.points {
-        table.row(&row(point))?;
+        table.row(&row(point, low_pass_hz))?;
     }
     table.finish()?;
     Ok(())
 }
 
-fn row(outcome: &PointOutcome) -> Vec<String> {
+fn row(outcome: &PointOutcome, low_pass_hz: Option<f64>) -> Vec<String> {
     let optional = |value: Option<String>| value.unwrap_or_default();
     let hit = outcome.nearest.map(|nearest| nearest.hit);
     let nearest_hz = match outcome.verdict {
@@ -53,6 +59,7 @@ fn row(outcome: &PointOutcome) -> Vec<String> {
         number(outcome.nearest.map(|nearest| nearest.difference)),
         number(nearest_hz),
         periods.join("+"),
+        number(low_pass_hz),
     ]
 }
 

@@ -24,6 +24,10 @@ pub fn text(
     compared.iter().for_each(|one| lines.extend(comparison(&one.comparison)));
     lines.extend(measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
     lines.push(format!("in {}: {}", folder.display(), files.join(", ")));
+    if options.out.is_none() {
+        let results = options.results.display();
+        lines.push(format!("hammerbeam figure {results} --kind page lays these points over its page"));
+    }
     lines.join("\n")
 }
 

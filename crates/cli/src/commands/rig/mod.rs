@@ -45,6 +45,13 @@ struct Found {
     solutions: u64,
 }
 
+impl Found {
+    /// Cut-off of the filter that the branches of a comparison are behind (Hz).
+    fn low_pass_hz(&self, name: &str) -> Option<f64> {
+        self.filters.first().filter(|_| name == "filtered_acceleration").map(|filter| filter.cut_off_hz)
+    }
+}
+
 pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let Some(rig) = file.study.rig.clone() else {
@@ -92,7 +99,11 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
     tables::write(&options.out, &found, &mut drawn.files)?;
     for (name, curves, comparison) in &found.comparisons {
-        let compared = Compared { curves: curves.clone(), comparison: comparison.clone() };
+        let compared = Compared {
+            curves: curves.clone(),
+            comparison: comparison.clone(),
+            low_pass_hz: found.low_pass_hz(name),
+        };
         draw(&found.file, &compared, name, &mut drawn);
     }
     let document = document::document(&found);

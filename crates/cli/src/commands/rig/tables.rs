@@ -22,7 +22,7 @@ pub fn write(folder: &Path, found: &Found, files: &mut Vec<String>) -> Result<()
         } else {
             format!("points_{name}.csv")
         };
-        write_points(folder, &file, comparison)?;
+        write_points(folder, &file, (comparison, found.low_pass_hz(name)))?;
         files.push(file);
     }
     for (index, signal) in found.signals.iter().enumerate() {

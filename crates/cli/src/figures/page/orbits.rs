@@ -14,7 +14,7 @@ use hammerbeam_study::{Model, Store, StoreError, store::BranchRecord};
 use samples::Instant;
 use spectrum::spectrum;
 
-use super::{Drawn, Placed, choice};
+use super::{Album, Drawn, Placed, choice};
 use crate::{initial, interrupt::Interrupt, ticker::Ticker};
 
 /// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do not depend on the number of threads.

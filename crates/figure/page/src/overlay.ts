@@ -1,0 +1,50 @@
+// What lies over the branches: measured points, and the largest displacements of motions that do not repeat.
+
+import type { Measured, MeasuredPoint, Meta, Motion } from "./data";
+import { digits, hertz, MEASURES, periodName } from "./format";
+import type { Layer, State } from "./state";
+
+/** A point over the branches, in the unit of the axis. */
+export interface Dot {
+    layer: Exclude<Layer, "chaos">;
+    frequency: number;
+    value: number;
+    of: { series: Measured; point: MeasuredPoint } | { motion: Motion };
+}
+
+/** The points that are drawn. */
+export function dotsOf(meta: Meta, { quantity, shifted, off }: State): Dot[] {
+    const { factor } = MEASURES[quantity];
+    const dots: Dot[] = [];
+    const add = (layer: Dot["layer"], [frequency, value]: readonly [number | null, number | null], of: Dot["of"]): void => {
+        if (frequency !== null && value !== null && !off.has(layer)) {
+            dots.push({ layer, frequency, value: factor * value, of });
+        }
+    };
+    if (quantity === "displacement") {
+        meta.motions.forEach((motion) => add("irregular", [motion.frequency, motion.displacement], { motion }));
+    }
+    for (const series of meta.measured.filter((one) => one.quantity === quantity)) {
+        series.points.forEach((point) => add(point.motion, shifted ? point.shifted : point.measured, { series, point }));
+    }
+    return dots;
+}
+
+/** The numbers of a point in words. */
+export function dotText(dot: Dot, { quantity }: State): [string, string][] {
+    const { factor, unit, name } = MEASURES[quantity];
+    if ("motion" in dot.of) {
+        return [["Motion of a sweep", dot.of.motion.kind], ["Frequency", hertz(dot.frequency)], [`Max. ${name}`, `${digits(dot.value, 6)} ${unit}`]];
+    }
+    const { series, point } = dot.of;
+    const place = ([frequency, value]: readonly [number | null, number | null]): string =>
+        `${digits(factor * (value ?? NaN), 5)} ${unit} at ${digits(frequency ?? NaN, 7)} Hz`;
+    const kind = point.motion === "unknown" ? "kind not known" : point.motion;
+    return [
+        ["Measured", `${kind}${point.period === null ? "" : `, ${periodName(point.period)}`}`],
+        ["As measured", place(point.measured)],
+        ["Shifted", place(point.shifted)],
+        ["Compared", point.verdict.replaceAll("-", " ")],
+        ["From", `${series.name}: ${point.origin}`],
+    ];
+}
