@@ -141,7 +141,7 @@ fn zero_is_a_gap_on_a_logarithmic_axis() {
         |settings| diagram(&[(1, &points)]).draw_with(&[Quantity::Displacement], settings).unwrap().svg();
     let lines = |svg: &str| svg.matches("<path d=\"M").count();
     let (gap, no_gap) = (draw(&settings), draw(&ResponseSettings::default()));
-    let data = |svg: &str| svg.split("stroke=\"#14356b\"").last().map(lines);
+    let data = |svg: &str| svg.split("stroke=\"#262d72\"").last().map(lines);
     assert_eq!((data(&gap), data(&no_gap)), (Some(2), Some(1)));
 }
 
