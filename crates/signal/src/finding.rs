@@ -19,6 +19,11 @@ pub enum Finding {
     /// A sampling rate was given that is not that of the times in the file.
     #[error("the sampling rate given is {given_hz} Hz; by the times in the file it is {found_hz} Hz")]
     RateDisagrees { given_hz: f64, found_hz: f64 },
+    /// The file names a sampling rate that is not that of its times.
+    #[error(
+        "the file names a sampling rate of {named_hz} Hz; by the times in it, which are taken, it is {found_hz} Hz"
+    )]
+    NamedRateDisagrees { named_hz: f64, found_hz: f64 },
     /// There is no header; a column that rises evenly is taken for the time.
     #[error("column 1 has no title and rises evenly: it is taken for the time in seconds")]
     TimeAssumed,
@@ -66,6 +71,7 @@ impl Finding {
             Self::Constant { .. } => "constant",
             Self::Jitter { .. } => "jitter",
             Self::RateDisagrees { .. } => "rate-disagrees",
+            Self::NamedRateDisagrees { .. } => "named-rate-disagrees",
             Self::TimeAssumed => "time-assumed",
             Self::TimeUnitAssumed { .. } => "time-unit-assumed",
             Self::UnknownUnit { .. } => "unknown-unit",

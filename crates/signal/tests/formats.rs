@@ -260,6 +260,34 @@ fn two_sampling_rates_in_one_file_are_refused() {
     assert_eq!(refusal(&bytes), ReadError::TwoRates { first: 1024.0, second: 512.0 });
 }
 
+/// Times at 1024 Hz beside a rate of 512 Hz: the times are taken, and that is told.
+#[test]
+fn rate_beside_other_times_is_told() {
+    let times: Vec<f64> = (0..SAMPLES).map(|k| k as f64 / RATE).collect();
+    let samples: Vec<f64> = (0..SAMPLES).map(a).collect();
+    let arrays = [("fs.npy", npy(&[512.0])), ("t.npy", npy(&times)), ("a.npy", npy(&samples))];
+    let record = parse(&archive(&arrays.map(|(name, data)| (name.to_owned(), data)))).unwrap();
+    let record = record.judge(&Terms::default()).unwrap();
+    let told = |finding: &Finding| match finding {
+        Finding::NamedRateDisagrees { named_hz, found_hz } => {
+            *named_hz == 512.0 && (found_hz - 1024.0).abs() < 1e-6
+        }
+        _ => false,
+    };
+    assert!(record.findings.iter().any(told), "{:?}", record.findings);
+    assert!((record.sampling_rate_hz - 1024.0).abs() < 1e-6);
+}
+
+/// A vector of double precision.
+fn npy(values: &[f64]) -> Vec<u8> {
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}", values.len());
+    let mut data = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    data.extend(header.bytes());
+    data.resize(128, b' ');
+    data.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    data
+}
+
 /// A stored archive. Checksums by their definition, bit by bit.
 fn archive(files: &[(String, Vec<u8>)]) -> Vec<u8> {
     let crc = |data: &[u8]| {

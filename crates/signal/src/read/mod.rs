@@ -11,6 +11,7 @@
 //! | `npy.rs`, `npz.rs` | NumPy arrays and archives |
 //! | `mat/` | MATLAB, level 5 |
 //! | `arrays.rs` | which of named arrays are channels, time, sampling rate: shared by NumPy and MATLAB |
+//! | `time.rs` | which of several columns is the time; a rate named beside it |
 
 mod arrays;
 mod bytes;
@@ -18,6 +19,7 @@ pub mod csv;
 mod mat;
 mod npy;
 mod npz;
+mod time;
 mod uff;
 mod wav;
 
@@ -97,7 +99,7 @@ pub enum ReadError {
     #[error("line {line}, column {column}: \"{text}\" is not a number")]
     NotANumber { line: usize, column: usize, text: String },
     /// Rows of different length.
-    #[error("line {line} has {found} values, the lines before it have {expected}")]
+    #[error("line {line} has {found} values, the other rows have {expected}")]
     RaggedRow { line: usize, found: usize, expected: usize },
     /// The file ends too early.
     #[error("the file ends early: {what}")]
