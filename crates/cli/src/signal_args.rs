@@ -201,7 +201,7 @@ pub struct ExponentOptions {
     #[arg(long, value_name = "SAMPLES")]
     pub theiler_window: Option<u32>,
 
-    /// Samples for which neighbours are followed [default: seven mean periods]
+    /// Samples for which neighbours are followed [default: seven mean periods, doubled until distances grow no more; 25 samples of a map]
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(4..))]
     pub steps: Option<u32>,
 
