@@ -28,7 +28,7 @@ pub struct InputOptions {
     /// Time series: CSV, universal file (dataset 58), WAV, NumPy (.npy, .npz) or MATLAB (.mat up to -v7)
     pub file: PathBuf,
 
-    /// Channel, by its name or its number from 1 on; may be given several times [default: filter takes all, other commands the first]
+    /// Channel, by its name or its number from 1 on; may be given several times [default: filter takes all, other commands the first displacement, velocity, acceleration or force]
     #[arg(long, value_name = "NAME")]
     pub channel: Vec<String>,
 

@@ -1,6 +1,6 @@
 //! Flat tops: does a channel stand at the end of its range because the instrument could not follow?
 //!
-//! With `q` the smallest step between successive samples that differ (the resolution), a smooth maximum
+//! With `q` the smallest difference of two values in the record (the resolution), a smooth maximum
 //! `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a step of about `c n/2 = 4 q/n`,
 //! at most `4/3 q` for three samples. So a run of three or more equal samples at the largest or smallest value that is entered or left with a
 //! step of more than `2 q` is no smooth maximum: it is counted as clipped. Standing at exactly zero does not count: a contact force does.
@@ -21,11 +21,7 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
         findings.push(Finding::Constant { channel: channel.name.clone() });
         return;
     }
-    let resolution = samples
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|step| *step > 0.0)
-        .fold(f64::INFINITY, f64::min);
+    let resolution = resolution(samples);
     for level in [high, low].into_iter().filter(|level| *level != 0.0) {
         let runs = flat_tops(samples, level, resolution);
         let Some(&(first, _)) = runs.first() else { continue };
@@ -37,6 +33,14 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
             first,
         });
     }
+}
+
+/// Smallest difference of two values, whenever they were taken: successive samples of a fast signal differ by more.
+fn resolution(samples: &[f64]) -> f64 {
+    let mut values = samples.to_vec();
+    values.sort_unstable_by(f64::total_cmp);
+    let differences = values.windows(2).map(|pair| pair[1] - pair[0]);
+    differences.filter(|difference| *difference > 0.0).fold(f64::INFINITY, f64::min)
 }
 
 /// Start and length of each flat top at a level.

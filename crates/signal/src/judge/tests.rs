@@ -147,6 +147,28 @@ fn clipped_channel_is_told_and_a_quantised_sine_is_not() {
     assert_eq!(raw(even_times(2000), quantised).judge(&Terms::default()).unwrap().findings, []);
 }
 
+/// 20 Hz at 1 kHz: no two successive samples differ by little, whole periods repeat.
+#[test]
+fn clean_sine_is_clipped_wherever_the_range_ends() {
+    for level in [1.0, 2.0, 2.9] {
+        let clipped: Vec<f64> = (0..2000)
+            .map(|k| (3.0 * (0.04 * std::f64::consts::PI * f64::from(k)).sin()).clamp(-level, level))
+            .collect();
+        let findings = raw(even_times(2000), clipped).judge(&Terms::default()).unwrap().findings;
+        let levels: Vec<f64> = findings
+            .iter()
+            .filter_map(|finding| match finding {
+                Finding::Clipped { level, places: 40, .. } => Some(*level),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(levels, [level, -level], "{findings:?}");
+    }
+    // Not clipped, whole periods, with a sample on each maximum.
+    let whole: Vec<f64> = (0..2000).map(|k| (0.04 * std::f64::consts::PI * f64::from(k)).cos()).collect();
+    assert_eq!(raw(even_times(2000), whole).judge(&Terms::default()).unwrap().findings, []);
+}
+
 #[test]
 fn contact_force_is_not_clipped_at_zero() {
     let force: Vec<f64> = sine(200).iter().map(|value| value.max(0.0)).collect();

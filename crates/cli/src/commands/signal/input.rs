@@ -44,10 +44,23 @@ pub fn open(options: &InputOptions, reference: Option<&str>) -> Result<Input, Fa
     let reference = reference.as_ref().map(index).transpose()?;
     let channel = match chosen.first() {
         Some(name) => index(name)?,
-        // The first that is not the reference.
-        None => (0..record.channels.len()).find(|index| Some(*index) != reference).unwrap_or(0),
+        None => usual_channel(&record.channels, reference),
     };
     Ok(Input { record, channel, reference, format, file: options.file.display().to_string() })
+}
+
+/// The first channel of a motion or a force; if no unit says so, the first that is not the reference.
+fn usual_channel(channels: &[Channel], reference: Option<usize>) -> usize {
+    let free = |index: &usize| Some(*index) != reference;
+    let moves = |index: &usize| {
+        let quantity = channels[*index].quantity;
+        matches!(
+            quantity,
+            Quantity::Displacement | Quantity::Velocity | Quantity::Acceleration | Quantity::Force
+        )
+    };
+    let mut indices = (0..channels.len()).filter(free);
+    indices.clone().find(moves).or_else(|| indices.next()).unwrap_or(0)
 }
 
 fn repairs(allowed: &[Repair]) -> Repairs {
