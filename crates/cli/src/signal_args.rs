@@ -18,6 +18,8 @@ pub enum SignalCommand {
     Classify(ClassifyOptions),
     /// Compute the largest Lyapunov exponent of a channel
     Lyapunov(ExponentOptions),
+    /// Compute the envelope of a channel
+    Envelope(EnvelopeOptions),
     /// Put a computed motion through a measuring chain: sensor, filter, sampling, noise
     Chain(ChainOptions),
 }
@@ -35,6 +37,10 @@ pub struct InputOptions {
     /// Sampling rate; times in the file are not used then
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub rate: Option<f64>,
+
+    /// Column that is the time, by its name or number [default: one that is named so, or in a unit of time]
+    #[arg(long, value_name = "NAME", conflicts_with = "rate")]
+    pub time: Option<String>,
 
     /// Time of the first sample to take
     #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
@@ -228,6 +234,20 @@ pub enum Method {
     Rosenstein,
     /// Kantz 1994
     Kantz,
+}
+
+#[derive(Debug, Args)]
+pub struct EnvelopeOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+
+    /// The filter before it, forwards and backwards
+    #[command(flatten)]
+    pub band: BandOptions,
+
+    /// Folder; envelope.csv is written into it
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

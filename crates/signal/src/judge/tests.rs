@@ -102,6 +102,23 @@ fn gaps_are_refused_or_filled() {
     assert!(matches!(record.findings[..], [Finding::GapsFilled { count: 1, .. }]));
 }
 
+/// Random times, off by a fifth of a step: steps of more than 1.5 among them are no gaps.
+#[test]
+fn jitter_is_uneven_sampling_and_not_gaps() {
+    let mut random = crate::random::Random::new(5);
+    let mut times: Vec<f64> = (0..500).map(|k| (f64::from(k) + 0.2 * random.normal()) / 1000.0).collect();
+    times.sort_by(f64::total_cmp);
+    let long = times.windows(2).filter(|pair| pair[1] - pair[0] > 1.5e-3).count();
+    assert!((5..50).contains(&long), "{long}");
+    let samples: Vec<f64> = times.iter().map(|t| (60.0 * t).sin()).collect();
+    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    assert!(matches!(refused, RecordError::Uneven { .. }), "{refused}");
+    let terms = allowing(Repairs { uneven: true, ..Repairs::default() });
+    let record = raw(times, samples).judge(&terms).unwrap();
+    assert_eq!(record.len(), 500);
+    assert!(matches!(record.findings[..], [Finding::Evened { .. }]), "{:?}", record.findings);
+}
+
 #[test]
 fn missing_samples_are_refused_or_interpolated() {
     let mut samples: Vec<f64> = (0..50).map(f64::from).collect();

@@ -35,8 +35,10 @@ pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<
     let step = step_of(&numbers, &mut findings)?;
     let mut channels: Vec<RawChannel> = arrays.iter().flat_map(|array| split(array, &mut findings)).collect();
     unique(&mut channels);
+    let mut time_name = None;
     let axis = match (take_time(&mut channels, step.is_none(), &mut findings), step) {
-        (Some(times), _) => {
+        (Some((name, times)), _) => {
+            time_name = Some(name);
             compare_rates(step.map(|step| 1.0 / step), &times, &mut findings);
             Axis::Times(times)
         }
@@ -46,7 +48,7 @@ pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<
     if channels.is_empty() {
         return Err(ReadError::NoNumbers);
     }
-    Ok(RawRecord::single(axis, channels, findings))
+    Ok(RawRecord { time_name, ..RawRecord::single(axis, channels, findings) })
 }
 
 /// The step that single numbers name [s].
@@ -107,8 +109,12 @@ fn split(array: &Array, findings: &mut Vec<Finding>) -> Vec<RawChannel> {
     }
 }
 
-/// Takes the time [s] out of the channels.
-fn take_time(channels: &mut Vec<RawChannel>, search: bool, findings: &mut Vec<Finding>) -> Option<Vec<f64>> {
+/// Takes the time [s] out of the channels, with its name.
+fn take_time(
+    channels: &mut Vec<RawChannel>,
+    search: bool,
+    findings: &mut Vec<Finding>,
+) -> Option<(String, Vec<f64>)> {
     let known = |channel: &RawChannel| {
         channel.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time)
     };
@@ -121,13 +127,14 @@ fn take_time(channels: &mut Vec<RawChannel>, search: bool, findings: &mut Vec<Fi
         let channel = channels.remove(index);
         let factor = known(&channel).map_or(1.0, |unit| unit.factor);
         if known(&channel).is_none() {
-            findings.push(Finding::TimeUnitAssumed { name: channel.name });
+            findings.push(Finding::TimeUnitAssumed { name: channel.name.clone() });
         }
-        return Some(channel.samples.iter().map(|value| value * factor).collect());
+        return Some((channel.name, channel.samples.iter().map(|value| value * factor).collect()));
     }
     if search && channels.len() > 1 && rises_evenly(&channels[0].samples) {
         findings.push(Finding::TimeAssumed);
-        return Some(channels.remove(0).samples);
+        let RawChannel { name, samples, .. } = channels.remove(0);
+        return Some((name, samples));
     }
     None
 }

@@ -61,17 +61,15 @@ impl Format {
     /// Told by the first bytes; whatever is no other format is taken for separated values.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
-        let first_line =
-            bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty());
         if bytes.starts_with(b"\x93NUMPY") {
             Self::Npy
         } else if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
             Self::Npz
         } else if bytes.starts_with(b"RIFF") || bytes.starts_with(b"RIFX") {
             Self::Wav
-        } else if bytes.starts_with(b"MATLAB") || bytes.starts_with(b"\x89HDF") {
+        } else if mat::begins(bytes) {
             Self::Matlab
-        } else if first_line == Some(b"-1") {
+        } else if uff::begins(bytes) {
             Self::Universal
         } else {
             Self::Csv

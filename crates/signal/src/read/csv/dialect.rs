@@ -55,12 +55,32 @@ impl Dialect {
         numbers.then_some(fields.len())
     }
 
+    /// Whether rows of two columns, separated by commas, could as well be one column of numbers with decimal commas.
+    pub(super) fn may_be_decimal(self, rows: &[Line]) -> bool {
+        self.separator == Some(',') && rows.iter().all(|(_, line)| halves(line).is_some())
+    }
+
+    /// Whether they must be: no whole number is written as 007.
+    fn is_decimal(self, rows: &[Line]) -> bool {
+        self.may_be_decimal(rows)
+            && rows.iter().any(|(_, line)| {
+                halves(line).is_some_and(|[_, decimals]| decimals.len() > 1 && decimals.starts_with('0'))
+            })
+    }
+
     /// Whether a line has the titles of so many columns: it is no row of numbers in any dialect, and has no commas over a single column.
     fn has_titles(self, line: &str, width: usize) -> bool {
         self.split(line).len() == width
             && !(width == 1 && line.contains(','))
             && DIALECTS.iter().all(|dialect| dialect.width_of_row(line).is_none())
     }
+}
+
+/// Digits before and behind the comma of a line that has no more.
+fn halves(line: &str) -> Option<[&str; 2]> {
+    let (whole, decimals) = line.trim().split_once(',')?;
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (digits(whole.strip_prefix('-').unwrap_or(whole)) && digits(decimals)).then_some([whole, decimals])
 }
 
 /// Fields that may stand in quotation marks; a mark within is doubled.
@@ -107,6 +127,9 @@ pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize, usize)> {
         let above = first.checked_sub(1).map(|before| looked_at[before].1);
         // Commas in the line above separate: as decimal signs of a single column they would hide that a row of two is too short.
         if width == 1 && dialect.decimal_comma && above.is_some_and(|above| above.contains(',')) {
+            continue;
+        }
+        if above.is_none() && dialect.is_decimal(looked_at) {
             continue;
         }
         let titles = above.is_some_and(|above| dialect.has_titles(above, width));

@@ -63,7 +63,11 @@ struct Column {
 /// See [`ReadError`].
 pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut findings = Vec::new();
-    let text = decode(bytes, &mut findings)?;
+    let mut text = decode(bytes, &mut findings)?;
+    // As programs of the old Macintosh end lines.
+    if !text.contains('\n') {
+        text = text.replace('\r', "\n");
+    }
     let lines: Vec<Line> = text.lines().enumerate().map(|(k, line)| (k + 1, line)).collect();
     let rows: Vec<Line> =
         lines.iter().copied().filter(|(_, line)| !line.trim().is_empty() && !is_comment(line)).collect();
@@ -79,6 +83,9 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         values.into_iter().zip(header.titles).map(|(values, (name, unit))| Column { name, unit, values });
     // A separator at the end of each line makes a column of nothing.
     let columns: Vec<Column> = columns.filter(|column| !column.values.is_empty()).collect();
+    if !titled && !rises_evenly(&columns[0].values) && dialect.may_be_decimal(&rows[first..]) {
+        findings.push(Finding::CommasSeparate);
+    }
     arrange(columns, titled, header.rate_hz, findings)
 }
 
@@ -163,9 +170,11 @@ fn arrange(
     let kinds: Vec<(&str, Option<&str>)> =
         columns.iter().map(|column| (column.name.as_str(), column.unit.as_deref())).collect();
     let assumed = !titled && columns.len() > 1 && rises_evenly(&columns[0].values);
+    let mut time_name = None;
     let axis = match time_column(&kinds).or(assumed.then_some(0)) {
         Some(index) => {
             let column = columns.remove(index);
+            time_name = Some(column.name.clone());
             let known = column.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
             if known.is_none() {
                 let unnamed = Finding::TimeUnitAssumed { name: column.name };
@@ -186,7 +195,7 @@ fn arrange(
         return Err(ReadError::NoNumbers);
     }
     unique(&mut channels);
-    Ok(RawRecord::single(axis, channels, findings))
+    Ok(RawRecord { time_name, ..RawRecord::single(axis, channels, findings) })
 }
 
 /// Names that stand twice get a number.

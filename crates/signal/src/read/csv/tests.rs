@@ -42,6 +42,42 @@ fn dialects_read_the_same() {
 }
 
 #[test]
+fn lines_that_end_in_carriage_returns_alone_are_read() {
+    assert_read("t [s];a\r0;1,5\r1;2,5\r", &[("a", None)], &[0.0, 1.0], &[1.5, 2.5]);
+}
+
+#[test]
+fn commas_without_titles_are_decimal_signs_or_told() {
+    // No whole number is written as 00.
+    let decimal = read_text("0,00\n1,37\n0,02\n");
+    assert_eq!((decimal.groups[0].channels.len(), &decimal.findings[..]), (1, &[][..]));
+    assert_eq!(decimal.groups[0].channels[0].samples, [0.0, 1.37, 0.02]);
+    let either = read_text("3,10\n1,37\n2,42\n");
+    assert_eq!((either.groups[0].channels.len(), &either.findings[..]), (2, &[Finding::CommasSeparate][..]));
+}
+
+#[test]
+fn column_that_begins_with_minus_one_or_a_title_with_matlab_is_read() {
+    for text in ["-1\n0.5\n1.5\n", "-1\n3\n4\n", "MATLAB export\n-1\n3\n4\n"] {
+        let raw = crate::read::parse(text.as_bytes()).unwrap();
+        assert_eq!(raw.groups[0].channels[0].samples[0], -1.0, "{text}");
+    }
+}
+
+#[test]
+fn time_can_be_named() {
+    let text = "clock [ms],x [mm],a\n0,1,5\n1000,2,7\n2000,4,9\n";
+    let named = |name: &str| read_text(text).with_time(name).unwrap();
+    assert_eq!(named("clock"), read_text(text), "what is taken already");
+    let by_x = named("x");
+    assert_eq!(by_x.groups[0].axis, Axis::Times(vec![1.0, 2.0, 4.0]));
+    let clock = &by_x.groups[0].channels[0];
+    assert_eq!((clock.name.as_str(), &clock.samples[..]), ("clock", &[0.0, 1.0, 2.0][..]));
+    assert_eq!(by_x.findings, [Finding::TimeUnitAssumed { name: "x".to_owned() }]);
+    assert!(read_text(text).with_time("b").is_err());
+}
+
+#[test]
 fn titles_in_a_comment_are_taken() {
     assert_read("# t a\n0.0 1.0\n0.5 2.0\n", &[("a", None)], &[0.0, 0.5], &[1.0, 2.0]);
     assert_read("% time_s,x_mm\n0.0,1.0\n0.5,2.0\n", &[("x", Some("mm"))], &[0.0, 0.5], &[1.0, 2.0]);
