@@ -51,6 +51,7 @@ fn butterworth_filters() {
         let what = format!("{band:?} of order {order}");
         assert_same(&filter.zero_phase(&x).unwrap(), &case["zero_phase"], &format!("{what}, without phase"));
         assert_same(&filter.causal_from_rest(&x), &case["causal"], &format!("{what}, causal"));
+        assert_same(&filter.causal(&x), &case["settled"], &format!("{what}, causal and settled"));
     }
 }
 

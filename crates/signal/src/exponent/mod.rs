@@ -22,8 +22,9 @@
 //!
 //! **Where to fit.** The authors choose the straight part of `S(k) = <ln d>` by eye. Here it is that between 30 % and 70 % of the rise from `S(0)` to the final level
 //! for flows (a mean period of more than [`FLOW`] samples), where distances have turned into the growing direction and do not yet feel the
-//! attractor's size; from 0 to 60 % for maps, whose few steps cannot wait. It can be given instead, and should be looked at: the curve is part
-//! of the result. `slope.rs`
+//! attractor's size; from 0 to 60 % for maps, whose few steps cannot wait. The final level is only one if the curve is level there: neighbours of flows are followed for twice as long as often as it is
+//! not. A curve that comes down again has no straight part. The part can be given instead, and should be looked at: the curve belongs
+//! to the result. `slope.rs`
 //!
 //! **Scatter.** The states are cut into ten groups by time; each has its slope (its mean growth). The standard error of their mean is given. It says how far
 //! another record of the same length might be off, and is no interval of confidence: groups are not independent, and the methods have errors of their own (the part that is
