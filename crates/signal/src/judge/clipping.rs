@@ -21,18 +21,32 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
         findings.push(Finding::Constant { channel: channel.name.clone() });
         return;
     }
-    let resolution = resolution(samples);
-    for level in [high, low].into_iter().filter(|level| *level != 0.0) {
-        let runs = flat_tops(samples, level, resolution);
-        let Some(&(first, _)) = runs.first() else { continue };
+    let tops =
+        [high, low].into_iter().filter(|level| *level != 0.0).map(|level| (level, flat_tops(samples, level)));
+    let tops: Vec<(f64, Vec<FlatTop>)> = tops.filter(|(_, tops)| !tops.is_empty()).collect();
+    if tops.is_empty() {
+        return;
+    }
+    let limit = STEEP * resolution(samples);
+    for (level, tops) in tops {
+        let steep: Vec<&FlatTop> = tops.iter().filter(|top| top.step > limit).collect();
+        let Some(first) = steep.first() else { continue };
         findings.push(Finding::Clipped {
             channel: channel.name.clone(),
-            samples: runs.iter().map(|run| run.1).sum(),
-            places: runs.len(),
+            samples: steep.iter().map(|top| top.length).sum(),
+            places: steep.len(),
             level,
-            first,
+            first: first.start,
         });
     }
+}
+
+/// Equal samples at the end of the range.
+struct FlatTop {
+    start: usize,
+    length: usize,
+    /// The larger step of those in and out.
+    step: f64,
 }
 
 /// Smallest difference of two values, whenever they were taken: successive samples of a fast signal differ by more.
@@ -43,9 +57,9 @@ fn resolution(samples: &[f64]) -> f64 {
     differences.filter(|difference| *difference > 0.0).fold(f64::INFINITY, f64::min)
 }
 
-/// Start and length of each flat top at a level.
-fn flat_tops(samples: &[f64], level: f64, resolution: f64) -> Vec<(usize, usize)> {
-    let mut runs = Vec::new();
+/// Runs of equal samples at a level that are long enough.
+fn flat_tops(samples: &[f64], level: f64) -> Vec<FlatTop> {
+    let mut tops = Vec::new();
     let mut at = 0;
     while at < samples.len() {
         if samples[at] != level {
@@ -56,11 +70,11 @@ fn flat_tops(samples: &[f64], level: f64, resolution: f64) -> Vec<(usize, usize)
         let step = |index: Option<usize>| {
             index.and_then(|index| samples.get(index)).map_or(0.0, |value| (value - level).abs())
         };
-        let steepest = step(at.checked_sub(1)).max(step(Some(at + length)));
-        if length >= RUN && steepest > STEEP * resolution {
-            runs.push((at, length));
+        if length >= RUN {
+            let step = step(at.checked_sub(1)).max(step(Some(at + length)));
+            tops.push(FlatTop { start: at, length, step });
         }
         at += length;
     }
-    runs
+    tops
 }

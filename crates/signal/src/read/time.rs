@@ -8,19 +8,21 @@ use crate::{
 /// Parts of a rate by which another one may differ and still be the same one, rounded.
 const SAME_RATE: f64 = 0.01;
 
+/// Name and unit of a column.
+type Title<'a> = (&'a str, Option<&'a str>);
+
 /// Index of the column that is the time by its name or unit.
 ///
 /// A name says more than a unit: a column named time in seconds or in no unit that is known comes before others in a unit of time.
 ///
 /// * `columns`: name and unit of each.
-pub(super) fn time_column(columns: &[(&str, Option<&str>)]) -> Option<usize> {
-    let quantity = |column: &(&str, Option<&str>)| column.1.and_then(unit).map(|unit| unit.quantity);
-    let named = |column: &(&str, Option<&str>)| names_time(column.0);
-    let measures_time = |column: &(&str, Option<&str>)| quantity(column) == Some(Quantity::Time);
-    let position = |holds: &dyn Fn(&(&str, Option<&str>)) -> bool| columns.iter().position(holds);
-    position(&|column| named(column) && measures_time(column))
-        .or_else(|| position(&|column| named(column) && quantity(column).is_none()))
-        .or_else(|| position(&measures_time))
+pub(super) fn time_column(columns: &[Title]) -> Option<usize> {
+    let quantity = |column: &Title| column.1.and_then(unit).map(|unit| unit.quantity);
+    let named = |column: &Title| names_time(column.0);
+    let measures_time = |column: &Title| quantity(column) == Some(Quantity::Time);
+    let both = columns.iter().position(|column| named(column) && measures_time(column));
+    let without_unit = || columns.iter().position(|column| named(column) && quantity(column).is_none());
+    both.or_else(without_unit).or_else(|| columns.iter().position(measures_time))
 }
 
 pub(super) fn rises_evenly(values: &[f64]) -> bool {
