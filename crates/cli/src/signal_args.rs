@@ -18,6 +18,8 @@ pub enum SignalCommand {
     Classify(ClassifyOptions),
     /// Compute the largest Lyapunov exponent of a channel
     Lyapunov(ExponentOptions),
+    /// Compute the envelope of a channel
+    Envelope(EnvelopeOptions),
     /// Put a computed motion through a measuring chain: sensor, filter, sampling, noise
     Chain(ChainOptions),
 }
@@ -28,13 +30,17 @@ pub struct InputOptions {
     /// Time series: CSV, universal file (dataset 58), WAV, NumPy (.npy, .npz) or MATLAB (.mat up to -v7)
     pub file: PathBuf,
 
-    /// Channel, by its name or its number from 1 on; may be given several times [default: filter takes all, other commands the first]
+    /// Channel, by its name or its number from 1 on; may be given several times [default: filter takes all, other commands the first displacement, velocity, acceleration or force]
     #[arg(long, value_name = "NAME")]
     pub channel: Vec<String>,
 
     /// Sampling rate; times in the file are not used then
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub rate: Option<f64>,
+
+    /// Column that is the time, by its name or number [default: one that is named so, or in a unit of time]
+    #[arg(long, value_name = "NAME", conflicts_with = "rate")]
+    pub time: Option<String>,
 
     /// Time of the first sample to take
     #[arg(long, value_name = "S", value_parser = number, allow_negative_numbers = true)]
@@ -201,7 +207,7 @@ pub struct ExponentOptions {
     #[arg(long, value_name = "SAMPLES")]
     pub theiler_window: Option<u32>,
 
-    /// Samples for which neighbours are followed [default: seven mean periods]
+    /// Samples for which neighbours are followed [default: seven mean periods, doubled until distances grow no more; 25 samples of a map]
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(4..))]
     pub steps: Option<u32>,
 
@@ -228,6 +234,20 @@ pub enum Method {
     Rosenstein,
     /// Kantz 1994
     Kantz,
+}
+
+#[derive(Debug, Args)]
+pub struct EnvelopeOptions {
+    #[command(flatten)]
+    pub input: InputOptions,
+
+    /// The filter before it, forwards and backwards
+    #[command(flatten)]
+    pub band: BandOptions,
+
+    /// Folder; envelope.csv is written into it
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -98,6 +98,50 @@ fn decrement_gives_frequency_and_damping_with_intervals() {
 }
 
 #[test]
+fn envelope_of_a_beat_and_of_its_upper_line_alone() {
+    // 20 Hz of 3 and 200 Hz of 0.5.
+    let workshop = workshop(2000, harmonic);
+    let whole = document(&workshop, &["envelope", "signal.csv"]);
+    assert!((number(&whole["max_envelope"]) - 3.5).abs() < 0.01, "{whole}");
+    let upper = document(&workshop, &["envelope", "signal.csv", "--high-pass", "100", "--out", "out"]);
+    // In the middle of the record, away from its ends.
+    let table = fs::read_to_string(workshop.path("out/envelope.csv")).unwrap();
+    let row = table.lines().nth(1001).unwrap();
+    let value: f64 = row.split(',').nth(1).unwrap().parse().unwrap();
+    assert!(table.starts_with("time_s,a_m_s2\n") && (value - 0.5).abs() < 1e-3, "{row}");
+    assert_eq!(upper["channel"], "a");
+}
+
+#[test]
+fn time_column_can_be_named() {
+    let workshop = Workshop::with("");
+    let rows: String = (0..100).map(|k| format!("{},{}\n", 2 * k, f64::from(k).sin())).collect();
+    fs::write(workshop.path("counter.csv"), format!("tick [ms],a [g]\n{rows}")).unwrap();
+    let found = document(&workshop, &["spectrum", "counter.csv", "--time", "tick"]);
+    assert!((number(&found["sampling_rate_hz"]) - 500.0).abs() < 1e-9);
+    fs::write(workshop.path("counter.csv"), format!("tick,a [g]\n{rows}")).unwrap();
+    assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "counter.csv"]), &["--rate", "--time"]);
+    let found = document(&workshop, &["spectrum", "counter.csv", "--time", "1"]);
+    assert!((number(&found["sampling_rate_hz"]) - 0.5).abs() < 1e-12);
+    assert_eq!(
+        (&found["channel"], &found["findings"][0]["kind"]),
+        (&"a".into(), &"time-unit-assumed".into())
+    );
+}
+
+/// The chain knows what it clips and what it folds down.
+#[test]
+fn chain_tells_what_it_clips_and_folds() {
+    let workshop = workshop(2000, harmonic);
+    let arguments = ["chain", "signal.csv", "--sampling", "300", "--range", "1", "--bits", "12"];
+    let found = document(&workshop, &arguments);
+    let kinds: Vec<&str> =
+        found["measured_findings"].as_array().unwrap().iter().map(|f| f["kind"].as_str().unwrap()).collect();
+    assert_eq!(kinds, ["folded", "clipped"]);
+    assert!(stdout(&workshop.hammerbeam(&[&["signal"][..], &arguments].concat())).contains("is clipped"));
+}
+
+#[test]
 fn classification_with_frequency_and_with_reference() {
     let workshop = workshop(8000, |t| {
         let turn = 2.0 * PI * 31.0 * t;
@@ -178,6 +222,13 @@ fn chain_takes_what_simulate_writes() {
     let table = fs::read_to_string(workshop.path("out/measured.csv")).unwrap();
     assert!(table.starts_with("time_s,acceleration_m_s2\n"));
     assert_eq!(document(&workshop, &arguments), found, "the same seed is the same noise");
+    // Without --channel the phase in periods, which stands first, is passed over.
+    let spectrum = document(&workshop, &["spectrum", "motion/samples.csv"]);
+    assert_eq!(spectrum["channel"], "displacement");
+    // A motion that repeats has no exponent.
+    let repeats = workshop.hammerbeam(&["signal", "lyapunov", "motion/samples.csv"]);
+    assert_eq!(repeats.status.code(), Some(1), "{}", stderr(&repeats));
+    assert!(stderr(&repeats).contains("the motion is periodic"), "{}", stderr(&repeats));
     // What was computed has the period that the measurement shows.
     let classified =
         document(&workshop, &["classify", "out/measured.csv", "--frequency", "13.8", "--multiples", "4"]);

@@ -11,6 +11,8 @@
 //!    pass above half the new rate is folded down, as in a converter.
 //! 4. **Noise**: normal, white, with a standard deviation and a seed.
 //! 5. **Converter**: range and bits. What is beyond the range is clipped.
+//!
+//! What is folded down or clipped is told in the findings of the record.
 
 use std::f64::consts::PI;
 
@@ -19,10 +21,12 @@ use realfft::num_complex::Complex;
 use crate::{
     error::{SignalError, ensure, ensure_series},
     filter::Sections,
+    finding::Finding,
     fourier::{backward, forward},
     random::Random,
     record::{Channel, Record},
     resample::Interpolation,
+    spectrum::Window,
     unit::Quantity,
 };
 
@@ -86,6 +90,10 @@ impl MeasuringChain {
             samples = filtered(&samples, filter, *zero_phase, motion)?;
         }
         let rate = self.sampling_rate_hz.unwrap_or(record.sampling_rate_hz);
+        let mut findings = Vec::new();
+        if rate < record.sampling_rate_hz {
+            findings.extend(folded(&samples, record.sampling_rate_hz, rate / 2.0));
+        }
         if rate != record.sampling_rate_hz {
             samples = sampled(&samples, record.sampling_rate_hz / rate, motion)?;
         }
@@ -94,15 +102,11 @@ impl MeasuringChain {
             samples.iter_mut().for_each(|value| *value += self.noise * random.normal());
         }
         if let Some(converter) = self.converter {
+            findings.extend(converter.clipped(&source, &samples));
             samples.iter_mut().for_each(|value| *value = converter.convert(*value));
         }
         let channel = Channel { name: source, unit: None, quantity: self.sensor, samples };
-        Ok(Record {
-            sampling_rate_hz: rate,
-            start_s: record.start_s,
-            channels: vec![channel],
-            findings: Vec::new(),
-        })
+        Ok(Record { sampling_rate_hz: rate, start_s: record.start_s, channels: vec![channel], findings })
     }
 
     /// Name of the channel that is measured, and what the sensor feels of it.
@@ -130,7 +134,38 @@ impl MeasuringChain {
     }
 }
 
+/// Part of the root mean square above half the sampling rate from which on folding is told.
+const FOLDED: f64 = 0.01;
+
+/// What a series holds above half of a rate it is to be read with.
+fn folded(samples: &[f64], sampling_rate_hz: f64, half_rate_hz: f64) -> Option<Finding> {
+    let length = samples.len();
+    let mean = samples.iter().sum::<f64>() / length as f64;
+    let weights = Window::Hann.values(length);
+    let windowed = samples.iter().zip(&weights).map(|(value, weight)| (value - mean) * weight).collect();
+    let power: Vec<f64> = forward(windowed).iter().map(|value| value.norm_sqr()).collect();
+    let first = (half_rate_hz * length as f64 / sampling_rate_hz).ceil() as usize;
+    let above: f64 = power.iter().skip(first).sum();
+    let part = (above / power.iter().sum::<f64>()).sqrt();
+    (part > FOLDED).then_some(Finding::Folded { half_rate_hz, percent: 100.0 * part })
+}
+
 impl Converter {
+    /// What lies beyond the range by more than half a step.
+    fn clipped(self, channel: &str, samples: &[f64]) -> Option<Finding> {
+        let half = self.range / 2.0_f64.powi(self.bits as i32);
+        let beyond = |value: f64| value < -self.range - half || value > self.range - half;
+        let first = samples.iter().position(|value| beyond(*value))?;
+        let begins = |pair: &&[f64]| !beyond(pair[0]) && beyond(pair[1]);
+        Some(Finding::Clipped {
+            channel: channel.to_owned(),
+            samples: samples.iter().filter(|value| beyond(**value)).count(),
+            places: samples.windows(2).filter(begins).count() + usize::from(first == 0),
+            level: self.range,
+            first,
+        })
+    }
+
     fn convert(self, value: f64) -> f64 {
         let step = 2.0 * self.range / 2.0_f64.powi(self.bits as i32);
         // One step less above zero than below, as with two's complement.
@@ -269,6 +304,19 @@ mod tests {
         }
     }
 
+    /// 150 Hz read at 200 Hz come out as 50 Hz.
+    #[test]
+    fn folding_is_told() {
+        let slow = |rate| MeasuringChain { sampling_rate_hz: Some(rate), ..chain() };
+        let folded = slow(200.0).measure(&record(), Motion::Periodic).unwrap().findings;
+        // Accelerations of 50 and 150 Hz are as 1 to 0.2 * 9: 87 % of the root mean square.
+        assert!(
+            matches!(folded[..], [Finding::Folded { half_rate_hz: 100.0, percent }] if (percent - 87.4).abs() < 0.1),
+            "{folded:?}"
+        );
+        assert_eq!(slow(400.0).measure(&record(), Motion::Periodic).unwrap().findings, []);
+    }
+
     #[test]
     fn noise_has_its_size_and_follows_from_the_seed() {
         let noisy = |seed| {
@@ -301,6 +349,14 @@ mod tests {
                 "sample {k}"
             );
         }
+        // The displacement's harmonics give up to 1e2 and 4e2 m/s²: clipped at both ends in each of two periods.
+        assert!(
+            matches!(&measured.findings[..], [Finding::Clipped { places, level: 100.0, .. }] if *places >= 4),
+            "{:?}",
+            measured.findings
+        );
+        let wide = MeasuringChain { converter: Some(Converter { range: 1e3, bits: 8 }), ..chain() };
+        assert_eq!(wide.measure(&record(), Motion::Periodic).unwrap().findings, []);
         let wrong = Converter { range: 0.0, bits: 8 };
         assert!(
             MeasuringChain { converter: Some(wrong), ..chain() }

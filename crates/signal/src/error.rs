@@ -47,6 +47,11 @@ pub enum SignalError {
     /// Distances do not grow in a way that has a rate.
     #[error("the mean logarithmic distance has no straight part: {reason}")]
     NoScaling { reason: &'static str },
+    /// A periodic motion, where an exponent was asked for.
+    #[error(
+        "the record repeats itself after {samples} samples, to {percent} % of its standard deviation: the motion is periodic, and no distance in it grows"
+    )]
+    Repeats { samples: usize, percent: f64 },
     /// Neighbours are too rare.
     #[error(
         "only {found} of {asked} states have a neighbour within reach: the record is too short or the dimension too high"
@@ -90,6 +95,7 @@ impl SignalError {
             Self::NoDecay
                 | Self::FitNotConverged { .. }
                 | Self::NoScaling { .. }
+                | Self::Repeats { .. }
                 | Self::TooFewNeighbours { .. }
         )
     }

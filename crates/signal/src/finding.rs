@@ -10,6 +10,11 @@ pub enum Finding {
         "channel \"{channel}\" is clipped: {samples} samples in {places} places stand at {level:e} (from sample {first} on)"
     )]
     Clipped { channel: String, samples: usize, places: usize, level: f64, first: usize },
+    /// Read by a converter that is too slow for what the filter before it lets pass.
+    #[error(
+        "what is above half the sampling rate, {half_rate_hz} Hz, is folded down: {percent:.1} % of the root mean square"
+    )]
+    Folded { half_rate_hz: f64, percent: f64 },
     /// All samples are the same.
     #[error("channel \"{channel}\" is constant")]
     Constant { channel: String },
@@ -19,9 +24,19 @@ pub enum Finding {
     /// A sampling rate was given that is not that of the times in the file.
     #[error("the sampling rate given is {given_hz} Hz; by the times in the file it is {found_hz} Hz")]
     RateDisagrees { given_hz: f64, found_hz: f64 },
+    /// The file names a sampling rate that is not that of its times.
+    #[error(
+        "the file names a sampling rate of {named_hz} Hz; by the times in it, which are taken, it is {found_hz} Hz"
+    )]
+    NamedRateDisagrees { named_hz: f64, found_hz: f64 },
     /// There is no header; a column that rises evenly is taken for the time.
     #[error("column 1 has no title and rises evenly: it is taken for the time in seconds")]
     TimeAssumed,
+    /// Rows without titles that have one comma each.
+    #[error(
+        "no title says whether commas separate columns or are decimal signs: they are taken to separate two columns"
+    )]
+    CommasSeparate,
     /// The time column has no unit.
     #[error("the time column \"{name}\" names no unit: seconds are assumed")]
     TimeUnitAssumed { name: String },
@@ -63,10 +78,13 @@ impl Finding {
     pub const fn kind(&self) -> &'static str {
         match self {
             Self::Clipped { .. } => "clipped",
+            Self::Folded { .. } => "folded",
             Self::Constant { .. } => "constant",
             Self::Jitter { .. } => "jitter",
             Self::RateDisagrees { .. } => "rate-disagrees",
+            Self::NamedRateDisagrees { .. } => "named-rate-disagrees",
             Self::TimeAssumed => "time-assumed",
+            Self::CommasSeparate => "commas-separate",
             Self::TimeUnitAssumed { .. } => "time-unit-assumed",
             Self::UnknownUnit { .. } => "unknown-unit",
             Self::UnitAssumed { .. } => "unit-assumed",

@@ -1,6 +1,10 @@
 //! What a file says, before it is judged.
 
-use crate::{finding::Finding, judge::RecordError};
+use crate::{
+    finding::Finding,
+    judge::RecordError,
+    unit::{Quantity, unit},
+};
 
 /// The times of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +47,8 @@ pub struct RawGroup {
 pub struct RawRecord {
     /// Channels, by their times.
     pub groups: Vec<RawGroup>,
+    /// Name of the column that was taken for the time.
+    pub time_name: Option<String>,
     /// What was noticed while reading.
     pub findings: Vec<Finding>,
 }
@@ -51,7 +57,40 @@ impl RawRecord {
     /// A single group.
     #[must_use]
     pub fn single(axis: Axis, channels: Vec<RawChannel>, findings: Vec<Finding>) -> Self {
-        Self { groups: vec![RawGroup { axis, channels }], findings }
+        Self { groups: vec![RawGroup { axis, channels }], time_name: None, findings }
+    }
+
+    /// With a channel as the time, by its name or number. What was taken for the time becomes a channel again.
+    ///
+    /// # Errors
+    /// [`RecordError::NoSuchChannel`].
+    pub fn with_time(mut self, text: &str) -> Result<Self, RecordError> {
+        if self.time_name.as_deref() == Some(text) {
+            return Ok(self);
+        }
+        let name = self.channel_name(text)?.to_owned();
+        let Some((group, index)) = self.groups.iter_mut().find_map(|group| {
+            let index = group.channels.iter().position(|channel| channel.name == name)?;
+            Some((group, index))
+        }) else {
+            return Ok(self);
+        };
+        let channel = group.channels.remove(index);
+        let known = channel.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
+        let factor = known.map_or(1.0, |unit| unit.factor);
+        let times = channel.samples.iter().map(|value| value * factor).collect();
+        let before = std::mem::replace(&mut group.axis, Axis::Times(times));
+        let assumed =
+            |finding: &Finding| matches!(finding, Finding::TimeAssumed | Finding::TimeUnitAssumed { .. });
+        self.findings.retain(|finding| !assumed(finding));
+        if let (Axis::Times(samples), Some(name)) = (before, self.time_name.take()) {
+            group.channels.insert(0, RawChannel { name, unit: Some("s".to_owned()), samples });
+        }
+        if known.is_none() {
+            self.findings.push(Finding::TimeUnitAssumed { name: name.clone() });
+        }
+        self.time_name = Some(name);
+        Ok(self)
     }
 
     /// Name of a channel that is meant by its name or its number, from 1 on in the order of the file. A name comes before a number.

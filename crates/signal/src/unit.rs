@@ -179,38 +179,77 @@ fn simplified(text: &str) -> String {
     match words[..] {
         [length, "s-2"] => format!("{length}/s2"),
         [length, "s-1"] => format!("{length}/s"),
+        // Without a blank.
+        [power] if power.ends_with("s-2") || power.ends_with("s-1") => {
+            power.replacen("s-2", "/s2", 1).replacen("s-1", "/s", 1)
+        }
         _ => words.concat(),
     }
 }
 
-/// Splits the title of a column into name and unit: `acc (m/s^2)`, `time [s]`, `a / g`, `velocity_m_s`, `t, ms`, `x in mm`.
+/// Splits the title of a column into name and unit: `acc (m/s^2)`, `time [s]`, `a / g`, `v m/s`, `velocity_m_s`, `t, ms`, `x in mm`.
 ///
 /// # Returns
 /// The name, and the text of the unit if there is one. A text in brackets is taken for a unit whether it is known or not;
-/// otherwise only known units are told from words.
+/// otherwise only known units are told from words, the longest that the title ends in. What is something per time (`rad/s`, `load_n_s`) is no time.
 #[must_use]
 pub fn split_title(title: &str) -> (String, Option<String>) {
     let title = title.trim();
     if let Some((name, unit)) = in_brackets(title) {
         return (name, Some(unit));
     }
-    for separator in [" / ", "/", ", ", " in ", " "] {
-        if let Some((name, text)) = title.split_once(separator)
-            && unit(text).is_some()
-            && !name.trim().is_empty()
-            && unit(title).is_none()
-        {
-            return (name.trim().to_owned(), Some(text.trim().to_owned()));
-        }
+    if unit(title).is_none()
+        && let Some((name, text)) = known_end(title)
+    {
+        return (name.to_owned(), Some(text.to_owned()));
     }
     for (ending, text) in ENDINGS {
         if let Some(name) = title.strip_suffix(ending)
             && !name.is_empty()
+            && !(is_time(text) && ends_in_dividend(name))
         {
             return (name.to_owned(), Some((*text).to_owned()));
         }
     }
     (title.to_owned(), None)
+}
+
+/// Name and unit of a title that ends in a known unit behind a blank, a comma or a slash; or in one that is not known, if it is something per time.
+fn known_end(title: &str) -> Option<(&str, &str)> {
+    for (at, separator) in title.match_indices([' ', '/', ',']) {
+        let text = title[at + separator.len()..].trim();
+        if text.is_empty() || unit(text).is_none() {
+            continue;
+        }
+        let name = bare_name(&title[..at]);
+        if name.is_empty() {
+            return None;
+        }
+        let divided = separator == "/" && is_time(text) && !names_time(name);
+        if !divided || title[..at].ends_with(' ') {
+            return Some((name, text));
+        }
+        return title[..at].rfind(' ').map(|blank| (bare_name(&title[..blank]), title[blank..].trim()));
+    }
+    None
+}
+
+/// Without what joins a name to its unit.
+fn bare_name(text: &str) -> &str {
+    let name = text.trim_end_matches([' ', ',', '/', '-', ':']);
+    name.strip_suffix(" in").unwrap_or(name).trim()
+}
+
+fn is_time(text: &str) -> bool {
+    unit(text).is_some_and(|unit| unit.quantity == Time)
+}
+
+/// Whether a name ends in something that `_s` makes a rate of.
+fn ends_in_dividend(name: &str) -> bool {
+    ["_per", "_rad", "_deg", "_rev"]
+        .into_iter()
+        .chain(ENDINGS.iter().map(|ending| ending.0))
+        .any(|end| name.ends_with(end))
 }
 
 fn in_brackets(title: &str) -> Option<(String, String)> {
@@ -230,9 +269,9 @@ fn in_brackets(title: &str) -> Option<(String, String)> {
 #[must_use]
 pub fn names_time(name: &str) -> bool {
     let name = name.trim().to_lowercase();
-    matches!(name.as_str(), "t" | "zeit" | "temps" | "tiempo" | "tempo" | "seconds" | "sec" | "x_time")
-        || name.starts_with("time")
-        || name.starts_with("elapsed")
+    // X_Value is what LabVIEW calls it.
+    matches!(name.as_str(), "t" | "temps" | "tiempo" | "tempo" | "seconds" | "sec" | "x_time" | "x_value")
+        || ["time", "zeit", "elapsed"].iter().any(|word| name.starts_with(word))
 }
 
 #[cfg(test)]
@@ -241,8 +280,19 @@ mod tests {
 
     #[test]
     fn acceleration_has_many_spellings() {
-        for text in ["m/s^2", "m/s²", "m/s2", "m/s/s", "[m/s^2]", "m s^-2", "m·s⁻²", "m/s**2", " m / s^2 "]
-        {
+        for text in [
+            "m/s^2",
+            "m/s²",
+            "m/s2",
+            "m/s/s",
+            "[m/s^2]",
+            "m s^-2",
+            "m·s⁻²",
+            "m/s**2",
+            " m / s^2 ",
+            "ms-2",
+            "ms^-2",
+        ] {
             let found = unit(text).unwrap_or_else(|| panic!("{text} is not known"));
             assert_eq!((found.quantity, found.factor), (Acceleration, 1.0), "{text}");
         }
@@ -264,6 +314,20 @@ mod tests {
             ("Beschl. Spitze in mm/s²", "Beschl. Spitze", Some("mm/s²")),
             ("x, mm", "x", Some("mm")),
             ("tip [counts]", "tip", Some("counts")),
+            ("speed m/s", "speed", Some("m/s")),
+            ("v mm/s", "v", Some("mm/s")),
+            ("v/mm/s", "v", Some("mm/s")),
+            ("acc m/s2", "acc", Some("m/s2")),
+            ("Time - s", "Time", Some("s")),
+            ("t/ms", "t", Some("ms")),
+            ("time / s", "time", Some("s")),
+            ("omega rad/s", "omega", Some("rad/s")),
+            ("load N/s", "load", Some("N/s")),
+            ("flow/s", "flow/s", None),
+            ("load_n_s", "load_n_s", None),
+            ("omega_rad_s", "omega_rad_s", None),
+            ("exponent_per_s", "exponent_per_s", None),
+            ("time_s", "time", Some("s")),
             ("left/right", "left/right", None),
             ("channel 1", "channel 1", None),
         ] {

@@ -11,6 +11,8 @@
 //! several per cent with its beginning, so each case is run from five beginnings.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use std::f64::consts::PI;
+
 use hammerbeam_signal::{
     SignalError,
     exponent::{DivergenceSettings, EmbeddingChoice, WolfSettings, embedding, kantz, rosenstein, wolf},
@@ -132,11 +134,19 @@ fn rosenstein_1993_lorenz() {
     assert_within(&errors(LORENZ, 5000, Method::Rosenstein, None), 0.05, 0.10);
 }
 
-/// Missed: the curve of Rössler's system bends all the way, and the part that is found gives about a fifth too little.
+/// Missed when the part is found automatically. Distances to nearest neighbours have a part along the motion, which does not grow, so the curve is flatter than the exponent until what lies
+/// across the motion outweighs it; by then it feels the size of the attractor. (Distances across the motion alone give 0.9 to 1.0 of the exponent here, but 1.15 of Lorenz'.)
 #[test]
-fn rosenstein_1993_roessler_comes_out_a_fifth_too_small() {
+fn rosenstein_1993_roessler_comes_out_a_sixth_too_small() {
     let errors = errors(ROESSLER, 20_000, Method::Rosenstein, None);
-    assert!((-0.25..-0.10).contains(&errors[2]), "{errors:.3?}");
+    assert!((-0.20..-0.08).contains(&errors[2]), "{errors:.3?}");
+}
+
+/// Missed, too: the authors give 0.0879 from a record of 2000 samples, 2 % too small, with the part chosen by eye. Of ten of our records of 2000 samples the steepest parts give 0.3 to 1.0 of the
+/// exponent, so theirs is chance. Here, with ten times as many, the part is the one in which the mean of several curves is steepest.
+#[test]
+fn rosenstein_1993_roessler_with_the_straight_part_given() {
+    assert_within(&errors(ROESSLER, 20_000, Method::Rosenstein, Some((230, 320))), 0.15, 0.25);
 }
 
 #[test]
@@ -172,15 +182,68 @@ fn delay_and_dimension_are_those_of_the_authors() {
     assert_eq!(chosen(logistic(0.0, 2000)), (1, 1));
 }
 
+/// With all choices automatic, whether the rate of sampling is a multiple of the frequency or not.
 #[test]
-fn periodic_motion_has_no_positive_exponent() {
-    // Two incommensurate frequencies: neighbours stay neighbours.
+fn motion_that_repeats_exactly_is_told_and_has_no_exponent() {
+    let sine = |k: f64| (2.0 * PI * 0.013 * k).sin();
+    // An impact once a period of 200 samples: a short pulse on a harmonic.
+    let impacts = |k: f64| {
+        let phase = 2.0 * PI * k / 200.0;
+        phase.cos() + 30.0 * (8.0 * ((phase + 1.0).cos() - 1.0)).exp() + 0.3 * (9.0 * phase).sin()
+    };
+    let period_three = |k: f64| [0.1, 0.9, 0.4][k as usize % 3] + 1e-13 * k.sin();
+    let signals: [(&dyn Fn(f64) -> f64, usize); 3] = [(&sine, 1000), (&impacts, 200), (&period_three, 3)];
+    for (signal, period) in signals {
+        let series: Vec<f64> = (0..5000).map(|k| signal(f64::from(k))).collect();
+        let refused = embedding(&series, &EmbeddingChoice::default());
+        assert!(
+            matches!(refused, Err(SignalError::Repeats { samples, .. }) if samples == period),
+            "{refused:?}"
+        );
+    }
+}
+
+/// Nearly coinciding states beside each other: a false neighbour is false, however near the true one is.
+#[test]
+fn dimension_of_a_motion_that_nearly_repeats_is_not_one() {
+    // A drift of 1e-4 of the amplitude in each period of 100 samples.
     let series: Vec<f64> =
-        (0..5000).map(|k| (0.1 * f64::from(k)).sin() + 0.5 * (0.0618 * f64::from(k)).cos()).collect();
-    let choice = EmbeddingChoice { delay: Some(12), dimension: Some(4), theiler_window: None };
+        (0..5000).map(|k| (1.0 + 4e-5 * f64::from(k)) * (2.0 * PI * 0.01 * f64::from(k)).sin()).collect();
+    let found = embedding(&series, &EmbeddingChoice::default()).unwrap();
+    assert!(found.dimension >= 2, "{found:?}");
+}
+
+#[test]
+fn motion_with_two_frequencies_or_one_that_the_sampling_misses_has_no_positive_exponent() {
+    // Incommensurate with each other or the sampling: neighbours stay neighbours.
+    let two = |k: f64| (0.1 * k).sin() + 0.5 * (0.0618 * k).cos();
+    let one = |k: f64| (0.11 * k).cos() + 0.4 * (0.055 * k).sin();
+    let signals: [&dyn Fn(f64) -> f64; 2] = [&two, &one];
+    for signal in signals {
+        let series: Vec<f64> = (0..5000).map(|k| signal(f64::from(k))).collect();
+        let embedding = embedding(&series, &EmbeddingChoice::default()).unwrap();
+        for method in [rosenstein, kantz] {
+            let refused = method(&series, 1.0, &embedding, &DivergenceSettings::default());
+            assert!(matches!(refused, Err(SignalError::NoScaling { .. })), "{refused:?}");
+        }
+        // Of the mean period's inverse, 1/60.
+        let found = wolf(&series, 1.0, &embedding, &WolfSettings::default()).unwrap();
+        assert!(found.exponent.value.abs() < 2e-3, "{found:?}");
+    }
+}
+
+#[test]
+fn states_that_have_neighbours_are_counted() {
+    // Noise in ten dimensions: some states have neighbours within the largest radius, most have not.
+    let mut random = hammerbeam_signal::random::Random::new(3);
+    let series: Vec<f64> = (0..400).map(|_| random.normal()).collect();
+    let choice = EmbeddingChoice { delay: Some(1), dimension: Some(6), theiler_window: Some(1) };
     let embedding = embedding(&series, &choice).unwrap();
-    let refused = rosenstein(&series, 1.0, &embedding, &DivergenceSettings::default());
-    assert!(matches!(refused, Err(SignalError::NoScaling { .. })), "{refused:?}");
+    let refused = kantz(&series, 1.0, &embedding, &DivergenceSettings::default());
+    assert!(
+        matches!(refused, Err(SignalError::TooFewNeighbours { found, asked }) if found < asked),
+        "{refused:?}"
+    );
 }
 
 #[test]

@@ -101,7 +101,8 @@ fn function_without_name_is_called_by_its_point_and_its_unit_assumed() {
 #[test]
 fn wav_of_every_width() {
     let ramp = |k: usize| k as f64 / 32.0 - 1.0;
-    for (name, scale) in [("int16.wav", 0.5), ("int24.wav", 0.5), ("int32.wav", 0.5), ("float32.wav", 1.0)] {
+    let whole = [("int16.wav", 0.5), ("int24.wav", 0.5), ("int32.wav", 0.5)];
+    for (name, scale) in whole.into_iter().chain([("float32.wav", 1.0), ("float64.wav", 1.0)]) {
         let record = open(name, Format::Wav);
         for k in 0..SAMPLES {
             assert_eq!(record.channels[0].samples[k], scale * ramp(k), "{name}");
@@ -165,7 +166,7 @@ fn fixture(name: &str) -> Vec<u8> {
 fn what_is_not_read_is_refused_with_what_to_do_instead() {
     for (name, parts) in [
         ("version73.mat", ["MATLAB 7.3 (HDF5)", "-v7"]),
-        ("float64.wav", ["WAV samples", "32-bit floating point"]),
+        ("level4.mat", ["MATLAB level 4", "-v7"]),
         ("text.npy", ["array of type U", "astype(float)"]),
     ] {
         let message = refusal(&fixture(name)).to_string();
@@ -184,6 +185,7 @@ fn files_that_end_early_are_refused() {
         "plain.mat",
         "compressed.mat",
         "int16.wav",
+        "float64.wav",
     ] {
         let bytes = fixture(name);
         let error = refusal(&bytes[..bytes.len() * 2 / 3]);
@@ -228,6 +230,8 @@ fn no_damage_makes_a_reader_panic() {
         "single.uff",
         "binary_uneven.uff",
         "int24.wav",
+        "float64.wav",
+        "level4.mat",
         "table.npy",
         "compressed.npz",
         "structure.mat",
@@ -258,6 +262,34 @@ fn two_sampling_rates_in_one_file_are_refused() {
     };
     let bytes = archive(&[header("fs.npy", 1024.0), header("rate.npy", 512.0)]);
     assert_eq!(refusal(&bytes), ReadError::TwoRates { first: 1024.0, second: 512.0 });
+}
+
+/// Times at 1024 Hz beside a rate of 512 Hz: the times are taken, and that is told.
+#[test]
+fn rate_beside_other_times_is_told() {
+    let times: Vec<f64> = (0..SAMPLES).map(|k| k as f64 / RATE).collect();
+    let samples: Vec<f64> = (0..SAMPLES).map(a).collect();
+    let arrays = [("fs.npy", npy(&[512.0])), ("t.npy", npy(&times)), ("a.npy", npy(&samples))];
+    let record = parse(&archive(&arrays.map(|(name, data)| (name.to_owned(), data)))).unwrap();
+    let record = record.judge(&Terms::default()).unwrap();
+    let told = |finding: &Finding| match finding {
+        Finding::NamedRateDisagrees { named_hz, found_hz } => {
+            *named_hz == 512.0 && (found_hz - 1024.0).abs() < 1e-6
+        }
+        _ => false,
+    };
+    assert!(record.findings.iter().any(told), "{:?}", record.findings);
+    assert!((record.sampling_rate_hz - 1024.0).abs() < 1e-6);
+}
+
+/// A vector of double precision.
+fn npy(values: &[f64]) -> Vec<u8> {
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({},), }}", values.len());
+    let mut data = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    data.extend(header.bytes());
+    data.resize(128, b' ');
+    data.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    data
 }
 
 /// A stored archive. Checksums by their definition, bit by bit.

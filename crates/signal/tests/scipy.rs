@@ -7,7 +7,7 @@ use hammerbeam_signal::{
     envelope::{analytic_signal, envelope},
     filter::{Band, butterworth},
     resample::{Ratio, resample, resample_periodic},
-    spectrum::{Detrend, Scaling, WelchSettings, Window, welch},
+    spectrum::{Detrend, Scaling, WelchSettings, Window, amplitude_spectrum, welch},
 };
 use serde_json::Value;
 
@@ -51,6 +51,7 @@ fn butterworth_filters() {
         let what = format!("{band:?} of order {order}");
         assert_same(&filter.zero_phase(&x).unwrap(), &case["zero_phase"], &format!("{what}, without phase"));
         assert_same(&filter.causal_from_rest(&x), &case["causal"], &format!("{what}, causal"));
+        assert_same(&filter.causal(&x), &case["settled"], &format!("{what}, causal and settled"));
     }
 }
 
@@ -111,6 +112,23 @@ fn spectra_by_segments() {
         };
         let found = welch(&x, 1000.0, &settings).unwrap();
         assert_same(&found.values, &case["y"], &format!("{settings:?}"));
+    }
+}
+
+/// One-sided power of a line is half the square of its amplitude, but the square itself at half the sampling rate; ours has the mean at zero.
+#[test]
+fn amplitudes_of_the_whole_record() {
+    let results = results();
+    let x = numbers(&results["x"]);
+    for case in results["amplitude"].as_array().unwrap() {
+        let (count, name) = (whole(&case["count"]), case["window"].as_str().unwrap());
+        let found = amplitude_spectrum(&x[..count], 1000.0, window(name)).unwrap();
+        let power =
+            |(k, value): (usize, &f64)| if 2 * k == count { value * value } else { value * value / 2.0 };
+        let powers: Vec<f64> = found.values.iter().enumerate().skip(1).map(power).collect();
+        let expected = Value::Array(case["power"].as_array().unwrap()[1..].to_vec());
+        assert_same(&powers, &expected, &format!("{name}, {count} samples"));
+        assert!((found.values[0] - case["mean"].as_f64().unwrap().abs()).abs() < 1e-15);
     }
 }
 

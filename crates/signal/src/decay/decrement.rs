@@ -6,13 +6,17 @@
 
 use std::f64::consts::PI;
 
-use super::{Decay, Estimate, modes::student};
+use hammerbeam_fit::distribution::student_quantile;
+
+use super::{Decay, Estimate};
 use crate::error::SignalError;
 
 /// Maxima below so many times the noise do not count: below that the logarithm is biased by the noise.
 const LOWEST: f64 = 5.0;
 /// Fewest maxima.
 const FEWEST: usize = 4;
+/// Fewest maxima in half of a decay that say something about a change.
+const FEWEST_OF_HALF: usize = 4;
 
 /// A logarithmic decrement by successive maxima.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,16 +29,16 @@ pub struct Decrement {
     pub damping_ratio: Estimate,
     /// Number of maxima.
     pub maxima: usize,
-    /// Decrement over the first and the second half of the maxima.
-    pub halves: [Estimate; 2],
+    /// Decrement over the first and the second half of the maxima, if each has at least four.
+    pub halves: Option<[Estimate; 2]>,
 }
 
 impl Decrement {
-    /// Whether the decrement changes over the decay: the intervals of both halves do not meet.
+    /// Whether the decrement changes over the decay: the intervals of both halves do not meet. Nothing if there are too few maxima to tell.
     #[must_use]
-    pub fn changes(&self) -> bool {
-        let [first, second] = self.halves;
-        (first.value - second.value).abs() > first.half_width + second.half_width
+    pub fn changes(&self) -> Option<bool> {
+        let [first, second] = self.halves?;
+        Some((first.value - second.value).abs() > first.half_width + second.half_width)
     }
 }
 
@@ -78,7 +82,8 @@ pub fn decrement(series: &[f64], sampling_rate_hz: f64, decay: &Decay) -> Result
             half_width: decrement.half_width * chain,
         },
         maxima: logarithms.len(),
-        halves: [slope(halves.0, expected), slope(halves.1, expected)],
+        halves: (halves.0.len() >= FEWEST_OF_HALF)
+            .then(|| [slope(halves.0, expected), slope(halves.1, expected)]),
     })
 }
 
@@ -138,5 +143,5 @@ fn slope(points: &[(f64, f64)], expected: f64) -> Estimate {
     let slope = xy / xx;
     let free = (points.len() as f64 - 2.0).max(1.0);
     let squares: f64 = all().map(|((at, value), w)| w * (value - y - slope * (at - x)).powi(2)).sum();
-    Estimate { value: -slope, half_width: student(free) * (squares / free / xx).sqrt() }
+    Estimate { value: -slope, half_width: student_quantile(0.95, free) * (squares / free / xx).sqrt() }
 }

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use hammerbeam_fit::distribution::student_quantile;
+
 use super::{
     fit::{Fit, fit},
     model::Oscillation,
@@ -151,7 +153,7 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
     let mode = |&m: &usize| {
         let (local, freedoms) =
             if white { (variance, free) } else { local_variance(fit, m, 1.0 / sampling_rate_hz) };
-        describe_mode(fit, m, local, student(freedoms))
+        describe_mode(fit, m, local, student_quantile(0.95, freedoms))
     };
     Decay {
         modes: order.iter().map(mode).collect(),
@@ -202,12 +204,4 @@ fn describe_mode(fit: &Fit, m: usize, variance: f64, quantile: f64) -> DecayMode
         amplitude: o.amplitude(),
         phase: (-o.sine).atan2(o.cosine),
     }
-}
-
-/// Student's two-sided quantile of 95 %, by the first terms of its expansion in the degrees of freedom `n` (Abramowitz and Stegun 26.7.5): good to 0.1 % from 10 on.
-pub(super) fn student(n: f64) -> f64 {
-    let x: f64 = 1.959_963_985;
-    let first = (x.powi(3) + x) / 4.0;
-    let second = (5.0 * x.powi(5) + 16.0 * x.powi(3) + 3.0 * x) / 96.0;
-    x + first / n + second / (n * n)
 }

@@ -1,16 +1,13 @@
 //! Mean logarithmic distance of neighbours over time: Rosenstein's and Kantz's methods.
 
 use super::{
-    Embedding, FLOW, GROUPS,
+    Embedding, FLOW, GROUPS, Scattered,
     embedding::States,
-    of_groups,
-    slope::{slope, straight_part},
+    scatter,
+    slope::{rises, slope, straight_part},
     tree::Tree,
 };
-use crate::{
-    decay::Estimate,
-    error::{SignalError, ensure},
-};
+use crate::error::{SignalError, ensure};
 
 /// Most states whose neighbours are followed; of more, every n-th is taken.
 const STATES: usize = 5000;
@@ -23,7 +20,7 @@ const FEWEST: usize = 50;
 /// How neighbours are followed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct DivergenceSettings {
-    /// Steps for which they are followed; `None`: about seven mean periods of a flow, 25 steps of a map.
+    /// Steps for which they are followed; `None`: 25 steps of a map; seven mean periods of a flow, doubled until distances grow no more.
     pub steps: Option<usize>,
     /// First and last step of the straight part; `None`: it is looked for.
     pub fit: Option<(usize, usize)>,
@@ -33,7 +30,7 @@ pub struct DivergenceSettings {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Divergence {
     /// The exponent [1/s].
-    pub exponent: Estimate,
+    pub exponent: Scattered,
     /// Mean logarithm of the distance after 0, 1, 2, .. samples.
     pub curve: Vec<f64>,
     /// First and last step that were fitted.
@@ -55,12 +52,13 @@ pub fn rosenstein(
     settings: &DivergenceSettings,
 ) -> Result<Divergence, SignalError> {
     let work = Work::new(series, embedding, settings)?;
-    let follow = |state: usize| {
-        let Some((neighbour, _)) = work.tree.nearest(&work.states, state, embedding.theiler_window) else {
+    let follow = |state: usize, steps: usize| {
+        let Some((neighbour, _)) = work.tree.nearest(&work.states, state, embedding.theiler_window, 0.0)
+        else {
             return Vec::new();
         };
         let last = work.states.len() - state.max(neighbour);
-        (0..work.steps.min(last)).map(|k| 0.5 * work.states.square(state + k, neighbour + k).ln()).collect()
+        (0..steps.min(last)).map(|k| 0.5 * work.states.square(state + k, neighbour + k).ln()).collect()
     };
     work.average(follow, sampling_rate_hz, settings, None)
 }
@@ -79,10 +77,10 @@ pub fn kantz(
     let ends = series.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
     let radius = work.radius(1e-3 * (ends.1 - ends.0), embedding.theiler_window)?;
     let last = (embedding.dimension - 1) * embedding.delay;
-    let follow = |state: usize| {
+    let follow = |state: usize, steps: usize| {
         let mut neighbours = work.tree.within(&work.states, state, embedding.theiler_window, radius);
-        neighbours.retain(|other| other + work.steps <= work.states.len());
-        if neighbours.len() < NEIGHBOURS || state + work.steps > work.states.len() {
+        neighbours.retain(|other| other + steps <= work.states.len());
+        if neighbours.len() < NEIGHBOURS || state + steps > work.states.len() {
             return Vec::new();
         }
         let distance = |k: usize| {
@@ -92,7 +90,7 @@ pub fn kantz(
                 .sum();
             (sum / neighbours.len() as f64).ln()
         };
-        (0..work.steps).map(distance).collect()
+        (0..steps).map(distance).collect()
     };
     work.average(follow, sampling_rate_hz, settings, Some(radius))
 }
@@ -136,47 +134,78 @@ impl<'a> Work<'a> {
     fn radius(&self, smallest: f64, window: usize) -> Result<f64, SignalError> {
         let some: Vec<usize> =
             self.followed.iter().copied().step_by((self.followed.len() / 200).max(1)).collect();
+        let mut found = 0;
         for doublings in 0..8 {
             let radius = smallest * f64::from(1 << doublings);
             let has_enough =
                 |state: &&usize| self.tree.within(&self.states, **state, window, radius).len() >= NEIGHBOURS;
-            if some.iter().filter(has_enough).count() as f64 >= ENOUGH * some.len() as f64 {
+            found = some.iter().filter(has_enough).count();
+            if found as f64 >= ENOUGH * some.len() as f64 {
                 return Ok(radius);
             }
         }
-        Err(SignalError::TooFewNeighbours { found: 0, asked: some.len() })
+        Err(SignalError::TooFewNeighbours { found, asked: some.len() })
     }
 
     /// Averages the logarithms of distances, and fits.
+    ///
+    /// * `follow`: logarithms of a state's distances after 0, 1, 2, .. up to so many steps.
     fn average(
         &self,
-        follow: impl Fn(usize) -> Vec<f64>,
+        follow: impl Fn(usize, usize) -> Vec<f64>,
         sampling_rate_hz: f64,
         settings: &DivergenceSettings,
         radius: Option<f64>,
     ) -> Result<Divergence, SignalError> {
-        let mut groups = vec![Sums::new(self.steps); GROUPS];
+        let longest = self.states.len() / 4;
+        let free = self.flow && settings.steps.is_none() && settings.fit.is_none();
+        let mut steps = self.steps;
+        let mut sums = self.sums(&follow, steps)?;
+        while free && steps < longest && rises(&sums.curve()) {
+            steps = (2 * steps).min(longest);
+            sums = self.sums(&follow, steps)?;
+        }
+        let curve = sums.curve();
+        let fit = match settings.fit {
+            Some(fit) => fit,
+            None => straight_part(&curve, self.flow)?,
+        };
+        let slopes = sums.groups.iter().map(|group| slope(&group.mean(), fit));
+        let slopes: Vec<f64> = slopes.filter(|slope| slope.is_finite()).collect();
+        let exponent = Scattered {
+            value: sampling_rate_hz * slope(&curve, fit),
+            scatter: sampling_rate_hz * scatter(&slopes),
+        };
+        Ok(Divergence { exponent, curve, fit, states: sums.found, radius })
+    }
+
+    /// Sums of all states that have neighbours, in groups by time.
+    fn sums(&self, follow: &impl Fn(usize, usize) -> Vec<f64>, steps: usize) -> Result<Grouped, SignalError> {
+        let mut groups = vec![Sums::new(steps); GROUPS];
         let mut found = 0;
         for (index, &state) in self.followed.iter().enumerate() {
-            let logarithms = follow(state);
+            let logarithms = follow(state, steps);
             found += usize::from(!logarithms.is_empty());
             groups[index * GROUPS / self.followed.len()].add(&logarithms);
         }
         if found < FEWEST {
             return Err(SignalError::TooFewNeighbours { found, asked: self.followed.len() });
         }
-        let mut all = Sums::new(self.steps);
-        groups.iter().for_each(|group| all.join(group));
-        let curve = all.mean();
-        let fit = match settings.fit {
-            Some(fit) => fit,
-            None => straight_part(&curve, self.flow)?,
-        };
-        let slopes: Vec<f64> =
-            groups.iter().map(|group| slope(&group.mean(), fit)).filter(|slope| slope.is_finite()).collect();
-        let value = sampling_rate_hz * slope(&curve, fit);
-        let half_width = sampling_rate_hz * of_groups(&slopes).half_width;
-        Ok(Divergence { exponent: Estimate { value, half_width }, curve, fit, states: found, radius })
+        Ok(Grouped { groups, found })
+    }
+}
+
+/// Sums by groups of states, and how many states have neighbours.
+struct Grouped {
+    groups: Vec<Sums>,
+    found: usize,
+}
+
+impl Grouped {
+    fn curve(&self) -> Vec<f64> {
+        let mut all = Sums::new(self.groups[0].sum.len());
+        self.groups.iter().for_each(|group| all.join(group));
+        all.mean()
     }
 }
 

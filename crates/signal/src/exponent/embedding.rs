@@ -1,6 +1,6 @@
 //! States out of one series.
 
-use super::{delay, dimension};
+use super::{delay, dimension, repeat};
 use crate::error::{SignalError, ensure, ensure_series};
 
 /// Fewest samples.
@@ -33,12 +33,15 @@ pub struct EmbeddingChoice {
 /// Chooses an embedding for a series.
 ///
 /// # Errors
-/// [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`]; [`SignalError::Input`] for a choice that makes no sense.
+/// [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`]; [`SignalError::Repeats`] for a motion that is periodic; [`SignalError::Input`] for a choice that makes no sense.
 pub fn embedding(series: &[f64], choice: &EmbeddingChoice) -> Result<Embedding, SignalError> {
     ensure_series("an exponent", series, FEWEST)?;
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     if series.iter().all(|value| *value == series[0]) {
         return Err(SignalError::Constant);
+    }
+    if let Some(samples) = repeat::repeats_after(series) {
+        return Err(SignalError::Repeats { samples, percent: 100.0 * repeat::SAME });
     }
     let crossings = series.windows(2).filter(|pair| (pair[0] < mean) != (pair[1] < mean)).count();
     let mean_period = 2.0 * series.len() as f64 / crossings.max(1) as f64;

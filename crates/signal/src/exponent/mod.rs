@@ -12,6 +12,8 @@
 //! **Delay.** The smaller of the first minimum of the average mutual information (Fraser and Swinney 1986) and the first lag at which the
 //! autocorrelation has fallen below `1 - 1/e` (Rosenstein et al.); at least 1. `delay.rs`
 //!
+//! **Records that repeat** to 1/1000 of their standard deviation are refused: a periodic motion has no distances that grow, and its coinciding states no distances but rounding. `repeat.rs`
+//!
 //! **Dimension.** The smallest with at most 1 % false nearest neighbours (Kennel et al. 1992: a neighbour is false if the next coordinate moves it away by more than 15
 //! times its distance, or to more than twice the standard deviation). `dimension.rs`
 //!
@@ -20,11 +22,13 @@
 //!
 //! **Where to fit.** The authors choose the straight part of `S(k) = <ln d>` by eye. Here it is that between 30 % and 70 % of the rise from `S(0)` to the final level
 //! for flows (a mean period of more than [`FLOW`] samples), where distances have turned into the growing direction and do not yet feel the
-//! attractor's size; from 0 to 60 % for maps, whose few steps cannot wait. It can be given instead, and should be looked at: the curve is part
-//! of the result. `slope.rs`
+//! attractor's size; from 0 to 60 % for maps, whose few steps cannot wait. The final level is only one if the curve is level there: neighbours of flows are followed for twice as long as often as it is
+//! not. A curve that comes down again has no straight part. The part can be given instead, and should be looked at: the curve belongs
+//! to the result. `slope.rs`
 //!
-//! **Uncertainty.** The states are cut into ten groups by time; each has its slope (its mean growth). The interval of 95 % follows from their scatter. It says how far
-//! another record of the same length might be off, not whether the embedding is right: a positive number also comes out of noise. Only together with
+//! **Scatter.** The states are cut into ten groups by time; each has its slope (its mean growth). The standard error of their mean is given. It says how far
+//! another record of the same length might be off, and is no interval of confidence: groups are not independent, and the methods have errors of their own (the part that is
+//! fitted, a radius that is not small) that all groups share. A positive number also comes out of noise. Only together with
 //! [`classify`](crate::classify) and a curve with a straight part is it a sign of chaos.
 //!
 //! # Source
@@ -35,6 +39,7 @@ mod delay;
 mod dimension;
 mod divergence;
 mod embedding;
+mod repeat;
 mod slope;
 mod tree;
 mod wolf;
@@ -48,10 +53,19 @@ pub const FLOW: f64 = 6.0;
 /// Groups whose scatter tells the uncertainty.
 const GROUPS: usize = 10;
 
-/// Mean of groups and its interval of 95 % by their scatter; Student's quantile for nine degrees of freedom is 2.262.
-fn of_groups(values: &[f64]) -> crate::decay::Estimate {
+/// An exponent, and how far parts of the record scatter about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scattered {
+    /// The exponent [1/s].
+    pub value: f64,
+    /// Standard error of the mean of ten parts of the record [1/s]. It knows nothing of the error of the method, which is often larger.
+    pub scatter: f64,
+}
+
+/// Standard error of the mean of groups.
+fn scatter(values: &[f64]) -> f64 {
     let n = values.len() as f64;
-    let value = values.iter().sum::<f64>() / n;
-    let variance = values.iter().map(|v| (v - value).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
-    crate::decay::Estimate { value, half_width: 2.262 * (variance / n).sqrt() }
+    let mean = values.iter().sum::<f64>() / n;
+    let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0).max(1.0);
+    (variance / n).sqrt()
 }

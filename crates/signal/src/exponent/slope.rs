@@ -5,6 +5,20 @@ use crate::error::SignalError;
 /// Parts of the rise between which flows and maps are fitted.
 const FLOW: (f64, f64) = (0.3, 0.7);
 const MAP: (f64, f64) = (0.0, 0.6);
+/// Part of the rise below which distances do not fall again once they have grown.
+const STAYS: f64 = 0.5;
+
+/// Part of the whole rise by which the last fifth of a curve may lie above the fifth before it and still be level.
+const LEVEL: f64 = 0.05;
+
+/// Whether a curve still rises at its end: then its final level is not known.
+pub(super) fn rises(curve: &[f64]) -> bool {
+    let fifth = (curve.len() / 5).max(1);
+    let mean = |part: &[f64]| part.iter().sum::<f64>() / part.len() as f64;
+    let (rest, last) = curve.split_at(curve.len() - fifth);
+    let before = mean(&rest[rest.len() - fifth..]);
+    mean(last) - before > LEVEL * (mean(last) - curve[0])
+}
 
 /// First and last step of the straight part.
 ///
@@ -25,6 +39,12 @@ pub(super) fn straight_part(curve: &[f64], flow: bool) -> Result<(usize, usize),
     match (reaches(low), reaches(high)) {
         (Some(from), Some(to)) => {
             let to = to.max(from + 2);
+            let lowest = curve.iter().skip(to).copied().fold(f64::INFINITY, f64::min);
+            if lowest < curve[0] + STAYS * rise {
+                return Err(SignalError::NoScaling {
+                    reason: "neighbours that move apart come together again",
+                });
+            }
             if to < curve.len() {
                 return Ok((from, to));
             }

@@ -23,6 +23,7 @@ struct Search<'a> {
     states: &'a States<'a>,
     state: usize,
     window: usize,
+    beyond: f64,
 }
 
 impl Tree {
@@ -61,10 +62,16 @@ impl Tree {
         index
     }
 
-    /// The nearest state more than `window` samples away in time and not on the same spot, and the squared distance.
-    pub(super) fn nearest(&self, states: &States, state: usize, window: usize) -> Option<(usize, f64)> {
+    /// The nearest state more than `window` samples away in time and farther than `beyond`, and the squared distance.
+    pub(super) fn nearest(
+        &self,
+        states: &States,
+        state: usize,
+        window: usize,
+        beyond: f64,
+    ) -> Option<(usize, f64)> {
         let mut best = None;
-        self.look(0, &Search { states, state, window }, &mut best);
+        self.look(0, &Search { states, state, window, beyond: beyond * beyond }, &mut best);
         best
     }
 
@@ -77,7 +84,7 @@ impl Tree {
                     // Ties go to the earlier state, whatever the order of the tree.
                     let closer =
                         best.is_none_or(|(at, least)| square < least || (square == least && other < at));
-                    if square > 0.0 && closer {
+                    if square > search.beyond && closer {
                         *best = Some((other, square));
                     }
                 }

@@ -7,11 +7,8 @@
 //!
 //! Distances below `smallest` do not count: there noise decides on the direction.
 
-use super::{Embedding, FLOW, GROUPS, embedding::States, of_groups, tree::Tree};
-use crate::{
-    decay::Estimate,
-    error::{SignalError, ensure},
-};
+use super::{Embedding, FLOW, GROUPS, Scattered, embedding::States, scatter, tree::Tree};
+use crate::error::{SignalError, ensure};
 
 /// Fewest stretches.
 const FEWEST: usize = 20;
@@ -35,7 +32,7 @@ pub struct WolfSettings {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WolfExponent {
     /// The exponent [1/s].
-    pub exponent: Estimate,
+    pub exponent: Scattered,
     /// Stretches that were followed.
     pub stretches: usize,
     /// Of these, how many begin with a neighbour that could not be replaced.
@@ -79,7 +76,7 @@ pub fn wolf(
     let groups: Vec<f64> =
         rates.chunks(length).map(|chunk| chunk.iter().sum::<f64>() / chunk.len() as f64 * scale).collect();
     let value = scale * rates.iter().sum::<f64>() / rates.len() as f64;
-    let exponent = Estimate { value, half_width: of_groups(&groups).half_width };
+    let exponent = Scattered { value, scatter: scatter(&groups) };
     Ok(WolfExponent { exponent, stretches: rates.len(), kept, evolution })
 }
 

@@ -10,7 +10,7 @@
 //!
 //! then `z = (1 + s)/(1 - s)`. The gain is one at zero, at half the sampling rate, or in the middle of the band, `s = i sqrt(c₁ c₂)`.
 
-use std::f64::consts::PI;
+use std::{cmp::Ordering, f64::consts::PI};
 
 use realfft::num_complex::Complex;
 
@@ -100,36 +100,67 @@ enum Zeros {
     Both,
 }
 
-/// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance sees what the others have damped.
-fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Sections {
-    // Poles of exact conjugate pairs; what is left of the imaginary part of a real one is rounding.
+/// One or two poles that make a section, `1 + a1/z + a2/z²`.
+struct Poles {
+    a: [f64; 2],
+    /// Angle of a pole with positive imaginary part; none if both are real.
+    angle: Option<f64>,
+    /// Distance of a single pole from zero, or the root of the product of two.
+    modulus: f64,
+    single: bool,
+}
+
+/// Poles by sections. What is left of the imaginary part of a real pole is rounding.
+fn grouped(poles: &[Complex<f64>]) -> Vec<Poles> {
     let is_real = |pole: &Complex<f64>| pole.im.abs() < 1e-12 * pole.norm().max(1e-300);
-    let mut pairs: Vec<(f64, f64, bool)> = poles
-        .iter()
-        .filter(|pole| !is_real(pole) && pole.im > 0.0)
-        .map(|pole| (-2.0 * pole.re, pole.norm_sqr(), false))
-        .collect();
+    let pair = |pole: &Complex<f64>| Poles {
+        a: [-2.0 * pole.re, pole.norm_sqr()],
+        angle: Some(pole.arg()),
+        modulus: pole.norm(),
+        single: false,
+    };
     let mut real: Vec<f64> = poles.iter().filter(|pole| is_real(pole)).map(|pole| pole.re).collect();
     real.sort_by(f64::total_cmp);
-    for pair in real.chunks(2) {
-        match *pair {
-            [one, other] => pairs.push((-(one + other), one * other, false)),
-            [single] => pairs.push((-single, 0.0, true)),
-            _ => {}
-        }
-    }
-    // A pole of a first-order section is real, its distance to the circle its own; that of a pair the root of the product.
-    let modulus = |&(a1, a2, first): &(f64, f64, bool)| if first { a1.abs() } else { a2.sqrt() };
-    pairs.sort_by(|one, other| modulus(one).total_cmp(&modulus(other)));
-    let numerator = |first: bool| match (zeros, first) {
+    let of_real = |pair: &[f64]| {
+        let (sum, product) = (pair.iter().sum::<f64>(), pair.iter().product::<f64>());
+        let single = pair.len() == 1;
+        let a2 = if single { 0.0 } else { product };
+        let modulus = if single { product.abs() } else { product.abs().sqrt() };
+        Poles { a: [-sum, a2], angle: None, modulus, single }
+    };
+    let complex = poles.iter().filter(|pole| !is_real(pole) && pole.im > 0.0);
+    complex.map(pair).chain(real.chunks(2).map(of_real)).collect()
+}
+
+/// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance sees what the others have damped.
+///
+/// The zeros of a band-pass filter go to the poles nearest to them: both at 1 to those of the lower edge, both at -1 to those of the upper one, one of each to what is
+/// left in the middle. Sections with a zero at each end pass what lies below a far higher upper edge nearly unweakened to sharp poles at the lower one, and
+/// their rounding is a thousand times larger.
+fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Sections {
+    let mut groups = grouped(poles);
+    groups.sort_by(|one, other| one.angle.unwrap_or(0.0).total_cmp(&other.angle.unwrap_or(0.0)));
+    let complex = groups.iter().filter(|group| group.angle.is_some()).count();
+    let mut number = 0;
+    let mut numerator = |group: &Poles| match (zeros, group.single) {
         (Zeros::Low, false) => [1.0, 2.0, 1.0],
         (Zeros::Low, true) => [1.0, 1.0, 0.0],
         (Zeros::High, false) => [1.0, -2.0, 1.0],
         (Zeros::High, true) => [1.0, -1.0, 0.0],
-        (Zeros::Both, _) => [1.0, 0.0, -1.0],
+        (Zeros::Both, _) if group.angle.is_none() => [1.0, 0.0, -1.0],
+        (Zeros::Both, _) => {
+            number += 1;
+            match (2 * number).cmp(&(complex + 1)) {
+                Ordering::Less => [1.0, -2.0, 1.0],
+                Ordering::Equal => [1.0, 0.0, -1.0],
+                Ordering::Greater => [1.0, 2.0, 1.0],
+            }
+        }
     };
-    let mut sections: Vec<Section> =
-        pairs.into_iter().map(|(a1, a2, first)| Section { b: numerator(first), a: [a1, a2] }).collect();
+    let mut sections: Vec<(f64, Section)> =
+        groups.iter().map(|group| (group.modulus, Section { b: numerator(group), a: group.a })).collect();
+    sections.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let mut sections: Vec<Section> = sections.into_iter().map(|(_, section)| section).collect();
     let gain: f64 = sections.iter().map(|section| section.response(reference).norm()).product();
     sections[0].b.iter_mut().for_each(|value| *value /= gain);
     Sections::new(sections)

@@ -15,6 +15,7 @@
 //! | `butterworth.rs` | poles, and sections of them |
 //! | `sections.rs` | running sections, gain |
 //! | `zero_phase.rs` | forwards and backwards |
+//! | `periodic.rs` | the analogue low-pass filter on a motion that repeats, without transient |
 //!
 //! # Source
 //! Oppenheim and Schafer, *Discrete-Time Signal Processing*, 3rd ed. 2010, sections 6.3, 7.2; Gustafsson, IEEE Trans. Signal Process. 44 (1996), 988-992, on

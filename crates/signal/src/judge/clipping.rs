@@ -1,6 +1,6 @@
 //! Flat tops: does a channel stand at the end of its range because the instrument could not follow?
 //!
-//! With `q` the smallest step between successive samples that differ (the resolution), a smooth maximum
+//! With `q` the smallest difference of two values in the record (the resolution), a smooth maximum
 //! `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a step of about `c n/2 = 4 q/n`,
 //! at most `4/3 q` for three samples. So a run of three or more equal samples at the largest or smallest value that is entered or left with a
 //! step of more than `2 q` is no smooth maximum: it is counted as clipped. Standing at exactly zero does not count: a contact force does.
@@ -21,27 +21,45 @@ pub(super) fn look(channel: &RawChannel, findings: &mut Vec<Finding>) {
         findings.push(Finding::Constant { channel: channel.name.clone() });
         return;
     }
-    let resolution = samples
-        .windows(2)
-        .map(|pair| (pair[1] - pair[0]).abs())
-        .filter(|step| *step > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    for level in [high, low].into_iter().filter(|level| *level != 0.0) {
-        let runs = flat_tops(samples, level, resolution);
-        let Some(&(first, _)) = runs.first() else { continue };
+    let tops =
+        [high, low].into_iter().filter(|level| *level != 0.0).map(|level| (level, flat_tops(samples, level)));
+    let tops: Vec<(f64, Vec<FlatTop>)> = tops.filter(|(_, tops)| !tops.is_empty()).collect();
+    if tops.is_empty() {
+        return;
+    }
+    let limit = STEEP * resolution(samples);
+    for (level, tops) in tops {
+        let steep: Vec<&FlatTop> = tops.iter().filter(|top| top.step > limit).collect();
+        let Some(first) = steep.first() else { continue };
         findings.push(Finding::Clipped {
             channel: channel.name.clone(),
-            samples: runs.iter().map(|run| run.1).sum(),
-            places: runs.len(),
+            samples: steep.iter().map(|top| top.length).sum(),
+            places: steep.len(),
             level,
-            first,
+            first: first.start,
         });
     }
 }
 
-/// Start and length of each flat top at a level.
-fn flat_tops(samples: &[f64], level: f64, resolution: f64) -> Vec<(usize, usize)> {
-    let mut runs = Vec::new();
+/// Equal samples at the end of the range.
+struct FlatTop {
+    start: usize,
+    length: usize,
+    /// The larger step of those in and out.
+    step: f64,
+}
+
+/// Smallest difference of two values, whenever they were taken: successive samples of a fast signal differ by more.
+fn resolution(samples: &[f64]) -> f64 {
+    let mut values = samples.to_vec();
+    values.sort_unstable_by(f64::total_cmp);
+    let differences = values.windows(2).map(|pair| pair[1] - pair[0]);
+    differences.filter(|difference| *difference > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+/// Runs of equal samples at a level that are long enough.
+fn flat_tops(samples: &[f64], level: f64) -> Vec<FlatTop> {
+    let mut tops = Vec::new();
     let mut at = 0;
     while at < samples.len() {
         if samples[at] != level {
@@ -52,11 +70,11 @@ fn flat_tops(samples: &[f64], level: f64, resolution: f64) -> Vec<(usize, usize)
         let step = |index: Option<usize>| {
             index.and_then(|index| samples.get(index)).map_or(0.0, |value| (value - level).abs())
         };
-        let steepest = step(at.checked_sub(1)).max(step(Some(at + length)));
-        if length >= RUN && steepest > STEEP * resolution {
-            runs.push((at, length));
+        if length >= RUN {
+            let step = step(at.checked_sub(1)).max(step(Some(at + length)));
+            tops.push(FlatTop { start: at, length, step });
         }
         at += length;
     }
-    runs
+    tops
 }

@@ -102,6 +102,23 @@ fn gaps_are_refused_or_filled() {
     assert!(matches!(record.findings[..], [Finding::GapsFilled { count: 1, .. }]));
 }
 
+/// Random times, off by a fifth of a step: steps of more than 1.5 among them are no gaps.
+#[test]
+fn jitter_is_uneven_sampling_and_not_gaps() {
+    let mut random = crate::random::Random::new(5);
+    let mut times: Vec<f64> = (0..500).map(|k| (f64::from(k) + 0.2 * random.normal()) / 1000.0).collect();
+    times.sort_by(f64::total_cmp);
+    let long = times.windows(2).filter(|pair| pair[1] - pair[0] > 1.5e-3).count();
+    assert!((5..50).contains(&long), "{long}");
+    let samples: Vec<f64> = times.iter().map(|t| (60.0 * t).sin()).collect();
+    let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
+    assert!(matches!(refused, RecordError::Uneven { .. }), "{refused}");
+    let terms = allowing(Repairs { uneven: true, ..Repairs::default() });
+    let record = raw(times, samples).judge(&terms).unwrap();
+    assert_eq!(record.len(), 500);
+    assert!(matches!(record.findings[..], [Finding::Evened { .. }]), "{:?}", record.findings);
+}
+
 #[test]
 fn missing_samples_are_refused_or_interpolated() {
     let mut samples: Vec<f64> = (0..50).map(f64::from).collect();
@@ -145,6 +162,28 @@ fn clipped_channel_is_told_and_a_quantised_sine_is_not() {
     let quantised: Vec<f64> =
         (0..2000).map(|k| (50.0 * (0.01 * f64::from(k)).sin()).round() / 50.0).collect();
     assert_eq!(raw(even_times(2000), quantised).judge(&Terms::default()).unwrap().findings, []);
+}
+
+/// 20 Hz at 1 kHz: no two successive samples differ by little, whole periods repeat.
+#[test]
+fn clean_sine_is_clipped_wherever_the_range_ends() {
+    for level in [1.0, 2.0, 2.9] {
+        let clipped: Vec<f64> = (0..2000)
+            .map(|k| (3.0 * (0.04 * std::f64::consts::PI * f64::from(k)).sin()).clamp(-level, level))
+            .collect();
+        let findings = raw(even_times(2000), clipped).judge(&Terms::default()).unwrap().findings;
+        let levels: Vec<f64> = findings
+            .iter()
+            .filter_map(|finding| match finding {
+                Finding::Clipped { level, places: 40, .. } => Some(*level),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(levels, [level, -level], "{findings:?}");
+    }
+    // Not clipped, whole periods, with a sample on each maximum.
+    let whole: Vec<f64> = (0..2000).map(|k| (0.04 * std::f64::consts::PI * f64::from(k)).cos()).collect();
+    assert_eq!(raw(even_times(2000), whole).judge(&Terms::default()).unwrap().findings, []);
 }
 
 #[test]

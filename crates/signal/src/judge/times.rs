@@ -1,7 +1,7 @@
 //! The times of samples: order, repetitions, gaps, jitter; and the even grid that is taken or made of them.
 //!
 //! The step is the median of the differences, made more accurate by the whole length where there are no gaps. A difference of more than
-//! 1.5 steps is a gap. Without gaps, with `e` the largest distance of a time from its place on the even grid: up to
+//! 1.5 steps is a gap, unless differences jump about everywhere (a tenth of them are gaps, or half of them are off by 10 %). Without gaps, with `e` the largest distance of a time from its place on the even grid: up to
 //! 1 % of a step it is rounding and not told, up to 10 % it is told and taken as even, beyond that it is refused.
 
 use crate::{
@@ -145,7 +145,9 @@ fn without_gaps(
     let longest_s = gaps.iter().map(|&k| times[k] - times[k - 1]).fold(0.0, f64::max);
     let time_s = times[gaps[0] - 1];
     // Steps that jump about everywhere are not gaps in an even record.
-    if gaps.len() > times.len() / 10 {
+    let mut jumps: Vec<f64> = steps.iter().map(|found| (found / step - 1.0).abs()).collect();
+    let usual_jump = *jumps.select_nth_unstable_by(middle, f64::total_cmp).1;
+    if gaps.len() > times.len() / 10 || usual_jump > JITTER {
         let percent = 100.0 * (longest_s / step - 1.0);
         return if terms.repairs.uneven {
             Ok(step)

@@ -9,8 +9,12 @@
 use crate::{
     finding::Finding,
     raw::{Axis, RawChannel, RawRecord},
-    read::{ReadError, csv::unique},
-    unit::{Quantity, names_time, split_title, unit},
+    read::{
+        ReadError,
+        csv::unique,
+        time::{compare_rates, rises_evenly, time_column},
+    },
+    unit::{Quantity, split_title, unit},
 };
 
 /// An array of numbers.
@@ -31,15 +35,20 @@ pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<
     let step = step_of(&numbers, &mut findings)?;
     let mut channels: Vec<RawChannel> = arrays.iter().flat_map(|array| split(array, &mut findings)).collect();
     unique(&mut channels);
+    let mut time_name = None;
     let axis = match (take_time(&mut channels, step.is_none(), &mut findings), step) {
-        (Some(times), _) => Axis::Times(times),
+        (Some((name, times)), _) => {
+            time_name = Some(name);
+            compare_rates(step.map(|step| 1.0 / step), &times, &mut findings);
+            Axis::Times(times)
+        }
         (None, Some(step_s)) => Axis::Even { step_s, start_s: 0.0 },
         (None, None) => Axis::Unknown,
     };
     if channels.is_empty() {
         return Err(ReadError::NoNumbers);
     }
-    Ok(RawRecord::single(axis, channels, findings))
+    Ok(RawRecord { time_name, ..RawRecord::single(axis, channels, findings) })
 }
 
 /// The step that single numbers name [s].
@@ -100,27 +109,32 @@ fn split(array: &Array, findings: &mut Vec<Finding>) -> Vec<RawChannel> {
     }
 }
 
-/// Takes the time [s] out of the channels.
-fn take_time(channels: &mut Vec<RawChannel>, search: bool, findings: &mut Vec<Finding>) -> Option<Vec<f64>> {
+/// Takes the time [s] out of the channels, with its name.
+fn take_time(
+    channels: &mut Vec<RawChannel>,
+    search: bool,
+    findings: &mut Vec<Finding>,
+) -> Option<(String, Vec<f64>)> {
     let known = |channel: &RawChannel| {
         channel.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time)
     };
-    let last_word = |channel: &RawChannel| channel.name.rsplit('.').next().unwrap_or_default().to_owned();
-    let named = channels
+    // Of a field of a structure the last word counts.
+    let kinds: Vec<(&str, Option<&str>)> = channels
         .iter()
-        .position(|channel| known(channel).is_some())
-        .or_else(|| channels.iter().position(|channel| names_time(&last_word(channel))));
-    if let Some(index) = named {
+        .map(|channel| (channel.name.rsplit('.').next().unwrap_or_default(), channel.unit.as_deref()))
+        .collect();
+    if let Some(index) = time_column(&kinds) {
         let channel = channels.remove(index);
         let factor = known(&channel).map_or(1.0, |unit| unit.factor);
         if known(&channel).is_none() {
-            findings.push(Finding::TimeUnitAssumed { name: channel.name });
+            findings.push(Finding::TimeUnitAssumed { name: channel.name.clone() });
         }
-        return Some(channel.samples.iter().map(|value| value * factor).collect());
+        return Some((channel.name, channel.samples.iter().map(|value| value * factor).collect()));
     }
-    if search && channels.len() > 1 && super::csv::rises_evenly(&channels[0].samples) {
+    if search && channels.len() > 1 && rises_evenly(&channels[0].samples) {
         findings.push(Finding::TimeAssumed);
-        return Some(channels.remove(0).samples);
+        let RawChannel { name, samples, .. } = channels.remove(0);
+        return Some((name, samples));
     }
     None
 }

@@ -11,6 +11,7 @@
 //! | `npy.rs`, `npz.rs` | NumPy arrays and archives |
 //! | `mat/` | MATLAB, level 5 |
 //! | `arrays.rs` | which of named arrays are channels, time, sampling rate: shared by NumPy and MATLAB |
+//! | `time.rs` | which of several columns is the time; a rate named beside it |
 
 mod arrays;
 mod bytes;
@@ -18,6 +19,7 @@ pub mod csv;
 mod mat;
 mod npy;
 mod npz;
+mod time;
 mod uff;
 mod wav;
 
@@ -59,17 +61,15 @@ impl Format {
     /// Told by the first bytes; whatever is no other format is taken for separated values.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Self {
-        let first_line =
-            bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii).find(|line| !line.is_empty());
         if bytes.starts_with(b"\x93NUMPY") {
             Self::Npy
         } else if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
             Self::Npz
         } else if bytes.starts_with(b"RIFF") || bytes.starts_with(b"RIFX") {
             Self::Wav
-        } else if bytes.starts_with(b"MATLAB") || bytes.starts_with(b"\x89HDF") {
+        } else if mat::begins(bytes) {
             Self::Matlab
-        } else if first_line == Some(b"-1") {
+        } else if uff::begins(bytes) {
             Self::Universal
         } else {
             Self::Csv
@@ -97,7 +97,7 @@ pub enum ReadError {
     #[error("line {line}, column {column}: \"{text}\" is not a number")]
     NotANumber { line: usize, column: usize, text: String },
     /// Rows of different length.
-    #[error("line {line} has {found} values, the lines before it have {expected}")]
+    #[error("line {line} has {found} values, the other rows have {expected}")]
     RaggedRow { line: usize, found: usize, expected: usize },
     /// The file ends too early.
     #[error("the file ends early: {what}")]

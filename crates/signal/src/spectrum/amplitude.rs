@@ -2,7 +2,8 @@
 //!
 //! A line between two bins is located by the parabola through the logarithms of the three values about a maximum: at `delta` bins from it,
 //! `delta = (a - c) / (2 (a - 2b + c))` with `a, b, c` these logarithms, and the line's amplitude is `exp(b - (a - c) delta / 4)`. For a Hann window that is
-//! within 0.016 bins and 4 % (the rectangular window knows no such rule: its values are those of the bin).
+//! within 0.016 bins and 4 %. The rectangular window knows no such rule: its values are those of the bin. Nor is there one beside the ends of the spectrum, where a
+//! line is folded upon itself, or for what is narrower than the line of a window.
 
 use super::Window;
 use crate::{
@@ -17,7 +18,16 @@ pub struct Spectrum {
     pub step_hz: f64,
     /// The values, up to half the sampling rate.
     pub values: Vec<f64>,
+    /// Values below this are rounding.
+    pub rounding: f64,
+    /// The window before the transform.
+    pub window: Window,
 }
+
+/// Part of the largest sample that may be rounding in a spectrum of amplitudes.
+pub(super) const ROUNDING: f64 = 1e-14;
+/// Part of a line's value that both neighbours have at least, with any window but the rectangular one. For a Hann window it is 0.2 or more, squared 0.04.
+const NARROW: f64 = 0.01;
 
 /// A maximum of a spectrum.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +62,8 @@ pub fn amplitude_spectrum(
     };
     let mut values: Vec<f64> = spectrum.iter().enumerate().map(value).collect();
     values[0] = mean.abs();
-    Ok(Spectrum { step_hz: sampling_rate_hz / length as f64, values })
+    let largest = series.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    Ok(Spectrum { step_hz: sampling_rate_hz / length as f64, values, rounding: ROUNDING * largest, window })
 }
 
 impl Spectrum {
@@ -69,9 +80,15 @@ impl Spectrum {
     #[must_use]
     pub fn lines(&self, count: usize, apart: usize) -> Vec<Line> {
         let values = &self.values;
-        let mut maxima: Vec<usize> = (1..values.len().saturating_sub(1))
-            .filter(|&k| values[k] > values[k - 1] && values[k] >= values[k + 1])
-            .collect();
+        let last = values.len().saturating_sub(1);
+        let is_maximum = |k: usize| match values.get(k + 1) {
+            // At the end of the spectrum a line of a Hann window has two equal values: it is the end.
+            Some(end) if k + 1 == last => values[k] > values[k - 1] && values[k] > end * (1.0 + 1e-9),
+            Some(next) => values[k] > values[k - 1] && values[k] >= *next,
+            None => values[k] >= values[k - 1] * (1.0 - 1e-9),
+        };
+        let mut maxima: Vec<usize> =
+            (1..values.len()).filter(|&k| values[k] > self.rounding && is_maximum(k)).collect();
         maxima.sort_by(|&one, &other| values[other].total_cmp(&values[one]).then(one.cmp(&other)));
         let mut chosen: Vec<usize> = Vec::new();
         for index in maxima {
@@ -86,8 +103,16 @@ impl Spectrum {
     }
 
     fn line(&self, index: usize) -> Line {
-        let [a, b, c] = [-1, 0, 1]
-            .map(|shift: isize| self.values[index.saturating_add_signed(shift)].max(f64::MIN_POSITIVE).ln());
+        let here = Line { frequency_hz: self.frequency_hz(index), value: self.values[index] };
+        let inside = index > 1 && index + 2 < self.values.len();
+        if !inside || self.window == Window::Rectangular {
+            return here;
+        }
+        let near = [self.values[index - 1], self.values[index], self.values[index + 1]];
+        if near.iter().any(|value| *value < NARROW * near[1]) {
+            return here;
+        }
+        let [a, b, c] = near.map(f64::ln);
         let curvature = a - 2.0 * b + c;
         let shift = if curvature < 0.0 { ((a - c) / (2.0 * curvature)).clamp(-0.5, 0.5) } else { 0.0 };
         Line { frequency_hz: (index as f64 + shift) * self.step_hz, value: (b - (a - c) * shift / 4.0).exp() }
@@ -123,6 +148,37 @@ mod tests {
             let line = spectrum.lines(1, 3)[0];
             assert!((line.frequency_hz - frequency).abs() < 0.017 * 0.5, "{line:?}");
             assert!((line.value / 1.7 - 1.0).abs() < 0.04, "{line:?}");
+        }
+    }
+
+    /// A line at half the sampling rate, and one below the first bin, are folded upon themselves: nothing is made up about them.
+    #[test]
+    fn lines_at_the_ends_of_the_spectrum_keep_their_values() {
+        let alternating: Vec<f64> = (0..1000).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        for window in [Window::Rectangular, Window::Hann, Window::Hamming] {
+            let lines = amplitude_spectrum(&alternating, 1000.0, window).unwrap().lines(3, 3);
+            assert_eq!((lines.len(), lines[0].frequency_hz), (1, 500.0), "{window:?}: {lines:?}");
+            assert!((lines[0].value - 1.0).abs() < 1e-12, "{window:?}: {lines:?}");
+        }
+        let slow: Vec<f64> = (0..1000).map(|k| (2.0 * PI * 1.1 * f64::from(k) / 1000.0).sin()).collect();
+        let line = amplitude_spectrum(&slow, 1000.0, Window::Hann).unwrap().lines(1, 3)[0];
+        assert!(line.value < 1.1, "{line:?}");
+    }
+
+    #[test]
+    fn constant_channel_has_no_lines() {
+        let spectrum = amplitude_spectrum(&[9.80665; 4001], 1000.0, Window::Hann).unwrap();
+        assert_eq!(spectrum.lines(3, 3), []);
+    }
+
+    /// Nothing between bins for a rectangular window: what it shows of 50.37 Hz is the value at 50.5 Hz. A line on a bin has zeros beside it.
+    #[test]
+    fn rectangular_window_is_not_interpolated() {
+        for (frequency, shown) in [(50.37, 50.5), (50.0, 50.0)] {
+            let spectrum =
+                amplitude_spectrum(&harmonic(frequency, 1.7), 1000.0, Window::Rectangular).unwrap();
+            let line = spectrum.lines(1, 3)[0];
+            assert_eq!(line, Line { frequency_hz: shown, value: spectrum.values[(2.0 * shown) as usize] });
         }
     }
 

@@ -2,7 +2,7 @@
 
 use realfft::RealFftPlanner;
 
-use super::{Spectrum, Window};
+use super::{Spectrum, Window, amplitude::ROUNDING};
 use crate::error::{SignalError, ensure, ensure_series};
 
 /// What the values are.
@@ -97,7 +97,9 @@ pub fn welch(
         let single = k == 0 || 2 * k == length;
         *value *= scale * if single { 1.0 } else { 2.0 } / f64::from(count);
     }
-    Ok(Spectrum { step_hz: sampling_rate_hz / length as f64, values })
+    let largest = series.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+    let rounding = scale * (ROUNDING * largest * weights.iter().sum::<f64>()).powi(2);
+    Ok(Spectrum { step_hz: sampling_rate_hz / length as f64, values, rounding, window })
 }
 
 /// Takes the mean or the regression line off.

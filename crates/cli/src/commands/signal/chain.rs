@@ -48,6 +48,7 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
     document["max_abs_measured"] = json!(largest(&measured.channels[0].samples));
     document["noise"] = json!(options.noise);
     document["seed"] = json!(options.seed);
+    document["measured_findings"] = json!(input::findings(&measured));
     document["results"] = json!(path);
     output.give(&document, || text(&input, &chain, &measured, path.as_deref()));
     Ok(())
@@ -75,5 +76,6 @@ fn text(input: &Input, chain: &MeasuringChain, measured: &Record, path: Option<&
     lines.push(format!("  largest as measured   {:.6e}", largest(&channel.samples)));
     lines.extend(path.map(|path| format!("{path}: the measured channel")));
     lines.extend(input.notes());
+    lines.extend(input::notes(measured));
     lines.join("\n")
 }

@@ -44,7 +44,7 @@ fn document(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> Valu
             "logarithmic_decrement": classical.decrement.value,
             "logarithmic_decrement_half_width": classical.decrement.half_width,
             "maxima": classical.maxima,
-            "halves": classical.halves.iter().map(estimate).collect::<Vec<_>>(),
+            "halves": classical.halves.map(|halves| halves.iter().map(estimate).collect::<Vec<_>>()),
             "changes_over_the_decay": classical.changes(),
         })
     });
@@ -84,12 +84,13 @@ fn text(input: &Input, decay: &Decay, classical: Option<&Decrement>) -> String {
             classical.damping_ratio.value,
             classical.damping_ratio.half_width
         ));
-        if classical.changes() {
-            let [first, second] = classical.halves;
-            lines.push(format!(
+        match classical.halves {
+            Some([first, second]) if classical.changes() == Some(true) => lines.push(format!(
                 "note: the decrement changes over the decay, from {:.5} to {:.5}: the damping is not viscous, or more modes are in it",
                 first.value, second.value
-            ));
+            )),
+            Some(_) => {}
+            None => lines.push("note: too few maxima to tell whether the decrement changes over the decay".to_owned()),
         }
     }
     if !decay.white {

@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::plain_number;
 use hammerbeam_signal::{
-    Channel, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
+    Channel, Finding, Format, Quantity, Record, RecordError, Repairs, SignalError, Terms,
     filter::{Band, Sections, butterworth},
     read::read_raw,
 };
@@ -27,7 +27,10 @@ pub struct Input {
 ///
 /// * `reference`: a channel that is wanted besides those the user names.
 pub fn open(options: &InputOptions, reference: Option<&str>) -> Result<Input, Failure> {
-    let (raw, format) = read_raw(&options.file)?;
+    let (mut raw, format) = read_raw(&options.file)?;
+    if let Some(time) = &options.time {
+        raw = raw.with_time(time).map_err(SignalError::from)?;
+    }
     let name = |text: &str| raw.channel_name(text).map(str::to_owned).map_err(SignalError::from);
     let chosen = options.channel.iter().map(|text| name(text)).collect::<Result<Vec<_>, _>>()?;
     let reference = reference.map(name).transpose()?;
@@ -44,10 +47,23 @@ pub fn open(options: &InputOptions, reference: Option<&str>) -> Result<Input, Fa
     let reference = reference.as_ref().map(index).transpose()?;
     let channel = match chosen.first() {
         Some(name) => index(name)?,
-        // The first that is not the reference.
-        None => (0..record.channels.len()).find(|index| Some(*index) != reference).unwrap_or(0),
+        None => usual_channel(&record.channels, reference),
     };
     Ok(Input { record, channel, reference, format, file: options.file.display().to_string() })
+}
+
+/// The first channel of a motion or a force; if no unit says so, the first that is not the reference.
+fn usual_channel(channels: &[Channel], reference: Option<usize>) -> usize {
+    let free = |index: &usize| Some(*index) != reference;
+    let moves = |index: &usize| {
+        let quantity = channels[*index].quantity;
+        matches!(
+            quantity,
+            Quantity::Displacement | Quantity::Velocity | Quantity::Acceleration | Quantity::Force
+        )
+    };
+    let mut indices = (0..channels.len()).filter(free);
+    indices.clone().find(moves).or_else(|| indices.next()).unwrap_or(0)
 }
 
 fn repairs(allowed: &[Repair]) -> Repairs {
@@ -65,7 +81,7 @@ fn repairs(allowed: &[Repair]) -> Repairs {
 /// A refusal, with the option that helps.
 fn with_hint(error: RecordError) -> Failure {
     let hint = match &error {
-        RecordError::NoSamplingRate => "give it with --rate",
+        RecordError::NoSamplingRate => "give it with --rate, or the column of the time with --time",
         RecordError::DifferentSampling { .. } => "choose channels of one group with --channel",
         RecordError::UnequalLengths { .. } => "--repair lengths cuts them to the shortest",
         RecordError::Missing { .. } => "--repair missing interpolates them",
@@ -102,7 +118,6 @@ impl Input {
                 "unit_in_file": channel.unit,
             })
         };
-        let finding = |finding: &hammerbeam_signal::Finding| json!({ "kind": finding.kind(), "channel": finding.channel(), "message": finding.to_string() });
         json!({
             "file": self.file,
             "format": self.format.word(),
@@ -111,7 +126,7 @@ impl Input {
             "samples": self.record.len(),
             "duration_s": self.record.duration_s(),
             "channels": self.record.channels.iter().map(channel).collect::<Vec<_>>(),
-            "findings": self.record.findings.iter().map(finding).collect::<Vec<_>>(),
+            "findings": findings(&self.record),
         })
     }
 
@@ -131,8 +146,19 @@ impl Input {
 
     /// Findings, behind the result.
     pub fn notes(&self) -> Vec<String> {
-        self.record.findings.iter().map(|finding| format!("note: {finding}")).collect()
+        notes(&self.record)
     }
+}
+
+/// Findings about a record, for documents.
+pub fn findings(record: &Record) -> Vec<Value> {
+    let finding = |finding: &Finding| json!({ "kind": finding.kind(), "channel": finding.channel(), "message": finding.to_string() });
+    record.findings.iter().map(finding).collect()
+}
+
+/// Findings about a record, for people.
+pub fn notes(record: &Record) -> Vec<String> {
+    record.findings.iter().map(|finding| format!("note: {finding}")).collect()
 }
 
 /// Unit in which a channel's samples are.

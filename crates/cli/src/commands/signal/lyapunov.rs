@@ -2,10 +2,9 @@
 
 use hammerbeam_signal::{
     SignalError,
-    decay::Estimate,
     exponent::{
-        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, WolfExponent, WolfSettings, embedding,
-        kantz, rosenstein, wolf,
+        Divergence, DivergenceSettings, Embedding, EmbeddingChoice, Scattered, WolfExponent, WolfSettings,
+        embedding, kantz, rosenstein, wolf,
     },
 };
 use hammerbeam_study::export::{Table, header, number};
@@ -48,7 +47,7 @@ type Tried<T> = Option<Result<T, SignalError>>;
 /// What a method gave: the exponent, or why there is none.
 struct Outcome {
     name: &'static str,
-    exponent: Result<Estimate, String>,
+    exponent: Result<Scattered, String>,
 }
 
 struct Found {
@@ -83,7 +82,7 @@ impl Found {
 
     /// What each method that was tried gave.
     fn outcomes(&self) -> Vec<Outcome> {
-        let outcome = |name, exponent: Result<Estimate, &SignalError>| Outcome {
+        let outcome = |name, exponent: Result<Scattered, &SignalError>| Outcome {
             name,
             exponent: exponent.map_err(SignalError::to_string),
         };
@@ -103,7 +102,7 @@ impl Found {
             let found = tried.as_ref()?.as_ref().ok()?;
             Some(json!({
                 "exponent_per_s": found.exponent.value,
-                "half_width_per_s": found.exponent.half_width,
+                "scatter_per_s": found.exponent.scatter,
                 "fit_samples": [found.fit.0, found.fit.1],
                 "states": found.states,
                 "radius": found.radius,
@@ -113,7 +112,7 @@ impl Found {
         let wolf = self.wolf.as_ref().and_then(|tried| tried.as_ref().ok()).map(|found| {
             json!({
                 "exponent_per_s": found.exponent.value,
-                "half_width_per_s": found.exponent.half_width,
+                "scatter_per_s": found.exponent.scatter,
                 "evolution_samples": found.evolution,
                 "stretches": found.stretches,
                 "kept": found.kept,
@@ -123,7 +122,6 @@ impl Found {
         let reasons = self.outcomes().into_iter().filter_map(reason);
         let mut document = input.document();
         document["channel"] = json!(input.channel().name);
-        document["confidence"] = json!(0.95);
         document["delay_samples"] = json!(embedding.delay);
         document["dimension"] = json!(embedding.dimension);
         document["theiler_window_samples"] = json!(embedding.theiler_window);
@@ -147,8 +145,8 @@ impl Found {
         ));
         for Outcome { name, exponent } in self.outcomes() {
             lines.push(match exponent {
-                Ok(Estimate { value, half_width }) => {
-                    format!("  {name:<10} {value:>12.5} +- {half_width:.5} 1/s")
+                Ok(Scattered { value, scatter }) => {
+                    format!("  {name:<10} {value:>12.5} 1/s  standard error of ten parts of the record {scatter:.5}")
                 }
                 Err(reason) => format!("  {name:<10} no result: {reason}"),
             });

@@ -3,6 +3,7 @@
 mod chain;
 mod classify;
 mod decrement;
+mod envelope;
 mod filter;
 mod input;
 mod lyapunov;
@@ -19,6 +20,7 @@ pub fn run(command: &SignalCommand, output: Output) -> Result<(), Failure> {
         SignalCommand::Decrement(options) => decrement::run(options, output),
         SignalCommand::Classify(options) => classify::run(options, output),
         SignalCommand::Lyapunov(options) => lyapunov::run(options, output),
+        SignalCommand::Envelope(options) => envelope::run(options, output),
         SignalCommand::Chain(options) => chain::run(options, output),
     }
 }

@@ -45,12 +45,42 @@ impl Dialect {
         }
     }
 
-    /// Whether all fields of a row are numbers or nothing, and at least one is a number.
-    pub(super) fn is_row(self, line: &str) -> bool {
-        let values: Option<Vec<f64>> =
-            self.split(line).iter().map(|field| number::parse(field, self.decimal_comma)).collect();
-        values.is_some_and(|values| values.iter().any(|value| !value.is_nan()))
+    /// Number of fields, if all of them are numbers or nothing and at least one is a number.
+    pub(super) fn width_of_row(self, line: &str) -> Option<usize> {
+        let fields = self.split(line);
+        let mut numbers = false;
+        for field in &fields {
+            numbers |= !number::parse(field, self.decimal_comma)?.is_nan();
+        }
+        numbers.then_some(fields.len())
     }
+
+    /// Whether rows of two columns, separated by commas, could as well be one column of numbers with decimal commas.
+    pub(super) fn may_be_decimal(self, rows: &[Line]) -> bool {
+        self.separator == Some(',') && rows.iter().all(|(_, line)| halves(line).is_some())
+    }
+
+    /// Whether they must be: no whole number is written as 007.
+    fn is_decimal(self, rows: &[Line]) -> bool {
+        self.may_be_decimal(rows)
+            && rows.iter().any(|(_, line)| {
+                halves(line).is_some_and(|[_, decimals]| decimals.len() > 1 && decimals.starts_with('0'))
+            })
+    }
+
+    /// Whether a line has the titles of so many columns: it is no row of numbers in any dialect, and has no commas over a single column.
+    fn has_titles(self, line: &str, width: usize) -> bool {
+        self.split(line).len() == width
+            && !(width == 1 && line.contains(','))
+            && DIALECTS.iter().all(|dialect| dialect.width_of_row(line).is_none())
+    }
+}
+
+/// Digits before and behind the comma of a line that has no more.
+fn halves(line: &str) -> Option<[&str; 2]> {
+    let (whole, decimals) = line.trim().split_once(',')?;
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (digits(whole.strip_prefix('-').unwrap_or(whole)) && digits(decimals)).then_some([whole, decimals])
 }
 
 /// Fields that may stand in quotation marks; a mark within is doubled.
@@ -77,44 +107,50 @@ fn quoted(line: &str, separator: char) -> Vec<Cow<'_, str>> {
     fields
 }
 
-/// The dialect of a file, and the index of its first row of numbers.
+/// The dialect of a file.
 ///
-/// Each dialect is judged by whether the line before its longest stretch of rows of numbers has as many fields (the titles), then by the length of
-/// that stretch among the first lines, then by the width. A single column with decimal commas under a title with commas is none: it would
-/// hide that a row of two is too short.
-pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize)> {
+/// Each dialect is judged by whether the line before its first row of numbers has as many fields (the titles), then by the length of
+/// its longest stretch of rows among the first lines, then by the width.
+///
+/// # Returns
+/// The dialect, the index of the first row of numbers that has the width of the longest stretch, and that width. What breaks the rows
+/// apart between is for the reader to refuse.
+pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize, usize)> {
     let looked_at = &lines[..lines.len().min(LOOKED_AT)];
     let mut best: Option<((bool, usize, usize), Dialect, usize)> = None;
     for dialect in DIALECTS {
-        let Some((first, length, width)) = stretch(looked_at, dialect) else { continue };
-        let titles = first.checked_sub(1).is_some_and(|before| {
-            let title = looked_at[before].1;
-            dialect.split(title).len() == width
-                && !(width == 1 && dialect.decimal_comma && title.contains(','))
-        });
+        let Some((length, width)) = stretch(looked_at, dialect) else { continue };
+        let Some(first) = looked_at.iter().position(|(_, line)| dialect.width_of_row(line) == Some(width))
+        else {
+            continue;
+        };
+        let above = first.checked_sub(1).map(|before| looked_at[before].1);
+        // Commas in the line above separate: as decimal signs of a single column they would hide that a row of two is too short.
+        if width == 1 && dialect.decimal_comma && above.is_some_and(|above| above.contains(',')) {
+            continue;
+        }
+        if above.is_none() && dialect.is_decimal(looked_at) {
+            continue;
+        }
+        let titles = above.is_some_and(|above| dialect.has_titles(above, width));
         let score = (titles, length, width);
         if best.as_ref().is_none_or(|(other, ..)| score > *other) {
             best = Some((score, dialect, first));
         }
     }
-    best.map(|(_, dialect, first)| (dialect, first))
+    best.map(|((_, _, width), dialect, first)| (dialect, first, width))
 }
 
-/// First row, number of rows and width of the longest stretch of rows of numbers.
-fn stretch(lines: &[Line], dialect: Dialect) -> Option<(usize, usize, usize)> {
-    let mut longest: Option<(usize, usize, usize)> = None;
-    let mut current: Option<(usize, usize, usize)> = None;
-    for (index, (_, line)) in lines.iter().enumerate() {
-        if !dialect.is_row(line) {
-            current = None;
-            continue;
-        }
-        let width = dialect.split(line).len();
-        current = match current {
-            Some((first, length, same)) if same == width => Some((first, length + 1, width)),
-            _ => Some((index, 1, width)),
-        };
-        if longest.is_none_or(|(_, length, _)| current.is_some_and(|current| current.1 > length)) {
+/// Number of rows and width of the longest stretch of rows of numbers.
+fn stretch(lines: &[Line], dialect: Dialect) -> Option<(usize, usize)> {
+    let mut longest: Option<(usize, usize)> = None;
+    let mut current: Option<(usize, usize)> = None;
+    for (_, line) in lines {
+        current = dialect.width_of_row(line).map(|width| match current {
+            Some((length, same)) if same == width => (length + 1, width),
+            _ => (1, width),
+        });
+        if longest.is_none_or(|(length, _)| current.is_some_and(|current| current.0 > length)) {
             longest = current;
         }
     }

@@ -1,7 +1,7 @@
 //! Separated values with a header.
 //!
 //! Nothing about the dialect has to be said: separator and decimal sign are those with which the most lines are rows of numbers
-//! (`dialect.rs`). What stands before the first row is the header (`header.rs`): titles with units, a row of units, comments, a
+//! (`dialect.rs`). The first row of numbers as wide as most is the beginning of the table; no line behind it is passed over. What stands before it is the header (`header.rs`): titles with units, a row of units, comments, a
 //! sampling rate. Lines that begin with `#`, `%` or `//` are comments anywhere. Empty fields and words like `NaN` are missing samples.
 //! A field that ends rows of a file from some row on is the end of a shorter channel.
 
@@ -14,8 +14,11 @@ use dialect::Dialect;
 use crate::{
     finding::Finding,
     raw::{Axis, RawChannel, RawRecord},
-    read::ReadError,
-    unit::{Quantity, names_time, unit},
+    read::{
+        ReadError,
+        time::{compare_rates, rises_evenly, time_column},
+    },
+    unit::{Quantity, unit},
 };
 
 /// A line of text with its number, from 1 on.
@@ -60,13 +63,17 @@ struct Column {
 /// See [`ReadError`].
 pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut findings = Vec::new();
-    let text = decode(bytes, &mut findings)?;
+    let mut text = decode(bytes, &mut findings)?;
+    // As programs of the old Macintosh end lines.
+    if !text.contains('\n') {
+        text = text.replace('\r', "\n");
+    }
     let lines: Vec<Line> = text.lines().enumerate().map(|(k, line)| (k + 1, line)).collect();
     let rows: Vec<Line> =
         lines.iter().copied().filter(|(_, line)| !line.trim().is_empty() && !is_comment(line)).collect();
-    let (dialect, first) = dialect::detect(&rows).ok_or(ReadError::NoNumbers)?;
+    let (dialect, first, width) = dialect::detect(&rows).ok_or(ReadError::NoNumbers)?;
     let first_line = rows[first].0;
-    let width = dialect.split(rows[first].1).len();
+    ensure_no_rows(&rows[..first], dialect, width)?;
     let before: Vec<Line> =
         lines.iter().copied().filter(|(line, text)| *line < first_line && !text.trim().is_empty()).collect();
     let header = header::read(&before, dialect, width);
@@ -76,6 +83,9 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
         values.into_iter().zip(header.titles).map(|(values, (name, unit))| Column { name, unit, values });
     // A separator at the end of each line makes a column of nothing.
     let columns: Vec<Column> = columns.filter(|column| !column.values.is_empty()).collect();
+    if !titled && !rises_evenly(&columns[0].values) && dialect.may_be_decimal(&rows[first..]) {
+        findings.push(Finding::CommasSeparate);
+    }
     arrange(columns, titled, header.rate_hz, findings)
 }
 
@@ -104,6 +114,21 @@ pub(crate) fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String
 fn is_comment(line: &str) -> bool {
     let line = line.trim_start();
     line.starts_with(['#', '%', '!']) || line.starts_with("//")
+}
+
+/// Refuses rows of numbers before the first row of the table. A single number above the titles of several columns is no row: a count, a time of day.
+fn ensure_no_rows(before: &[Line], dialect: Dialect, width: usize) -> Result<(), ReadError> {
+    let mut titles = false;
+    for &(line, text) in before {
+        match dialect.width_of_row(text) {
+            Some(found) if found > 1 || titles => {
+                return Err(ReadError::RaggedRow { line, found, expected: width });
+            }
+            Some(_) => {}
+            None => titles |= dialect.split(text).len() == width,
+        }
+    }
+    Ok(())
 }
 
 /// Values by columns. Empty ends of columns are cut off.
@@ -142,15 +167,23 @@ fn arrange(
     rate_hz: Option<f64>,
     mut findings: Vec<Finding>,
 ) -> Result<RawRecord, ReadError> {
-    let axis = match time_column(&columns, titled, &mut findings) {
+    let kinds: Vec<(&str, Option<&str>)> =
+        columns.iter().map(|column| (column.name.as_str(), column.unit.as_deref())).collect();
+    let assumed = !titled && columns.len() > 1 && rises_evenly(&columns[0].values);
+    let mut time_name = None;
+    let axis = match time_column(&kinds).or(assumed.then_some(0)) {
         Some(index) => {
             let column = columns.remove(index);
+            time_name = Some(column.name.clone());
             let known = column.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
-            if known.is_none() && titled {
-                findings.push(Finding::TimeUnitAssumed { name: column.name });
+            if known.is_none() {
+                let unnamed = Finding::TimeUnitAssumed { name: column.name };
+                findings.push(if titled { unnamed } else { Finding::TimeAssumed });
             }
             let factor = known.map_or(1.0, |unit| unit.factor);
-            Axis::Times(column.values.iter().map(|value| value * factor).collect())
+            let times: Vec<f64> = column.values.iter().map(|value| value * factor).collect();
+            compare_rates(rate_hz, &times, &mut findings);
+            Axis::Times(times)
         }
         None => rate_hz.map_or(Axis::Unknown, |rate| Axis::Even { step_s: 1.0 / rate, start_s: 0.0 }),
     };
@@ -162,32 +195,7 @@ fn arrange(
         return Err(ReadError::NoNumbers);
     }
     unique(&mut channels);
-    Ok(RawRecord::single(axis, channels, findings))
-}
-
-fn time_column(columns: &[Column], titled: bool, findings: &mut Vec<Finding>) -> Option<usize> {
-    let measures_time = |column: &Column| {
-        column.unit.as_deref().and_then(unit).is_some_and(|unit| unit.quantity == Quantity::Time)
-    };
-    let named = |column: &Column| names_time(&column.name);
-    let found = columns
-        .iter()
-        .position(|column| named(column) && measures_time(column))
-        .or_else(|| columns.iter().position(measures_time))
-        .or_else(|| columns.iter().position(named));
-    if found.is_some() || titled || columns.len() < 2 || !rises_evenly(&columns[0].values) {
-        return found;
-    }
-    findings.push(Finding::TimeAssumed);
-    Some(0)
-}
-
-pub(crate) fn rises_evenly(values: &[f64]) -> bool {
-    let Some(([first, ..], last)) = values.split_last().map(|(last, rest)| (rest, last)) else {
-        return false;
-    };
-    let step = (last - first) / (values.len() - 1) as f64;
-    step > 0.0 && values.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 0.1 * step)
+    Ok(RawRecord { time_name, ..RawRecord::single(axis, channels, findings) })
 }
 
 /// Names that stand twice get a number.

@@ -6,15 +6,28 @@ pub(super) fn parse(field: &str, decimal_comma: bool) -> Option<f64> {
     if field.is_empty() || is_nothing(field) {
         return Some(f64::NAN);
     }
-    let number = if decimal_comma && field.contains(',') {
+    let number: Option<f64> = if decimal_comma && field.contains(',') {
         if field.contains('.') {
             return None;
         }
-        field.replacen(',', ".", 1).parse().ok()
+        decimal(&field.replacen(',', ".", 1))
     } else {
-        field.parse().ok()
+        decimal(field)
     };
-    number.or_else(|| clock(field, decimal_comma))
+    number
+        .map(|value| if is_overflow(value) { f64::NAN } else { value })
+        .or_else(|| clock(field, decimal_comma))
+}
+
+/// Numbers that instruments send for what is out of range or no number (SCPI 1999, volume 1, 7.2.1.4 and 7.2.1.5).
+fn is_overflow(value: f64) -> bool {
+    [9.9e37, 9.91e37].contains(&value.abs())
+}
+
+/// A number, its exponent also behind the D of Fortran.
+fn decimal(field: &str) -> Option<f64> {
+    let with_e = || field.contains(['d', 'D']).then(|| field.replacen(['d', 'D'], "e", 1));
+    field.parse().ok().or_else(|| with_e()?.parse().ok())
 }
 
 /// Words that measuring programs and spreadsheets write for a missing value.
@@ -70,6 +83,22 @@ mod tests {
         assert_eq!(parse("1,5", false), None);
         assert_eq!(parse("1.000,5", true), None);
         assert!(parse("", false).unwrap().is_nan() && parse("#N/A", true).unwrap().is_nan());
+    }
+
+    #[test]
+    fn overflow_of_an_instrument_is_nothing() {
+        for text in ["9.9E37", "-9.9e37", "9.91E+37"] {
+            assert!(parse(text, false).unwrap().is_nan(), "{text}");
+        }
+        assert_eq!(parse("9.9e36", false), Some(9.9e36));
+    }
+
+    #[test]
+    fn numbers_of_fortran_are_read() {
+        assert_eq!(parse("1.5000D-03", false), Some(1.5e-3));
+        assert_eq!(parse("-2,5d+01", true), Some(-25.0));
+        assert_eq!(parse("D", false), None);
+        assert_eq!(parse("1D", false), None);
     }
 
     #[test]

@@ -42,6 +42,42 @@ fn dialects_read_the_same() {
 }
 
 #[test]
+fn lines_that_end_in_carriage_returns_alone_are_read() {
+    assert_read("t [s];a\r0;1,5\r1;2,5\r", &[("a", None)], &[0.0, 1.0], &[1.5, 2.5]);
+}
+
+#[test]
+fn commas_without_titles_are_decimal_signs_or_told() {
+    // No whole number is written as 00.
+    let decimal = read_text("0,00\n1,37\n0,02\n");
+    assert_eq!((decimal.groups[0].channels.len(), &decimal.findings[..]), (1, &[][..]));
+    assert_eq!(decimal.groups[0].channels[0].samples, [0.0, 1.37, 0.02]);
+    let either = read_text("3,10\n1,37\n2,42\n");
+    assert_eq!((either.groups[0].channels.len(), &either.findings[..]), (2, &[Finding::CommasSeparate][..]));
+}
+
+#[test]
+fn column_that_begins_with_minus_one_or_a_title_with_matlab_is_read() {
+    for text in ["-1\n0.5\n1.5\n", "-1\n3\n4\n", "MATLAB export\n-1\n3\n4\n"] {
+        let raw = crate::read::parse(text.as_bytes()).unwrap();
+        assert_eq!(raw.groups[0].channels[0].samples[0], -1.0, "{text}");
+    }
+}
+
+#[test]
+fn time_can_be_named() {
+    let text = "clock [ms],x [mm],a\n0,1,5\n1000,2,7\n2000,4,9\n";
+    let named = |name: &str| read_text(text).with_time(name).unwrap();
+    assert_eq!(named("clock"), read_text(text), "what is taken already");
+    let by_x = named("x");
+    assert_eq!(by_x.groups[0].axis, Axis::Times(vec![1.0, 2.0, 4.0]));
+    let clock = &by_x.groups[0].channels[0];
+    assert_eq!((clock.name.as_str(), &clock.samples[..]), ("clock", &[0.0, 1.0, 2.0][..]));
+    assert_eq!(by_x.findings, [Finding::TimeUnitAssumed { name: "x".to_owned() }]);
+    assert!(read_text(text).with_time("b").is_err());
+}
+
+#[test]
 fn titles_in_a_comment_are_taken() {
     assert_read("# t a\n0.0 1.0\n0.5 2.0\n", &[("a", None)], &[0.0, 0.5], &[1.0, 2.0]);
     assert_read("% time_s,x_mm\n0.0,1.0\n0.5,2.0\n", &[("x", Some("mm"))], &[0.0, 0.5], &[1.0, 2.0]);
@@ -64,6 +100,56 @@ fn time_without_title_or_unit_is_told() {
     assert_eq!(read_text("t,x\n0,1\n1,5\n").findings, [Finding::TimeUnitAssumed { name: "t".to_owned() }]);
     // Two channels without a time: neither rises evenly.
     assert_eq!(read_text("3,1\n1,5\n2,4\n").groups[0].axis, Axis::Unknown);
+}
+
+/// Velocities and other rates end in `/s`: they are no times, and a column named time comes first.
+#[test]
+fn column_named_time_is_the_time_whatever_is_measured_per_second() {
+    for (titles, name, unit) in [
+        ("time,speed m/s", "speed", "m/s"),
+        ("time,v mm/s", "v", "mm/s"),
+        ("t,v m/s", "v", "m/s"),
+        ("Time[s],v m/s", "v", "m/s"),
+        ("time,omega rad/s", "omega", "rad/s"),
+        ("time,load N/s", "load", "N/s"),
+        ("time,load_n_s", "load_n_s", ""),
+        ("Time - s,delay ms", "delay", "ms"),
+        ("Zeitstempel,a ms-2", "a", "ms-2"),
+    ] {
+        let unit = Some(unit).filter(|unit| !unit.is_empty());
+        assert_read(
+            &format!("{titles}\n0,5\n1,7\n2,9\n"),
+            &[(name, unit)],
+            &[0.0, 1.0, 2.0],
+            &[5.0, 7.0, 9.0],
+        );
+    }
+    // Without a name the unit says it.
+    assert_read("v m/s,delay ms\n5,0\n7,1000\n", &[("v", Some("m/s"))], &[0.0, 1.0], &[5.0, 7.0]);
+}
+
+#[test]
+fn rate_that_is_not_that_of_the_times_is_told() {
+    let rows =
+        |step: f64| -> String { (0..50).map(|k| format!("{},{}\n", step * f64::from(k), k % 7)).collect() };
+    for (step, header, found) in [
+        (0.002, "# sampling rate: 1000 Hz", true),
+        (0.002, "Sampling rate: 1 kHz", true),
+        (0.002, "# sampling rate: 500 Hz", false),
+        (0.002, "# fs = 501", false),
+    ] {
+        let findings = read_text(&format!("{header}\nt [s],a\n{}", rows(step))).findings;
+        let told = matches!(
+            findings[..],
+            [Finding::NamedRateDisagrees { named_hz: 1000.0, found_hz }] if (found_hz - 500.0).abs() < 1e-9
+        );
+        assert_eq!((told, findings.len()), (found, usize::from(found)), "{header}: {findings:?}");
+    }
+    // A gap moves the mean rate, rounded times the median: neither is another rate.
+    let gap = "# fs = 1\nt [s],a\n0,1\n1,2\n2,1\n3,2\n9,1\n";
+    assert_eq!(read_text(gap).findings, []);
+    let rounded: String = (0..60).map(|k| format!("{:.1},{}\n", f64::from(k) / 15.0, k % 7)).collect();
+    assert_eq!(read_text(&format!("# fs = 15\nt [s],a\n{rounded}")).findings, []);
 }
 
 #[test]
@@ -96,6 +182,68 @@ fn text_among_numbers_is_refused_with_its_place() {
 fn rows_of_other_lengths_are_refused_with_their_line() {
     assert_eq!(refused("t,a\n0,1\n1,2\n2\n3,4\n"), ReadError::RaggedRow { line: 4, found: 1, expected: 2 });
     assert_eq!(refused("t,a\n0,1\n1,2\n2,3,9\n"), ReadError::RaggedRow { line: 4, found: 3, expected: 2 });
+}
+
+/// A table of 400 rows of two columns with a line put in before row `row`, from 1 on.
+fn with_line(titles: &str, row: usize, line: &str) -> String {
+    let mut rows: Vec<String> = (0..400).map(|k| format!("{}.5,{}.25", k, k % 7)).collect();
+    rows.insert(row - 1, line.to_owned());
+    format!("{titles}{}\n", rows.join("\n"))
+}
+
+/// Wherever the line stands: nothing before it is taken for a header.
+#[test]
+fn line_that_breaks_the_rows_is_refused_and_no_row_is_swallowed() {
+    for row in [2, 60, 150, 199, 250, 399] {
+        for (titles, before) in [("time [s],a [g]\n", 1), ("", 0)] {
+            let line = row + before;
+            for (text, bad, column) in
+                [("trigger", "trigger", 1), ("overload,", "overload", 1), ("7.5,abc", "abc", 2)]
+            {
+                assert_eq!(
+                    refused(&with_line(titles, row, text)),
+                    ReadError::NotANumber { line, column, text: bad.to_owned() },
+                    "{text} in line {line}"
+                );
+            }
+            for (text, found) in [("1,2,3", 3), ("7.5", 1)] {
+                assert_eq!(
+                    refused(&with_line(titles, row, text)),
+                    ReadError::RaggedRow { line, found, expected: 2 },
+                    "{text} in line {line}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn first_row_that_is_too_short_is_refused() {
+    assert_eq!(
+        refused("t,a,b\n0,1\n1,2,3\n2,3,4\n3,4,5\n"),
+        ReadError::RaggedRow { line: 2, found: 2, expected: 3 }
+    );
+    assert_eq!(refused("t,a\n0\n1,2\n2,3\n3,4\n"), ReadError::RaggedRow { line: 2, found: 1, expected: 2 });
+    // Two tables below each other.
+    let two = format!("t,a,b\n{}{}", "0.5,1.5\n".repeat(60), "0.5,1.5,2.5\n".repeat(100));
+    assert_eq!(refused(&two), ReadError::RaggedRow { line: 2, found: 2, expected: 3 });
+}
+
+#[test]
+fn single_number_above_the_titles_is_header() {
+    assert_read(
+        "400\n12:30:00\nt [s],a\n0,1\n1,2\n2,3\n",
+        &[("a", None)],
+        &[0.0, 1.0, 2.0],
+        &[1.0, 2.0, 3.0],
+    );
+}
+
+#[test]
+fn row_of_nothing_between_rows_is_a_missing_sample() {
+    let raw = read_text("t [s],a\n0,1\n1,2\n,\n3,4\n4,5\n5,6\n6,7\n");
+    assert_eq!(raw.groups[0].channels[0].samples.len(), 7);
+    assert!(raw.groups[0].channels[0].samples[2].is_nan());
 }
 
 #[test]

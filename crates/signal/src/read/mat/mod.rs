@@ -20,13 +20,40 @@ const STRUCTURE: u32 = 2;
 const NUMERIC: std::ops::RangeInclusive<u32> = 6..=15;
 const COMPLEX: u32 = 0x0800;
 
+/// Whether a file is one of MATLAB's, of any level, or HDF5.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    let text = &bytes[..bytes.len().min(116)];
+    let level_5 = text.starts_with(b"MATLAB") && text.windows(8).any(|part| part == b"MAT-file");
+    level_5 || bytes.starts_with(HDF) || is_level_4(bytes)
+}
+
+const HDF: &[u8] = b"\x89HDF";
+
+/// Level 4 begins with five whole numbers: a type in decimal digits, rows, columns, whether it is complex, and the length of the name with its ending zero.
+fn is_level_4(bytes: &[u8]) -> bool {
+    let Some((header, rest)) = bytes.split_at_checked(20) else { return false };
+    let number = |k: usize| u32::from_le_bytes([header[k], header[k + 1], header[k + 2], header[k + 3]]);
+    let [kind, complex, name] = [0, 12, 16].map(number);
+    let is_type = kind < 100 && kind / 10 <= 5 && kind % 10 <= 2;
+    let ends = (name as usize).checked_sub(1).and_then(|end| rest.get(end)) == Some(&0);
+    is_type && complex <= 1 && (2..=64).contains(&name) && ends
+}
+
+fn ensure_level_5(bytes: &[u8]) -> Result<(), ReadError> {
+    let (what, instead) = if bytes.starts_with(b"MATLAB 7.3") {
+        ("MATLAB 7.3 (HDF5)", "save with save(name, ..., '-v7') in MATLAB")
+    } else if bytes.starts_with(HDF) {
+        ("HDF5", "save with save(name, ..., '-v7') in MATLAB, or as CSV or NumPy")
+    } else if is_level_4(bytes) {
+        ("MATLAB level 4", "save with save(name, ..., '-v7') in MATLAB, or with SciPy's savemat(format='5')")
+    } else {
+        return Ok(());
+    };
+    Err(ReadError::Unsupported { what: what.to_owned(), instead })
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
-    if bytes.starts_with(b"MATLAB 7.3") || bytes.starts_with(b"\x89HDF") {
-        return Err(ReadError::Unsupported {
-            what: "MATLAB 7.3 (HDF5)".to_owned(),
-            instead: "save with save(name, ..., '-v7') in MATLAB",
-        });
-    }
+    ensure_level_5(bytes)?;
     let header = bytes.get(..128).ok_or_else(|| ReadError::Truncated { what: "the header".to_owned() })?;
     let big_endian = match &header[126..128] {
         b"IM" => false,

@@ -24,6 +24,16 @@ use header::{Binary, Header};
 /// Lines between the type of a dataset and its values.
 const HEADER_LINES: usize = 11;
 
+/// Whether a file begins with a line of -1 in its columns 5 and 6, and the number of a dataset below. A -1 at the very edge may be a number of a table.
+pub(super) fn begins(bytes: &[u8]) -> bool {
+    let mut lines =
+        bytes.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end()).filter(|line| !line.is_empty());
+    let (first, second) = (lines.next().unwrap_or_default(), lines.next().unwrap_or_default().trim_ascii());
+    let number = second.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let is_number = number > 0 && matches!(second.get(number), None | Some(b'b' | b'B'));
+    first.trim_ascii() == b"-1" && is_number && (first.starts_with(b" ") || second.starts_with(b"58"))
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut file = Lines { rest: bytes };
     let mut raw = RawRecord::default();
