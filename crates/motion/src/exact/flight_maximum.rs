@@ -58,7 +58,7 @@ impl ExactIntegrator {
     }
 
     /// Bound on the magnitude of displacement (0) or acceleration (2) of an output over a flight: each block within its energy norm.
-    fn flight_bound(&self, flown: &Flown, (index, derivative): (usize, usize)) -> f64 {
+    pub(super) fn flight_bound(&self, flown: &Flown, (index, derivative): (usize, usize)) -> f64 {
         let (output, n) = (&self.outputs[index], self.blocks.count());
         let until = flown.start + flown.duration;
         let (factors, mut bound) = if derivative == 0 {

@@ -4,7 +4,7 @@
 //! * The least squared speed of a touch: where a contact vanishes so does it, linearly too, since the penetration is `v^2/2a` there. Where a contact stops opening for an instant, the touch behind that instant vanishes.
 //! * The least penetration of a turn between two presses of one contact: where the contact begins to open there it vanishes, linearly.
 //!
-//! Turns of a flight are found on a grid as fine as its curvature asks for, however short the flight and small its clearance, and the highest of them is closed in by Newton's method where it is near. Turns of a contact that stays closed are
+//! Turns of a flight are found on a grid as fine as its curvature asks for, and the highest of them is closed in by Newton's method where it is near. Turns of a contact that stays closed are
 //! the valleys of its force at the nodes of its steps; the lowest one is closed in.
 
 use super::{
@@ -18,7 +18,6 @@ use super::{
 const NEAR: f64 = 0.1;
 /// Share of the largest clearance by which a turn may lie above the grid.
 const EXCESS: f64 = 0.01;
-const LEAST_PLACES: usize = 8;
 const MOST_PLACES: usize = 256;
 /// Steps of Newton's method from a node to the turn of a contact, behind which a parabola does the rest.
 const POLISHES: usize = 3;
@@ -119,15 +118,12 @@ impl ExactIntegrator {
             return f64::INFINITY;
         }
         let flight = FlightFunction::new(self, flown, (element, 0));
-        let least = contacts.iter().filter_map(|contact| {
-            let on_grid = |count: usize| -> Vec<f64> {
-                flight.on_grid(count).into_iter().map(|r| contact.sign * (contact.level - r)).collect()
-            };
-            let largest = on_grid(LEAST_PLACES).into_iter().fold(0.0, f64::max);
-            let count = flight.places(EXCESS * largest).clamp(LEAST_PLACES, MOST_PLACES);
-            nearest_turn(&flight, contact.sign, on_grid(count))
-        });
-        least.fold(f64::INFINITY, f64::min)
+        let size = self.flight_bound(flown, (element, 0));
+        let values = flight.on_grid(flight.places(EXCESS * size).min(MOST_PLACES));
+        contacts.iter().fold(f64::INFINITY, |least, contact| {
+            let clearances = values.iter().map(|r| contact.sign * (contact.level - r));
+            least.min(nearest_turn(&flight, contact.sign, clearances.collect()).unwrap_or(least))
+        })
     }
 }
 
