@@ -25,7 +25,7 @@
 
 use hammerbeam_motion::{
     Flow, Stretch, System,
-    exact::{ExactIntegrator, MotionError, complete_touches},
+    exact::{ExactIntegrator, MotionError, NearMisses, complete_touches},
 };
 use hammerbeam_path::{
     DenseLu, Determinant, EvaluationError, Events, Outside, PathProblem, SingularJacobian, TestValue,
@@ -438,7 +438,9 @@ impl PathProblem for ShootingProblem {
             values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
         }
         // Never negative: between two grazings with the same contacts on both sides they come near zero.
-        values.extend(self.integrator.near_misses().all().map(|value| TestValue { value, count: 0 }));
+        let NearMisses { clearance, touch_speed_squared, penetration } = self.integrator.near_misses();
+        values
+            .extend([clearance, touch_speed_squared, penetration].map(|value| TestValue { value, count: 0 }));
     }
 
     fn outside(&mut self, events: Events) -> Option<Outside> {

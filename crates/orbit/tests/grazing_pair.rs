@@ -3,8 +3,6 @@
 //! `x'' + c x' + K x = cos(2 pi f t)` has its largest amplitude `1/(c sqrt(K - c^2/4))`, and the amplitude g at `w^2 = K - c^2/2 -+ sqrt((K - c^2/2)^2 - K^2 + 1/g^2)`.
 //! A stop at a distance g a little below the largest amplitude is touched between these two frequencies, with `K = 1`. The other way round, a spring of stiffness k that presses
 //! with the force p on the undeformed oscillator is pressed in by `g = p/(k K)` at rest, `K = 1 + k`; between the frequencies it opens for an instant in every period.
-//!
-//! Beside it a second oscillator, far below its resonance, all but touches a stop of its own at every frequency, nearer than the first one comes to its at most of them.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 mod common;
@@ -22,13 +20,8 @@ const DAMPING: f64 = 0.1;
 /// Stiffness of the spring.
 const STIFFNESS: f64 = 10.0;
 
-/// Natural frequency of the second oscillator [rad/s].
-const SECOND: f64 = 10.0;
-/// How near it comes to its stop, at the upper end of the range.
-const CLOSEST: f64 = 1e-6;
-
 /// With a spring that is touched, or left, where the amplitude exceeds its largest one less this share of it; and the two frequencies at which it does [Hz].
-fn oscillators(share: f64, is_pressed_at_rest: bool, to_hz: f64) -> (System, [f64; 2]) {
+fn oscillator(share: f64, is_pressed_at_rest: bool) -> (System, [f64; 2]) {
     let stiffness = if is_pressed_at_rest { 1.0 + STIFFNESS } else { 1.0 };
     let least = (1.0 - share) / (DAMPING * (stiffness - 0.25 * DAMPING * DAMPING).sqrt());
     let stop = if is_pressed_at_rest {
@@ -36,38 +29,25 @@ fn oscillators(share: f64, is_pressed_at_rest: bool, to_hz: f64) -> (System, [f6
     } else {
         LinearStop::with_gap(STIFFNESS, least)
     };
-    let largest = to_hz * TAU;
-    let amplitude = 1.0 / (SECOND * SECOND - largest * largest).hypot(DAMPING * largest);
-    let far = LinearStop::with_gap(STIFFNESS, amplitude + CLOSEST);
-    let shapes = [vec![1.0, 0.0], vec![0.0, 1.0]];
-    let point = |name: &str, shape: &Vec<f64>| PointOutput {
-        name: name.into(),
-        shape: shape.clone(),
-        support_ratio: 0.0,
-    };
     let model = ReducedModel {
-        natural_frequencies: vec![1.0, SECOND],
-        damping: Mat::from_fn(2, 2, |i, j| if i == j { DAMPING } else { 0.0 }),
-        points: vec![point("first", &shapes[0]), point("second", &shapes[1])],
+        natural_frequencies: vec![1.0],
+        damping: Mat::from_fn(1, 1, |_, _| DAMPING),
+        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
         support: None,
-        uniform_acceleration: vec![1.0, 1.0],
+        uniform_acceleration: vec![1.0],
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0, 1.0], harmonic }] };
-    let stops = [stop, far].into_iter().zip(shapes).map(|(stop, shape)| LocalElement {
-        name: "stop".into(),
-        shape,
-        support_ratio: 0.0,
-        law: Law::Linear(stop.unwrap()),
-    });
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let law = Law::Linear(stop.unwrap());
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
     let middle = stiffness - 0.5 * DAMPING * DAMPING;
     let root = (middle * middle - stiffness * stiffness + 1.0 / (least * least)).sqrt();
     let frequencies = [-root, root].map(|root| (middle + root).sqrt() / TAU);
-    (System::new(model, &load, stops.collect()).unwrap(), frequencies)
+    (System::new(model, &load, vec![stop]).unwrap(), frequencies)
 }
 
 fn grazings(system: &System, (from_hz, to_hz): (f64, f64), max_step_hz: f64) -> Vec<f64> {
-    let response = Response { shape: vec![1.0, 0.0], support_ratio: 0.0 };
+    let response = Response { shape: vec![1.0], support_ratio: 0.0 };
     let settings = OrbitSettings { max_step_hz, ..OrbitSettings::default() };
     let start = find_start(system, &response, from_hz, 1, &settings).unwrap();
     let (rows, _) = walk(system, &response, &start, Side::Up, (from_hz, to_hz), &settings);
@@ -75,9 +55,9 @@ fn grazings(system: &System, (from_hz, to_hz): (f64, f64), max_step_hz: f64) -> 
 }
 
 /// Two grazings are found in the range, at the frequencies of the closed form, however wide the steps.
-fn assert_pair_is_found(shares: [f64; 3], is_pressed_at_rest: bool, range_hz: (f64, f64)) {
-    for share in shares {
-        let (system, expected) = oscillators(share, is_pressed_at_rest, range_hz.1);
+fn assert_pair_is_found(is_pressed_at_rest: bool, range_hz: (f64, f64)) {
+    for share in [1e-3, 1e-5, 1e-7] {
+        let (system, expected) = oscillator(share, is_pressed_at_rest);
         for max_step_hz in [1e-3, 1e-4] {
             let found = grazings(&system, range_hz, max_step_hz);
             assert_eq!(found.len(), 2, "{share:e}, {max_step_hz} Hz: {found:?}, expected {expected:?}");
@@ -90,11 +70,10 @@ fn assert_pair_is_found(shares: [f64; 3], is_pressed_at_rest: bool, range_hz: (f
 
 #[test]
 fn a_touch_that_appears_and_vanishes_within_a_step_is_found() {
-    assert_pair_is_found([1e-3, 1e-5, 1e-7], false, (0.15, 0.17));
+    assert_pair_is_found(false, (0.15, 0.17));
 }
 
 #[test]
 fn a_contact_that_opens_for_an_instant_within_a_step_is_found() {
-    // Ten times as far as the amplitude of its vibration, the preload holds the mass from where the spring would be at rest: orbits are known relative to that.
-    assert_pair_is_found([1e-3, 1e-5, 1e-6], true, (0.51, 0.545));
+    assert_pair_is_found(true, (0.51, 0.545));
 }

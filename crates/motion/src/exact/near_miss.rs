@@ -22,70 +22,44 @@ const MOST_PLACES: usize = 256;
 /// Steps of Newton's method from a node to the turn of a contact, behind which a parabola does the rest.
 const POLISHES: usize = 3;
 
-/// Near misses of one kind that are told apart; one behind another shares a place with an earlier one.
-const PLACES: usize = 8;
-
-/// The least near misses of one kind, each in its place.
-type Least = [f64; PLACES];
-
-/// How near a motion is to other contacts. Each near miss has its place, by when it happens, so that a lower one elsewhere does not hide it; places without one are infinite.
+/// How near a motion is to other contacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearMisses {
-    /// Least clearance of a turn towards a contact [m], for each flight and element.
-    pub clearance: Least,
-    /// Squared speed of each touch [m^2/s^2].
-    pub touch_speed_squared: Least,
-    /// Least penetration of a turn between two presses [m], for each contact.
-    pub penetration: Least,
+    /// Least clearance of a turn in flight towards a contact [m]; infinite where there is none.
+    pub clearance: f64,
+    /// Least squared speed of a touch [m^2/s^2]; infinite without touches.
+    pub touch_speed_squared: f64,
+    /// Least penetration of a turn between two presses of one contact [m]; infinite where there is none.
+    pub penetration: f64,
 }
 
 impl NearMisses {
-    const NONE: Self = Self {
-        clearance: [f64::INFINITY; PLACES],
-        touch_speed_squared: [f64::INFINITY; PLACES],
-        penetration: [f64::INFINITY; PLACES],
-    };
-
-    /// All of them, in the order of their places.
-    pub fn all(&self) -> impl Iterator<Item = f64> {
-        [self.clearance, self.touch_speed_squared, self.penetration].into_iter().flatten()
-    }
-}
-
-fn note(least: &mut Least, number: usize, value: f64) {
-    let place = &mut least[number % PLACES];
-    *place = place.min(value);
+    const NONE: Self =
+        Self { clearance: f64::INFINITY, touch_speed_squared: f64::INFINITY, penetration: f64::INFINITY };
 }
 
 impl ExactIntegrator {
     /// Near misses of the motion that was noted last (see [`ExactIntegrator::begin_course`]).
     pub fn near_misses(&mut self) -> NearMisses {
         let course = std::mem::take(&mut self.course);
-        let (mut least, mut flights, mut touches) = (NearMisses::NONE, 0, 0);
+        let mut least = NearMisses::NONE;
         for piece in 0..course.stretches.len() {
             self.drive_over(&course.stretches[piece].stretch);
             for passage in course.of_stretch(piece) {
                 match *passage {
                     Passage::Touch { speed } => {
-                        note(&mut least.touch_speed_squared, touches, speed * speed);
-                        touches += 1;
+                        least.touch_speed_squared = least.touch_speed_squared.min(speed * speed);
                     }
                     Passage::Flight { start, duration, state, held, .. } if course.held(held).is_empty() => {
                         let flown = Flown { piece, start, duration, state: course.numbers(state), held: &[] };
-                        for element in 0..self.laws.len() {
-                            let clearance = self.clearance_of_turns(&flown, element);
-                            note(&mut least.clearance, flights * self.laws.len() + element, clearance);
-                        }
-                        flights += 1;
+                        least.clearance = least.clearance.min(self.clearance_of_turns(&flown));
                     }
                     _ => {}
                 }
             }
         }
-        for (contact, valley) in lowest_valleys(&course, self.laws.len()).into_iter().enumerate() {
-            if let Some(valley) = valley {
-                note(&mut least.penetration, contact, self.penetration_of_turn(&course, &valley));
-            }
+        for valley in lowest_valleys(&course, self.laws.len()).into_iter().flatten() {
+            least.penetration = least.penetration.min(self.penetration_of_turn(&course, &valley));
         }
         self.course = course;
         least
@@ -111,19 +85,19 @@ impl ExactIntegrator {
         contacts.fold(0.0, |most, contact| most.max(contact.sign * (turn - contact.level)))
     }
 
-    /// Least clearance of the turns of a flight over the contacts of an element.
-    fn clearance_of_turns(&self, flown: &Flown, element: usize) -> f64 {
-        let contacts = self.laws[element].contacts();
-        if contacts.is_empty() {
-            return f64::INFINITY;
+    /// Least clearance of the turns of a flight over all contacts.
+    fn clearance_of_turns(&self, flown: &Flown) -> f64 {
+        let mut least = f64::INFINITY;
+        for (element, law) in self.laws.iter().enumerate().filter(|(_, law)| !law.contacts().is_empty()) {
+            let flight = FlightFunction::new(self, flown, (element, 0));
+            let size = self.flight_bound(flown, (element, 0));
+            let values = flight.on_grid(flight.places(EXCESS * size).min(MOST_PLACES));
+            for contact in law.contacts() {
+                let clearances = values.iter().map(|r| contact.sign * (contact.level - r));
+                least = least.min(nearest_turn(&flight, contact.sign, clearances.collect()).unwrap_or(least));
+            }
         }
-        let flight = FlightFunction::new(self, flown, (element, 0));
-        let size = self.flight_bound(flown, (element, 0));
-        let values = flight.on_grid(flight.places(EXCESS * size).min(MOST_PLACES));
-        contacts.iter().fold(f64::INFINITY, |least, contact| {
-            let clearances = values.iter().map(|r| contact.sign * (contact.level - r));
-            least.min(nearest_turn(&flight, contact.sign, clearances.collect()).unwrap_or(least))
-        })
+        least
     }
 }
 
@@ -138,46 +112,38 @@ struct Valley {
     force: f64,
 }
 
-/// The lowest valley of the forces behind each touch (and before the first), among the nodes of the steps that one contact lasts.
+/// The lowest valley of each element's force, among the nodes of the steps that one contact lasts.
 fn lowest_valleys(course: &Course, elements: usize) -> Vec<Option<Valley>> {
-    let (mut lowest, mut latest) = (vec![None], vec![(f64::NAN, None::<Valley>); elements]);
+    let (mut lowest, mut latest) = (vec![None; elements], vec![(f64::NAN, None::<Valley>); elements]);
     let pieces = 0..course.stretches.len();
-    for (piece, passage) in
-        pieces.flat_map(|piece| course.of_stretch(piece).iter().map(move |passage| (piece, passage)))
-    {
-        let step = match passage {
-            Passage::Step(step) => step,
-            Passage::Touch { .. } => {
-                lowest.push(None);
-                continue;
-            }
-            _ => {
-                latest.fill((f64::NAN, None));
-                continue;
-            }
+    let passages =
+        pieces.flat_map(|piece| course.of_stretch(piece).iter().map(move |passage| (piece, passage)));
+    for (piece, passage) in passages {
+        let active = match passage {
+            Passage::Step(step) => course.active(step),
+            Passage::Touch { .. } => continue,
+            _ => &[],
         };
-        let (active, forces) = (course.active(step), course.numbers(step.force).as_chunks::<NODES>().0);
         for (element, latest) in latest.iter_mut().enumerate() {
-            let Some(a) = active.iter().position(|(other, _)| *other == element) else {
+            if !active.iter().any(|(other, _)| *other == element) {
                 *latest = (f64::NAN, None);
-                continue;
-            };
-            let lowest = lowest.last_mut().expect("it begins with one");
-            for (node, force) in forces[a].iter().map(|force| force.abs()).enumerate() {
-                descend(lowest, latest, Valley { piece, step: *step, element, node, force });
+            }
+        }
+        let Passage::Step(step) = passage else { continue };
+        for (&(element, _), forces) in active.iter().zip(course.numbers(step.force).as_chunks::<NODES>().0) {
+            for (node, force) in forces.iter().map(|force| force.abs()).enumerate() {
+                let (earlier, middle) = latest[element];
+                if let Some(middle) = middle.filter(|middle| earlier >= middle.force && middle.force < force)
+                {
+                    let lower = |valley: &Valley| valley.force <= middle.force;
+                    lowest[element] = lowest[element].filter(lower).or(Some(middle));
+                }
+                let here = Valley { piece, step: *step, element, node, force };
+                latest[element] = (middle.map_or(f64::NAN, |middle| middle.force), Some(here));
             }
         }
     }
     lowest
-}
-
-/// Goes on from the latest two nodes to the next one; where the middle one is pressed least and less than the lowest valley, it becomes that.
-fn descend(lowest: &mut Option<Valley>, (earlier, middle): &mut (f64, Option<Valley>), next: Valley) {
-    if let Some(middle) = middle.filter(|middle| *earlier >= middle.force && middle.force < next.force) {
-        *lowest = lowest.filter(|lowest| lowest.force <= middle.force).or(Some(middle));
-    }
-    *earlier = middle.map_or(f64::NAN, |middle| middle.force);
-    *middle = Some(next);
 }
 
 /// Clearance of the turn that comes nearest, from the clearances on a grid over the flight.
@@ -203,16 +169,12 @@ mod tests {
     use faer::Mat;
     use hammerbeam_structure::{PointOutput, ReducedModel};
 
-    use super::{Least, NearMisses};
+    use super::NearMisses;
     use crate::{
         Law, Load, LocalElement, Stretch, System,
         exact::{ExactIntegrator, ExactSettings},
         law::LinearStop,
     };
-
-    fn least(of: Least) -> f64 {
-        of.into_iter().fold(f64::INFINITY, f64::min)
-    }
 
     /// Free vibration `A cos t` beside a stop at 1.5, over three half cycles from its highest place.
     fn of_amplitude(amplitude: f64) -> NearMisses {
@@ -250,8 +212,8 @@ mod tests {
     fn a_flight_that_turns_before_the_stop_misses_it_by_the_rest_of_the_gap() {
         for (amplitude, tolerance) in [(0.3, 1e-4), (1.0, 1e-4), (1.49, 1e-14), (1.5 - 1e-9, 1e-14)] {
             let found = of_amplitude(amplitude);
-            assert!((least(found.clearance) - (1.5 - amplitude)).abs() < tolerance, "{amplitude}: {found:?}");
-            assert_eq!(least(found.touch_speed_squared), f64::INFINITY);
+            assert!((found.clearance - (1.5 - amplitude)).abs() < tolerance, "{amplitude}: {found:?}");
+            assert_eq!(found.touch_speed_squared, f64::INFINITY);
         }
     }
 
@@ -261,10 +223,10 @@ mod tests {
             let found = of_amplitude(amplitude);
             let expected = amplitude * amplitude - 2.25;
             assert!(
-                (least(found.touch_speed_squared) - expected).abs() < 1e-9 * amplitude,
+                (found.touch_speed_squared - expected).abs() < 1e-9 * amplitude,
                 "{amplitude}: {found:?}"
             );
-            assert_eq!(least(found.clearance), f64::INFINITY, "{amplitude}");
+            assert_eq!(found.clearance, f64::INFINITY, "{amplitude}");
         }
     }
 
@@ -273,18 +235,17 @@ mod tests {
     #[test]
     fn a_contact_that_turns_before_it_opens_misses_that_by_what_is_left_of_its_penetration() {
         let stop = LinearStop::with_preload(99.0, 9.9).unwrap();
-        for rest in [1e-9, 1e-6, 5e-4] {
-            let amplitude = 0.001 - rest;
+        for least in [1e-9, 1e-6, 5e-4] {
+            let amplitude = 0.001 - least;
             let found = from(stop, -0.099 + amplitude, 0.5 * std::f64::consts::PI);
-            assert!((least(found.penetration) - rest).abs() < 1e-12, "{rest}: {found:?}");
-            assert_eq!([least(found.clearance), least(found.touch_speed_squared)], [f64::INFINITY; 2]);
+            assert!((found.penetration - least).abs() < 1e-13, "{least}: {found:?}");
+            assert_eq!([found.clearance, found.touch_speed_squared], [f64::INFINITY; 2], "{least}");
         }
     }
 
     #[test]
     fn presses_with_a_flight_between_them_have_no_turn() {
         let found = of_amplitude(1.6);
-        let touches = found.touch_speed_squared.iter().filter(|speed| speed.is_finite()).count();
-        assert_eq!((touches, least(found.penetration)), (2, f64::INFINITY));
+        assert_eq!(found.penetration, f64::INFINITY);
     }
 }
