@@ -25,8 +25,6 @@ use crate::{
 /// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
 /// about the square of this in frequency.
 const MERGED: f64 = 1e-3;
-/// The same where a branch point was located.
-const MET: f64 = 1e-4;
 
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new units.
 const OUTGROWN: f64 = 4.0;
@@ -180,15 +178,15 @@ impl BranchWalk {
 
     /// Whether the present point is where a branch of shorter period flips.
     fn meets_shorter_period(&mut self) -> bool {
-        self.follower.current().events.branch_point && self.is_near_shorter_period(MET)
+        self.follower.current().events.branch_point && self.is_near_shorter_period()
     }
 
-    /// Whether the present orbit is one of shorter period, within this distance relative to its size.
-    fn is_near_shorter_period(&mut self, distance: f64) -> bool {
+    /// Whether the present orbit is, within [`MERGED`], one of shorter period.
+    fn is_near_shorter_period(&mut self) -> bool {
         self.problem.period_multiple() > 1
             && self
                 .of_present(|orbit, integrator, scale| orbit.distance_to_shorter_period(integrator, scale))
-                .is_some_and(|found| found < distance)
+                .is_some_and(|distance| distance < MERGED)
     }
 
     /// Something about the present orbit in the units of the walk; `None` if its motion cannot be computed.
@@ -240,7 +238,7 @@ impl BranchWalk {
             },
             // Where the flip is too sharp to be passed, it is the end all the same.
             Some(hammerbeam_path::StopReason::StepTooShort { parameter, .. })
-                if self.is_near_shorter_period(MERGED) =>
+                if self.is_near_shorter_period() =>
             {
                 Ok(Some(StopReason::ShorterPeriod { frequency_hz: parameter }))
             }

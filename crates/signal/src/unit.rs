@@ -225,7 +225,9 @@ fn known_end(title: &str) -> Option<(&str, &str)> {
         if name.is_empty() {
             return None;
         }
-        let divided = separator == "/" && is_time(text) && !names_time(name);
+        // "speed m/s" is divided by a time, "Test time/s" is one.
+        let last = name.rsplit([' ', '_', '.']).next().unwrap_or(name);
+        let divided = separator == "/" && is_time(text) && !names_time(name) && !names_time(last);
         if !divided || title[..at].ends_with(' ') {
             return Some((name, text));
         }
@@ -315,6 +317,7 @@ mod tests {
             ("x, mm", "x", Some("mm")),
             ("tip [counts]", "tip", Some("counts")),
             ("speed m/s", "speed", Some("m/s")),
+            ("Test time/s", "Test time", Some("s")),
             ("v mm/s", "v", Some("mm/s")),
             ("v/mm/s", "v", Some("mm/s")),
             ("acc m/s2", "acc", Some("m/s2")),

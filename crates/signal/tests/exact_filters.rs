@@ -38,6 +38,8 @@ fn filters_with_low_cut_offs_are_those_of_exact_arithmetic() {
             let every = case["every"].as_u64().unwrap() as usize;
             let expected = numbers(&case[key]);
             let largest = case[format!("largest_{key}")].as_f64().unwrap();
+            assert_eq!(found.len().div_ceil(every), expected.len());
+            assert!(found.iter().all(|value| value.is_finite()));
             let difference =
                 found.iter().step_by(every).zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
             difference / largest

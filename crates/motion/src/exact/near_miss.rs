@@ -58,7 +58,11 @@ impl ExactIntegrator {
                 }
             }
         }
-        for valley in lowest_valleys(&course, self.laws.len()).into_iter().flatten() {
+        let mut valleys = lowest_valleys(&course, self.laws.len());
+        // What acts always does not open.
+        valleys
+            .retain(|valley| valley.is_some_and(|valley| !self.laws[valley.element].contacts().is_empty()));
+        for valley in valleys.into_iter().flatten() {
             least.penetration = least.penetration.min(self.penetration_of_turn(&course, &valley));
         }
         self.course = course;

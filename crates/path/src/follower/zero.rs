@@ -53,12 +53,9 @@ impl Follower {
     }
 
     /// Whether a test function may have two zeros within the step to the trial, though its count is the same on both sides: the parabola through its values at the last
-    /// two points and the trial comes closer to zero inside the step than [`DIP`] of both ends. Beyond a change of signature the function may be about something else.
+    /// two points and the trial comes closer to zero inside the step than [`DIP`] of both ends.
     fn dips(&self, index: usize) -> bool {
         let history = &self.state.history;
-        if self.trial.signature != self.state.current.signature {
-            return false;
-        }
         let Some(earlier) = self.state.tests_before.get(index).filter(|_| history.used >= 2) else {
             return false;
         };

@@ -163,7 +163,9 @@ impl<'a> Work<'a> {
         let mut sums = self.sums(&follow, steps)?;
         while free && steps < longest && rises(&sums.curve()) {
             steps = (2 * steps).min(longest);
-            sums = self.sums(&follow, steps)?;
+            // Fewer states can be followed for longer; where there are too few, the shorter curve stands.
+            let Ok(longer) = self.sums(&follow, steps) else { break };
+            sums = longer;
         }
         let curve = sums.curve();
         let fit = match settings.fit {

@@ -27,7 +27,7 @@ pub(super) fn repeats_after(all: &[f64]) -> Option<usize> {
         let difference = (squares - 2.0 * correlation[lag]) / (length - lag) as f64;
         apart |= difference > 0.5 * variance;
         // Sums of squares are only good to their rounding, so what looks the same is looked at.
-        if apart && difference < 2.0 * SAME * SAME * variance {
+        if apart && difference < 1.001 * SAME * SAME * variance {
             let exact: f64 = all.iter().zip(&all[lag..]).map(|(one, other)| (other - one).powi(2)).sum();
             if exact < SAME * SAME * variance * (all.len() - lag) as f64 {
                 return Some(lag);

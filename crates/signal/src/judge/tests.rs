@@ -120,6 +120,18 @@ fn jitter_is_uneven_sampling_and_not_gaps() {
 }
 
 #[test]
+fn a_hole_in_a_record_that_jitters_is_a_gap() {
+    let mut random = crate::random::Random::new(5);
+    let kept = (0..700).filter(|k| !(300..500).contains(k));
+    let mut times: Vec<f64> = kept.map(|k| (f64::from(k) + 0.2 * random.normal()) / 1000.0).collect();
+    times.sort_by(f64::total_cmp);
+    let samples: Vec<f64> = times.iter().map(|t| (60.0 * t).sin()).collect();
+    let terms = allowing(Repairs { uneven: true, ..Repairs::default() });
+    let refused = raw(times, samples).judge(&terms).unwrap_err();
+    assert!(matches!(refused, RecordError::Gaps { longest_s, .. } if longest_s > 0.19), "{refused}");
+}
+
+#[test]
 fn missing_samples_are_refused_or_interpolated() {
     let mut samples: Vec<f64> = (0..50).map(f64::from).collect();
     samples[0] = f64::NAN;
@@ -184,6 +196,22 @@ fn clean_sine_is_clipped_wherever_the_range_ends() {
     // Not clipped, whole periods, with a sample on each maximum.
     let whole: Vec<f64> = (0..2000).map(|k| (0.04 * std::f64::consts::PI * f64::from(k)).cos()).collect();
     assert_eq!(raw(even_times(2000), whole).judge(&Terms::default()).unwrap().findings, []);
+}
+
+/// Written with significant digits, or in single precision, a record is much finer near zero than at its tops, which are flat for many samples.
+#[test]
+fn smooth_tops_of_numbers_with_few_digits_are_not_clipped() {
+    let sine =
+        |k: u32, hertz: f64, rate: f64| 3.0 * (std::f64::consts::TAU * hertz * f64::from(k) / rate).sin();
+    for (digits, rate) in [(3, 5e3), (4, 2e4), (5, 51.2e3)] {
+        let text = |value: f64| format!("{value:.digits$e}").parse::<f64>().unwrap();
+        let written: Vec<f64> = (0..50_000).map(|k| text(sine(k, 10.3, rate))).collect();
+        let times = (0..50_000).map(|k| f64::from(k) / rate).collect();
+        assert_eq!(raw(times, written).judge(&Terms::default()).unwrap().findings, [], "{digits} digits");
+    }
+    let single: Vec<f64> = (0..100_000).map(|k| f64::from(sine(k, 1.3, 51.2e3) as f32)).collect();
+    let times = (0..100_000).map(|k| f64::from(k) / 51.2e3).collect();
+    assert_eq!(raw(times, single).judge(&Terms::default()).unwrap().findings, []);
 }
 
 #[test]

@@ -15,6 +15,8 @@ const GAP: f64 = 1.5;
 /// Parts of a step up to which straying is rounding, and up to which it is only told.
 const ROUNDING: f64 = 0.01;
 const JITTER: f64 = 0.1;
+/// Longest step of a record that jitters, in usual steps; a longer one is a gap.
+const MOST_JITTER: f64 = 3.0;
 
 /// Even times.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -147,7 +149,7 @@ fn without_gaps(
     // Steps that jump about everywhere are not gaps in an even record.
     let mut jumps: Vec<f64> = steps.iter().map(|found| (found / step - 1.0).abs()).collect();
     let usual_jump = *jumps.select_nth_unstable_by(middle, f64::total_cmp).1;
-    if gaps.len() > times.len() / 10 || usual_jump > JITTER {
+    if gaps.len() > times.len() / 10 || usual_jump > JITTER && longest_s < MOST_JITTER * step {
         let percent = 100.0 * (longest_s / step - 1.0);
         return if terms.repairs.uneven {
             Ok(step)
