@@ -70,7 +70,8 @@ fn filter_of_850_hz_lowers_the_largest_acceleration_seven_times_and_leaves_the_d
     for (cut_off_hz, expected) in [(850.0, 7.053), (1500.0, 4.048), (3000.0, 2.127)] {
         let found = behind(&acceleration, cut_off_hz);
         let in_time = largest(&by_runge_kutta(&acceleration, duration / SAMPLES as f64, cut_off_hz));
-        assert!((found / in_time - 1.0).abs() < 1e-5, "{cut_off_hz} Hz: {found} and {in_time} m/s^2");
+        // Straight lines between samples lower a line of 3000 Hz by (w h)^2/12 = 2e-5, and those above it by more.
+        assert!((found / in_time - 1.0).abs() < 5e-5, "{cut_off_hz} Hz: {found} and {in_time} m/s^2");
         let ratio = orbit.maxima.acceleration / found;
         assert!((ratio - expected).abs() < 1e-3, "{cut_off_hz} Hz: {ratio}");
     }
