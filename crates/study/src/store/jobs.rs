@@ -1,9 +1,12 @@
 //! The agenda of a run: jobs, and the starts that came of them.
 
-use hammerbeam_orbit::{Events, PeriodicSolution, Side};
+use hammerbeam_orbit::{Events, LocatedEvent, PeriodicSolution, Side};
 use rusqlite::{Row as SqlRow, Transaction, params};
 
-use super::{Store, StoreError, StoredReason, first_key, walk_id, write::insert_solution};
+use super::{
+    Store, StoreError, StoredReason, first_key, walk_id,
+    write::{insert_event, insert_solution},
+};
 
 /// Most starts of one job: the numbers of starts leave no room for more.
 pub(crate) const MOST_STARTS: u32 = 1024;
@@ -70,6 +73,15 @@ impl JobKind {
             .into_iter()
             .find(|kind| kind.name() == name)
     }
+}
+
+/// What is known of the event at which a branch leaves another one, as an event of the new branch: it lies as closely as on the old one, the direction is that in which the
+/// branch leaves, and the critical multiplier is the one at +1 of the orbit with the periods of the new branch.
+fn seen_from_new_branch(source: &LocatedEvent, root: &PeriodicSolution) -> LocatedEvent {
+    let from_one = |[re, im]: &[f64; 2]| (1.0 - re).hypot(*im);
+    let multipliers = root.floquet_multipliers.iter().copied();
+    let multiplier = multipliers.min_by(|a, b| from_one(a).total_cmp(&from_one(b)));
+    LocatedEvent { multiplier, contact: None, ..source.clone() }
 }
 
 impl Store {
@@ -151,6 +163,7 @@ impl Store {
         message: Option<&str>,
     ) -> Result<(), StoreError> {
         let one_sided = (job.kind == JobKind::Doubling).then(|| StoredReason::of_crossing(job.frequency_hz));
+        let source = job.source.map(|key| self.event(key)).transpose()?.flatten();
         let transaction = self.connection.transaction()?;
         let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
         transaction.execute(update, params![job.id, message])?;
@@ -176,7 +189,11 @@ impl Store {
                 transaction.execute(insert, values)?;
             }
             let events = Events { branch_point: job.source.is_some(), ..Events::default() };
-            insert_solution(&transaction, first_key(walk_id(key, Side::Up)), start, events)?;
+            let first = first_key(walk_id(key, Side::Up));
+            insert_solution(&transaction, first, start, events)?;
+            if let Some(source) = &source {
+                insert_event(&transaction, first, &seen_from_new_branch(source, start))?;
+            }
         }
         transaction.commit()?;
         Ok(())
