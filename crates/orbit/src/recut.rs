@@ -51,8 +51,7 @@ impl BranchWalk {
 
     /// Moves the phase although no contact is near it: a step has failed; false if it does not go.
     pub(crate) fn flee_phase(&mut self) -> bool {
-        let remembers = self.problem.system().remembers_impacts();
-        remembers && self.moves_phase() && self.offset(true).is_some_and(|offset| self.move_phase(offset))
+        self.moves_phase() && self.offset(true).is_some_and(|offset| self.move_phase(offset))
     }
 
     /// By how much the phase should move [cycles].

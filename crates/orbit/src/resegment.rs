@@ -1,4 +1,4 @@
-//! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
+//! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones; not where nodes have to keep clear of contacts (`cut.rs`).
 //!
 //! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k + dZ/df t_f`. The present point and
 //! the start of the walk are cut anew, and the follower goes on in the new unknowns with all that it knows: a loop still closes
@@ -7,7 +7,7 @@
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
-use crate::{BranchWalk, OrbitError, shooting::ShootingProblem};
+use crate::{BranchWalk, OrbitError, cut::begins_with_care, shooting::ShootingProblem};
 
 /// Segments become this many times as many,
 const FACTOR: usize = 4;
@@ -18,7 +18,8 @@ impl BranchWalk {
     /// Goes on from the present point with more segments; false if there are enough already, or if neither point is found with more.
     pub(crate) fn resegment(&mut self) -> Result<bool, OrbitError> {
         let segments = self.problem.segments();
-        if segments * FACTOR > MOST || self.problem.integrator().system().remembers_impacts() {
+        // A node of its own would have to keep clear of contacts, too.
+        if segments * FACTOR > MOST || begins_with_care(self.problem.system()) {
             return Ok(false);
         }
         let current = refine(&mut self.problem, self.follower.current())?;

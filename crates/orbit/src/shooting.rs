@@ -468,6 +468,11 @@ impl PathProblem for ShootingProblem {
         (1..periods).filter_map(shift).map(distance).fold(f64::INFINITY, f64::min)
     }
 
+    /// Impacts on rigid stops have a speed that goes like the root of the depth.
+    fn has_root_corners(&self) -> bool {
+        self.system().elements().iter().any(|element| element.law.rigid().is_some())
+    }
+
     fn signature(&self) -> u64 {
         // FNV-1a over the numbers of touches; without any, elements may be closed or open throughout.
         let still = self.touches.iter().all(|&t| t == 0);

@@ -19,6 +19,7 @@ pub struct DenseProblem<F> {
     lu: DenseLu,
     tests: Vec<fn(&[f64]) -> TestValue>,
     point: Vec<f64>,
+    has_root_corners: bool,
 }
 
 impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> DenseProblem<F> {
@@ -42,6 +43,7 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> DenseProblem<F> {
             lu: DenseLu::new(),
             tests: Vec::new(),
             point: Vec::new(),
+            has_root_corners: false,
         }
     }
 
@@ -49,6 +51,13 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> DenseProblem<F> {
     #[must_use]
     pub fn with_tests(mut self, tests: Vec<fn(&[f64]) -> TestValue>) -> Self {
         self.tests = tests;
+        self
+    }
+
+    /// The same problem, whose `R` changes like a square root behind changes of signature.
+    #[must_use]
+    pub fn with_root_corners(mut self) -> Self {
+        self.has_root_corners = true;
         self
     }
 
@@ -91,6 +100,10 @@ impl<F: FnMut(&[f64], &mut [f64], &mut [f64]) -> u64> PathProblem for DenseProbl
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
         values.extend(self.tests.iter().map(|test| test(&self.point)));
+    }
+
+    fn has_root_corners(&self) -> bool {
+        self.has_root_corners
     }
 
     fn signature(&self) -> u64 {

@@ -60,7 +60,8 @@
 //! - Branch points of even multiplicity, at which `D` does not change its sign, are walked through unnoticed.
 //! - Sheets closer than `sheet_distance` with the same direction, or folds closer than the steps that nothing else
 //!   makes short, can be missed.
-//! - Corners with an infinite slope on the far side (`λ ~ √p`) end the branch.
+//! - Corners behind which `R` changes like a square root end the branch, unless the problem says that it has such
+//!   ([`PathProblem::has_root_corners`]); then they are passed, and known to lie within the step over them.
 
 mod between;
 mod checkpoint;

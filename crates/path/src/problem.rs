@@ -123,6 +123,11 @@ pub trait PathProblem {
         0
     }
 
+    /// Whether `R` may change like a square root behind a change of signature, so that its derivatives grow without bound there (impacts on rigid stops, at grazing).
+    fn has_root_corners(&self) -> bool {
+        false
+    }
+
     /// Estimated length along the unit tangent from the last evaluated point to the next change of signature ahead;
     /// infinite if none is in sight or nothing is known.
     ///

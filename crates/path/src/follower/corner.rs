@@ -76,7 +76,7 @@ impl Follower {
     }
 
     /// Corrects the trial with the present border; its tangent must be about that of the probe.
-    fn correct_behind_corner(
+    pub(super) fn correct_behind_corner(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         direction: &[f64],
@@ -91,7 +91,7 @@ impl Follower {
     }
 
     /// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old tangent.
-    fn linearise_trial(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), Doubt> {
+    pub(super) fn linearise_trial(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), Doubt> {
         let first = self.trial.linearise(problem, &self.weights, &self.row, &mut self.state.counters);
         if first == Err(CorrectorError::SingularJacobian) {
             self.trial.refactorise(problem, &self.weights, &self.parameter_row).map_err(Doubt::Corrector)?;
@@ -130,7 +130,7 @@ impl Follower {
     }
 
     /// The trial, with the tangent behind the corner, is the next point.
-    fn arrive_behind_corner(&self) -> Result<Arrival, Doubt> {
+    pub(super) fn arrive_behind_corner(&self) -> Result<Arrival, Doubt> {
         if !self.range.contains(self.trial.parameter()) {
             return Err(Doubt::NotLocated);
         }

@@ -13,6 +13,7 @@ mod outside;
 mod range_end;
 mod recut;
 mod rescale;
+mod root_corner;
 mod simpler;
 mod start;
 mod step_control;
@@ -229,7 +230,8 @@ impl Follower {
         problem: &mut (impl PathProblem + ?Sized),
         step: f64,
     ) -> Option<(Arrival, f64)> {
-        self.turn_corner(problem, step)
+        self.turn_root_corner(problem, step)
+            .or_else(|_| self.turn_corner(problem, step))
             .and_then(|(arrival, length)| Ok((self.heed_simpler(problem, arrival)?, length)))
             .or_else(|_| self.pass_recut(problem, step))
             .or_else(|_| self.leap(problem))

@@ -1,0 +1,274 @@
+//! A corner behind which `R` changes like a square root: grazing of a rigid stop.
+//!
+//! Let `R = R⁰ + b ν`, with `R⁰` smooth, `ν = 0` where `g · (z − z_c) ≤ 0`, and `ν² = 2 g · (z − z_c)` beyond (to first order): the speed of an impact. There
+//! `[R_x R_λ] = J⁰ + b gᵀ/ν` grows without bound towards the surface, and the plane of a short step behind it meets nothing. But with ν for a coordinate all is smooth:
+//! `J⁰ w + b = 0`, `g · w = 0` give the direction `w = dz/dν` in which the path leaves the corner, and a point on it lies behind the surface by `g · (z − z_c) = ν²/2`.
+//!
+//! **Onto the root.** The old tangent `t` (`J⁰ t = 0`, `g · t > 0`) leads through the surface. At the distance s behind it `R` is b, in units of ν in which `ν = 1` there, so `g · t = 1/(2 s)`.
+//! A second place, four times as far, tells where exactly the surface is. With the border of the old tangent, `x = B⁰⁻¹ [b; 0]` and `y = B⁻¹ [b; 0]`, at the corner and there, `y = x/(1 + g · x)` tells `g · x`. Then
+//! `w = −x + 2 s (g · x) t`. A guess at the distance h along w is moved along t until R has no component along b any more, that is, until ν fits; from there Newton's method converges, since
+//! what it has to change of ν is of the order `h²`.
+//!
+//! **Off the root.** The path comes to the surface tangentially, so its tangent leads to neither side for sure. A small step sideways does, one way or the other. From there it is an
+//! ordinary corner: tangents oriented by the determinant cross the surface in the same sense, since `g · (cofactors of J) = det [J; gᵀ]` does not see `b gᵀ/ν`.
+//!
+//! A speed ν is known to the root of what a point is known to, so the corner is not looked at closely: its neighbours on either side are points of the path.
+
+use super::{Arrival, Follower};
+use crate::{
+    corrector::Limits,
+    error::Doubt,
+    predictor::Node,
+    problem::PathProblem,
+    product::{add_scaled, norm, product, scale, weigh},
+};
+
+/// Distance behind the surface at which `b` is taken, in failed steps: the corner lies within one or two.
+const PROBE: f64 = 64.0;
+/// The second such distance, over the first.
+const FARTHER: f64 = 4.0;
+/// Share of a vector up to which `x` and `y` may differ in direction.
+const COLLINEAR: f64 = 0.2;
+/// Distances of the first point on the root, in sheet distances.
+const ONTO: [f64; 4] = [10.0, 1.0, 100.0, 1000.0];
+/// Share of ν to which a guess fits.
+const FITS: f64 = 0.1;
+const MOST_FITS: u32 = 60;
+/// Growth of the strides by which a guess is moved until ν passes what is wanted.
+const STRIDE: f64 = 4.0;
+/// Ways sideways, and behind the corner, in failed steps.
+const SIDEWAYS: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
+const OFF: [f64; 3] = [8.0, 64.0, 512.0];
+
+/// What is known of the root behind the corner ahead.
+struct Root {
+    /// Where the old tangent meets the surface.
+    corner: Vec<f64>,
+    /// `b` in units of ν.
+    jump: Vec<f64>,
+    /// Unit vector along w, and ν per length.
+    direction: Vec<f64>,
+    rate: f64,
+    /// Distance s along the old tangent at which `ν = 1`.
+    reach: f64,
+}
+
+impl Follower {
+    /// Turns the corner ahead, onto the root or off it; the trial becomes a point behind it. Also returns how far behind.
+    ///
+    /// # Errors
+    /// There is no such corner within about the step ahead.
+    pub(super) fn turn_root_corner(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<(Arrival, f64), Doubt> {
+        if !problem.has_root_corners() {
+            return Err(Doubt::NotLocated);
+        }
+        self.go_onto_root(problem, step).or_else(|_| self.go_off_root(problem, step))
+    }
+
+    fn go_onto_root(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<(Arrival, f64), Doubt> {
+        let root = self.root_ahead(problem, PROBE * step)?;
+        for length in ONTO.map(|distance| distance * self.settings.sheet_distance) {
+            if self.guess_on_root(problem, &root, length).is_err() {
+                continue;
+            }
+            weigh(&self.weights, &root.direction, &mut self.row);
+            let limits = Limits { max_displacement: length, ..self.limits(length) };
+            let corrected = self.correct_behind_corner(problem, &root.direction, limits);
+            if corrected.is_ok() && self.trial.signature != self.state.current.signature {
+                let arrival = self.arrive_behind_corner()?;
+                return Ok((Arrival { uncertainty: length, ..arrival }, length));
+            }
+        }
+        Err(Doubt::NotLocated)
+    }
+
+    /// The root behind the surface, as seen at two distances along the old tangent.
+    fn root_ahead(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        ahead: f64,
+    ) -> Result<Root, Doubt> {
+        let base = self.state.history.base().clone();
+        weigh(&self.weights, &base.tangent, &mut self.row);
+        let (_, behind) = self.response_to_jump(problem, &base, (FARTHER * ahead, None))?;
+        let far_jump = problem.residual().to_vec();
+        let (there, just_behind) = self.response_to_jump(problem, &base, (ahead, None))?;
+        let jump = problem.residual().to_vec();
+        // The last point lies within rounding of the surface, on either side.
+        let (here, before) = self.response_to_jump(problem, &base, (-ahead, Some(&jump)))?;
+        let current = self.state.current.signature;
+        if behind == current || just_behind == current || before != current {
+            return Err(Doubt::NotLocated);
+        }
+        let share = product(&self.weights, &there, &here) / product(&self.weights, &here, &here);
+        let mut off = there.clone();
+        add_scaled(&mut off, -share, &here);
+        let square = |jump: &[f64]| jump.iter().map(|b| b * b).sum::<f64>();
+        let growth = square(&far_jump) / square(&jump) - 1.0;
+        // `ν²` grows from 1 by what belongs to the distance between the two places.
+        let reach = (FARTHER - 1.0) * ahead / growth;
+        let is_root = norm(&self.weights, &off) <= COLLINEAR * norm(&self.weights, &there)
+            && (0.5 * ahead..2.0 * ahead).contains(&reach);
+        if !is_root {
+            return Err(Doubt::NotLocated);
+        }
+        let mut direction = here;
+        scale(&mut direction, -1.0);
+        add_scaled(&mut direction, 2.0 * reach * (1.0 / share - 1.0), &base.tangent);
+        let rate = 1.0 / norm(&self.weights, &direction);
+        scale(&mut direction, rate);
+        if !rate.is_normal() {
+            return Err(Doubt::NotLocated);
+        }
+        let mut corner = base.point;
+        add_scaled(&mut corner, ahead - reach, &base.tangent);
+        Ok(Root { corner, jump, direction, rate, reach })
+    }
+
+    /// `B⁻¹ [b; 0]` at this distance along the old tangent, with the border that is set, and the signature there; `b` is the residual there unless it is given.
+    fn response_to_jump(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        base: &Node,
+        (ahead, jump): (f64, Option<&[f64]>),
+    ) -> Result<(Vec<f64>, u64), Doubt> {
+        self.probe.point.copy_from_slice(&base.point);
+        add_scaled(&mut self.probe.point, ahead, &base.tangent);
+        let counters = &mut self.state.counters;
+        self.probe.linearise(problem, &self.weights, &self.row, counters).map_err(Doubt::Corrector)?;
+        let mut response: Vec<f64> = jump.unwrap_or(problem.residual()).to_vec();
+        response.push(0.0);
+        problem.solve(&mut response);
+        Ok((response, problem.signature()))
+    }
+
+    /// Puts the trial at this distance on the root, with the ν that belongs there.
+    fn guess_on_root(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        root: &Root,
+        length: f64,
+    ) -> Result<(), Doubt> {
+        let wanted = root.rate * length;
+        let by_square = |found: f64| root.reach * (wanted * wanted - found * found);
+        let (mut shallow, mut deep) = (f64::NEG_INFINITY, f64::INFINITY);
+        let (mut depth, mut stride) = (by_square(0.0), by_square(0.0));
+        for _ in 0..MOST_FITS {
+            let found = self.evaluate_on_root(problem, root, (length, depth))?;
+            if (found - wanted).abs() <= FITS * wanted {
+                return Ok(());
+            }
+            if found < wanted { shallow = depth } else { deep = depth }
+            let next = depth + by_square(found);
+            depth = if shallow == f64::NEG_INFINITY || deep == f64::INFINITY {
+                // The direction lies in the surface but for a share of it.
+                stride *= STRIDE;
+                depth + stride.copysign(by_square(found))
+            } else if found > 0.0 && shallow < next && next < deep {
+                next
+            } else {
+                0.5 * (shallow + deep)
+            };
+            if depth.abs() > length {
+                break;
+            }
+        }
+        Err(Doubt::NotLocated)
+    }
+
+    /// Evaluates at a place behind the corner, along the root and along the old tangent; returns ν there.
+    fn evaluate_on_root(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        root: &Root,
+        (length, depth): (f64, f64),
+    ) -> Result<f64, Doubt> {
+        let base = self.state.history.base();
+        self.trial.point.copy_from_slice(&root.corner);
+        add_scaled(&mut self.trial.point, length, &root.direction);
+        add_scaled(&mut self.trial.point, depth, &base.tangent);
+        self.state.counters.evaluations += 1;
+        problem.evaluate(&self.trial.point).map_err(|error| Doubt::Corrector(error.into()))?;
+        if problem.signature() == self.state.current.signature {
+            return Ok(0.0);
+        }
+        // `R = −b rate length + b ν`.
+        let along: f64 = problem.residual().iter().zip(&root.jump).map(|(r, b)| r * b).sum();
+        let size: f64 = root.jump.iter().map(|b| b * b).sum();
+        Ok((along / size + root.rate * length).max(0.0))
+    }
+
+    fn go_off_root(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<(Arrival, f64), Doubt> {
+        let mut aside: Vec<f64> = (1..=self.weights.len()).map(|k| ((k * k) as f64).cos()).collect();
+        let unit = 1.0 / norm(&self.weights, &aside);
+        scale(&mut aside, unit);
+        for way in SIDEWAYS.map(|way| way * step) {
+            for sideways in [way, -way] {
+                if self.look_aside(problem, &aside, sideways).is_err() {
+                    continue;
+                }
+                let direction = self.trial.node.tangent.clone();
+                for length in OFF.map(|length| length * step.max(way)) {
+                    if let Ok(arrival) = self.correct_off_root(problem, (&aside, sideways), &direction, length)
+                    {
+                        return Ok((arrival, length));
+                    }
+                }
+            }
+        }
+        Err(Doubt::NotLocated)
+    }
+
+    /// Linearises beside the last point; an error if the signature there is the same.
+    fn look_aside(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        aside: &[f64],
+        sideways: f64,
+    ) -> Result<(), Doubt> {
+        let base = self.state.history.base();
+        weigh(&self.weights, &base.tangent, &mut self.row);
+        self.trial.point.copy_from_slice(&base.point);
+        add_scaled(&mut self.trial.point, sideways, aside);
+        self.linearise_trial(problem)?;
+        if problem.signature() == self.state.current.signature { Err(Doubt::Signature) } else { Ok(()) }
+    }
+
+    /// Makes the point at this distance behind the corner the trial.
+    fn correct_off_root(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        (aside, sideways): (&[f64], f64),
+        direction: &[f64],
+        length: f64,
+    ) -> Result<Arrival, Doubt> {
+        let base = self.state.history.base();
+        self.trial.point.copy_from_slice(&base.point);
+        add_scaled(&mut self.trial.point, sideways, aside);
+        weigh(&self.weights, direction, &mut self.row);
+        self.trial
+            .linearise(problem, &self.weights, &self.row, &mut self.state.counters)
+            .map_err(Doubt::Corrector)?;
+        self.trial.apply_correction();
+        add_scaled(&mut self.trial.point, length, direction);
+        let limits = Limits { max_displacement: length, ..self.limits(length) };
+        self.correct_behind_corner(problem, direction, limits)?;
+        if self.trial.signature == self.state.current.signature {
+            return Err(Doubt::Signature);
+        }
+        let arrival = self.arrive_behind_corner()?;
+        Ok(Arrival { uncertainty: length, ..arrival })
+    }
+}
