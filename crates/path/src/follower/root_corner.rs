@@ -5,7 +5,7 @@
 //! `J⁰ w + b = 0`, `g · w = 0` give the direction `w = dz/dν` in which the path leaves the corner, and a point on it lies behind the surface by `g · (z − z_c) = ν²/2`.
 //!
 //! **Onto the root.** The old tangent `t` (`J⁰ t = 0`, `g · t > 0`) leads through the surface. At the distance s behind it `R` is b, in units of ν in which `ν = 1` there, so `g · t = 1/(2 s)`.
-//! A second place, four times as far, tells where exactly the surface is. With the border of the old tangent, `x = B⁰⁻¹ [b; 0]` and `y = B⁻¹ [b; 0]`, at the corner and there, `y = x/(1 + g · x)` tells `g · x`. Then
+//! A second place, four times as far, tells where exactly the surface is. With x so that `J⁰ x = b`, normal to t, and `g · x` from what a displacement along x does to ν,
 //! `w = −x + 2 s (g · x) t`. A guess at the distance h along w is moved along t until R has no component along b any more, that is, until ν fits; from there Newton's method converges, since
 //! what it has to change of ν is of the order `h²`.
 //!
@@ -18,23 +18,24 @@ use super::{Arrival, Follower};
 use crate::{
     corrector::Limits,
     error::Doubt,
-    predictor::Node,
     problem::PathProblem,
-    product::{add_scaled, norm, product, scale, weigh},
+    product::{add_scaled, norm, scale, weigh},
 };
 
 /// Distance behind the surface at which `b` is taken, in failed steps: the corner lies within one or two.
 const PROBE: f64 = 64.0;
 /// The second such distance, over the first.
 const FARTHER: f64 = 4.0;
-/// Share of a vector up to which `x` and `y` may differ in direction.
-const COLLINEAR: f64 = 0.2;
+/// First displacement that is tried for the change of ν, over the distance behind the surface.
+const LEAST_RISE: f64 = 1e-3;
+/// Change of `ν²` that is seen well enough.
+const SEEN: f64 = 0.1;
 /// Distances of the first point on the root, in sheet distances.
 const ONTO: [f64; 4] = [10.0, 1.0, 100.0, 1000.0];
 /// Share of ν to which a guess fits.
 const FITS: f64 = 0.1;
 const MOST_FITS: u32 = 60;
-/// Growth of the strides by which a guess is moved until ν passes what is wanted.
+/// Growth of displacements that are looked for.
 const STRIDE: f64 = 4.0;
 /// Ways sideways, and behind the corner, in failed steps.
 const SIDEWAYS: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
@@ -97,57 +98,88 @@ impl Follower {
         ahead: f64,
     ) -> Result<Root, Doubt> {
         let base = self.state.history.base().clone();
-        weigh(&self.weights, &base.tangent, &mut self.row);
-        let (_, behind) = self.response_to_jump(problem, &base, (FARTHER * ahead, None))?;
-        let far_jump = problem.residual().to_vec();
-        let (there, just_behind) = self.response_to_jump(problem, &base, (ahead, None))?;
-        let jump = problem.residual().to_vec();
-        // The last point lies within rounding of the surface, on either side.
-        let (here, before) = self.response_to_jump(problem, &base, (-ahead, Some(&jump)))?;
-        let current = self.state.current.signature;
-        if behind == current || just_behind == current || before != current {
-            return Err(Doubt::NotLocated);
-        }
-        let share = product(&self.weights, &there, &here) / product(&self.weights, &here, &here);
-        let mut off = there.clone();
-        add_scaled(&mut off, -share, &here);
-        let square = |jump: &[f64]| jump.iter().map(|b| b * b).sum::<f64>();
-        let growth = square(&far_jump) / square(&jump) - 1.0;
+        let along = |distance: f64| {
+            let mut point = base.point.clone();
+            add_scaled(&mut point, distance, &base.tangent);
+            point
+        };
+        let farther = self.residual_behind(problem, &along(FARTHER * ahead))?.ok_or(Doubt::NotLocated)?;
+        let place = along(ahead);
+        let jump = self.residual_behind(problem, &place)?.ok_or(Doubt::NotLocated)?;
         // `ν²` grows from 1 by what belongs to the distance between the two places.
+        let growth = (dot(&farther, &jump) / dot(&jump, &jump)).powi(2) - 1.0;
         let reach = (FARTHER - 1.0) * ahead / growth;
-        let is_root = norm(&self.weights, &off) <= COLLINEAR * norm(&self.weights, &there)
-            && (0.5 * ahead..2.0 * ahead).contains(&reach);
-        if !is_root {
+        if !(0.5 * ahead..2.0 * ahead).contains(&reach) {
             return Err(Doubt::NotLocated);
         }
-        let mut direction = here;
+        // The last point lies within rounding of the surface, on either side.
+        let response = self.response_before(problem, &along(-ahead), &jump)?;
+        let rise = self.rise_along(problem, (&place, ahead), (&jump, &response))?;
+        let mut direction = response;
         scale(&mut direction, -1.0);
-        add_scaled(&mut direction, 2.0 * reach * (1.0 / share - 1.0), &base.tangent);
+        add_scaled(&mut direction, 2.0 * reach * rise, &base.tangent);
         let rate = 1.0 / norm(&self.weights, &direction);
         scale(&mut direction, rate);
-        if !rate.is_normal() {
-            return Err(Doubt::NotLocated);
+        if rate.is_normal() {
+            Ok(Root { corner: along(ahead - reach), jump, direction, rate, reach })
+        } else {
+            Err(Doubt::NotLocated)
         }
-        let mut corner = base.point;
-        add_scaled(&mut corner, ahead - reach, &base.tangent);
-        Ok(Root { corner, jump, direction, rate, reach })
     }
 
-    /// `B⁻¹ [b; 0]` at this distance along the old tangent, with the border that is set, and the signature there; `b` is the residual there unless it is given.
-    fn response_to_jump(
+    /// The residual at a point; none where the signature is the present one.
+    fn residual_behind(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
-        base: &Node,
-        (ahead, jump): (f64, Option<&[f64]>),
-    ) -> Result<(Vec<f64>, u64), Doubt> {
-        self.probe.point.copy_from_slice(&base.point);
-        add_scaled(&mut self.probe.point, ahead, &base.tangent);
+        point: &[f64],
+    ) -> Result<Option<Vec<f64>>, Doubt> {
+        self.state.counters.evaluations += 1;
+        problem.evaluate(point).map_err(|error| Doubt::Corrector(error.into()))?;
+        let behind = problem.signature() != self.state.current.signature;
+        Ok(behind.then(|| problem.residual().to_vec()))
+    }
+
+    /// `x` with `J⁰ x = b`, normal to the old tangent; `J⁰` at a point before the surface.
+    fn response_before(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        point: &[f64],
+        jump: &[f64],
+    ) -> Result<Vec<f64>, Doubt> {
+        weigh(&self.weights, &self.state.history.base().tangent, &mut self.row);
+        self.probe.point.copy_from_slice(point);
         let counters = &mut self.state.counters;
         self.probe.linearise(problem, &self.weights, &self.row, counters).map_err(Doubt::Corrector)?;
-        let mut response: Vec<f64> = jump.unwrap_or(problem.residual()).to_vec();
-        response.push(0.0);
+        if problem.signature() != self.state.current.signature {
+            return Err(Doubt::Signature);
+        }
+        let mut response: Vec<f64> = jump.iter().copied().chain([0.0]).collect();
         problem.solve(&mut response);
-        Ok((response, problem.signature()))
+        Ok(response)
+    }
+
+    /// `g · x`, from what a displacement along x does to ν where it is 1: there `R = b (ν + ε)`, `ν² = 1 + 2 ε g · x`.
+    fn rise_along(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        (place, ahead): (&[f64], f64),
+        (jump, response): (&[f64], &[f64]),
+    ) -> Result<f64, Doubt> {
+        let mut share = LEAST_RISE * ahead / norm(&self.weights, response);
+        let mut rise = Err(Doubt::NotLocated);
+        while share * norm(&self.weights, response) < self.settings.sheet_distance {
+            let mut point = place.to_vec();
+            add_scaled(&mut point, share, response);
+            let Some(residual) = self.residual_behind(problem, &point)? else { break };
+            let nu = dot(&residual, jump) / dot(jump, jump) - share;
+            let change = nu * nu - 1.0;
+            rise = Ok(0.5 * change / share);
+            if nu <= 0.0 || change.abs() > SEEN {
+                break;
+            }
+            share *= STRIDE;
+        }
+        rise
     }
 
     /// Puts the trial at this distance on the root, with the ν that belongs there.
@@ -201,9 +233,8 @@ impl Follower {
             return Ok(0.0);
         }
         // `R = −b rate length + b ν`.
-        let along: f64 = problem.residual().iter().zip(&root.jump).map(|(r, b)| r * b).sum();
-        let size: f64 = root.jump.iter().map(|b| b * b).sum();
-        Ok((along / size + root.rate * length).max(0.0))
+        let along = dot(problem.residual(), &root.jump) / dot(&root.jump, &root.jump);
+        Ok((along + root.rate * length).max(0.0))
     }
 
     fn go_off_root(
@@ -271,4 +302,8 @@ impl Follower {
         let arrival = self.arrive_behind_corner()?;
         Ok(Arrival { uncertainty: length, ..arrival })
     }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
