@@ -37,6 +37,8 @@
 //! contact. A walk moves the phase when a contact comes near it; one of several segments does not, and stops with
 //! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose contact never opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states
 //! of an orbit at any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is simulated over any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which is walked round like any other.
+//! So has it where an impact on a rigid stop comes or goes, with derivatives that grow without bound on the side of the impact: that corner is turned with the speed of the impact for a
+//! coordinate (see [`has_root_corners`](hammerbeam_path::PathProblem::has_root_corners)).
 //!
 //! # Example
 //! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.

@@ -66,7 +66,8 @@ impl Graze {
     fn root(self, nu: f64) -> Vector {
         let [first, second] = self.rows;
         let determinant = dot(first, cross(second, self.normal));
-        let pushed = combined(-self.jump[0], cross(second, self.normal), -self.jump[1], cross(self.normal, first));
+        let pushed =
+            combined(-self.jump[0], cross(second, self.normal), -self.jump[1], cross(self.normal, first));
         let line = self.line();
         combined(nu / determinant, pushed, 0.5 * nu * nu / dot(self.normal, line), line)
     }
@@ -114,7 +115,11 @@ fn the_path_goes_on_behind_a_corner_onto_the_root() {
         let line = graze.line();
         let start = combined(-0.5, line, 0.0, line);
         let branch = graze.from(start, line);
-        assert!(matches!(branch.stop, StopReason::RangeEnd | StopReason::Budget), "{graze:?}: {:?}", branch.stop);
+        assert!(
+            matches!(branch.stop, StopReason::RangeEnd | StopReason::Budget),
+            "{graze:?}: {:?}",
+            branch.stop
+        );
         assert_on_path(graze, &branch);
         let deepest = branch.points.iter().map(|point| graze.depth(&point.point)).fold(0.0, f64::max);
         passed += u32::from(deepest > 1e-3);
@@ -135,7 +140,11 @@ fn the_path_goes_on_behind_a_corner_off_the_root() {
         let start = graze.root(0.3);
         let back = combined(1.0, graze.root(0.299), -1.0, start);
         let branch = graze.from(start, back);
-        assert!(matches!(branch.stop, StopReason::RangeEnd | StopReason::Budget), "{graze:?}: {:?}", branch.stop);
+        assert!(
+            matches!(branch.stop, StopReason::RangeEnd | StopReason::Budget),
+            "{graze:?}: {:?}",
+            branch.stop
+        );
         assert_on_path(graze, &branch);
         let last = branch.points.last().map(|point| graze.depth(&point.point));
         assert!(last.is_some_and(|depth| depth < 0.0), "{graze:?}: {last:?}");

@@ -31,7 +31,7 @@ const LEAST_RISE: f64 = 1e-3;
 /// Change of `ν²` that is seen well enough.
 const SEEN: f64 = 0.1;
 /// Distances of the first point on the root, in sheet distances.
-const ONTO: [f64; 4] = [10.0, 1.0, 100.0, 1000.0];
+const ONTO: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
 /// Share of ν to which a guess fits.
 const FITS: f64 = 0.1;
 const MOST_FITS: u32 = 60;
@@ -83,20 +83,15 @@ impl Follower {
             weigh(&self.weights, &root.direction, &mut self.row);
             let limits = Limits { max_displacement: length, ..self.limits(length) };
             let corrected = self.correct_behind_corner(problem, &root.direction, limits);
-            if corrected.is_ok() && self.trial.signature != self.state.current.signature {
-                let arrival = self.arrive_behind_corner()?;
-                return Ok((Arrival { uncertainty: length, ..arrival }, length));
+            if let Ok(arrival) = corrected.and_then(|()| self.arrive_behind_root_corner(length)) {
+                return Ok((arrival, length));
             }
         }
         Err(Doubt::NotLocated)
     }
 
     /// The root behind the surface, as seen at two distances along the old tangent.
-    fn root_ahead(
-        &mut self,
-        problem: &mut (impl PathProblem + ?Sized),
-        ahead: f64,
-    ) -> Result<Root, Doubt> {
+    fn root_ahead(&mut self, problem: &mut (impl PathProblem + ?Sized), ahead: f64) -> Result<Root, Doubt> {
         let base = self.state.history.base().clone();
         let along = |distance: f64| {
             let mut point = base.point.clone();
@@ -198,7 +193,11 @@ impl Follower {
             if (found - wanted).abs() <= FITS * wanted {
                 return Ok(());
             }
-            if found < wanted { shallow = depth } else { deep = depth }
+            if found < wanted {
+                shallow = depth
+            } else {
+                deep = depth
+            }
             let next = depth + by_square(found);
             depth = if shallow == f64::NEG_INFINITY || deep == f64::INFINITY {
                 // The direction lies in the surface but for a share of it.
@@ -252,7 +251,8 @@ impl Follower {
                 }
                 let direction = self.trial.node.tangent.clone();
                 for length in OFF.map(|length| length * step.max(way)) {
-                    if let Ok(arrival) = self.correct_off_root(problem, (&aside, sideways), &direction, length)
+                    if let Ok(arrival) =
+                        self.correct_off_root(problem, (&aside, sideways), &direction, length)
                     {
                         return Ok((arrival, length));
                     }
@@ -296,11 +296,18 @@ impl Follower {
         add_scaled(&mut self.trial.point, length, direction);
         let limits = Limits { max_displacement: length, ..self.limits(length) };
         self.correct_behind_corner(problem, direction, limits)?;
+        self.arrive_behind_root_corner(length)
+    }
+
+    /// The trial is the next point, unless it is on this side of the corner or was walked before.
+    fn arrive_behind_root_corner(&self, length: f64) -> Result<Arrival, Doubt> {
         if self.trial.signature == self.state.current.signature {
             return Err(Doubt::Signature);
         }
-        let arrival = self.arrive_behind_corner()?;
-        Ok(Arrival { uncertainty: length, ..arrival })
+        if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation, self.state.unit) {
+            return Err(Doubt::Retraced { arc_length });
+        }
+        Ok(Arrival { uncertainty: length, ..self.arrive_behind_corner()? })
     }
 }
 
