@@ -157,6 +157,7 @@ impl Branches {
             OrbitError::Motion(_)
             | OrbitError::NeverOpens { .. }
             | OrbitError::SearchBudget { .. }
+            | OrbitError::SearchTrials { .. }
             | OrbitError::Eigenvalues(_) => {
                 self.incomplete.get_or_insert(error);
                 Ok(())

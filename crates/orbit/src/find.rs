@@ -215,7 +215,11 @@ impl Search<'_> {
     /// Trials and branches, of orbits whose doubled period is wanted first.
     fn search_periods(&mut self) -> Result<(), OrbitError> {
         let wanted = self.period_multiple;
-        sample(&mut self.catalogue, &self.passed, wanted, PATIENCE, &mut *self.interrupted)?;
+        let ended = sample(&mut self.catalogue, &self.passed, wanted, PATIENCE, &mut *self.interrupted)?;
+        if !ended {
+            let frequency_hz = self.catalogue.frequency_hz;
+            self.branches.heed(OrbitError::SearchTrials { frequency_hz })?;
+        }
         let halvings = wanted.trailing_zeros().min(HALVINGS);
         for halving in (1..=halvings).rev() {
             let shorter = wanted >> halving;

@@ -78,15 +78,18 @@ pub(crate) struct Patience {
 }
 
 /// Looks for orbits of `period_multiple` excitation periods from states that were passed.
+///
+/// # Returns
+/// Whether the patience has ended; else its bound or that of the work did, and there may be more orbits.
 pub(crate) fn sample(
     catalogue: &mut Catalogue<'_>,
     passed: &Passed,
     period_multiple: u32,
     patience: Patience,
     interrupted: Interruption<'_>,
-) -> Result<(), OrbitError> {
+) -> Result<bool, OrbitError> {
     if passed.motions.is_empty() {
-        return Ok(());
+        return Ok(true);
     }
     let mut noise = Noise::new(1);
     let (mut since, mut work) = (0, 0);
@@ -107,13 +110,14 @@ pub(crate) fn sample(
         since = if arrived.as_ref().is_some_and(|a| a.is_new) { 0 } else { since + 1 };
         arrivals.note(arrived);
         let patience_ends = patience.trials + patience.for_each * catalogue.count(period_multiple);
-        if since >= patience_ends && !(patience.asks_for_two_arrivals && arrivals.any_is_alone())
-            || work > MOST_WORK
-        {
+        if since >= patience_ends && !(patience.asks_for_two_arrivals && arrivals.any_is_alone()) {
+            return Ok(true);
+        }
+        if work > MOST_WORK {
             break;
         }
     }
-    Ok(())
+    Ok(false)
 }
 
 /// Nodes of a trial; `None` where no motion can be computed.
