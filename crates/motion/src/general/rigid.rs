@@ -4,8 +4,9 @@
 //!
 //! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi` where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r' T)`,
 //!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
-//! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, and from their derivatives. Its switching function is `lambda_j`
-//!   itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
+//! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
+//!   switching function is `lambda_j` itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
+//! - A stop whose `lambda_j` falls below zero by a jump, as another one is hit or a damper sets in, is let go then: with the delay dt, `dv+ = dv - psi_j lambda_j dt`.
 //! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
 //!
 //! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no flight is known, and impacts are zeros of dense output.
@@ -114,14 +115,15 @@ impl SystemField<'_> {
     }
 
     /// Pressing forces of all elements, zero for those that are not held [N].
-    pub(super) fn pressing_forces(&self, phase: f64, state: &[f64]) -> Vec<f64> {
+    pub(super) fn pressing_forces(&self, phase: f64, state: &[f64], inside: &[bool]) -> Vec<f64> {
         let mut pressing = vec![0.0; self.system.elements().len()];
         let held = &self.rigid.held;
         if held.is_empty() {
             return pressing;
         }
         let (n, u) = (self.system.dof(), self.support_motion(phase));
-        let rate = self.linear_acceleration(phase, state);
+        let mut rate = self.linear_acceleration(phase, state);
+        self.add_forces_in_region(Point { time: phase, state, inside }, &mut rate[n..]);
         let ratio = |e: usize| self.system.elements()[e].support_ratio;
         let targets: Vec<f64> = held.iter().map(|&e| -ratio(e) * u[2]).collect();
         let mut moved = rate[n..].to_vec();
@@ -186,6 +188,7 @@ impl SystemField<'_> {
                 self.rigid.held.retain(|&held| held != e);
             }
         }
+        self.throw_off_by_dampers(time, (state, columns), (inside, before));
         for (e, switch) in self.rigid.stops.clone() {
             if before[switch] || !inside[switch] {
                 continue;
@@ -222,7 +225,7 @@ impl SystemField<'_> {
     }
 
     /// `psi`: the shape of an element less what held stops take of it.
-    fn free_direction(&self, e: usize) -> Vec<f64> {
+    pub(super) fn free_direction(&self, e: usize) -> Vec<f64> {
         let mut direction = self.system.elements()[e].shape.clone();
         let held = &self.rigid.held;
         if !held.is_empty() {
@@ -253,9 +256,10 @@ impl SystemField<'_> {
         (e, restitution, approach): (usize, f64, f64),
         time: f64,
         (state, columns): (&mut [f64], &mut [f64]),
-        (inside, before): (&[bool], &[f64]),
+        (inside, before): (&mut [bool], &[f64]),
     ) {
         let n = self.system.dof();
+        let mut delays = Vec::new();
         let mut after = vec![0.0; 2 * n];
         let [_, speed, press] = self.relative(e, Point { time, state, inside });
         let direction = self.free_direction(e);
@@ -271,11 +275,73 @@ impl SystemField<'_> {
             let displacement = dot(&shape, &column[..n]) + moved;
             let velocity = dot(&shape, &column[n..]) + rate;
             let delay = -displacement / (speed * self.period);
+            delays.push(delay * self.period);
             for i in 0..2 * n {
                 column[i] += (before[i] - after[i]) * delay;
             }
             let impulse = factor * (velocity + approach * self.period * delay);
             add_scaled(&mut column[n..], impulse, &direction);
+        }
+        while let Some((pulled, force)) = self.weakest_that_pulls(time, state, inside) {
+            self.release(pulled, inside);
+            self.throw_off((pulled, force), columns, &delays);
+        }
+    }
+
+    /// The held stop that would have to pull most, and the force with which it presses.
+    fn weakest_that_pulls(&self, time: f64, state: &[f64], inside: &[bool]) -> Option<(usize, f64)> {
+        let pressing = self.pressing_forces(time, state, inside);
+        let held = self.rigid.held.iter().copied();
+        let weakest = held.min_by(|&a, &b| pressing[a].total_cmp(&pressing[b]))?;
+        let shape = &self.system.elements()[weakest].shape;
+        let usual = self.usual_speed(weakest, state) / (self.period * dot(shape, shape));
+        (pressing[weakest] < -AT_START * usual).then_some((weakest, pressing[weakest]))
+    }
+
+    fn release(&mut self, e: usize, inside: &mut [bool]) {
+        self.rigid.held.retain(|&held| held != e);
+        let stops = self.rigid.stops.iter().filter(|(stop, _)| *stop == e);
+        stops.for_each(|&(_, switch)| inside[switch] = false);
+    }
+
+    /// Sensitivities as a stop that was released had pressed with `force` before an instant that comes later by `delays`, one for each column.
+    fn throw_off(&self, (e, force): (usize, f64), columns: &mut [f64], delays: &[f64]) {
+        let n = self.system.dof();
+        let direction = self.free_direction(e);
+        for (column, delay) in columns.chunks_exact_mut(2 * n).zip(delays) {
+            add_scaled(&mut column[n..], -force * delay, &direction);
+        }
+    }
+
+    /// Held stops are let go that would have to pull now that a damper has set in; its own jump comes next.
+    fn throw_off_by_dampers(
+        &mut self,
+        time: f64,
+        (state, columns): (&[f64], &mut [f64]),
+        (inside, before): (&mut [bool], &[bool]),
+    ) {
+        let n = self.system.dof();
+        let mut switch = 0;
+        for (e, element) in self.system.elements().iter().enumerate() {
+            let first = switch;
+            switch += switches_of(element);
+            let damped = element.law.onset_damping() > 0.0 && !self.rigid.held.is_empty();
+            if !damped || before[first] || !inside[first] {
+                continue;
+            }
+            let pressed = self.pressing_forces(time, state, before);
+            while let Some((pulled, _)) = self.weakest_that_pulls(time, state, inside) {
+                self.release(pulled, inside);
+                let speed = dot(&element.shape, &state[n..])
+                    + element.support_ratio * self.support_motion(time)[1];
+                let last = columns.len() / (2 * n);
+                let delay = |(index, column): (usize, &[f64])| {
+                    let moved = self.support_change(e, time, index + 1 == last)[0];
+                    -(dot(&element.shape, &column[..n]) + moved) / speed
+                };
+                let delays: Vec<f64> = columns.chunks_exact(2 * n).enumerate().map(delay).collect();
+                self.throw_off((pulled, pressed[pulled]), columns, &delays);
+            }
         }
     }
 
@@ -291,7 +357,12 @@ impl SystemField<'_> {
         let n = self.system.dof();
         let direction = self.free_direction(e);
         let shape = self.system.elements()[e].shape.clone();
-        let damped = self.damped(&direction);
+        let mut damped = self.damped(&direction);
+        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
+            if damping != 0.0 {
+                add_scaled(&mut damped, -damping * dot(&element.shape, &direction), &element.shape);
+            }
+        }
         let mobility = dot(&shape, &direction);
         self.rigid.held.push(e);
         self.rigid.held.sort_unstable();
@@ -305,7 +376,7 @@ impl SystemField<'_> {
         self.constrain(&held, &speeds, &mut state[n..]);
         let last = columns.len() / (2 * n);
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
-            // The limit of an impact without restitution: the damping acts on what the velocity was for the time of the delay.
+            // The limit of an impact without restitution: dampers act on what the velocity was for the time of the delay.
             let of_frequency = index + 1 == last;
             let displacement = dot(&shape, &column[..n]) + self.support_change(e, time, of_frequency)[0];
             add_scaled(&mut column[n..], displacement / mobility, &damped);
