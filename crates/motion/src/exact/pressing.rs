@@ -111,7 +111,8 @@ impl ExactIntegrator {
             let rate = force.slope * at.slope + force.damping * acceleration;
             let gain = self.direct_part(j, e);
             pressing.value += gain * force.value;
-            pressing.slope += self.mobility[output][e] * force.value + gain * rate;
+            let carried: f64 = self.outputs[output].row.iter().zip(&self.inputs[e]).map(|(c, b)| c * b).sum();
+            pressing.slope += carried * force.value + gain * rate;
         }
         pressing
     }
