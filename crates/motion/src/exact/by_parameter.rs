@@ -46,7 +46,9 @@ impl ForceStep {
                 Parameter::AddedDampingRatio | Parameter::Gap { .. } if !self.driven.nodes.is_empty() => {
                     std::array::from_fn(|k| self.driven.nodes[a * NODES + k])
                 }
-                Parameter::AddedDampingRatio | Parameter::Gap { .. } | Parameter::Restitution { .. } => continue,
+                Parameter::AddedDampingRatio | Parameter::Gap { .. } | Parameter::Restitution { .. } => {
+                    continue;
+                }
             };
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
             rows.zip(values).for_each(|(row, value)| row[column] += value);

@@ -288,7 +288,7 @@ impl ExactIntegrator {
             if self.laws[e].depends_on_velocity() && !self.acts(run, e) {
                 continue;
             }
-            let force = element.law.pressing_force(jet.value, jet.slope).value;
+            let force = self.laws[e].pressing_force(jet.value, jet.slope).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
         if self.holding.is_some() {

@@ -6,12 +6,7 @@
 //! and parameter. Their rank drops by two with each stop: what the motion was relative to the stop before it stuck is forgotten.
 
 use super::{
-    ExactIntegrator, MotionError,
-    by_damping::ByDamping,
-    drive::Drive,
-    flight::Boundary,
-    held::Held,
-    run::Run,
+    ExactIntegrator, MotionError, by_damping::ByDamping, drive::Drive, flight::Boundary, held::Held, run::Run,
 };
 use crate::{Parameter, Stretch};
 

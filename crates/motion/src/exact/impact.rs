@@ -31,12 +31,7 @@
 //! # Source
 //! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009), 85-106 (chatter that ends).
 
-use super::{
-    ExactIntegrator, MotionError,
-    drive::Jet,
-    flight::Touch,
-    run::Run,
-};
+use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, run::Run};
 
 /// Most impacts in an excitation period.
 pub(super) const MOST_IMPACTS: u64 = 100_000;
@@ -183,7 +178,13 @@ impl ExactIntegrator {
     }
 
     /// Writes an impact down wherever it is wanted.
-    pub(super) fn note_impact(&mut self, run: &Run, impact: &Impact, (impulse, energy): (f64, f64), sticks: bool) {
+    pub(super) fn note_impact(
+        &mut self,
+        run: &Run,
+        impact: &Impact,
+        (impulse, energy): (f64, f64),
+        sticks: bool,
+    ) {
         let place = self.first_touch(impact.touch.element);
         self.touches[place] = self.touches[place].saturating_add(1);
         if self.notes_course {

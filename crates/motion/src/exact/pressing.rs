@@ -130,8 +130,7 @@ impl ExactIntegrator {
                 let displacement = self.bounds(&run.state, e, self.stretch.duration()).margin;
                 let velocity = 8.0 * f64::EPSILON * self.speed_bound(&run.state, e);
                 let rounding = force.slope.abs() * displacement + force.damping.abs() * velocity;
-                margin +=
-                    self.direct_part(j, e).abs() * (rounding + 8.0 * f64::EPSILON * force.value.abs());
+                margin += self.direct_part(j, e).abs() * (rounding + 8.0 * f64::EPSILON * force.value.abs());
             }
             Pressing { jet: self.pressing_jet(&active, j, jet), margin }
         };

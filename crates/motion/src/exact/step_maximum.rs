@@ -142,9 +142,8 @@ impl ExactIntegrator {
             if held > 0 {
                 self.recall(course, *piece, step);
             }
-            best = (0..held).fold(best, |best, j| {
-                best.max(self.pressing_maximum(course.numbers(step.state), j, best))
-            });
+            best = (0..held)
+                .fold(best, |best, j| best.max(self.pressing_maximum(course.numbers(step.state), j, best)));
         }
         best
     }

@@ -148,7 +148,8 @@ impl ExactIntegrator {
     ) -> Result<(), MotionError> {
         loop {
             let pressing = self.pressing_now(run);
-            let weakest = pressing.iter().zip(&run.stuck).min_by(|a, b| a.0.jet.value.total_cmp(&b.0.jet.value));
+            let weakest =
+                pressing.iter().zip(&run.stuck).min_by(|a, b| a.0.jet.value.total_cmp(&b.0.jet.value));
             let Some((pressing, &element)) = weakest.filter(|(p, _)| p.jet.value < -p.margin) else {
                 return Ok(());
             };
@@ -169,7 +170,8 @@ impl ExactIntegrator {
         let input = &self.inputs[touch.element];
         let carried = self.blocks.system_times_column(input);
         let factor = -1.0 / self.mobility[touch.element][touch.element];
-        let damped = (0..self.laws.len()).filter(|&e| self.acts(run, e) && self.laws[e].depends_on_velocity());
+        let damped =
+            (0..self.laws.len()).filter(|&e| self.acts(run, e) && self.laws[e].depends_on_velocity());
         let by_velocity: Vec<(usize, f64)> = damped
             .map(|e| {
                 let jet = self.output_jet(&run.state, e, run.time);
