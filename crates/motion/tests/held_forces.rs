@@ -272,8 +272,10 @@ fn a_damper_throws_a_held_stop_off() {
         let law = damped(400.0, 20.0, 0.012);
         let damper = LocalElement { name: "damper".into(), ..element(&[0.3, 1.0], 0.0, law) };
         let system = System::new(model(&[5.0, 20.0], damping), &load, vec![stop, damper]).unwrap();
-        let mut thrown = 0;
-        for (start, end) in [(0.0, 0.6), (0.3, 0.9), (0.6, 1.6), (0.85, 1.25)] {
+        let (mut thrown, mut from_free) = (0, 0);
+        for (start, end) in
+            [(0.0, 0.6), (0.1, 1.1), (0.2, 1.2), (0.3, 0.9), (0.4, 1.4), (0.6, 1.6), (0.85, 1.25)]
+        {
             let state = settled(&system, 2.0, 8, start);
             let stretch = Stretch { frequency_hz: 2.0, start, end };
             let trace = integrator(&system).trace(&stretch, &state, &[]).unwrap();
@@ -282,11 +284,18 @@ fn a_damper_throws_a_held_stop_off() {
             let held = trace.contacts.iter().filter(|c| c.element == 0 && c.peak_force > 0.0);
             thrown += held.filter(|c| c.end.is_some_and(|end| touches.contains(&end))).count();
             assert_agreement(&system, &stretch, &state, 1e-9, &format!("{coupling} {start}"));
-            let parameters =
-                [Parameter::ExcitationScale, Parameter::Gap { element: 0 }, Parameter::Gap { element: 1 }];
-            assert_sensitivities(&system, &stretch, &state, &parameters, 2e-6);
+            // Beside a state that is held motions have no two-sided derivative.
+            if trace.contacts.iter().all(|contact| contact.begin.is_some()) {
+                let parameters = [
+                    Parameter::ExcitationScale,
+                    Parameter::Gap { element: 0 },
+                    Parameter::Gap { element: 1 },
+                ];
+                assert_sensitivities(&system, &stretch, &state, &parameters, 2e-6);
+                from_free += 1;
+            }
         }
-        assert!(thrown > 1, "{coupling}: {thrown}");
+        assert!(thrown > 1 && from_free > 0, "{coupling}: {thrown} {from_free}");
     }
 }
 

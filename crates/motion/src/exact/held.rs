@@ -9,12 +9,14 @@
 //! `y'' + N^T C N y' + N^T diag(w^2) N y = N^T (b - C q_S' - diag(w^2) q_S)`,
 //! `lambda = D^-1 (Phi^T (b - C q' - diag(w^2) q) + s u'')`.
 //!
+//! Forces of other elements add `Phi_e F_e` to both right sides, `N^T phi_e F_e` and `D^-1 Phi^T phi_e F_e` (`pressing.rs`).
+//!
 //! So it is a linear structure again, whose blocks may be coupled although those of the free structure were not. N is turned so that `N^T diag(w^2) N` is diagonal (singular
 //! vectors of `diag(w) N`, which keep the small eigenfrequencies to their digits), then the damping is decoupled as in `decouple.rs`.
 //!
 //! **One state for both.** The state keeps its length 2n: besides the n - s blocks of y it has s blocks `(phi_j . q, phi_j . q')` without stiffness or damping, of which all is
 //! prescribed: `(level_j - s_j u, -s_j u')` is their part of the particular solution, and their homogeneous part is zero. So `x = S^-1 [q; q'] - particular` as everywhere, flight,
-//! certified search, sensitivities, traces and maxima are those of `flight.rs` with these blocks, and the pressing forces are outputs of their own, after all others.
+//! certified search, force steps, sensitivities, traces and maxima are those of the free structure with these blocks, and the pressing forces are outputs of their own, after all others.
 
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
