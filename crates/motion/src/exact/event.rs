@@ -71,9 +71,15 @@ impl ExactIntegrator {
     ) -> Option<Solved> {
         let exponent = self.exponent_of(run, event);
         let accuracy = self.location_accuracy(exponent);
-        let mut length = length.min(remaining);
+        // A stop that has just been left is not met before its clearance is looked at again, however little it is above zero meanwhile.
+        let least = match event {
+            Event::Touch(touch) => self.looked_past(run, touch.element).min(remaining),
+            _ => 0.0,
+        };
+        let mut length = length.min(remaining).max(least);
         // The first try tells little more than the length of the next, unless the event was located before.
-        let first = if run.release.is_some() { self.full_precision() } else { COARSE };
+        let located = run.release.is_some() || least > 0.0;
+        let first = if located { self.full_precision() } else { COARSE };
         let mut precision = first;
         let mut last = false;
         for tries in 0..MAX_TRIES {
@@ -85,6 +91,9 @@ impl ExactIntegrator {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
             let distance = self.distance_at_end(run, event);
+            if length == least && precision < COARSE && distance.value <= run.start[event.element()].margin {
+                return Some(Solved { error: self.state_error(run), at_event: true, length });
+            }
             let change = time_to_zero(distance, length)?;
             let fine = precision < COARSE;
             let undecided = self.pressure_rounding(run, event) / distance.slope.abs();
@@ -101,7 +110,7 @@ impl ExactIntegrator {
             let near = change.abs() <= 0.3 * accuracy.powf(0.4) * length && distance.curvature.is_finite();
             last = fine && near && length + change < remaining;
             precision = self.full_precision();
-            length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
+            length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining).max(least);
         }
         None
     }

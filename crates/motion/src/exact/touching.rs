@@ -69,13 +69,13 @@ impl ExactIntegrator {
         let forced = Forced::new(self);
         for element in open {
             let from = self.looked_past(run, element);
-            if from >= self.step.length {
-                continue;
-            }
             for touch in self.watched(element, run.parted[element]) {
                 let mut until = first.map_or(self.step.length, |(_, time)| time);
                 if event == Some(Event::Touch(touch)) {
                     until = until.min(self.step.length - self.located_within(run, touch));
+                }
+                if from >= until {
+                    continue;
                 }
                 let found = Search::new(self, run, touch, &forced, (from, until)).run();
                 self.counts.looks += found.looks;
@@ -88,7 +88,7 @@ impl ExactIntegrator {
     }
 
     /// Time in the step before which an element is not looked at: it has just left its rigid stop, and rounding would decide on its clearance.
-    fn looked_past(&self, run: &Run, element: usize) -> f64 {
+    pub(super) fn looked_past(&self, run: &Run, element: usize) -> f64 {
         match run.lifted {
             Some((lifted, until)) if lifted == element => (until - run.time).max(0.0),
             _ => 0.0,
@@ -208,7 +208,7 @@ impl<'a> Search<'a> {
 
     fn first_closing(&mut self) -> Result<Option<f64>, Unresolved> {
         if self.closes_again_at_once() {
-            return Ok(Some(0.0));
+            return Ok(Some(self.time));
         }
         while self.looks < MAX_LOOKS {
             self.looks += 1;
