@@ -6,7 +6,7 @@
 //!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
 //! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
 //!   switching function is `lambda_j` itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
-//! - A stop whose `lambda_j` falls below zero by a jump, as another one is hit or a damper sets in, is let go then: with the delay dt, `dv+ = dv - psi_j lambda_j dt`.
+//! - A stop whose `lambda_j` falls below zero by a jump is let go then (`thrown_off.rs`).
 //! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
 //!
 //! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no flight is known, and impacts are zeros of dense output.
@@ -21,7 +21,7 @@ use super::{
 /// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
 const CHATTER: f64 = 1e-12;
 /// What a state at the start may be off a stop that it sticks to, relative to the same.
-const AT_START: f64 = 1e-10;
+pub(super) const AT_START: f64 = 1e-10;
 
 /// What is known of the rigid stops of a system.
 #[derive(Debug, Clone, Default)]
@@ -72,7 +72,7 @@ impl SystemField<'_> {
     }
 
     /// Takes from a vector over the modes what lies along held shapes, so that `phi_j . vector = targets_j`; gives `D^-1 (Phi^T vector - targets)`.
-    fn constrain(&self, held: &[usize], targets: &[f64], vector: &mut [f64]) -> Vec<f64> {
+    pub(super) fn constrain(&self, held: &[usize], targets: &[f64], vector: &mut [f64]) -> Vec<f64> {
         let shape = |e: usize| &self.system.elements()[e].shape;
         let excess: Vec<f64> = held.iter().zip(targets).map(|(&e, t)| dot(shape(e), vector) - t).collect();
         let forces = self.solve_held(held, &excess);
@@ -147,7 +147,7 @@ impl SystemField<'_> {
     }
 
     /// Speed against which those of an element are small: of the fastest impact, and of its parts now.
-    fn usual_speed(&self, e: usize, state: &[f64]) -> f64 {
+    pub(super) fn usual_speed(&self, e: usize, state: &[f64]) -> f64 {
         let n = self.system.dof();
         let (shape, w) = (&self.system.elements()[e].shape, &self.system.model().natural_frequencies);
         let part = |i: usize| shape[i].abs() * (state[n + i].abs() + w[i] * state[i].abs());
@@ -234,22 +234,6 @@ impl SystemField<'_> {
         direction
     }
 
-    /// Held stops that an impact on an element would pull are let go.
-    fn let_go_of_pulling(&mut self, e: usize, inside: &mut [bool]) {
-        while !self.rigid.held.is_empty() {
-            let held = self.rigid.held.clone();
-            let mut direction = self.system.elements()[e].shape.clone();
-            let reactions = self.constrain(&held, &vec![0.0; held.len()], &mut direction);
-            // The impulse of the impact is negative; a positive part along a held shape is pushed against it.
-            let strongest = (0..held.len()).max_by(|&j, &k| reactions[j].total_cmp(&reactions[k]));
-            let Some(pulled) = strongest.filter(|&j| reactions[j] > 1e-12) else { return };
-            self.rigid.held.remove(pulled);
-            for &(stop, switch) in &self.rigid.stops {
-                inside[switch] &= stop != held[pulled];
-            }
-        }
-    }
-
     /// An impact on an element, with `r''` and the rates of the motion before it.
     fn rebound(
         &mut self,
@@ -288,65 +272,8 @@ impl SystemField<'_> {
         }
     }
 
-    /// The held stop that would have to pull most, and the force with which it presses.
-    fn weakest_that_pulls(&self, time: f64, state: &[f64], inside: &[bool]) -> Option<(usize, f64)> {
-        let pressing = self.pressing_forces(time, state, inside);
-        let held = self.rigid.held.iter().copied();
-        let weakest = held.min_by(|&a, &b| pressing[a].total_cmp(&pressing[b]))?;
-        let shape = &self.system.elements()[weakest].shape;
-        let usual = self.usual_speed(weakest, state) / (self.period * dot(shape, shape));
-        (pressing[weakest] < -AT_START * usual).then_some((weakest, pressing[weakest]))
-    }
-
-    fn release(&mut self, e: usize, inside: &mut [bool]) {
-        self.rigid.held.retain(|&held| held != e);
-        let stops = self.rigid.stops.iter().filter(|(stop, _)| *stop == e);
-        stops.for_each(|&(_, switch)| inside[switch] = false);
-    }
-
-    /// Sensitivities as a stop that was released had pressed with `force` before an instant that comes later by `delays`, one for each column.
-    fn throw_off(&self, (e, force): (usize, f64), columns: &mut [f64], delays: &[f64]) {
-        let n = self.system.dof();
-        let direction = self.free_direction(e);
-        for (column, delay) in columns.chunks_exact_mut(2 * n).zip(delays) {
-            add_scaled(&mut column[n..], -force * delay, &direction);
-        }
-    }
-
-    /// Held stops are let go that would have to pull now that a damper has set in; its own jump comes next.
-    fn throw_off_by_dampers(
-        &mut self,
-        time: f64,
-        (state, columns): (&[f64], &mut [f64]),
-        (inside, before): (&mut [bool], &[bool]),
-    ) {
-        let n = self.system.dof();
-        let mut switch = 0;
-        for (e, element) in self.system.elements().iter().enumerate() {
-            let first = switch;
-            switch += switches_of(element);
-            let damped = element.law.onset_damping() > 0.0 && !self.rigid.held.is_empty();
-            if !damped || before[first] || !inside[first] {
-                continue;
-            }
-            let pressed = self.pressing_forces(time, state, before);
-            while let Some((pulled, _)) = self.weakest_that_pulls(time, state, inside) {
-                self.release(pulled, inside);
-                let speed =
-                    dot(&element.shape, &state[n..]) + element.support_ratio * self.support_motion(time)[1];
-                let last = columns.len() / (2 * n);
-                let delay = |(index, column): (usize, &[f64])| {
-                    let moved = self.support_change(e, time, index + 1 == last)[0];
-                    -(dot(&element.shape, &column[..n]) + moved) / speed
-                };
-                let delays: Vec<f64> = columns.chunks_exact(2 * n).enumerate().map(delay).collect();
-                self.throw_off((pulled, pressed[pulled]), columns, &delays);
-            }
-        }
-    }
-
     /// What the column of the frequency has besides in a relative displacement and velocity.
-    fn support_change(&self, e: usize, time: f64, of_frequency: bool) -> [f64; 2] {
+    pub(super) fn support_change(&self, e: usize, time: f64, of_frequency: bool) -> [f64; 2] {
         let ratio = self.system.elements()[e].support_ratio;
         let [u, v, _] = if of_frequency { self.support_by_frequency(time) } else { [0.0; 3] };
         [ratio * u, ratio * v]
