@@ -27,6 +27,7 @@ impl ExactIntegrator {
             };
             run.start.push(start);
         }
+        run.pressing = self.pressing_now(run);
     }
 
     /// Solves a step of about `length` (shorter where the lengths are discrete); its error see `step_error.rs`.

@@ -22,6 +22,7 @@ use super::{
     output::Output,
     recurrence::gauss_sixteen,
     series::Series,
+    structure::Structure,
 };
 use crate::System;
 
@@ -51,12 +52,28 @@ pub(crate) struct SolvedStep<'a> {
     pub state: &'a [f64],
 }
 
+/// Diagonal of the change of the modal damping matrix with the ratio.
+fn damping_of(system: &System) -> Vec<f64> {
+    system.model().natural_frequencies.iter().map(|w| 2.0 * w).collect()
+}
+
 impl ByDamping {
     pub fn new(system: &System, blocks: &Blocks, series: &Series, drive: &Drive) -> Self {
-        let damping: Vec<f64> = system.model().natural_frequencies.iter().map(|w| 2.0 * w).collect();
-        let change = Change::of_damping(blocks, &damping);
+        let change = Change::of_damping(blocks, &damping_of(system));
+        Self::of_change(change, (blocks, series), drive.clone())
+    }
+
+    /// The same of a structure that is held on rigid stops, over the stretch of its particular solution.
+    pub fn of_held(system: &System, structure: &Structure, held: usize) -> Self {
+        let Structure { blocks, series, drive, outputs, .. } = structure;
+        let change = Change::of_moving(blocks, &damping_of(system), blocks.count() - held);
+        let drive = drive.change(blocks, outputs, &change);
+        Self::of_change(change, (blocks, series), drive)
+    }
+
+    fn of_change(change: Change, (blocks, series): (&Blocks, &Series), drive: Drive) -> Self {
         let fastest = blocks.rates().into_iter().fold(0.0, f64::max);
-        Self { series: series.change(blocks, &change), change, drive: drive.clone(), fastest }
+        Self { series: series.change(blocks, &change), change, drive, fastest }
     }
 
     /// Prepares for a stretch with that particular solution.

@@ -3,7 +3,8 @@
 //! With `r = r_free + W F`, `F = f(r, p)`: `dF = f' dr + f_p` and `(I - W f') dr = X V + d r_particular + W f_p`.
 //!
 //! - Excitation scale `a`: `f_p = 0`, and the particular solution of all orders above 0 is proportional to `a`.
-//! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V - level_g`.
+//! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V - level_g`. The gap of a rigid stop that holds the structure moves the particular
+//!   solution (`held.rs`).
 //! - Stiffness: `f_p = F/k`.
 //! - Added damping ratio: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
 
@@ -42,8 +43,12 @@ impl ForceStep {
                     let stiffness = laws[element].stiffness();
                     std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * force[j] / stiffness).sum())
                 }
-                Parameter::AddedDampingRatio => std::array::from_fn(|k| self.by_damping.0[a * NODES + k]),
-                Parameter::Gap { .. } | Parameter::Restitution { .. } => continue,
+                Parameter::AddedDampingRatio | Parameter::Gap { .. } if !self.driven.nodes.is_empty() => {
+                    std::array::from_fn(|k| self.driven.nodes[a * NODES + k])
+                }
+                Parameter::AddedDampingRatio | Parameter::Gap { .. } | Parameter::Restitution { .. } => {
+                    continue;
+                }
             };
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
             rows.zip(values).for_each(|(row, value)| row[column] += value);
@@ -135,10 +140,7 @@ impl ExactIntegrator {
     /// Adds the derivative of the particular state by the parameter, times `factor`.
     pub(super) fn add_particular(&self, parameter: Parameter, time: f64, factor: f64, column: &mut [f64]) {
         let held = self.holding.as_deref();
-        let by_damping = match held {
-            Some(holding) => holding.by_damping.as_ref().map(|(_, drive)| drive),
-            None => self.by_damping.as_ref().map(|by_damping| &by_damping.drive),
-        };
+        let by_damping = self.damping_in_use().map(|by_damping| &by_damping.drive);
         match (parameter, by_damping, held.and_then(|holding| holding.by_level.as_ref())) {
             (Parameter::ExcitationScale, ..) => self.drive.add_state_by_scale(time, factor, column),
             (Parameter::AddedDampingRatio, Some(drive), _) | (Parameter::Gap { .. }, _, Some(drive)) => {
@@ -148,27 +150,46 @@ impl ExactIntegrator {
         }
     }
 
-    /// Readies what the damping has in the solved step that starts from the state of `run`.
-    pub(super) fn prepare_damped_step(&mut self, run: &Run) {
-        let Some(by_damping) = &self.by_damping else { return };
-        let (mut nodes, mut end) = std::mem::take(&mut self.step.by_damping);
+    /// What the damping as parameter does to the structure in use.
+    fn damping_in_use(&self) -> Option<&ByDamping> {
+        match &self.holding {
+            Some(holding) => holding.by_damping.as_ref(),
+            None => self.by_damping.as_deref(),
+        }
+    }
+
+    /// Readies what a parameter that is not in the forces has in the solved step that starts from the state of `run`.
+    pub(super) fn prepare_driven(&mut self, run: &Run) {
+        if self.parameter.is_none() {
+            return;
+        }
+        let mut driven = std::mem::take(&mut self.step.driven);
+        driven.clear();
         let (grading, step) = (self.step.grading(), &self.step);
         let (length, active) = (step.length, step.active.as_slice());
-        let solved = SolvedStep { grading, length, active, force: &step.force, state: &run.state };
-        by_damping.over_step(&solved, (&self.outputs, &self.inputs), (&mut nodes, &mut end));
         let (span, c) = ((step.start, length), &grading.rule().c);
-        for (values, &e) in nodes.as_chunks_mut::<NODES>().0.iter_mut().zip(active) {
-            by_damping.drive.add_values(e, &self.outputs[e], span, c, values);
+        if let Some(by_damping) = self.damping_in_use() {
+            let solved = SolvedStep { grading, length, active, force: &step.force, state: &run.state };
+            let into = (&mut driven.nodes, &mut driven.end);
+            by_damping.over_step(&solved, (&self.outputs, &self.inputs), into);
+            for (values, &e) in driven.nodes.as_chunks_mut::<NODES>().0.iter_mut().zip(active) {
+                by_damping.drive.add_values(e, &self.outputs[e], span, c, values);
+            }
+        } else if let Some(drive) = self.holding.as_ref().and_then(|holding| holding.by_level.as_ref()) {
+            for &e in active {
+                let (mut values, mut rates) = ([0.0; NODES], [0.0; NODES]);
+                drive.add_values(e, &self.outputs[e], span, c, &mut values);
+                drive.add_rates(e, &self.outputs[e], span, c, &mut rates);
+                driven.nodes.extend(values);
+                driven.rates.extend(rates);
+            }
         }
-        self.step.by_damping = (nodes, end);
+        self.step.driven = driven;
     }
 
     /// Adds what the damping does over a flight, from the state at its start, to its column.
     pub(super) fn add_damped_flight(&self, time: f64, state: &[f64], sensitivity: &mut Sensitivity) {
-        let change = match &self.holding {
-            Some(holding) => holding.by_damping.as_ref().map(|(change, _)| change.over(time, state)),
-            None => self.by_damping.as_ref().map(|by_damping| by_damping.over_flight(time, state)),
-        };
+        let change = self.damping_in_use().map(|by_damping| by_damping.over_flight(time, state));
         if let (Some(change), Some(column)) = (change, sensitivity.parameter_column()) {
             change.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
         }

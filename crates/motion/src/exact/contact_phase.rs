@@ -47,6 +47,9 @@ impl ExactIntegrator {
         if self.open_what_leaves(run, pressed) {
             return Ok(());
         }
+        if let Some(element) = self.stop_that_lifts(run) {
+            return self.lift(run, element);
+        }
         self.set_active(run);
         let touched = run.touched.take();
         let remaining = end - run.time;
@@ -136,7 +139,7 @@ impl ExactIntegrator {
 
     /// The first try: to the release where it is expected within reach, else as far as the last step's error allows.
     fn first_aim(&self, run: &Run, touched: Option<usize>, remaining: f64) -> Aim {
-        let known = run.release.filter(|known| known.1 > run.time && run.closed[known.0.element()].is_some());
+        let known = run.release.filter(|known| known.1 > run.time && self.may_come(run, known.0));
         let forecast = match known {
             Some((event, time)) => Some((event, time - run.time)),
             None => self.first_forecast(run, touched).map(|(element, time)| (self.usual_end(element), time)),
@@ -185,7 +188,7 @@ impl ExactIntegrator {
         };
         let event = aim.event.filter(|_| at_event);
         let release = match event {
-            Some(end @ (Event::Release(_) | Event::Part(_))) => Some((end, length)),
+            Some(end @ (Event::Release(_) | Event::Part(_) | Event::Lift(_))) => Some((end, length)),
             _ => self.first_release(run, None),
         };
         if error > 1.0 {
@@ -244,6 +247,10 @@ impl ExactIntegrator {
                 run.parted[element] = run.closed[element].take();
                 run.slack = 1e-7 * self.step.length;
             }
+            Some(Event::Lift(element)) => {
+                run.release = None;
+                self.lift(run, element)?;
+            }
         }
         Ok(())
     }
@@ -276,7 +283,8 @@ impl ExactIntegrator {
         }
         self.counts.steps += 1;
         if self.notes_course {
-            self.course.step(run, &self.step, &self.laws);
+            let impulses = self.pressing_impulses(&run.state);
+            self.course.step(run, &self.step, &self.laws, &impulses);
         }
         self.trace_step(run);
         self.step.advance_state(&self.series, &mut run.state);

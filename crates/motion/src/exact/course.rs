@@ -41,6 +41,9 @@ pub(super) struct CourseStep {
     pub active: Span,
     /// Energy that they took [J].
     pub energy_taken: f64,
+    /// Elements held on rigid stops, and the impulses that they got.
+    pub held: Span,
+    pub impulses: Span,
     /// Closed elements, one bit each.
     pub closed: u64,
 }
@@ -118,10 +121,14 @@ impl Course {
         (held, impulses): (&[usize], &[f64]),
     ) {
         let (state, impulses) = (self.keep(state), self.keep(impulses));
+        let held = self.keep_held(held);
+        self.passages.push(Passage::Flight { start, duration, state, held, impulses });
+    }
+
+    fn keep_held(&mut self, held: &[usize]) -> Span {
         let first = self.held.len();
         self.held.extend_from_slice(held);
-        let held = (first, self.held.len());
-        self.passages.push(Passage::Flight { start, duration, state, held, impulses });
+        (first, self.held.len())
     }
 
     /// Elements that were held.
@@ -138,7 +145,7 @@ impl Course {
     }
 
     /// The solved step, with `run` at its start.
-    pub fn step(&mut self, run: &Run, step: &ForceStep, laws: &[Law]) {
+    pub fn step(&mut self, run: &Run, step: &ForceStep, laws: &[Law], impulses: &[f64]) {
         let first = self.elements.len();
         self.elements.extend(step.active.iter().map(|&element| (element, laws[element])));
         let damped = |a: &usize| laws[step.active[*a]].depends_on_velocity();
@@ -151,6 +158,8 @@ impl Course {
             active: (first, self.elements.len()),
             energy_taken: (0..step.active.len()).filter(damped).map(|a| energy_taken(step, a)).sum(),
             closed: closed_bits(run),
+            held: self.keep_held(&run.stuck),
+            impulses: self.keep(impulses),
         };
         self.passages.push(Passage::Step(passed));
     }

@@ -196,6 +196,9 @@ impl ForceStep {
                     let (r, v) = (self.displacement[i], self.velocity[i]);
                     target[k * columns + column] +=
                         by_parameter(parameter, e, &laws[e], (r, v), self.slope[i]);
+                    if let (Some(value), Some(rate)) = (self.driven.nodes.get(i), self.driven.rates.get(i)) {
+                        target[k * columns + column] += self.slope[i] * value + self.damping[i] * rate;
+                    }
                 }
             }
         }

@@ -35,12 +35,14 @@ pub(super) enum Event {
     Part(usize),
     /// A contact without force crosses one of its boundaries.
     Touch(Touch),
+    /// The rigid stop that holds this element presses no more (`pressing.rs`).
+    Lift(usize),
 }
 
 impl Event {
     pub fn element(self) -> usize {
         match self {
-            Self::Release(element) | Self::Part(element) => element,
+            Self::Release(element) | Self::Part(element) | Self::Lift(element) => element,
             Self::Touch(touch) => touch.element,
         }
     }
@@ -69,9 +71,15 @@ impl ExactIntegrator {
     ) -> Option<Solved> {
         let exponent = self.exponent_of(run, event);
         let accuracy = self.location_accuracy(exponent);
-        let mut length = length.min(remaining);
+        // A stop that has just been left is not met before its clearance is looked at again, however little it is above zero meanwhile.
+        let least = match event {
+            Event::Touch(touch) => self.looked_past(run, touch.element).min(remaining),
+            _ => 0.0,
+        };
+        let mut length = length.min(remaining).max(least);
         // The first try tells little more than the length of the next, unless the event was located before.
-        let first = if run.release.is_some() { self.full_precision() } else { COARSE };
+        let located = run.release.is_some() || least > 0.0;
+        let first = if located { self.full_precision() } else { COARSE };
         let mut precision = first;
         let mut last = false;
         for tries in 0..MAX_TRIES {
@@ -83,6 +91,9 @@ impl ExactIntegrator {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
             let distance = self.distance_at_end(run, event);
+            if length == least && precision < COARSE && distance.value <= run.start[event.element()].margin {
+                return Some(Solved { error: self.state_error(run), at_event: true, length });
+            }
             let change = time_to_zero(distance, length)?;
             let fine = precision < COARSE;
             let undecided = self.pressure_rounding(run, event) / distance.slope.abs();
@@ -99,7 +110,7 @@ impl ExactIntegrator {
             let near = change.abs() <= 0.3 * accuracy.powf(0.4) * length && distance.curvature.is_finite();
             last = fine && near && length + change < remaining;
             precision = self.full_precision();
-            length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining);
+            length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining).max(least);
         }
         None
     }
@@ -126,12 +137,23 @@ impl ExactIntegrator {
         (10.0 * self.location_accuracy(exponent)).max(1e-9) * length + rounding
     }
 
+    /// Whether an event that was expected can still come.
+    pub(super) fn may_come(&self, run: &Run, event: Event) -> bool {
+        match event {
+            Event::Lift(element) => self.held_place(run, element).is_some(),
+            _ => run.closed[event.element()].is_some(),
+        }
+    }
+
     /// What rounding leaves undecided of a pressure that vanishes or comes back; 0 at other events, whose distances are displacements.
     fn pressure_rounding(&self, run: &Run, event: Event) -> f64 {
         let of_pressure = match event {
             Event::Part(_) => true,
             Event::Touch(touch) => touch.boundary == Boundary::Presses,
             Event::Release(_) => false,
+            Event::Lift(element) => {
+                return self.held_place(run, element).map_or(0.0, |place| run.pressing[place].margin);
+            }
         };
         let pressure = self.laws[event.element()].pressure().filter(|_| of_pressure);
         let start = run.start[event.element()];
@@ -149,7 +171,7 @@ impl ExactIntegrator {
             Event::Touch(touch) if touch.boundary == Boundary::Closes => {
                 contacts[touch.contact].onset_exponent
             }
-            Event::Part(_) | Event::Touch(_) => 1.0,
+            Event::Part(_) | Event::Touch(_) | Event::Lift(_) => 1.0,
         }
     }
 
@@ -163,6 +185,9 @@ impl ExactIntegrator {
 
     /// What falls to zero at the end of the solved step, and its derivatives.
     fn distance_at_end(&self, run: &Run, event: Event) -> Jet {
+        if let Event::Lift(element) = event {
+            return self.pressing_at_step_end(run, element);
+        }
         let jet = self.jet_at_step_end(run, event.element());
         self.distance_of(run, event, jet)
     }
@@ -174,6 +199,7 @@ impl ExactIntegrator {
         match event {
             Event::Touch(touch) => self.distance(jet, touch),
             Event::Release(element) => self.distance(jet, touch(element, Boundary::Leaves)),
+            Event::Lift(_) => jet,
             Event::Part(element) => {
                 let missing = self.distance(jet, touch(element, Boundary::Presses));
                 Jet { value: -missing.value, slope: -missing.slope, curvature: f64::NEG_INFINITY }
@@ -181,30 +207,33 @@ impl ExactIntegrator {
         }
     }
 
-    /// An output and its derivatives at the end of the solved step.
-    fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
+    /// An output and its derivatives at the end of the solved step, apart from the direct part of the forces.
+    pub(super) fn free_jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
         let end = self.step.start + self.step.length;
-        let jet = |output: usize| {
-            let (own, driven) = (
-                self.step.end_jet(output, &self.series, &self.outputs, &run.state),
-                self.drive.jet(output, &self.outputs[output], end),
-            );
-            Jet {
-                value: own.value + driven.value,
-                slope: own.slope + driven.slope,
-                curvature: own.curvature + driven.curvature,
-            }
-        };
-        let mut found = jet(output);
+        let (own, driven) = (
+            self.step.end_jet(output, &self.series, &self.outputs, &run.state),
+            self.drive.jet(output, &self.outputs[output], end),
+        );
+        Jet {
+            value: own.value + driven.value,
+            slope: own.slope + driven.slope,
+            curvature: own.curvature + driven.curvature,
+        }
+    }
+
+    /// The same with that.
+    fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
+        let mut found = self.free_jet_at_step_end(run, output);
+        let own = found;
         for &other in &self.step.active {
-            let at = if other == output { found } else { jet(other) };
+            let at = if other == output { own } else { self.free_jet_at_step_end(run, other) };
             found.curvature +=
                 self.mobility[output][other] * self.laws[other].pressing_force(at.value, at.slope).value;
         }
         found
     }
 
-    /// The first end of a closed contact within the solved step, other than `except`, and when.
+    /// The first end of a closed contact, or lift of a held stop, within the solved step, other than `except`, and when.
     pub(super) fn first_release(&self, run: &Run, except: Option<Event>) -> Option<(Event, f64)> {
         let of_active = |(a, &element): (usize, &usize)| {
             let usual = Some(self.usual_end(element)).filter(|event| Some(*event) != except);
@@ -214,7 +243,8 @@ impl ExactIntegrator {
             ends.filter_map(|event| self.first_end(run, a, event).map(|time| (event, time)))
                 .collect::<Vec<_>>()
         };
-        let ends = self.step.active.iter().enumerate().flat_map(of_active);
+        let lift = if run.stuck.is_empty() { None } else { self.first_lift(run, except) };
+        let ends = self.step.active.iter().enumerate().flat_map(of_active).chain(lift);
         ends.min_by(|x, y| x.1.total_cmp(&y.1))
     }
 

@@ -194,17 +194,14 @@ impl ExactIntegrator {
             }
             Boundary::Closes => {
                 self.check_impact(run, touch)?;
-                self.strike(run, touch);
+                self.strike(run, touch)?;
             }
         }
-        match run.stuck.first() {
-            Some(&element) if self.forces_act(run) => Err(self.sticks_under_forces(run, element)),
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// Notes that an open contact closes.
-    fn strike(&mut self, run: &mut Run, touch: Touch) {
+    fn strike(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
         if self.notes_course {
             self.course.touch(self.output_jet(&run.state, touch.element, run.time).slope);
         }
@@ -215,6 +212,12 @@ impl ExactIntegrator {
         run.touched = Some(touch.element);
         let before: usize = self.laws[..touch.element].iter().map(|law| law.contacts().len()).sum();
         self.touches[before + touch.contact] += 1;
+        if !run.stuck.is_empty() && self.laws[touch.element].onset_damping() > 0.0 {
+            let speed = self.output_jet(&run.state, touch.element, run.time).slope;
+            let displacement = self.displacement_sensitivity(run, touch);
+            self.throw_off(run, &displacement, speed)?;
+        }
+        Ok(())
     }
 
     /// An output and its derivatives from the homogeneous block state at `time`, apart from the direct part of forces.
@@ -285,11 +288,11 @@ impl ExactIntegrator {
             if self.laws[e].depends_on_velocity() && !self.acts(run, e) {
                 continue;
             }
-            let force = element.law.pressing_force(jet.value, jet.slope).value;
+            let force = self.laws[e].pressing_force(jet.value, jet.slope).value;
             (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
         }
         if self.holding.is_some() {
-            let pressing = self.pressing_forces(&run.state, stretch.duration());
+            let pressing = self.pressing_forces(run, &run.state, stretch.duration());
             for (element, force) in self.system.elements().iter().zip(pressing) {
                 (0..n).for_each(|i| rate[n + i] -= element.shape[i] * force);
             }

@@ -53,8 +53,27 @@ pub(crate) struct ForceStep {
     pub(super) lu: SmallLu,
     pub(super) fixed_lu: FixedLu<NODES>,
     pub(super) work: Vec<f64>,
-    /// What the damping as parameter adds at the nodes and at the end of the solved step; see `by_damping.rs`.
-    pub(super) by_damping: (Vec<f64>, Vec<f64>),
+    /// What a parameter that is not in the forces has in the solved step.
+    pub(super) driven: Driven,
+}
+
+/// What a parameter that is in the structure (`by_damping.rs`) or in the particular solution has in a solved step; empty where there is none.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Driven {
+    /// Derivative of the displacements at the nodes at given forces, `[a * NODES + k]`.
+    pub nodes: Vec<f64>,
+    /// The same of the velocities; empty where no law can depend on them.
+    pub rates: Vec<f64>,
+    /// Derivative of the state at the end.
+    pub end: Vec<f64>,
+}
+
+impl Driven {
+    pub fn clear(&mut self) {
+        self.nodes.clear();
+        self.rates.clear();
+        self.end.clear();
+    }
 }
 
 fn rows_times_state(rows: &[f64], state: &[f64]) -> [f64; NODES] {
@@ -211,10 +230,8 @@ impl ForceStep {
     pub fn advance_sensitivity(&self, sensitivity: &mut Sensitivity, parameter: Option<Parameter>) {
         let columns = sensitivity.columns();
         sensitivity.propagate(&self.weights.propagators);
-        if let (Some(Parameter::AddedDampingRatio), Some(column)) =
-            (parameter, sensitivity.parameter_column())
-        {
-            self.by_damping.1.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
+        if let (Some(_), Some(column)) = (parameter, sensitivity.parameter_column()) {
+            self.driven.end.iter().enumerate().for_each(|(i, &value)| sensitivity.add_to(column, i, value));
         }
         for (a, to_state) in self.weights.to_state.iter().enumerate().take(self.active.len()) {
             sensitivity.add(to_state, &self.work[a * NODES * columns..(a + 1) * NODES * columns]);

@@ -79,6 +79,9 @@ impl ExactIntegrator {
         let force = self.laws[element].force(contact.level + contact.sign * probe, 0.0).value.abs();
         let coefficient = force / probe.powf(contact.onset_exponent);
         let gain = mobility * coefficient / power;
+        if gain == 0.0 {
+            return None;
+        }
         if !touched {
             let elastic = mobility * force;
             if penetration <= 0.0 || (clearance.curvature + elastic) < 0.5 * elastic {

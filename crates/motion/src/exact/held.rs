@@ -9,12 +9,14 @@
 //! `y'' + N^T C N y' + N^T diag(w^2) N y = N^T (b - C q_S' - diag(w^2) q_S)`,
 //! `lambda = D^-1 (Phi^T (b - C q' - diag(w^2) q) + s u'')`.
 //!
+//! Forces of other elements add `Phi_e F_e` to both right sides, `N^T phi_e F_e` and `D^-1 Phi^T phi_e F_e` (`pressing.rs`).
+//!
 //! So it is a linear structure again, whose blocks may be coupled although those of the free structure were not. N is turned so that `N^T diag(w^2) N` is diagonal (singular
 //! vectors of `diag(w) N`, which keep the small eigenfrequencies to their digits), then the damping is decoupled as in `decouple.rs`.
 //!
 //! **One state for both.** The state keeps its length 2n: besides the n - s blocks of y it has s blocks `(phi_j . q, phi_j . q')` without stiffness or damping, of which all is
 //! prescribed: `(level_j - s_j u, -s_j u')` is their part of the particular solution, and their homogeneous part is zero. So `x = S^-1 [q; q'] - particular` as everywhere, flight,
-//! certified search, sensitivities, traces and maxima are those of `flight.rs` with these blocks, and the pressing forces are outputs of their own, after all others.
+//! certified search, force steps, sensitivities, traces and maxima are those of the free structure with these blocks, and the pressing forces are outputs of their own, after all others.
 
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
@@ -22,22 +24,11 @@ use hammerbeam_structure::ReducedModel;
 use super::{
     MergedModes,
     block::{Blocks, Transform},
-    change::Change,
     drive::Drive,
     output::Output,
+    structure::Structure,
 };
 use crate::{Stretch, System};
-
-/// What the integrator computes with: the free structure, or one that is held.
-#[derive(Debug, Clone)]
-pub(super) struct Structure {
-    pub blocks: Blocks,
-    /// Relative displacements of the elements, the response, then the pressing forces of held elements.
-    pub outputs: Vec<Output>,
-    pub inputs: Vec<Vec<f64>>,
-    pub mobility: Vec<Vec<f64>>,
-    pub drive: Drive,
-}
 
 /// A structure held on some of its rigid stops.
 #[derive(Debug, Clone)]
@@ -79,13 +70,12 @@ impl Held {
         read.extend((0..s).map(|j| pressing_force(system, &blocks, &lift, j)));
         let inputs: Vec<Vec<f64>> =
             system.elements().iter().map(|e| held_input(&blocks, &e.shape, s)).collect();
-        let mobility = super::mobility(&read[..outputs.len()], &inputs);
         let reaction = |e: &crate::LocalElement| {
             (0..s).map(|j| -(0..n).map(|i| lift[(i, j)] * e.shape[i]).sum::<f64>()).collect()
         };
         let reactions = system.elements().iter().map(reaction).collect();
         let drive = Drive::new(system, &blocks, &[], stretch);
-        let structure = Structure { blocks, outputs: read, inputs, mobility, drive };
+        let structure = Structure::new(blocks, read, inputs, drive);
         Ok(Some(Self { elements: elements.to_vec(), structure, lift, reactions }))
     }
 
@@ -102,14 +92,9 @@ impl Held {
         self.driven(system, stretch, &levels, true)
     }
 
-    /// Change of the motion with the damping of the modes, and the part of it that the particular solution drives.
-    pub fn by_damping(&self, system: &System) -> (Change, Drive) {
-        let damping: Vec<f64> = system.model().natural_frequencies.iter().map(|w| 2.0 * w).collect();
-        let structure = &self.structure;
-        let moving = structure.blocks.count() - self.elements.len();
-        let change = Change::of_moving(&structure.blocks, &damping, moving);
-        let drive = structure.drive.change(&structure.blocks, &structure.outputs, &change);
-        (change, drive)
+    /// What a force on an element adds to what the j-th held stop presses with at once: `((Phi D^-1)^T phi_e)_j`.
+    pub fn direct(&self, j: usize, element: usize) -> f64 {
+        -self.reactions[element][j]
     }
 
     fn driven(&self, system: &System, stretch: &Stretch, levels: &[f64], levels_alone: bool) -> Drive {

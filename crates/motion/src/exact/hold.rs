@@ -6,15 +6,9 @@
 //! and parameter. Their rank drops by two with each stop: what the motion was relative to the stop before it stuck is forgotten.
 
 use super::{
-    ExactIntegrator, MotionError,
-    change::Change,
-    drive::Drive,
-    flight::Boundary,
-    held::{Held, Structure},
-    recurrence::gauss_sixteen,
-    run::Run,
+    ExactIntegrator, MotionError, by_damping::ByDamping, drive::Drive, flight::Boundary, held::Held, run::Run,
 };
-use crate::Parameter;
+use crate::{Parameter, Stretch};
 
 /// A held structure in use; its place is taken by the free one meanwhile.
 #[derive(Debug)]
@@ -23,21 +17,10 @@ pub(super) struct Holding {
     /// Derivative of the particular solution by the level of a held stop, where that is the parameter.
     pub by_level: Option<Drive>,
     /// What the damping as parameter does.
-    pub by_damping: Option<(Change, Drive)>,
+    pub by_damping: Option<ByDamping>,
 }
 
-/// Radians of a block that sixteen Gauss points resolve to rounding.
-const RADIANS: f64 = 4.0;
-
 impl ExactIntegrator {
-    fn exchange(&mut self, other: &mut Structure) {
-        std::mem::swap(&mut self.blocks, &mut other.blocks);
-        std::mem::swap(&mut self.outputs, &mut other.outputs);
-        std::mem::swap(&mut self.inputs, &mut other.inputs);
-        std::mem::swap(&mut self.mobility, &mut other.mobility);
-        std::mem::swap(&mut self.drive, &mut other.drive);
-    }
-
     /// Computes with the free structure again; the coordinates of a run that was held have lost their meaning.
     pub(super) fn let_go(&mut self) {
         if let Some(mut holding) = self.holding.take() {
@@ -65,10 +48,26 @@ impl ExactIntegrator {
             _ => None,
         };
         let wanted = self.parameter == Some(Parameter::AddedDampingRatio);
-        let by_damping = wanted.then(|| held.by_damping(&self.system));
+        let by_damping =
+            wanted.then(|| ByDamping::of_held(&self.system, &held.structure, held.elements.len()));
         self.exchange(&mut held.structure);
         self.holding = Some(Box::new(Holding { held, by_level, by_damping }));
         Ok(())
+    }
+
+    /// Computes with the structure that is held on these elements, over a stretch that was gone through before.
+    pub(super) fn turn_to(&mut self, stretch: &Stretch, elements: &[usize]) -> Result<(), MotionError> {
+        if elements.is_empty() {
+            self.let_go();
+            self.drive_over(stretch);
+            return Ok(());
+        }
+        let is_in_use = |holding: &Holding| holding.held.elements == elements;
+        if self.stretch == *stretch && self.holding.as_deref().is_some_and(is_in_use) {
+            return Ok(());
+        }
+        self.stretch = *stretch;
+        self.take_hold(elements)
     }
 
     fn make_held(&self, elements: &[usize]) -> Result<Held, MotionError> {
@@ -148,42 +147,6 @@ impl ExactIntegrator {
             }
             _ => element,
         }
-    }
-
-    /// Pressing forces of all elements, zero for those that are not held, from the homogeneous state at a time [N].
-    pub(super) fn pressing_forces(&self, state: &[f64], time: f64) -> Vec<f64> {
-        let mut forces = vec![0.0; self.laws.len()];
-        let Some(holding) = &self.holding else { return forces };
-        let first = self.outputs.len() - holding.held.elements.len();
-        for (j, &element) in holding.held.elements.iter().enumerate() {
-            forces[element] = self.output_jet(state, first + j, time).value;
-        }
-        forces
-    }
-
-    /// Integrals of the pressing forces over a flight of the held structure, by Gauss' rule over panels that resolve every block [N s].
-    pub(super) fn held_impulses(&self, state: &[f64], start: f64, duration: f64) -> Vec<f64> {
-        let Some(holding) = &self.holding else { return Vec::new() };
-        let s = holding.held.elements.len();
-        let rates = self.blocks.rates();
-        let orders = self.system.orders().iter().copied().max().unwrap_or(0);
-        let driven = f64::from(orders) * self.drive.circular_frequency();
-        let fastest = rates.iter().fold(driven, |fastest, rate| fastest.max(*rate));
-        let panels = (fastest * duration / RADIANS).ceil().max(1.0) as usize;
-        let width = duration / panels as f64;
-        let mut sums = vec![0.0; s];
-        let mut moved = state.to_vec();
-        for (panel, &(x, weight)) in
-            (0..panels).flat_map(|panel| gauss_sixteen().iter().map(move |node| (panel, node)))
-        {
-            let time = (panel as f64 + x) * width;
-            self.blocks.fly(state, time, &mut moved);
-            for (j, sum) in sums.iter_mut().enumerate() {
-                let force = self.output_jet(&moved, self.outputs.len() - s + j, start + time).value;
-                *sum += weight * width * force;
-            }
-        }
-        sums
     }
 }
 

@@ -19,7 +19,7 @@
 //! left as it is. A touch within the rounding margin of the clearance is grazed: no impact, no jump (`clearance.rs`).
 //!
 //! **Chatter.** Pressed on with the acceleration `a = r'' > 0`, the bounces shrink like `v_k+1 = e v_k` and end after the further time `T = 2 e v/(a (1 - e))`. Impacts are followed one by one
-//! until the next bounce would rise no higher than `(e v)^2/(2 a) <= `[`CHATTER`]` * margin`, and then the contact sticks at once: an impact with e = 0. What is left out moves y, the
+//! until the next bounce would rise no higher than `(e v)^2/(2 a) <= `CHATTER * margin` (`stick.rs`), and then the contact sticks at once: an impact with e = 0. What is left out moves y, the
 //! structure beside the stop (`held.rs`), through the displacement of the bounces alone, since their impulses do not act on it: by about `v^3/a^2` times a stiffness,
 //! of third order in the speed of the first bounce that is left out. Sensitivities err in second order: that of y' jumps by `-A B dr/D`, as at an impact without restitution. The sum of
 //! impulses is right, since what presses over T is what the bounces would have given. If the acceleration falls by half within 2 T, the chatter does not come to its end, and bounces are followed as long as they rise
@@ -31,33 +31,24 @@
 //! # Source
 //! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009), 85-106 (chatter that ends).
 
-use super::{
-    ExactIntegrator, MotionError,
-    drive::Jet,
-    flight::{Boundary, Touch},
-    run::Run,
-};
+use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, run::Run};
 
-/// Height of a bounce, in rounding margins of the clearance, below which it sticks.
-const CHATTER: f64 = 1e3;
 /// Most impacts in an excitation period.
 pub(super) const MOST_IMPACTS: u64 = 100_000;
 /// Steps of Newton's method to a touch; one or two are usual.
 const NEWTON_STEPS: usize = 20;
-/// Added to the number of touches with every chatter that comes to its end.
-pub(super) const STUCK_TOUCHES: u32 = 1 << 16;
 
 /// An impact about to happen.
 #[derive(Debug, Clone)]
-struct Impact {
-    touch: Touch,
-    restitution: f64,
+pub(super) struct Impact {
+    pub(super) touch: Touch,
+    pub(super) restitution: f64,
     /// Relative displacement and its derivatives before it, forces included.
-    before: Jet,
+    pub(super) before: Jet,
     /// `r''` on the way to it, with all that was held then.
     approach: f64,
     /// `D`.
-    mobility: f64,
+    pub(super) mobility: f64,
     /// Held stops that it throws off, and what they pressed with [N].
     thrown_off: Vec<(usize, f64)>,
 }
@@ -67,7 +58,7 @@ impl ExactIntegrator {
     pub(super) fn strike_rigid(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
         self.settle_on_the_touch(run, touch);
         let approach = self.jet_with_forces(run, touch.element).curvature;
-        let pressing = self.pressing_forces(&run.state, run.time);
+        let pressing = self.pressing_forces(run, &run.state, run.time);
         let held = run.stuck.clone();
         if !self.comes_to_rest_beside_others(run, touch.element) {
             self.let_go_of_pulling(run, touch.element)?;
@@ -84,7 +75,7 @@ impl ExactIntegrator {
             return self.stick(run, &impact);
         }
         if before.slope > 0.0 {
-            self.rebound(run, &impact);
+            return self.rebound(run, &impact);
         }
         Ok(())
     }
@@ -129,155 +120,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// A rigid stop whose state at the start of a stretch is that of a contact that sticks, is held.
-    pub(super) fn stick_at_start(&mut self, run: &mut Run) -> Result<(), MotionError> {
-        for element in 0..self.laws.len() {
-            if self.laws[element].rigid().is_none() {
-                continue;
-            }
-            let touch = Touch { element, contact: 0, boundary: Boundary::Closes };
-            let before = self.jet_with_forces(run, element);
-            let clearance = self.distance(before, touch);
-            let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-            let slow = before.slope.powi(2) <= 2.0 * before.curvature * CHATTER * margin;
-            if clearance.value.abs() <= CHATTER * margin && before.curvature > 0.0 && slow {
-                if self.forces_act(run) {
-                    return Err(self.sticks_under_forces(run, element));
-                }
-                self.forget_the_approach(run, touch);
-                self.contraction = f64::NEG_INFINITY;
-                let elements = joined(&run.stuck, element);
-                self.hold(run, elements)?;
-            }
-        }
-        self.let_go_of_tension(run)
-    }
-
-    /// Lets a held stop go whose pressing force has come to its end.
-    pub(super) fn lift(&mut self, run: &mut Run, element: usize) -> Result<(), MotionError> {
-        let output = self.watched_output(run, element, Boundary::Lifts);
-        let slope = self.output_jet(&run.state, output, run.time).slope;
-        let rest = run.stuck.iter().copied().filter(|&stuck| stuck != element).collect();
-        self.hold(run, rest)?;
-        // The clearance grows like `D |lambda'| t^3/6`: until it is out of the margin rounding would decide.
-        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        let cubic = (6.0 * CHATTER * margin / (self.mobility_in_free(element) * slope.abs())).cbrt();
-        // Where another stop has taken over, it grows like `|r''| t^2/2`.
-        let away = -self.output_jet(&run.state, element, run.time).curvature;
-        let quadratic = (2.0 * CHATTER * margin / away.max(0.0)).sqrt();
-        let wait = cubic.min(quadratic);
-        run.lifted = Some((element, run.time + wait.min(1e-3 * self.stretch.duration())));
-        Ok(())
-    }
-
-    fn mobility_in_free(&self, element: usize) -> f64 {
-        self.system.elements()[element].shape.iter().map(|phi| phi * phi).sum()
-    }
-
-    /// Whether a touch beside held stops is so slow that the impacts with which they would throw one another off, to and fro, are at their end: then all are held, as far as they press.
-    fn comes_to_rest_beside_others(&self, run: &Run, element: usize) -> bool {
-        let before = self.jet_with_forces(run, element);
-        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        !run.stuck.is_empty()
-            && before.curvature > 0.0
-            && before.slope.powi(2) <= 2.0 * before.curvature * CHATTER * margin
-    }
-
-    /// Lets held stops go that an impact on an element would pull, the strongest first.
-    fn let_go_of_pulling(&mut self, run: &mut Run, element: usize) -> Result<(), MotionError> {
-        while let Some(holding) = &self.holding {
-            // The impulse on the element is negative, and so must those on held stops be.
-            let reactions = holding.held.reactions[element].iter().enumerate();
-            let pulled = reactions.min_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, r)| **r < -1e-12);
-            let Some((place, _)) = pulled else { return Ok(()) };
-            let mut rest = run.stuck.clone();
-            rest.remove(place);
-            self.hold(run, rest)?;
-        }
-        Ok(())
-    }
-
-    /// Whether a touch is the end of a chatter.
-    fn sticks(&self, run: &Run, impact: &Impact) -> bool {
-        let (speed, press) = (impact.before.slope.max(0.0), impact.before.curvature);
-        if press <= 0.0 {
-            return false;
-        }
-        let e = impact.restitution;
-        let element = impact.touch.element;
-        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
-        let height = (e * speed).powi(2) / (2.0 * press);
-        if height > CHATTER * margin {
-            return false;
-        }
-        if height <= margin {
-            return true;
-        }
-        let rest = 2.0 * e * speed / (press * (1.0 - e));
-        self.press_after(run, element, 2.0 * rest) >= 0.5 * press
-    }
-
-    /// `r''` of an element after a time of flight from now.
-    fn press_after(&self, run: &Run, element: usize, time: f64) -> f64 {
-        let mut state = run.state.clone();
-        self.blocks.carry(&mut state, time);
-        self.output_jet(&state, element, run.time + time).curvature
-    }
-
-    /// Holds the element from now on.
-    fn stick(&mut self, run: &mut Run, impact: &Impact) -> Result<(), MotionError> {
-        let element = impact.touch.element;
-        if self.forces_act(run) {
-            return Err(self.sticks_under_forces(run, element));
-        }
-        let speed = impact.before.slope.max(0.0);
-        let energy = 0.5 * speed * speed / impact.mobility;
-        self.note_impact(run, impact, (speed / impact.mobility, energy), true);
-        let place = self.first_touch(element);
-        self.touches[place] = self.touches[place].saturating_add(STUCK_TOUCHES);
-        self.contraction = f64::NEG_INFINITY;
-        self.forget_the_approach(run, impact.touch);
-        let elements = joined(&run.stuck, element);
-        self.hold(run, elements)?;
-        self.let_go_of_tension(run)
-    }
-
-    /// Lets held stops go that would have to pull, now that another one is held, too; the strongest first.
-    fn let_go_of_tension(&mut self, run: &mut Run) -> Result<(), MotionError> {
-        while run.stuck.len() > 1 {
-            let pressing = self.pressing_forces(&run.state, run.time);
-            let weakest = run.stuck.iter().copied().min_by(|&a, &b| pressing[a].total_cmp(&pressing[b]));
-            let Some(element) = weakest.filter(|&element| pressing[element] < 0.0) else { return Ok(()) };
-            self.lift(run, element)?;
-        }
-        Ok(())
-    }
-
-    pub(super) fn sticks_under_forces(&self, run: &Run, element: usize) -> MotionError {
-        let others: Vec<usize> = (0..self.laws.len()).filter(|&other| self.acts(run, other)).collect();
-        MotionError::SticksUnderForces {
-            element: self.names(&[element]),
-            others: self.names(&others),
-            time: run.time,
-        }
-    }
-
-    /// `V - A B dr/D`: what an impact without restitution leaves besides the projection.
-    fn forget_the_approach(&mut self, run: &mut Run, touch: Touch) {
-        if run.sensitivity.is_none() {
-            return;
-        }
-        let displacement = self.displacement_sensitivity(run, touch);
-        let input = &self.inputs[touch.element];
-        let carried = self.blocks.system_times_column(input);
-        let factor = -1.0 / self.mobility[touch.element][touch.element];
-        if let Some(sensitivity) = &mut run.sensitivity {
-            sensitivity.add_outer(&carried, factor, &displacement);
-        }
-    }
-
     /// Turns the velocity round.
-    fn rebound(&mut self, run: &mut Run, impact: &Impact) {
+    fn rebound(&mut self, run: &mut Run, impact: &Impact) -> Result<(), MotionError> {
         let &Impact { touch, restitution, before, mobility, .. } = impact;
         let impulse = -(1.0 + restitution) * before.slope / mobility;
         let energy = 0.5 * (1.0 - restitution * restitution) * before.slope.powi(2) / mobility;
@@ -289,11 +133,13 @@ impl ExactIntegrator {
         let input = &self.inputs[touch.element];
         run.state.iter_mut().zip(input).for_each(|(x, b)| *x += impulse * b);
         let jumps = self.velocity_forces(run);
-        let Some(sensitivity) = &mut run.sensitivity else { return };
-        for ((element, after), (_, before)) in jumps.iter().zip(&forces) {
-            let factor = (after - before) / impact.before.slope;
-            sensitivity.add_outer(&self.inputs[*element], factor, &displacement);
+        if let Some(sensitivity) = &mut run.sensitivity {
+            for ((element, after), (_, before)) in jumps.iter().zip(&forces) {
+                let factor = (after - before) / impact.before.slope;
+                sensitivity.add_outer(&self.inputs[*element], factor, &displacement);
+            }
         }
+        self.throw_off(run, &displacement, impact.before.slope)
     }
 
     /// `V+ = V + B dP - A B P dt`.
@@ -332,7 +178,13 @@ impl ExactIntegrator {
     }
 
     /// Writes an impact down wherever it is wanted.
-    fn note_impact(&mut self, run: &Run, impact: &Impact, (impulse, energy): (f64, f64), sticks: bool) {
+    pub(super) fn note_impact(
+        &mut self,
+        run: &Run,
+        impact: &Impact,
+        (impulse, energy): (f64, f64),
+        sticks: bool,
+    ) {
         let place = self.first_touch(impact.touch.element);
         self.touches[place] = self.touches[place].saturating_add(1);
         if self.notes_course {
@@ -343,26 +195,23 @@ impl ExactIntegrator {
     }
 
     /// Place of the first contact of an element among the numbers of touches.
-    fn first_touch(&self, element: usize) -> usize {
+    pub(super) fn first_touch(&self, element: usize) -> usize {
         self.laws[..element].iter().map(|law| law.contacts().len()).sum()
     }
 
     /// An output and its derivatives with the direct part of the forces.
     pub(super) fn jet_with_forces(&self, run: &Run, output: usize) -> Jet {
-        let mut jet = self.output_jet(&run.state, output, run.time);
+        self.jet_from(run, &run.state, output, run.time)
+    }
+
+    /// The same from the homogeneous state at a time.
+    pub(super) fn jet_from(&self, run: &Run, state: &[f64], output: usize, time: f64) -> Jet {
+        let mut jet = self.output_jet(state, output, time);
         for other in (0..self.laws.len()).filter(|&e| self.acts(run, e)) {
-            let at = self.output_jet(&run.state, other, run.time);
+            let at = self.output_jet(state, other, time);
             jet.curvature +=
                 self.mobility[output][other] * self.laws[other].pressing_force(at.value, at.slope).value;
         }
         jet
     }
-}
-
-/// The elements with one more, ascending.
-fn joined(elements: &[usize], element: usize) -> Vec<usize> {
-    let mut joined: Vec<usize> = elements.iter().copied().chain([element]).collect();
-    joined.sort_unstable();
-    joined.dedup();
-    joined
 }

@@ -108,6 +108,7 @@ impl ExactIntegrator {
             impacts.iter().filter(|[_, stuck]| *stuck > 0).map(|[all, stuck]| all - stuck).sum::<u32>();
         maxima.contact_force = self.largest_force(course, forces);
         let watches = self.outputs.len() > self.laws.len();
+        maxima.contact_force = self.largest_pressing_force(course, &steps, maxima.contact_force);
         if watches {
             maxima.acceleration = self.largest_acceleration(course, &steps);
         }
@@ -119,6 +120,7 @@ impl ExactIntegrator {
         if watches {
             maxima.displacement = self.largest_displacement(course, &steps, maxima.displacement);
         }
+        self.let_go();
         Ok(maxima)
     }
 
@@ -148,6 +150,7 @@ impl ExactIntegrator {
                 Passage::Step(step) => {
                     maxima.energy_lost += step.energy_taken;
                     maxima.closed_throughout &= step.closed;
+                    maxima.impulse += course.numbers(step.impulses).iter().sum::<f64>();
                     let forces = course.numbers(step.force);
                     for ((element, law), force) in
                         course.active(&step).iter().zip(forces.as_chunks::<NODES>().0)
@@ -180,12 +183,7 @@ impl ExactIntegrator {
         maxima: &mut Maxima,
     ) -> Result<(), MotionError> {
         let (response, stretch) = (self.laws.len(), course.stretches[flown.piece].stretch);
-        if flown.held.is_empty() {
-            self.drive_over(&stretch);
-        } else {
-            self.stretch = stretch;
-            self.take_hold(flown.held)?;
-        }
+        self.turn_to(&stretch, flown.held)?;
         if watches {
             maxima.displacement = self.flight_maximum(flown, (response, 0), maxima.displacement);
             maxima.acceleration = self.flight_maximum(flown, (response, 2), maxima.acceleration);
@@ -193,7 +191,6 @@ impl ExactIntegrator {
         for output in self.outputs.len() - flown.held.len()..self.outputs.len() {
             maxima.contact_force = self.flight_maximum(flown, (output, 0), maxima.contact_force);
         }
-        self.let_go();
         Ok(())
     }
 }

@@ -14,8 +14,9 @@
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `memory.rs` | laws that remember the speed of an impact |
-//! | `impact.rs` | impacts on rigid stops, chatter |
-//! | `held.rs`, `hold.rs` | the structure that is left while rigid stops are held; going over to it and back |
+//! | `impact.rs`, `stick.rs` | impacts on rigid stops; chatter, stops that stick and lift |
+//! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
+//! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
 //! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
@@ -64,6 +65,7 @@ mod onset;
 mod output;
 mod plane;
 mod polynomial;
+mod pressing;
 mod propagator;
 mod quadrature;
 mod recurrence;
@@ -74,6 +76,8 @@ mod sensitivity;
 mod series;
 mod step_error;
 mod step_maximum;
+mod stick;
+mod structure;
 mod touching;
 mod trace;
 mod weights;
@@ -81,7 +85,7 @@ mod weights;
 #[cfg(test)]
 mod tests;
 
-use std::{collections::HashMap, sync::Arc};
+use std::sync::Arc;
 
 pub use decouple::MergedModes;
 pub use maxima::Maxima;
@@ -90,7 +94,6 @@ pub use near_miss::NearMisses;
 pub use trace::{ContactPiece, Jump, Touchdown, Trace};
 
 use block::Blocks;
-use collocation::Grading;
 use course::Course;
 use drive::Drive;
 use force_step::ForceStep;
@@ -98,6 +101,7 @@ use output::Output;
 use propagator::Propagator;
 use run::Run;
 use series::Series;
+use structure::{KeptWeights, Structure};
 use weights::StepWeights;
 
 use crate::{Law, Parameter, ParameterError, Stretch, System};
@@ -132,11 +136,6 @@ pub enum MotionError {
     /// A rigid stop is hit again and again in ever shorter distance, and the bounces do not end.
     #[error("more than {impacts} impacts up to {time:.6e} s after the start of the stretch")]
     TooManyImpacts { time: f64, impacts: u64 },
-    /// A rigid stop sticks while an element with a force acts, which is not computed.
-    #[error(
-        "{element} sticks to its rigid stop while {others} acts, {time:.6e} s after the start of the stretch: a stop that sticks is only followed without other forces"
-    )]
-    SticksUnderForces { element: String, others: String, time: f64 },
     /// Rigid stops that are held at once do not act independently of one another.
     #[error("{elements} stick to their rigid stops at once, but the structure cannot move them apart")]
     DependentStops { elements: String },
@@ -184,11 +183,11 @@ pub struct ExactIntegrator {
     settings: ExactSettings,
     blocks: Blocks,
     laws: Vec<Law>,
-    /// Relative displacements of the elements, then further outputs.
+    /// Relative displacements of the elements, then further outputs; see `structure.rs`.
     outputs: Vec<Output>,
     inputs: Vec<Vec<f64>>,
     series: Series,
-    /// `C A B`: relative acceleration of output e per force of element f, `[e][f]`.
+    /// `C A B`, `[output][element]`.
     mobility: Vec<Vec<f64>>,
     /// Rate of each block, `sqrt(k) + c` [1/s].
     rates: Vec<f64>,
@@ -200,8 +199,7 @@ pub struct ExactIntegrator {
     drive: Drive,
     run: Run,
     step: ForceStep,
-    /// Matrices of steps beyond the reach of the series, by their active elements, grading and place on the grid of lengths.
-    kept_weights: HashMap<(Vec<usize>, Grading, i32), Arc<StepWeights>>,
+    kept_weights: KeptWeights,
     /// Place of the matrices of steps within the reach, while kept ones are in use.
     own_weights: Arc<StepWeights>,
     flight_start: Vec<f64>,
@@ -251,22 +249,14 @@ impl ExactIntegrator {
         let outputs: Vec<Output> =
             elements.chain(response).map(|(shape, ratio)| Output::new(&blocks, shape, ratio)).collect();
         let inputs: Vec<Vec<f64>> = system.elements().iter().map(|e| blocks.input(&e.shape)).collect();
-        let mobility = mobility(&outputs, &inputs);
-        let n = blocks.count();
-        let share =
-            |o: &Output, b: &[f64], i: usize| o.velocity_row[i] * b[i] + o.velocity_row[n + i] * b[n + i];
-        let shares = outputs.iter().zip(&inputs).map(|(o, b)| {
-            let parts: Vec<f64> = (0..n).map(|i| share(o, b, i).abs()).collect();
-            let total: f64 = parts.iter().sum::<f64>().max(f64::MIN_POSITIVE);
-            parts.into_iter().map(|part| part / total).collect()
-        });
-        let shares = shares.collect();
-        let rates = blocks.rates();
         let laws: Vec<Law> = system.elements().iter().map(|e| e.law).collect();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.0 };
+        let drive = Drive::new(&system, &blocks, &outputs, &stretch);
+        let Structure { blocks, outputs, inputs, series, mobility, rates, shares, kept_weights, drive } =
+            Structure::new(blocks, outputs, inputs, drive);
         Ok(Self {
-            drive: Drive::new(&system, &blocks, &outputs, &stretch),
-            series: Series::new(&blocks, &outputs, &inputs),
+            drive,
+            series,
             has_rigid_stops: laws.iter().any(|law| law.rigid().is_some()),
             has_contacts: laws.iter().any(|law| !law.contacts().is_empty()),
             touches: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
@@ -282,7 +272,7 @@ impl ExactIntegrator {
             counts: ExactCounts::default(),
             run: Run::default(),
             step: ForceStep::default(),
-            kept_weights: HashMap::new(),
+            kept_weights,
             own_weights: Arc::default(),
             flight_start: Vec::new(),
             propagators: Vec::new(),
@@ -346,13 +336,7 @@ impl ExactIntegrator {
 /// Numbers of touches over an orbit, from the sums over its stretches: where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite
 /// and was cut somewhere.
 pub fn complete_touches(touches: &mut [u32]) {
-    for touches in touches.iter_mut().filter(|touches| **touches >= impact::STUCK_TOUCHES) {
-        *touches -= *touches % impact::STUCK_TOUCHES;
+    for touches in touches.iter_mut().filter(|touches| **touches >= stick::STUCK_TOUCHES) {
+        *touches -= *touches % stick::STUCK_TOUCHES;
     }
-}
-
-/// `C A B`: the relative acceleration of each output per force of each element.
-fn mobility(outputs: &[Output], inputs: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(a, b)| a * b).sum::<f64>();
-    outputs.iter().map(|o| inputs.iter().map(|b| dot(&o.velocity_row, b)).collect()).collect()
 }

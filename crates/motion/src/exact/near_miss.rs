@@ -44,6 +44,7 @@ impl ExactIntegrator {
         let course = std::mem::take(&mut self.course);
         let mut least = NearMisses::NONE;
         for piece in 0..course.stretches.len() {
+            self.let_go();
             self.drive_over(&course.stretches[piece].stretch);
             for passage in course.of_stretch(piece) {
                 match *passage {
@@ -65,6 +66,7 @@ impl ExactIntegrator {
         for valley in valleys.into_iter().flatten() {
             least.penetration = least.penetration.min(self.penetration_of_turn(&course, &valley));
         }
+        self.let_go();
         self.course = course;
         least
     }

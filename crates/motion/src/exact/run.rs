@@ -1,6 +1,6 @@
 //! Where a run over a stretch stands.
 
-use super::{drive::Jet, event::Event, sensitivity::Sensitivity};
+use super::{drive::Jet, event::Event, pressing::Pressing, sensitivity::Sensitivity};
 
 /// State of a run; times are counted from the start of the stretch.
 #[derive(Debug, Default)]
@@ -25,6 +25,8 @@ pub(crate) struct Run {
     pub pressed: Option<usize>,
     /// What is known of every element at the start of a step.
     pub start: Vec<ElementStart>,
+    /// What the held stops press with at the start of a step.
+    pub pressing: Vec<Pressing>,
     /// End of a contact that is known to come soon, and about when [s].
     pub release: Option<(Event, f64)>,
     /// Elements that are held on their rigid stops, ascending (`held.rs`).

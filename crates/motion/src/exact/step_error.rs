@@ -14,6 +14,7 @@
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
+//! where T is also that of what held stops press with (`pressing.rs`),
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency).
 
@@ -43,13 +44,13 @@ impl Tail {
 
 /// Relative errors of a step by the file header.
 #[derive(Debug, Clone, Copy, Default)]
-struct Errors {
+pub(super) struct Errors {
     /// `T`.
-    tail: f64,
+    pub tail: f64,
     /// `T D^2`.
-    slow: f64,
+    pub slow: f64,
     /// `S`.
-    fast_share: f64,
+    pub fast_share: f64,
 }
 
 /// How an element's displacement responds to its force over a step.
@@ -115,6 +116,9 @@ impl ExactIntegrator {
             }
         }
         self.step.unresolved = amplitudes;
+        if !run.stuck.is_empty() {
+            largest = largest.max(self.pressing_error(run));
+        }
         largest.max(self.unresolved_excess())
     }
 
@@ -147,7 +151,7 @@ impl ExactIntegrator {
         (k * p * p + s * s).sqrt()
     }
 
-    fn relative_to_bound(&self, errors: Errors) -> f64 {
+    pub(super) fn relative_to_bound(&self, errors: Errors) -> f64 {
         let square = errors.tail.powi(2).max(errors.slow) / 4.0;
         let linear = errors.tail * errors.fast_share / 10.0;
         (square.max(linear) / self.settings.tolerance).sqrt()
@@ -164,7 +168,9 @@ impl ExactIntegrator {
             mobility += share * (2.0 / z).min(1.0);
             fast += share * highest_part(z, &HIGHEST).min(z.recip()) * z.recip().min(1.0);
         }
-        Response { mobility: mobility * self.mobility[element][element], fast_share: fast / mobility }
+        // Where held stops leave nothing that moves, all is followed.
+        let fast_share = if mobility > 0.0 { fast / mobility } else { 0.0 };
+        Response { mobility: mobility * self.mobility[element][element], fast_share }
     }
 
     /// `U` of a step of that length, from what the last step solved has left of it.
@@ -204,7 +210,7 @@ impl ExactIntegrator {
             let shape = (self.step.grading(), self.step.length);
             self.series.complete(active, shape, Arc::make_mut(&mut self.step.weights));
         }
-        self.prepare_damped_step(run);
+        self.prepare_driven(run);
         let parameter = self.parameter;
         self.step.solve_sensitivity(&self.drive, (&self.laws, &self.outputs), sensitivity, parameter).ok()?;
         let slowest = self.drive.circular_frequency();

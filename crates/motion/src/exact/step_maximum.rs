@@ -129,6 +129,25 @@ impl ExactIntegrator {
         largest
     }
 
+    /// The largest that held stops press with in force steps, or `best` if that is larger.
+    pub(super) fn largest_pressing_force(
+        &mut self,
+        course: &Course,
+        steps: &[(usize, CourseStep)],
+        best: f64,
+    ) -> f64 {
+        let mut best = best;
+        for (piece, step) in steps {
+            let held = course.held(step.held).len();
+            if held > 0 {
+                self.recall(course, *piece, step);
+            }
+            best = (0..held)
+                .fold(best, |best, j| best.max(self.pressing_maximum(course.numbers(step.state), j, best)));
+        }
+        best
+    }
+
     /// Bound on the acceleration of the response in the present step from `state`.
     fn acceleration_bound(&self, state: &[f64]) -> f64 {
         let (step, response) = (&self.step, self.laws.len());
@@ -157,7 +176,8 @@ impl ExactIntegrator {
 
     /// Makes a step that was solved earlier the present one.
     pub(super) fn recall(&mut self, course: &Course, piece: usize, step: &CourseStep) {
-        self.drive_over(&course.stretches[piece].stretch);
+        let known = self.turn_to(&course.stretches[piece].stretch, course.held(step.held));
+        known.expect("a structure that was held in the course can be held again");
         self.step.grading = Some(step.grading);
         self.step.start = step.start;
         self.step.length = step.length;

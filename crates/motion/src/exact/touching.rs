@@ -59,22 +59,25 @@ impl ExactIntegrator {
         event: Option<Event>,
     ) -> Result<Option<(Touch, f64)>, Unresolved> {
         let mut first: Option<(Touch, f64)> = None;
-        if run
-            .closed
-            .iter()
-            .zip(&self.laws)
-            .all(|(closed, law)| closed.is_some() || law.contacts().is_empty())
-        {
+        let is_open = |e: &usize| {
+            run.closed[*e].is_none() && !self.laws[*e].contacts().is_empty() && !run.stuck.contains(e)
+        };
+        let open: Vec<usize> = (0..self.laws.len()).filter(is_open).collect();
+        if open.is_empty() {
             return Ok(None);
         }
         let forced = Forced::new(self);
-        for element in (0..self.laws.len()).filter(|&e| run.closed[e].is_none()) {
+        for element in open {
+            let from = self.looked_past(run, element);
             for touch in self.watched(element, run.parted[element]) {
                 let mut until = first.map_or(self.step.length, |(_, time)| time);
                 if event == Some(Event::Touch(touch)) {
                     until = until.min(self.step.length - self.located_within(run, touch));
                 }
-                let found = Search::new(self, run, touch, &forced, until).run();
+                if from >= until {
+                    continue;
+                }
+                let found = Search::new(self, run, touch, &forced, (from, until)).run();
                 self.counts.looks += found.looks;
                 if let Some(time) = found.result? {
                     first = Some((touch, time));
@@ -82,6 +85,14 @@ impl ExactIntegrator {
             }
         }
         Ok(first)
+    }
+
+    /// Time in the step before which an element is not looked at: it has just left its rigid stop, and rounding would decide on its clearance.
+    pub(super) fn looked_past(&self, run: &Run, element: usize) -> f64 {
+        match run.lifted {
+            Some((lifted, until)) if lifted == element => (until - run.time).max(0.0),
+            _ => 0.0,
+        }
     }
 }
 
@@ -180,10 +191,14 @@ impl<'a> Search<'a> {
         run: &'a Run,
         touch: Touch,
         forced: &'a Forced,
-        until: f64,
+        (from, until): (f64, f64),
     ) -> Self {
         let direct = Direct::new(integrator, forced, touch.element);
-        Self { integrator, touch, forced, direct, until, time: 0.0, state: run.state.clone(), looks: 0 }
+        let mut state = run.state.clone();
+        if from > 0.0 {
+            integrator.carry_in_step(&mut state, 0.0, from);
+        }
+        Self { integrator, touch, forced, direct, until, time: from, state, looks: 0 }
     }
 
     fn run(mut self) -> Found {
@@ -193,7 +208,7 @@ impl<'a> Search<'a> {
 
     fn first_closing(&mut self) -> Result<Option<f64>, Unresolved> {
         if self.closes_again_at_once() {
-            return Ok(Some(0.0));
+            return Ok(Some(self.time));
         }
         while self.looks < MAX_LOOKS {
             self.looks += 1;
@@ -216,7 +231,7 @@ impl<'a> Search<'a> {
         if self.touch.boundary != Boundary::Closes {
             return false;
         }
-        let start = self.clearance(&self.state, 0.0);
+        let start = self.clearance(&self.state, self.time);
         let highest = start.value - 0.5 * start.slope * start.slope / start.curvature;
         start.value <= 0.0 && start.curvature < 0.0 && highest <= self.bounds(self.until).margin
     }

@@ -153,7 +153,7 @@ impl ExactIntegrator {
         while let Some(time) = tracing.due(run.time + duration) {
             let mut state = self.flight_start.clone();
             self.blocks.carry(&mut state, (time - run.time).max(0.0));
-            let pressing = self.pressing_forces(&state, time);
+            let pressing = self.pressing_forces(run, &state, time);
             tracing.trace.forces.push(pressing.into_iter().map(|force| 0.0 - force).collect());
             tracing.trace.samples.push(self.modal_of(state, time));
         }
@@ -231,6 +231,15 @@ impl ExactIntegrator {
             let force = &self.step.force[a * NODES..(a + 1) * NODES];
             piece.peak_force = piece.peak_force.max(self.step.grading().rule().extremum(force).0);
         }
+        if !run.stuck.is_empty() {
+            let impulses = self.pressing_impulses(&run.state);
+            for (j, (&element, impulse)) in run.stuck.iter().zip(impulses).enumerate() {
+                let Some(piece) = tracing.open[element] else { continue };
+                let piece = &mut tracing.trace.contacts[piece];
+                piece.impulse += impulse;
+                piece.peak_force = self.pressing_maximum(&run.state, j, piece.peak_force);
+            }
+        }
         self.tracing = Some(tracing);
     }
 
@@ -269,7 +278,7 @@ impl ExactIntegrator {
             let jet = self.output_jet(state, element, time);
             self.laws[element].pressing_force(jet.value, jet.slope).value
         };
-        let pressing = self.pressing_forces(state, time).into_iter().enumerate();
+        let pressing = self.pressing_forces(run, state, time).into_iter().enumerate();
         pressing
             .map(|(element, held)| if self.acts(run, element) { force(element) } else { 0.0 - held })
             .collect()

@@ -33,6 +33,7 @@ mod stepper;
 mod switching;
 mod system_field;
 mod tableau;
+mod thrown_off;
 mod watch;
 
 use faer::Mat;

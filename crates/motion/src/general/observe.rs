@@ -229,7 +229,7 @@ impl<'a> Observer<'a> {
     fn forces<'b>(&'b self, field: &'b SystemField<'_>, at: Place<'b>) -> impl Iterator<Item = f64> + 'b {
         let mut flags = at.inside;
         let held = !field.rigid.held.is_empty();
-        let pressing = if held { field.pressing_forces(at.time, at.state) } else { Vec::new() };
+        let pressing = if held { field.pressing_forces(at.time, at.state, at.inside) } else { Vec::new() };
         field.system.elements().iter().enumerate().map(move |(e, element)| {
             let (inside, rest) = flags.split_at(switches_of(element));
             flags = rest;

@@ -4,8 +4,9 @@
 //!
 //! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi` where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r' T)`,
 //!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
-//! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, and from their derivatives. Its switching function is `lambda_j`
-//!   itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
+//! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
+//!   switching function is `lambda_j` itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
+//! - A stop whose `lambda_j` falls below zero by a jump is let go then (`thrown_off.rs`).
 //! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
 //!
 //! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no flight is known, and impacts are zeros of dense output.
@@ -20,7 +21,7 @@ use super::{
 /// Height of a bounce, relative to the way of the fastest impact in a period, below which it sticks.
 const CHATTER: f64 = 1e-12;
 /// What a state at the start may be off a stop that it sticks to, relative to the same.
-const AT_START: f64 = 1e-10;
+pub(super) const AT_START: f64 = 1e-10;
 
 /// What is known of the rigid stops of a system.
 #[derive(Debug, Clone, Default)]
@@ -71,7 +72,7 @@ impl SystemField<'_> {
     }
 
     /// Takes from a vector over the modes what lies along held shapes, so that `phi_j . vector = targets_j`; gives `D^-1 (Phi^T vector - targets)`.
-    fn constrain(&self, held: &[usize], targets: &[f64], vector: &mut [f64]) -> Vec<f64> {
+    pub(super) fn constrain(&self, held: &[usize], targets: &[f64], vector: &mut [f64]) -> Vec<f64> {
         let shape = |e: usize| &self.system.elements()[e].shape;
         let excess: Vec<f64> = held.iter().zip(targets).map(|(&e, t)| dot(shape(e), vector) - t).collect();
         let forces = self.solve_held(held, &excess);
@@ -114,14 +115,15 @@ impl SystemField<'_> {
     }
 
     /// Pressing forces of all elements, zero for those that are not held [N].
-    pub(super) fn pressing_forces(&self, phase: f64, state: &[f64]) -> Vec<f64> {
+    pub(super) fn pressing_forces(&self, phase: f64, state: &[f64], inside: &[bool]) -> Vec<f64> {
         let mut pressing = vec![0.0; self.system.elements().len()];
         let held = &self.rigid.held;
         if held.is_empty() {
             return pressing;
         }
         let (n, u) = (self.system.dof(), self.support_motion(phase));
-        let rate = self.linear_acceleration(phase, state);
+        let mut rate = self.linear_acceleration(phase, state);
+        self.add_forces_in_region(Point { time: phase, state, inside }, &mut rate[n..]);
         let ratio = |e: usize| self.system.elements()[e].support_ratio;
         let targets: Vec<f64> = held.iter().map(|&e| -ratio(e) * u[2]).collect();
         let mut moved = rate[n..].to_vec();
@@ -145,7 +147,7 @@ impl SystemField<'_> {
     }
 
     /// Speed against which those of an element are small: of the fastest impact, and of its parts now.
-    fn usual_speed(&self, e: usize, state: &[f64]) -> f64 {
+    pub(super) fn usual_speed(&self, e: usize, state: &[f64]) -> f64 {
         let n = self.system.dof();
         let (shape, w) = (&self.system.elements()[e].shape, &self.system.model().natural_frequencies);
         let part = |i: usize| shape[i].abs() * (state[n + i].abs() + w[i] * state[i].abs());
@@ -186,6 +188,7 @@ impl SystemField<'_> {
                 self.rigid.held.retain(|&held| held != e);
             }
         }
+        self.throw_off_by_dampers(time, (state, columns), (inside, before));
         for (e, switch) in self.rigid.stops.clone() {
             if before[switch] || !inside[switch] {
                 continue;
@@ -222,7 +225,7 @@ impl SystemField<'_> {
     }
 
     /// `psi`: the shape of an element less what held stops take of it.
-    fn free_direction(&self, e: usize) -> Vec<f64> {
+    pub(super) fn free_direction(&self, e: usize) -> Vec<f64> {
         let mut direction = self.system.elements()[e].shape.clone();
         let held = &self.rigid.held;
         if !held.is_empty() {
@@ -231,31 +234,16 @@ impl SystemField<'_> {
         direction
     }
 
-    /// Held stops that an impact on an element would pull are let go.
-    fn let_go_of_pulling(&mut self, e: usize, inside: &mut [bool]) {
-        while !self.rigid.held.is_empty() {
-            let held = self.rigid.held.clone();
-            let mut direction = self.system.elements()[e].shape.clone();
-            let reactions = self.constrain(&held, &vec![0.0; held.len()], &mut direction);
-            // The impulse of the impact is negative; a positive part along a held shape is pushed against it.
-            let strongest = (0..held.len()).max_by(|&j, &k| reactions[j].total_cmp(&reactions[k]));
-            let Some(pulled) = strongest.filter(|&j| reactions[j] > 1e-12) else { return };
-            self.rigid.held.remove(pulled);
-            for &(stop, switch) in &self.rigid.stops {
-                inside[switch] &= stop != held[pulled];
-            }
-        }
-    }
-
     /// An impact on an element, with `r''` and the rates of the motion before it.
     fn rebound(
         &mut self,
         (e, restitution, approach): (usize, f64, f64),
         time: f64,
         (state, columns): (&mut [f64], &mut [f64]),
-        (inside, before): (&[bool], &[f64]),
+        (inside, before): (&mut [bool], &[f64]),
     ) {
         let n = self.system.dof();
+        let mut delays = Vec::new();
         let mut after = vec![0.0; 2 * n];
         let [_, speed, press] = self.relative(e, Point { time, state, inside });
         let direction = self.free_direction(e);
@@ -271,16 +259,21 @@ impl SystemField<'_> {
             let displacement = dot(&shape, &column[..n]) + moved;
             let velocity = dot(&shape, &column[n..]) + rate;
             let delay = -displacement / (speed * self.period);
+            delays.push(delay * self.period);
             for i in 0..2 * n {
                 column[i] += (before[i] - after[i]) * delay;
             }
             let impulse = factor * (velocity + approach * self.period * delay);
             add_scaled(&mut column[n..], impulse, &direction);
         }
+        while let Some((pulled, force)) = self.weakest_that_pulls(time, state, inside) {
+            self.release(pulled, inside);
+            self.throw_off((pulled, force), columns, &delays);
+        }
     }
 
     /// What the column of the frequency has besides in a relative displacement and velocity.
-    fn support_change(&self, e: usize, time: f64, of_frequency: bool) -> [f64; 2] {
+    pub(super) fn support_change(&self, e: usize, time: f64, of_frequency: bool) -> [f64; 2] {
         let ratio = self.system.elements()[e].support_ratio;
         let [u, v, _] = if of_frequency { self.support_by_frequency(time) } else { [0.0; 3] };
         [ratio * u, ratio * v]
@@ -291,7 +284,12 @@ impl SystemField<'_> {
         let n = self.system.dof();
         let direction = self.free_direction(e);
         let shape = self.system.elements()[e].shape.clone();
-        let damped = self.damped(&direction);
+        let mut damped = self.damped(&direction);
+        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
+            if damping != 0.0 {
+                add_scaled(&mut damped, -damping * dot(&element.shape, &direction), &element.shape);
+            }
+        }
         let mobility = dot(&shape, &direction);
         self.rigid.held.push(e);
         self.rigid.held.sort_unstable();
@@ -305,7 +303,7 @@ impl SystemField<'_> {
         self.constrain(&held, &speeds, &mut state[n..]);
         let last = columns.len() / (2 * n);
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
-            // The limit of an impact without restitution: the damping acts on what the velocity was for the time of the delay.
+            // The limit of an impact without restitution: dampers act on what the velocity was for the time of the delay.
             let of_frequency = index + 1 == last;
             let displacement = dot(&shape, &column[..n]) + self.support_change(e, time, of_frequency)[0];
             add_scaled(&mut column[n..], displacement / mobility, &damped);

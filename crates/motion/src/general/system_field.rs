@@ -36,13 +36,15 @@ pub(super) struct SystemField<'a> {
     /// Amplitudes of the support displacement.
     support: Vec<c64>,
     /// `df_e/dr` and `df_e/dr'` at the last point.
-    slopes: Vec<(f64, f64)>,
+    pub(super) slopes: Vec<(f64, f64)>,
     /// The laws, with the speeds of impact that they remember.
     pub(super) laws: Vec<Law>,
     /// `df_e/dv` by the remembered speed v at the last point, and the sensitivities of v.
     impacts: Vec<(f64, Vec<f64>)>,
     /// The rigid stops.
     pub(super) rigid: RigidStops,
+    /// Region of the last point, kept where rigid stops need it.
+    region: Vec<bool>,
 }
 
 /// The modal damping matrix `C`.
@@ -70,6 +72,7 @@ impl<'a> SystemField<'a> {
             laws: system.elements().iter().map(|element| element.law).collect(),
             impacts: vec![(0.0, Vec::new()); system.elements().len()],
             rigid: RigidStops::of(system),
+            region: Vec::new(),
         }
     }
 
@@ -91,6 +94,21 @@ impl<'a> SystemField<'a> {
             }
         }
         rates
+    }
+
+    /// Adds the forces of local elements to rates of velocities by time.
+    pub(super) fn add_forces_in_region(&self, at: Point<'_>, rate: &mut [f64]) {
+        let (q, v) = at.state.split_at(self.system.dof());
+        let mut flags = at.inside;
+        for (law, element) in self.laws.iter().zip(self.system.elements()) {
+            let (inside, rest) = flags.split_at(switches_of(element));
+            flags = rest;
+            if law.rigid().is_none() {
+                let r = self.relative_displacement(element, q, at.time);
+                let speed = self.relative_velocity(element, v, at.time);
+                add_scaled(rate, force_in_region(law, (r, speed), inside).value, &element.shape);
+            }
+        }
     }
 
     /// `C x`.
@@ -204,11 +222,13 @@ impl SystemField<'_> {
     }
 
     /// Lets the sensitivities jump with the force of a contact that closes.
-    fn jump_at_onset(&self, element: &LocalElement, time: f64, columns: &mut [f64]) {
+    fn jump_at_onset(&self, e: usize, time: f64, columns: &mut [f64]) {
+        let element = &self.system.elements()[e];
         let (n, damping) = (self.system.dof(), element.law.onset_damping());
         if damping == 0.0 {
             return;
         }
+        let direction = self.free_direction(e);
         let last = columns.len() / (2 * n);
         for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
             let mut displacement = dot(&element.shape, &column[..n]);
@@ -216,7 +236,7 @@ impl SystemField<'_> {
                 displacement += element.support_ratio * self.support_by_frequency(time)[0];
             }
             let impulse = -damping * displacement;
-            add_scaled(&mut column[n..], impulse, &element.shape);
+            add_scaled(&mut column[n..], impulse, &direction);
         }
     }
 
@@ -269,6 +289,10 @@ impl VectorField for SystemField<'_> {
 
     fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]) {
         let n = self.system.dof();
+        if !self.rigid.stops.is_empty() {
+            self.region.clear();
+            self.region.extend_from_slice(at.inside);
+        }
         self.rotate(at.time);
         linear_rates(&self.stiffness, &self.damping, self.period, at.state, derivative);
         let rate = &mut derivative[n..];
@@ -329,7 +353,7 @@ impl VectorField for SystemField<'_> {
                 continue;
             }
             self.remember_impact(e, at, columns);
-            self.jump_at_onset(element, at.time, columns);
+            self.jump_at_onset(e, at.time, columns);
         }
     }
 
@@ -341,7 +365,8 @@ impl VectorField for SystemField<'_> {
         let (q, v) = state.split_at(self.system.dof());
         let mut k = 0;
         let held = &self.rigid.held;
-        let pressing = if held.is_empty() { Vec::new() } else { self.pressing_forces(phase, state) };
+        let pressing =
+            if held.is_empty() { Vec::new() } else { self.pressing_forces(phase, state, &self.region) };
         for (e, element) in self.system.elements().iter().enumerate() {
             if held.contains(&e) {
                 values[k] = pressing[e];

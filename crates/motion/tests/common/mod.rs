@@ -2,6 +2,8 @@
 #![allow(dead_code, reason = "each test file uses some of them")]
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
+pub mod differences;
+
 use std::f64::consts::TAU;
 
 use faer::Mat;
