@@ -15,9 +15,9 @@ use std::{
 
 use common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_figure::{
-    MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageLink, PageMeasured,
-    PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure,
-    Quantity, SectionPlane,
+    MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
+    PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop,
+    PageStructure, Quantity, SectionPlane,
 };
 use hammerbeam_orbit::Side;
 use hammerbeam_study::Store;
@@ -127,7 +127,13 @@ fn odd_pages(workshop: &Workshop) -> Value {
         frequency_range_hz: (10.0, 30.0),
         ..Page::default()
     };
+    let periods = Page {
+        frequency_range_hz: (10.0, 30.0),
+        branches: (1..10).map(straight).collect(),
+        ..Page::default()
+    };
     let pages = [
+        ("nine periods", periods, 9, vec!["period 9"], "No orbit of this branch"),
         (
             "a branch of one point",
             lone,
@@ -158,7 +164,19 @@ fn odd_pages(workshop: &Workshop) -> Value {
     pages.into_iter().map(write).collect()
 }
 
-/// Masses with stops on both sides, an orbit with multipliers that are not finite, a section, measured points.
+/// A branch of that period, which runs straight over all frequencies at a height of its own.
+fn straight(period_multiple: u32) -> PageBranch {
+    let solution = |frequency_hz| PageSolution {
+        frequency_hz,
+        displacement_m: 1e-3 * f64::from(period_multiple + 20),
+        stable: true,
+        ..PageSolution::default()
+    };
+    let solutions = [10.0, 30.0].map(solution).to_vec();
+    PageBranch { id: period_multiple, period_multiple, solutions, ..PageBranch::default() }
+}
+
+/// Masses with stops on both sides, two orbits with multipliers that are not finite, a section, measured points.
 fn everything() -> Page {
     let solution = |k: u32| PageSolution {
         frequency_hz: 10.0 + f64::from(k),
@@ -172,13 +190,22 @@ fn everything() -> Page {
         (0..count).map(|k| size * (std::f64::consts::TAU * f64::from(k) / f64::from(count)).cos()).collect()
     };
     let pairs = |size: f64| wave(60, size).into_iter().map(|value| [value, value]).collect::<Vec<_>>();
+    let impulse = PageImpulse {
+        element: 1,
+        cycles: 0.25,
+        impulse_n_s: -0.125,
+        displacement_m: 0.5e-3,
+        velocity_m_s: [0.75, -0.5],
+    };
     let orbit = PageOrbit {
+        duration_s: 0.1,
+        impulses: vec![impulse],
         displacement_m: wave(60, 1e-3),
         velocity_m_s: wave(60, 1.0),
         in_contacts: vec![(3, 1e-3, 0.5), (3, 1.1e-3, -0.5)],
         acceleration_m_s2: pairs(10.0),
         forces_n: vec![pairs(1.0), pairs(0.0)],
-        support_m: vec![0.0; 30],
+        support_m: wave(12, 2e-4),
         modes: vec![wave(30, 1e-3), wave(30, -5e-4)],
         spectrum_m_s2: vec![10.0, 0.0, f64::NAN],
     };
@@ -188,6 +215,9 @@ fn everything() -> Page {
     });
     let mut orbits = OrbitRecords::default();
     assert!(orbits.insert(0, orbit.record(), usize::MAX));
+    let forces_n = vec![vec![[0.0; 2]; 60]; 2];
+    let rigid = PageOrbit { impulses: vec![impulse; 5], forces_n, ..orbit };
+    assert!(orbits.insert(1, rigid.record(), usize::MAX));
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
         name: name.to_owned(),
         at,
@@ -332,7 +362,11 @@ fn in_a_browser(pages: &Value) {
     run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
     run(&["build.mjs", "--compare"]);
     run(&["--test", "test/ticks.test.mjs"]);
-    let report = run(&["--test", "--test-reporter=tap", "test/page.test.mjs"]);
+    let tests =
+        ["opening", "orbit", "keys", "overlay", "print"].map(|name| format!("test/page/{name}.test.mjs"));
+    // One browser at a time.
+    let options = ["--test", "--test-concurrency=1", "--test-reporter=tap"];
+    let report = run(&[&options[..], &tests.each_ref().map(String::as_str)].concat());
     let skipped: Vec<&str> = report.lines().filter(|line| line.contains("# SKIP")).collect();
     if let Some(line) = skipped.first() {
         skip(line);

@@ -44,12 +44,14 @@ fn figure_3(solutions: usize) -> Page {
 /// Orbits until there is no room for another one.
 fn orbits(room: usize) -> OrbitRecords {
     let wave = |count: usize, rate: f64| (0..count).map(|k| (rate * k as f64).sin()).collect::<Vec<f64>>();
-    let pairs = |rate| wave(240, rate).iter().map(|value| [*value, value + 0.3]).collect::<Vec<_>>();
+    let pairs = |rate| wave(384, rate).iter().map(|value| [*value, value + 0.3]).collect::<Vec<_>>();
     let orbit = PageOrbit {
+        duration_s: 0.02,
         displacement_m: wave(384, 0.02),
         velocity_m_s: wave(384, 0.06),
         in_contacts: vec![(7, 0.1, 0.2); 24],
         acceleration_m_s2: pairs(0.7),
+        impulses: Vec::new(),
         forces_n: vec![pairs(0.0)],
         support_m: wave(120, 0.05),
         modes: (1..7).map(|mode| wave(120, 0.05 * f64::from(mode))).collect(),

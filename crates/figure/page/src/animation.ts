@@ -102,9 +102,10 @@ export class Animation {
     private enlarged = 0;
 
     private tell(): void {
-        const slower = digits(this.seconds * this.frequency, 3);
+        const slower = this.seconds * this.frequency;
+        const pace = slower >= 1 ? `${digits(slower, 3)} times slower` : `${digits(1 / slower, 3)} times faster`;
         const size = this.enlarged > 0 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.` : "";
-        const text = `Played ${slower} times slower.${size} Largest displacement: ${digits(1e3 * this.largest, 4)} mm. A stop is coloured while it is pressed.`;
+        const text = `Played ${pace}.${size} Largest displacement: ${digits(1e3 * this.largest, 3)} mm. A stop is coloured while it is pressed, a rigid one for a moment at an impact.`;
         if (this.speed.textContent !== text) {
             this.speed.textContent = text;
         }
