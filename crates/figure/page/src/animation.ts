@@ -68,7 +68,6 @@ export class Animation {
         this.last = now;
         if (this.playing && this.orbit !== null && !document.hidden && this.root.offsetParent !== null) {
             this.instant = (this.instant + passed / this.seconds) % this.orbit.period;
-            this.slider.value = String(this.instant / this.orbit.period);
             this.draw();
         }
         requestAnimationFrame((next) => this.step(next));
@@ -88,6 +87,7 @@ export class Animation {
         context.setTransform(density, 0, 0, density, 0, 0);
         context.clearRect(0, 0, width, HEIGHT);
         const sketch = { context, width, height: HEIGHT, theme: this.theme };
+        this.slider.value = String(this.instant / this.orbit.period);
         const pose = poseAt(this.structure, this.orbit, this.instant);
         const largest = this.largest || 1;
         if (this.structure.beam) {
