@@ -14,13 +14,15 @@ use std::{
 };
 
 use common::{Workshop, assert_success, stderr, stdout};
+use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
     MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
     PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop,
     PageStructure, Quantity, SectionPlane,
 };
-use hammerbeam_orbit::Side;
-use hammerbeam_study::Store;
+use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
+use hammerbeam_orbit::{Side, states_at_phase};
+use hammerbeam_study::{Model, Store, StudyFile};
 use rusqlite::Connection;
 use serde_json::{Value, json};
 
@@ -57,11 +59,43 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
         "first_branch": branches[0]["branch"],
         "range": [30.0, 40.0],
         "multipliers": multipliers(&workshop),
+        "courses": courses(&workshop),
     });
     let odd = odd_pages(&workshop);
     in_a_browser(&json!({ "run": run, "odd": odd }));
     while_a_run_writes(&workshop);
     without_anything(&workshop);
+}
+
+/// Displacement and velocity of the response point over the first excitation period of the solutions at the beginning and at the end of all branches, whose orbits every page
+/// carries, as a simulation from their stored states has them, three times as finely as the page.
+fn courses(workshop: &Workshop) -> Value {
+    let store = Store::open(&workshop.path("results")).unwrap();
+    let file = StudyFile::parse("study.toml", store.about("study").unwrap()).unwrap();
+    let model = Model::build(&file).unwrap();
+    let motion = ExactSettings::default();
+    let branches = store.branches().unwrap();
+    let (first, last) = (&branches[0], &branches[branches.len() - 1]);
+    let count: u64 = branches.iter().map(|branch| branch.down.solutions + branch.up.solutions).sum();
+    let ends = [
+        (0, first.start, Side::Down, first.down.solutions),
+        (count - 1, last.start, Side::Up, last.up.solutions),
+    ];
+    let course = |(solution, start, side, of_side): (u64, u32, Side, u64)| {
+        let orbit = store.solution(start, side, of_side as u32 - 1).unwrap();
+        let mut integrator = ExactIntegrator::new(model.system.clone(), motion).unwrap();
+        let states = states_at_phase(&mut integrator, &orbit, 0.0).unwrap();
+        let mut simulation =
+            Simulation::new(model.system.clone(), orbit.frequency_hz, &states[0], motion).unwrap();
+        let (samples, _) = simulation.period(576).unwrap();
+        let at = |sample: &Sample| {
+            let [displacement, velocity, _] =
+                model.response_motion(orbit.frequency_hz, sample.phase, &sample.state, &sample.forces);
+            [displacement, velocity]
+        };
+        json!({ "solution": solution, "course": samples.iter().map(at).collect::<Vec<_>>() })
+    };
+    ends.into_iter().filter(|(_, _, _, of_side)| *of_side > 0).map(course).collect()
 }
 
 /// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to end.

@@ -10,6 +10,8 @@ export interface Orbit extends OrbitRecord {
     /** Number of the solution that it belongs to. */
     solution: number;
     period: number;
+    /** Displacements over the excitation periods since phase 0, as a line that is drawn: to the end of the period. */
+    course: [Float64Array, Float64Array];
     /** Displacements and velocities, those within contacts among them, with a gap where an impact makes the velocity jump. */
     portrait: [Float64Array, Float64Array];
 }
@@ -54,11 +56,41 @@ export function readOrbit(meta: Meta, solutions: Solutions, text: string, places
     const record = readRecord(bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4)));
     const solution = meta.orbits.solutions[place] ?? 0;
     const period = meta.branches[solutions.branch[solution] ?? 0]?.period ?? 1;
-    return { ...record, solution, period, portrait: portraitOf(record, period) };
+    const frequency = solutions.frequency[solution] ?? NaN;
+    return { ...record, solution, period, course: courseOf(record, period, frequency), portrait: portraitOf(record, period) };
 }
 
-/** Parts of a step of a portrait that is drawn by cubics. */
+/** Parts of a step that is drawn by cubics. */
 const PARTS = 4;
+
+/** Displacements by the cubics that have the velocities of the samples, which follow a contact of a few samples, too; with a corner at each impact. */
+function courseOf({ displacement, velocity, impulses }: OrbitRecord, period: number, frequency: number): [Float64Array, Float64Array] {
+    const [times, values]: [number[], number[]] = [[], []];
+    const count = displacement.length;
+    const step = period / count;
+    const at = (series: Float64Array, k: number): number => series[k % count] ?? NaN;
+    let next = 0;
+    for (let k = 0; k < count; k++) {
+        const [from, to] = [at(displacement, k), at(displacement, k + 1)];
+        const [begin, end] = [(at(velocity, k) * step) / frequency, (at(velocity, k + 1) * step) / frequency];
+        times.push(k * step);
+        values.push(from);
+        const corners = impulses.slice(next).filter(({ cycles }) => cycles < (k + 1) * step);
+        next += corners.length;
+        for (const { cycles, displacement: corner } of corners) {
+            times.push(cycles);
+            values.push(corner);
+        }
+        for (let part = 1; corners.length === 0 && part < PARTS; part++) {
+            const t = part / PARTS;
+            times.push((k + t) * step);
+            values.push(from + t * t * (3 - 2 * t) * (to - from) + t * (1 - t) * ((1 - t) * begin - t * end));
+        }
+    }
+    times.push(period);
+    values.push(at(displacement, 0));
+    return [Float64Array.from(times), Float64Array.from(values)];
+}
 
 /**
  * Samples with what lies between them: points within contacts, and both ends of the jumps of impacts with a gap between. Away from both the motion is smooth, and cubics stand between samples.

@@ -29,6 +29,7 @@ export class OrbitPlots {
     private readonly spectrum: LinePlot;
     private readonly support = element("p", { class: "note" }, ["Dashed: the support."]);
     private readonly elements = element("p", { class: "note" });
+    private readonly harmonics = element("p", { class: "note" });
     private orbit: Orbit | null = null;
 
     constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly theme: Theme) {
@@ -46,6 +47,7 @@ export class OrbitPlots {
             panel("Spectrum of the acceleration", "spectrum", [
                 this.spectrum.host,
                 element("p", { class: "note" }, ["Lines from bottom to top: eigenfrequencies of the structure without its local elements."]),
+                this.harmonics,
             ]),
         ]);
         theme.listen(() => {
@@ -68,7 +70,9 @@ export class OrbitPlots {
             [closed(values.map((_, k) => ((k + shift) * orbit.period) / values.length), orbit.period + (shift * orbit.period) / values.length), values];
         const isMoved = orbit.support.some((value) => value !== 0);
         this.support.hidden = !isMoved;
-        const moving = isMoved ? [timed(orbit.displacement), timed(repeated(orbit.support, orbit.period))] : [timed(orbit.displacement)];
+        const [times, values] = orbit.course;
+        const course: Series = [times, values.subarray(0, -1)];
+        const moving = isMoved ? [course, timed(repeated(orbit.support, orbit.period))] : [course];
         this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: second, dash: [5, 3] })));
         this.acceleration.show(over("Acceleration (m/s²)", [timed(orbit.acceleration, 0.5)], 1, () => ({ colour: first })));
         this.force.show(over("Local force (N)", orbit.forces.map((force) => timed(force, 0.5)), 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
@@ -127,6 +131,9 @@ export class OrbitPlots {
         // As in print.
         const highest = 1.2 * Math.max(10 * base * orbit.period, ...eigenfrequencies);
         const top = largest > 0 ? 2 * largest : 1;
+        const last = x.length * base;
+        this.harmonics.hidden = last + base > highest;
+        this.harmonics.textContent = `The page carries ${x.length} harmonics of this orbit, up to ${digits(last, 4)} Hz; what lies above is not known here.`;
         return {
             xLabel: "Frequency (Hz)",
             yLabel: "Amplitude (m/s²)",

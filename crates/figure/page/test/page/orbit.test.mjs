@@ -41,6 +41,33 @@ test("a click opens the orbit of the solution, and its peaks are those of the st
     assert.deepEqual(tab.complaints, []);
 });
 
+test("displacement and velocity are drawn where a simulation has them, to half a pixel", options, async () => {
+    const { branches } = await (await open(pages.run)).value(meta);
+    assert.ok(pages.run.courses.length > 0);
+    for (const { solution, course } of pages.run.courses) {
+        const { id, first } = branches.findLast((branch) => branch.count > 0 && branch.first <= solution);
+        const tab = await open(pages.run, `#at=${id}:${solution - first}`);
+        await tab.until(`document.querySelector(".solution").dataset.orbit === "${solution}"`);
+        const { line, velocity, period } = await tab.value(`(() => { const { course, velocity, period } = hammerbeam.orbit(); return { line: course.map((values) => [...values]), velocity: [...velocity], period }; })()`);
+        const range = (values) => Math.max(...values) - Math.min(...values);
+        const [times, displacement] = line;
+        course.forEach(([meant, speed], j) => {
+            const time = j / course.length;
+            const behind = times.findIndex((instant) => instant > time);
+            const share = (time - times[behind - 1]) / (times[behind] - times[behind - 1]);
+            const found = displacement[behind - 1] + share * (displacement[behind] - displacement[behind - 1]);
+            // The plot over the time has 210 pixels, the phase plane with the samples of the velocity 300.
+            const pixels = [(210 * (found - meant)) / range(displacement)];
+            const place = (time * velocity.length) / period;
+            if (Number.isInteger(place)) {
+                pixels.push((300 * (velocity[place] - speed)) / range(velocity));
+            }
+            assert.ok(pixels.every((off) => Math.abs(off) < 0.5), `${pixels} pixels at ${time} of solution ${solution}`);
+        });
+        assert.deepEqual(tab.complaints, []);
+    }
+});
+
 test("multipliers are those of the selected solution, whether its orbit is carried or not", options, async () => {
     const tab = await open(pages.run);
     const { orbits, branches } = await tab.value(meta);

@@ -54,8 +54,11 @@ impl Reader<'_> {
     }
 }
 
+/// Numbers of impulses, each with its element.
+type Impulses = Vec<(i32, [f64; 5])>;
+
 /// Displacement, velocity, acceleration, support, forces, modes, spectrum, the three of contacts; then numbers of impulses.
-fn read(record: &[u8]) -> (Vec<Vec<f64>>, Vec<(i32, [f64; 5])>) {
+fn read(record: &[u8]) -> (Vec<Vec<f64>>, Impulses) {
     let kinds = std::array::from_fn(|_| Kind::default());
     let mut reader = Reader { decoder: Decoder::new(record), kinds };
     let counts = reader.numbers(Of::Head, 8);
@@ -156,7 +159,7 @@ fn values_are_good_to_half_a_step() {
 fn what_is_rounded_is_less_than_half_a_pixel() {
     assert!(half_a_step(STEPS) * 300.0 < 0.2);
     assert!(half_a_step(STEPS_OF_MODES) * 190.0 < 0.2);
-    assert!(0.5 / STEPS_OF_A_DECADE * 260.0 / (DECADES + 0.3) < 0.5);
+    assert!(half_a_step(STEPS_OF_A_DECADE) * 260.0 / (DECADES + 0.3) < 0.5);
 }
 
 #[test]
