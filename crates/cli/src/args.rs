@@ -213,6 +213,8 @@ pub enum FigureFormat {
 }
 
 impl FigureFormat {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Png, Self::Pdf];
     /// What is drawn where none is asked for.
     pub const USUAL: [Self; 2] = [Self::Svg, Self::Png];
 

@@ -163,20 +163,24 @@ fn draw_response(
     if diagram.curves.is_empty() {
         return Ok(());
     }
-    let has_contacts = |value: fn(&ResponsePoint) -> f64| {
-        diagram.curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)
-    };
-    for (word, quantity) in FIGURES {
-        let is_there = match quantity {
-            Quantity::ContactForce => has_contacts(|point| point.contact_force_n),
-            Quantity::ImpactVelocity => has_contacts(|point| point.impact_velocity_m_s),
-            _ => true,
-        };
-        if is_there {
-            drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale)));
-        }
+    for (word, quantity) in quantities(&diagram.curves) {
+        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale)));
     }
     Ok(())
+}
+
+/// What there is to draw of branches, with the words that files have for it: where nothing is ever touched neither contact forces nor impact velocities.
+fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, Quantity)> {
+    let has = |value: fn(&ResponsePoint) -> f64| {
+        curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)
+    };
+    let (has_forces, has_impacts) =
+        (has(|point| point.contact_force_n), has(|point| point.impact_velocity_m_s));
+    FIGURES.into_iter().filter(move |(_, quantity)| match quantity {
+        Quantity::ContactForce => has_forces,
+        Quantity::ImpactVelocity => has_impacts,
+        _ => true,
+    })
 }
 
 fn settings(scale: FigureScale) -> ResponseSettings {

@@ -10,7 +10,8 @@ use serde_json::Value;
 
 const DUFFING: &str = include_str!("../../../studies/duffing.toml");
 
-const FORMATS: &str = "--format=svg,png,pdf";
+/// One that comes twice is drawn once.
+const FORMATS: &str = "--format=svg,png,pdf,svg";
 
 /// A folder with two sweeps, exponents and basins, without branches.
 fn motions() -> Workshop {

@@ -14,13 +14,15 @@ use std::{
 };
 
 use common::{Workshop, assert_success, stderr, stdout};
+use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
-    MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageLink, PageMeasured,
-    PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop, PageStructure,
-    Quantity, SectionPlane,
+    MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
+    PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop,
+    PageStructure, Quantity, SectionPlane,
 };
-use hammerbeam_orbit::Side;
-use hammerbeam_study::Store;
+use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
+use hammerbeam_orbit::{Side, states_at_phase};
+use hammerbeam_study::{Model, Store, StudyFile};
 use rusqlite::Connection;
 use serde_json::{Value, json};
 
@@ -57,11 +59,43 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
         "first_branch": branches[0]["branch"],
         "range": [30.0, 40.0],
         "multipliers": multipliers(&workshop),
+        "courses": courses(&workshop),
     });
     let odd = odd_pages(&workshop);
     in_a_browser(&json!({ "run": run, "odd": odd }));
     while_a_run_writes(&workshop);
     without_anything(&workshop);
+}
+
+/// Displacement and velocity of the response point over the first excitation period of the solutions at the beginning and at the end of all branches, whose orbits every page
+/// carries, as a simulation from their stored states has them, three times as finely as the page.
+fn courses(workshop: &Workshop) -> Value {
+    let store = Store::open(&workshop.path("results")).unwrap();
+    let file = StudyFile::parse("study.toml", store.about("study").unwrap()).unwrap();
+    let model = Model::build(&file).unwrap();
+    let motion = ExactSettings::default();
+    let branches = store.branches().unwrap();
+    let (first, last) = (&branches[0], &branches[branches.len() - 1]);
+    let count: u64 = branches.iter().map(|branch| branch.down.solutions + branch.up.solutions).sum();
+    let ends = [
+        (0, first.start, Side::Down, first.down.solutions),
+        (count - 1, last.start, Side::Up, last.up.solutions),
+    ];
+    let course = |(solution, start, side, of_side): (u64, u32, Side, u64)| {
+        let orbit = store.solution(start, side, of_side as u32 - 1).unwrap();
+        let mut integrator = ExactIntegrator::new(model.system.clone(), motion).unwrap();
+        let states = states_at_phase(&mut integrator, &orbit, 0.0).unwrap();
+        let mut simulation =
+            Simulation::new(model.system.clone(), orbit.frequency_hz, &states[0], motion).unwrap();
+        let (samples, _) = simulation.period(576).unwrap();
+        let at = |sample: &Sample| {
+            let [displacement, velocity, _] =
+                model.response_motion(orbit.frequency_hz, sample.phase, &sample.state, &sample.forces);
+            [displacement, velocity]
+        };
+        json!({ "solution": solution, "course": samples.iter().map(at).collect::<Vec<_>>() })
+    };
+    ends.into_iter().filter(|(_, _, _, of_side)| *of_side > 0).map(course).collect()
 }
 
 /// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to end.
@@ -127,7 +161,13 @@ fn odd_pages(workshop: &Workshop) -> Value {
         frequency_range_hz: (10.0, 30.0),
         ..Page::default()
     };
+    let periods = Page {
+        frequency_range_hz: (10.0, 30.0),
+        branches: (1..10).map(straight).collect(),
+        ..Page::default()
+    };
     let pages = [
+        ("nine periods", periods, 9, vec!["period 9"], "No orbit of this branch"),
         (
             "a branch of one point",
             lone,
@@ -158,7 +198,19 @@ fn odd_pages(workshop: &Workshop) -> Value {
     pages.into_iter().map(write).collect()
 }
 
-/// Masses with stops on both sides, an orbit with multipliers that are not finite, a section, measured points.
+/// A branch of that period, which runs straight over all frequencies at a height of its own.
+fn straight(period_multiple: u32) -> PageBranch {
+    let solution = |frequency_hz| PageSolution {
+        frequency_hz,
+        displacement_m: 1e-3 * f64::from(period_multiple + 20),
+        stable: true,
+        ..PageSolution::default()
+    };
+    let solutions = [10.0, 30.0].map(solution).to_vec();
+    PageBranch { id: period_multiple, period_multiple, solutions, ..PageBranch::default() }
+}
+
+/// Masses with stops on both sides, two orbits with multipliers that are not finite, a section, measured points.
 fn everything() -> Page {
     let solution = |k: u32| PageSolution {
         frequency_hz: 10.0 + f64::from(k),
@@ -172,13 +224,22 @@ fn everything() -> Page {
         (0..count).map(|k| size * (std::f64::consts::TAU * f64::from(k) / f64::from(count)).cos()).collect()
     };
     let pairs = |size: f64| wave(60, size).into_iter().map(|value| [value, value]).collect::<Vec<_>>();
+    let impulse = PageImpulse {
+        element: 1,
+        cycles: 0.25,
+        impulse_n_s: -0.125,
+        displacement_m: 0.5e-3,
+        velocity_m_s: [0.75, -0.5],
+    };
     let orbit = PageOrbit {
+        duration_s: 0.1,
+        impulses: vec![impulse],
         displacement_m: wave(60, 1e-3),
         velocity_m_s: wave(60, 1.0),
         in_contacts: vec![(3, 1e-3, 0.5), (3, 1.1e-3, -0.5)],
         acceleration_m_s2: pairs(10.0),
         forces_n: vec![pairs(1.0), pairs(0.0)],
-        support_m: vec![0.0; 30],
+        support_m: wave(12, 2e-4),
         modes: vec![wave(30, 1e-3), wave(30, -5e-4)],
         spectrum_m_s2: vec![10.0, 0.0, f64::NAN],
     };
@@ -188,6 +249,9 @@ fn everything() -> Page {
     });
     let mut orbits = OrbitRecords::default();
     assert!(orbits.insert(0, orbit.record(), usize::MAX));
+    let forces_n = vec![vec![[0.0; 2]; 60]; 2];
+    let rigid = PageOrbit { impulses: vec![impulse; 5], forces_n, ..orbit };
+    assert!(orbits.insert(1, rigid.record(), usize::MAX));
     let place = |name: &str, at: f64, shape: [f64; 2]| PagePlace {
         name: name.to_owned(),
         at,
@@ -332,7 +396,11 @@ fn in_a_browser(pages: &Value) {
     run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
     run(&["build.mjs", "--compare"]);
     run(&["--test", "test/ticks.test.mjs"]);
-    let report = run(&["--test", "--test-reporter=tap", "test/page.test.mjs"]);
+    let tests =
+        ["opening", "orbit", "keys", "overlay", "print"].map(|name| format!("test/page/{name}.test.mjs"));
+    // One browser at a time.
+    let options = ["--test", "--test-concurrency=1", "--test-reporter=tap"];
+    let report = run(&[&options[..], &tests.each_ref().map(String::as_str)].concat());
     let skipped: Vec<&str> = report.lines().filter(|line| line.contains("# SKIP")).collect();
     if let Some(line) = skipped.first() {
         skip(line);

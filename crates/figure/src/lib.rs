@@ -103,9 +103,9 @@ pub use motion_section::SectionDiagram;
 pub use multiplier_diagram::{MultiplierDiagram, Multipliers};
 pub use orbit_diagram::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample};
 pub use page::{
-    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageFigure, PageFigures, PageLink,
-    PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution, PageStop,
-    PageStructure, SectionPlane,
+    MultiplierRecords, OrbitRecord, OrbitRecords, Page, PageBranch, PageFigure, PageFigures, PageImpulse,
+    PageLink, PageMeasured, PageMeasuredPoint, PageMotion, PageOrbit, PagePlace, PageSection, PageSolution,
+    PageStop, PageStructure, SectionPlane,
 };
 pub use reduction_diagram::{ReducedMode, ReductionDiagram};
 pub use response_diagram::{

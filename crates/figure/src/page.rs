@@ -1,8 +1,8 @@
 //! The page: everything in a results folder in one HTML file, which any browser opens without a server or a network.
 //!
-//! The file holds a short script and the data it shows: what is small as JSON, solutions, their multipliers and orbits as little-endian arrays in base64.
+//! The file holds a short script and the data it shows: what is small as JSON, solutions and their multipliers as little-endian arrays, and orbits as records, in base64.
 //! Solutions are decoded when the page opens, multipliers when a solution is selected for the first time. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
-//! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to a 4095th of the range of their series.
+//! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to less than a pixel of what is drawn of them (`page/orbits/record.rs`).
 //!
 //! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
 //! needs Node; a test says that it is what the sources give.
@@ -19,7 +19,7 @@ pub use figures::{PageFigure, PageFigures};
 pub use measured::{PageMeasured, PageMeasuredPoint};
 pub use motions::{PageMotion, PageSection, SectionPlane};
 pub use multipliers::MultiplierRecords;
-pub use orbits::{OrbitRecord, OrbitRecords, PageOrbit};
+pub use orbits::{OrbitRecord, OrbitRecords, PageImpulse, PageOrbit};
 
 /// Length of a page without the places of its orbits (bytes).
 const MOST_BYTES: usize = 14_400_000;

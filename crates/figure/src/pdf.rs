@@ -15,8 +15,8 @@ use pdf_writer::{
 use resvg::{
     tiny_skia::PathSegment,
     usvg::{
-        Color, Fill, FillRule, FontStyle, Group, LineCap, LineJoin, Node, Paint, Path, Stroke, Text,
-        TextAnchor, TextChunk, Transform,
+        BlendMode, Color, Fill, FillRule, FontStyle, Group, LineCap, LineJoin, Node, Paint, Path, Stroke,
+        Text, TextAnchor, TextChunk, Transform,
     },
 };
 
@@ -121,6 +121,9 @@ impl Page<'_> {
     fn draw_group(&mut self, group: &Group) -> Result<(), FigureError> {
         if group.clip_path().is_some() || group.mask().is_some() || !group.filters().is_empty() {
             return Err(unknown("clips, masks and filters"));
+        }
+        if group.opacity().get() != 1.0 || group.blend_mode() != BlendMode::Normal {
+            return Err(unknown("groups that are seen through or blended"));
         }
         for node in group.children() {
             match node {
@@ -269,6 +272,9 @@ mod tests {
         assert!(drawn("<path d='M0 0h9v9z' fill='#123456'/><text x='1' y='9'>A</text>").is_ok());
         for other in [
             "<path d='M0 0h9v9z' fill='#123456' opacity='0.5' fill-opacity='0.5'/>",
+            "<path d='M0 0h9v9z' fill='#123456' opacity='0.5'/>",
+            "<g opacity='0.5'><text x='1' y='9'>A</text></g>",
+            "<g style='mix-blend-mode:multiply'><path d='M0 0h9v9z'/></g>",
             "<defs><linearGradient id='g'><stop offset='0' stop-color='red'/><stop offset='1' stop-color='blue'/></linearGradient></defs><path d='M0 0h9v9z' fill='url(#g)'/>",
             "<defs><clipPath id='c'><path d='M0 0h4v4z'/></clipPath></defs><path d='M0 0h9v9z' clip-path='url(#c)'/>",
         ] {

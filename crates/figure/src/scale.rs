@@ -71,13 +71,14 @@ impl Scale {
         Self { kind, from, to }
     }
 
-    /// A scale for data: a margin above, a margin below or, for a linear one that is near zero, zero.
+    /// A scale for data: a margin above, a margin below or, for a linear one that is near zero, zero; from -1 to 1 where everything is zero.
     pub(crate) fn around(kind: ScaleKind, (least, greatest): (f64, f64)) -> Self {
         match kind {
             ScaleKind::Logarithmic => {
                 let margin = (greatest / least).powf(0.06).max(1.15);
                 Self::exact(kind, (least / margin, greatest * margin))
             }
+            ScaleKind::Linear if least == 0.0 && greatest == 0.0 => Self::exact(kind, (-1.0, 1.0)),
             ScaleKind::Linear => {
                 let span = if greatest > least { greatest - least } else { greatest.abs() }.max(1e-30);
                 let from_zero = least >= 0.0 && least < 0.5 * greatest;
@@ -118,6 +119,8 @@ mod tests {
             assert!(scale.share(3.0) > 0.0 && scale.share(80.0) < 1.0);
         }
         assert_eq!(Scale::around(ScaleKind::Linear, (3.0, 80.0)).from, 0.0);
+        let zero = Scale::around(ScaleKind::Linear, (0.0, 0.0));
+        assert_eq!((zero.from, zero.to, zero.share(0.0)), (-1.0, 1.0, 0.5));
     }
 
     #[test]

@@ -187,11 +187,17 @@ impl StructureDiagram {
     }
 
     fn description(&self) -> String {
-        let what = match &self.layout {
-            SketchLayout::Beam(beam) => format!("a beam with {} points", beam.points.len()),
-            SketchLayout::Lumped(lumped) => format!("{} masses", lumped.masses.len()),
+        let counted = |count: usize, one: &str, several: &str| {
+            format!("{count} {}", if count == 1 { one } else { several })
         };
-        format!("sketch of {what} and {} stops; {}", self.stops.len(), self.words.join("; "))
+        let what = match &self.layout {
+            SketchLayout::Beam(beam) => {
+                format!("a beam with {}", counted(beam.points.len(), "point", "points"))
+            }
+            SketchLayout::Lumped(lumped) => counted(lumped.masses.len(), "mass", "masses"),
+        };
+        let stops = counted(self.stops.len(), "stop", "stops");
+        format!("sketch of {what} and {stops}; {}", self.words.join("; "))
     }
 
     fn moves(&self, name: &str) -> bool {

@@ -86,8 +86,9 @@ pub(crate) fn page_colours(dark: bool) -> serde_json::Value {
     } else {
         (PERIOD_COLOURS, INK, PALE_INK, GRID, PAPER, "#f6f7f8", SHADE)
     };
+    let strokes: Vec<usize> = (1..=periods.len() as u32).map(|period| period_look(period).strokes).collect();
     serde_json::json!({
-        "periods": periods, "ink": ink, "pale": pale, "grid": grid, "paper": paper, "panel": panel, "shade": shade,
+        "periods": periods, "strokes": strokes, "ink": ink, "pale": pale, "grid": grid, "paper": paper, "panel": panel, "shade": shade,
     })
 }
 

@@ -20,9 +20,23 @@ pub(crate) fn ticks(scale: &Scale, wanted: f64) -> Vec<Tick> {
     }
 }
 
-/// Steps of 1, 2 or 5 times a power of ten, with four or five minor ones in each.
+/// At least two labels, since one alone says nothing of the scale: more than are wanted where these would not give them.
 fn linear(scale: &Scale, wanted: f64) -> Vec<Tick> {
-    let (mantissa, exponent) = nice_step((scale.to - scale.from) / wanted.max(1.0));
+    let labels = |ticks: &[Tick]| ticks.iter().filter(|tick| tick.label.is_some()).count();
+    let mut wanted = wanted.max(1.0);
+    loop {
+        let ticks = linear_of_about(scale, wanted);
+        // Five steps in the length, none longer than half of it, have two ends within it.
+        if ticks.is_empty() || labels(&ticks) >= 2 || wanted > 5.0 {
+            return ticks;
+        }
+        wanted *= 1.5;
+    }
+}
+
+/// Steps of 1, 2 or 5 times a power of ten, with four or five minor ones in each.
+fn linear_of_about(scale: &Scale, wanted: f64) -> Vec<Tick> {
+    let (mantissa, exponent) = nice_step((scale.to - scale.from) / wanted);
     let parts = if mantissa == 2 { 4 } else { 5 };
     let step = f64::from(mantissa) * 10f64.powi(exponent);
     if !step.is_normal() {
@@ -110,6 +124,18 @@ mod tests {
 
     fn labels(kind: ScaleKind, ends: (f64, f64), wanted: f64) -> Vec<String> {
         ticks(&Scale::exact(kind, ends), wanted).into_iter().filter_map(|tick| tick.label).collect()
+    }
+
+    /// A low panel with room for one label or two.
+    #[test]
+    fn an_axis_has_two_labels_at_least() {
+        for (from, to) in [(-1.9, 1.16), (-0.9, 0.4), (0.0, 4.9), (11.0, 19.0), (-1e-7, 3e-9)] {
+            for wanted in [0.5, 1.0, 1.7, 2.5] {
+                let ticks = ticks(&Scale::exact(ScaleKind::Linear, (from, to)), wanted);
+                let labels = ticks.iter().filter(|tick| tick.label.is_some()).count();
+                assert!((2..=7).contains(&labels), "{labels} from {from} to {to}");
+            }
+        }
     }
 
     #[test]

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::run::threads;
 use crate::{
-    args::{FigureKind, FigureOptions},
+    args::{FigureFormat, FigureKind, FigureOptions},
     failure::Failure,
     figures::{self, Drawn, Files, Wishes, orbit},
     interrupt::Interrupt,
@@ -23,7 +23,7 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     }
     let mut drawn = Drawn::into(folder)?.on(threads(options.jobs), Interrupt::listen()?);
     drawn.resolution = options.resolution;
-    drawn.formats.clone_from(&options.format);
+    drawn.formats = FigureFormat::ALL.into_iter().filter(|format| options.format.contains(format)).collect();
     let wishes = wishes(options, &file);
     figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
     drop(snapshot);

@@ -1,19 +1,18 @@
 //! Figures of an orbit. Its samples are computed here, from its stored state on; the figures take them as they are.
 
+mod course;
+
 use std::path::Path;
 
-use hammerbeam_attractor::{ContactRecord, Simulation};
 use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample, Style, plain_number};
-use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
-use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
+use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{Model, StoredBranches, StudyFile, file::DrawnOrbit};
 
 use super::{Album, Drawn, unless_damaged};
-use crate::{failure::Failure, initial};
+use crate::failure::Failure;
+use course::{SAMPLES, course};
 
-/// Samples in an excitation period.
-const SAMPLES: usize = 2048;
 /// Order of the low-pass filter.
 const ORDER: usize = 4;
 
@@ -148,58 +147,6 @@ fn with_impulses(samples: &[OrbitSample], impulses: &[OrbitImpulse], duration_s:
         values[(place as usize + 1) % count] += place.fract() * acceleration;
     }
     values
-}
-
-/// Samples of an orbit from phase 0 on, and its impacts on rigid stops.
-fn course(model: &Model, orbit: &PeriodicSolution) -> Result<(Vec<OrbitSample>, Vec<OrbitImpulse>), Failure> {
-    let frequency_hz = orbit.frequency_hz;
-    let refused = |error: MotionError| Failure::NoResult(error.to_string());
-    let settings = ExactSettings::default();
-    let mut integrator = ExactIntegrator::new(model.system.clone(), settings).map_err(refused)?;
-    // The first node of an orbit need not be at phase 0, where a simulation begins.
-    let states = states_at_phase(&mut integrator, orbit, 0.0).map_err(refused)?;
-    let first = states.first().map_or(&[][..], Vec::as_slice);
-    let mut simulation = Simulation::new(model.system.clone(), frequency_hz, first, settings)?;
-    let is_moved = model.system.model().support.is_some();
-    let (mut samples, mut contacts) = (Vec::new(), Vec::new());
-    for _ in 0..orbit.period_multiple {
-        let (sampled, ended) = simulation.period(SAMPLES)?;
-        contacts.extend(ended);
-        for sample in sampled {
-            let [displacement_m, velocity_m_s, acceleration_m_s2] =
-                initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces);
-            let support = model.system.support_motion(frequency_hz, sample.phase)[0];
-            samples.push(OrbitSample {
-                displacement_m,
-                velocity_m_s,
-                acceleration_m_s2,
-                forces_n: sample.forces,
-                support_m: is_moved.then_some(support),
-            });
-        }
-    }
-    contacts.extend(simulation.unfinished());
-    let mut impulses: Vec<OrbitImpulse> =
-        contacts.iter().filter_map(|contact| impulse(model, frequency_hz, contact)).collect();
-    impulses.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
-    Ok((samples, impulses))
-}
-
-/// The impact with which a contact begins, if it does.
-fn impulse(model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Option<OrbitImpulse> {
-    let (touch, jump) = (contact.begin.as_ref()?, contact.jump.as_ref()?);
-    let cycles = touch.time * frequency_hz;
-    let at = |state: &[f64]| initial::response(model, frequency_hz, cycles.fract(), state, &[]);
-    let [displacement_m, velocity, acceleration] = at(&touch.state);
-    let [_, velocity_after, acceleration_after] = at(&jump.state);
-    Some(OrbitImpulse {
-        element: contact.element,
-        cycles,
-        impulse_n_s: -jump.impulse,
-        displacement_m,
-        velocity_m_s: [velocity, velocity_after],
-        acceleration_m_s2: [acceleration, acceleration_after],
-    })
 }
 
 #[cfg(test)]

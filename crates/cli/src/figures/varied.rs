@@ -6,7 +6,7 @@ use hammerbeam_study::{
     store::{PieceRecord, StoredVariedRow},
 };
 
-use super::{Album, FIGURES, axis_label, file_name, settings};
+use super::{Album, axis_label, file_name, quantities, settings};
 use crate::args::FigureScale;
 
 /// Draws every `[[vary]]` of the study.
@@ -20,7 +20,7 @@ pub fn draw(store: &Store, scale: FigureScale, drawn: &mut impl Album) -> anyhow
             curves,
             ..ResponseDiagram::default()
         };
-        for (word, quantity) in FIGURES {
+        for (word, quantity) in quantities(&diagram.curves) {
             let name = format!("vary_{}_{}_{word}", piece.id, file_name(&piece.parameter));
             drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale)));
         }

@@ -68,7 +68,6 @@ export class Animation {
         this.last = now;
         if (this.playing && this.orbit !== null && !document.hidden && this.root.offsetParent !== null) {
             this.instant = (this.instant + passed / this.seconds) % this.orbit.period;
-            this.slider.value = String(this.instant / this.orbit.period);
             this.draw();
         }
         requestAnimationFrame((next) => this.step(next));
@@ -88,6 +87,7 @@ export class Animation {
         context.setTransform(density, 0, 0, density, 0, 0);
         context.clearRect(0, 0, width, HEIGHT);
         const sketch = { context, width, height: HEIGHT, theme: this.theme };
+        this.slider.value = String(this.instant / this.orbit.period);
         const pose = poseAt(this.structure, this.orbit, this.instant);
         const largest = this.largest || 1;
         if (this.structure.beam) {
@@ -102,9 +102,10 @@ export class Animation {
     private enlarged = 0;
 
     private tell(): void {
-        const slower = digits(this.seconds * this.frequency, 3);
+        const slower = this.seconds * this.frequency;
+        const pace = slower >= 1 ? `${digits(slower, 3)} times slower` : `${digits(1 / slower, 3)} times faster`;
         const size = this.enlarged > 0 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.` : "";
-        const text = `Played ${slower} times slower.${size} Largest displacement: ${digits(1e3 * this.largest, 4)} mm. A stop is coloured while it is pressed.`;
+        const text = `Played ${pace}.${size} Largest displacement: ${digits(1e3 * this.largest, 3)} mm. A stop is coloured while it is pressed, a rigid one for a moment at an impact.`;
         if (this.speed.textContent !== text) {
             this.speed.textContent = text;
         }

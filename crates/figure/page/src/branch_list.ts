@@ -9,6 +9,8 @@ export function branchList(meta: Meta, solutions: Solutions, store: Store, theme
     const boxes: HTMLInputElement[] = [];
     const swatches: HTMLElement[] = [];
     const rows: HTMLElement[] = [];
+    // A hundredth of the range of the study, two at least.
+    const decimals = Math.max(2, Math.ceil(2 - Math.log10(meta.range[1] - meta.range[0] || 1)));
     meta.branches.forEach((branch, place) => {
         const box = element("input", { type: "checkbox", "aria-label": `Draw branch ${branch.id}` });
         box.addEventListener("change", () => {
@@ -22,7 +24,7 @@ export function branchList(meta: Meta, solutions: Solutions, store: Store, theme
         });
         const swatch = element("span", { class: "swatch" });
         const name = button(`${branch.id}`, `Show branch ${branch.id}. Its ends: ${branch.ends.join("; ")}`, () => shown(branch));
-        const [low, high] = rangeOf(solutions, branch);
+        const [low, high] = rangeOf(solutions, branch, decimals);
         const cells = [box, element("span", {}, [swatch, name]), String(branch.period), `${low}–${high}`, String(branch.count)];
         const row = element("tr", {}, cells.map((cell) => element("td", {}, [cell])));
         boxes.push(box);
@@ -57,13 +59,13 @@ export function branchList(meta: Meta, solutions: Solutions, store: Store, theme
     return panel(`Branches (${meta.branches.length})`, "branches", [element("div", { class: "controls" }, switches), element("div", { class: "scroll", tabindex: "0" }, [table])]);
 }
 
-/** Ends of the frequency range of a branch. */
-function rangeOf(solutions: Solutions, branch: Branch): [string, string] {
+/** Ends of the frequency range of a branch, with so many decimals. */
+function rangeOf(solutions: Solutions, branch: Branch, decimals: number): [string, string] {
     let [low, high] = [Infinity, -Infinity];
     for (let k = branch.first; k < branch.first + branch.count; k++) {
         const frequency = solutions.frequency[k] ?? NaN;
         low = Math.min(low, frequency);
         high = Math.max(high, frequency);
     }
-    return branch.count === 0 ? ["–", "–"] : [low.toFixed(2), high.toFixed(2)];
+    return branch.count === 0 ? ["–", "–"] : [low.toFixed(decimals), high.toFixed(decimals)];
 }

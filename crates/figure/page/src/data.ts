@@ -4,6 +4,8 @@ import { bytesOf } from "./base64";
 
 export interface Look {
     periods: string[];
+    /** Strokes across the lines of each of these periods. */
+    strokes: number[];
     ink: string;
     pale: string;
     grid: string;
@@ -102,7 +104,8 @@ export interface Meta {
     range: [number, number];
     notice: string;
     branches: Branch[];
-    orbits: { solutions: number[]; offsets: number[]; length: number };
+    /** Solutions whose orbits are carried, and the lengths of their records in bytes. */
+    orbits: { solutions: number[]; lengths: number[] };
     /** Of how many solutions, and how many of one of them at most, those that are not carried included. */
     multipliers: { solutions: number; most: number };
     structure: Structure | null;

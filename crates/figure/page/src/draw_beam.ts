@@ -30,7 +30,7 @@ export function drawBeam(sketch: Sketch, structure: Structure, pose: Pose, perMe
         }
     }
     for (const stop of structure.stops) {
-        const isPressed = (pose.forces[stop.element] ?? 0) > 0;
+        const isPressed = pose.pressed[stop.element] === true;
         const carrier = stop.other !== null ? (pose.places[stop.other] ?? 0) : stop.rides ? pose.support : 0;
         for (const { level, above } of stop.levels) {
             drawStop(sketch, x(stop.place), y(carrier + level), above, isPressed);

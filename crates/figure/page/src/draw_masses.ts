@@ -66,7 +66,7 @@ export function drawMasses(sketch: Sketch, structure: Structure, pose: Pose, per
 
 /** A plate at each level; one that sits on another mass is joined to it. */
 function drawStop({ context, theme }: Sketch, stop: Stop, pose: Pose, perMetre: number, rest: number[], middle: number): void {
-    const isPressed = (pose.forces[stop.element] ?? 0) > 0;
+    const isPressed = pose.pressed[stop.element] === true;
     const carrier = stop.other !== null ? (pose.places[stop.other] ?? 0) : stop.rides ? pose.support : 0;
     for (const { level, above } of stop.levels) {
         const side = above ? 1 : -1;

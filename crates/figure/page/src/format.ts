@@ -12,7 +12,7 @@ export function digits(value: number, count: number): string {
         return "0";
     }
     const text =
-        size < 1e-3 || size >= 1e6 ? value.toExponential(count - 1) : value.toPrecision(count);
+        size < 1e-3 || size >= 1e6 ? value.toExponential(count - 1) : size >= 10 ** count ? value.toFixed(0) : value.toPrecision(count);
     return text.replace("e+", "e").replaceAll("-", "−");
 }
 

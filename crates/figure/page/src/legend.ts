@@ -25,7 +25,7 @@ export function legend(meta: Meta, solutions: Solutions, store: Store, theme: Th
     const root = element("div", { class: "legend", "aria-label": "Legend" });
     const fill = (): void => {
         const periods = [...new Set(meta.branches.map((branch) => branch.period))].sort((a, b) => a - b);
-        const items = periods.map((period) => item(`period ${period}`, line(theme.period(period), [])));
+        const items = periods.map((period) => item(`period ${period}`, line(theme.period(period), [], theme.strokes(period))));
         items.push(item("stable", line(theme.look.ink, [])), item("unstable", line(theme.look.ink, [4, 3])));
         items.push(...marks.map((mark) => item(mark.name, (context) => {
             const path = new Path2D();
@@ -86,13 +86,21 @@ function layerSwitch(store: Store, layer: Layer, entry: HTMLElement): HTMLElemen
     return made;
 }
 
-const line = (colour: string, dash: number[]): Draw => (context) => {
+const line = (colour: string, dash: number[], strokes = 0): Draw => (context) => {
     context.strokeStyle = colour;
     context.lineWidth = dash.length > 0 ? 1.1 : 2;
     context.setLineDash(dash);
     context.beginPath();
     context.moveTo(0, SIZE / 2);
     context.lineTo(24, SIZE / 2);
+    context.stroke();
+    context.lineWidth = 1.1;
+    context.beginPath();
+    for (let k = 0; k < strokes; k++) {
+        const x = MIDDLE + 3 * (k - (strokes - 1) / 2);
+        context.moveTo(x, SIZE / 2 - 5);
+        context.lineTo(x, SIZE / 2 + 5);
+    }
     context.stroke();
 };
 

@@ -20,8 +20,8 @@ export interface Plot {
     circles?: [number, number][];
     /** Frequencies that are marked by lines from bottom to top. */
     verticals?: number[];
-    /** Whether lines stand from the bottom to each point instead. */
-    stems?: boolean;
+    /** Level from which a line stands to each point instead. */
+    stems?: number;
 }
 
 /** Ends of an axis that holds all finite values, widened a little. */
@@ -99,19 +99,25 @@ export class LinePlot {
         }
         context.stroke();
         context.lineWidth = 1.5 * density;
+        const { stems } = this.plot;
+        const foot = stems === undefined ? 0 : Math.min(top + height, Math.max(top, frame.toY(stems)));
         for (const line of this.plot.lines) {
             context.strokeStyle = line.colour;
             context.setLineDash((line.dash ?? []).map((length) => length * density));
             context.beginPath();
+            let isDown = false;
             for (let k = 0; k < line.x.length; k++) {
                 const [x, y] = [frame.toX(line.x[k] ?? NaN), frame.toY(line.y[k] ?? NaN)];
-                if (this.plot.stems === true) {
-                    context.moveTo(x, top + height);
-                }
-                if (k === 0 && this.plot.stems !== true) {
-                    context.moveTo(x, y);
-                } else {
+                if (stems !== undefined) {
+                    context.moveTo(x, foot);
                     context.lineTo(x, y);
+                } else if (!Number.isFinite(x) || !Number.isFinite(y)) {
+                    isDown = false;
+                } else if (isDown) {
+                    context.lineTo(x, y);
+                } else {
+                    context.moveTo(x, y);
+                    isDown = true;
                 }
             }
             context.stroke();

@@ -7,9 +7,12 @@ export interface Pose {
     /** Displacement of each place (m). */
     places: number[];
     support: number;
-    /** Largest force of each local element in this step, its magnitude (N). */
-    forces: number[];
+    /** Whether a force of each local element acts in this step, or an impulse did just before. */
+    pressed: boolean[];
 }
+
+/** For how long an impact is seen, in excitation periods. */
+const SEEN = 0.03;
 
 /** A periodic series between its samples, by cubics through four of them. */
 export function smooth(values: Float64Array, place: number): number {
@@ -25,7 +28,8 @@ export function smooth(values: Float64Array, place: number): number {
 export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pose {
     const share = instant / orbit.period;
     const modes = orbit.modes.map((values) => smooth(values, share * values.length));
-    const support = orbit.support.length > 0 ? smooth(orbit.support, share * orbit.support.length) : 0;
+    // Its samples are those of one excitation period.
+    const support = orbit.support.length > 0 ? smooth(orbit.support, instant * orbit.support.length) : 0;
     const places = structure.places.map((place) =>
         modes.reduce((sum, value, mode) => sum + value * (place.shape[mode] ?? 0), place.support * support),
     );
@@ -33,7 +37,9 @@ export function poseAt(structure: Structure, orbit: Orbit, instant: number): Pos
         const step = 2 * Math.min(values.length / 2 - 1, Math.floor((share * values.length) / 2));
         return Math.max(Math.abs(values[step] ?? 0), Math.abs(values[step + 1] ?? 0));
     };
-    return { places, support, forces: orbit.forces.map(force) };
+    const isStruck = (element: number): boolean =>
+        orbit.impulses.some((impulse) => impulse.element === element && (instant - impulse.cycles + orbit.period) % orbit.period < SEEN);
+    return { places, support, pressed: orbit.forces.map((values, k) => force(values) > 0 || isStruck(k)) };
 }
 
 /** Largest displacement of any place, or of the support (m). */

@@ -1,26 +1,19 @@
-// Orbits, decoded one at a time from their records (see orbits.rs of the figure crate).
+// Orbits, decoded one at a time.
 
 import { bytesOf } from "./base64";
 import type { Meta, Solutions } from "./data";
 import { smooth } from "./motion";
+import { readRecord, type OrbitRecord } from "./record";
 
-export interface Orbit {
+/** An orbit over its period; of accelerations and forces the least and the largest from each sample to the next, in their order in time. */
+export interface Orbit extends OrbitRecord {
     /** Number of the solution that it belongs to. */
     solution: number;
     period: number;
-    displacement: Float64Array;
-    velocity: Float64Array;
-    /** Displacements and velocities, those within contacts among them. */
+    /** Displacements over the excitation periods since phase 0, as a line that is drawn: to the end of the period. */
+    course: [Float64Array, Float64Array];
+    /** Displacements and velocities, those within contacts among them, with a gap where an impact makes the velocity jump. */
     portrait: [Float64Array, Float64Array];
-    /** Least and largest in each step, in their order in time. */
-    acceleration: Float64Array;
-    /** At the instants of the modes. */
-    support: Float64Array;
-    /** Least and largest in each step, in their order in time. */
-    forces: Float64Array[];
-    modes: Float64Array[];
-    /** Common logarithms of the amplitudes of the harmonics of the acceleration. */
-    spectrum: Float64Array;
 }
 
 /** Place in the list of the carried orbits of the one nearest to a solution on its branch; -1 where its branch has none. */
@@ -50,86 +43,81 @@ export function nearestOrbit(meta: Meta, solutions: Solutions, solution: number)
     return best;
 }
 
-export function readOrbit(meta: Meta, solutions: Solutions, text: string, place: number): Orbit {
-    const { offsets, length } = meta.orbits;
-    const [begin, end] = [offsets[place] ?? 0, offsets[place + 1] ?? length];
-    const bytes = bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4));
-    const view = new DataView(bytes.buffer);
-    const count = (k: number): number => view.getUint16(2 * k, true);
-    const [samples, steps, elements, ofMode, modes, harmonics, inside] = [count(0), count(1), count(2), count(3), count(4), count(5), count(6)];
-    const repeated = (length: number, times: number): number[] => new Array<number>(times).fill(length);
-    const lengths = [samples, samples, 2 * steps, ofMode, ...repeated(2 * steps, elements), ...repeated(ofMode, modes), harmonics, ...repeated(inside, 3)];
-    const ranges = 14;
-    let at = ranges + 8 * lengths.length;
-    const series = lengths.map((length, k) => {
-        const values = new Float64Array(length);
-        at = readSeries(bytes, at, values, view.getFloat32(ranges + 8 * k, true), view.getFloat32(ranges + 8 * k + 4, true));
-        return values;
-    });
-    const solution = meta.orbits.solutions[place] ?? 0;
-    const none = new Float64Array(0);
-    return {
-        solution,
-        period: meta.branches[solutions.branch[solution] ?? 0]?.period ?? 1,
-        displacement: series[0] ?? none,
-        velocity: series[1] ?? none,
-        acceleration: series[2] ?? none,
-        support: series[3] ?? none,
-        forces: series.slice(4, 4 + elements),
-        modes: series.slice(4 + elements, 4 + elements + modes),
-        spectrum: series.at(-4) ?? none,
-        portrait: portraitOf(series[0] ?? none, series[1] ?? none, series.slice(-3)),
-    };
+/** Where each record begins, in bytes, and behind the last one where it ends. */
+export function recordPlaces(lengths: readonly number[]): Uint32Array {
+    const places = new Uint32Array(lengths.length + 1);
+    lengths.forEach((length, k) => (places[k + 1] = (places[k] ?? 0) + length));
+    return places;
 }
 
-/** Parts of a step of a portrait that is drawn by cubics. */
+/** The orbit at a place in the list of those carried; `text` is the base64 text of all, of whose records each has a multiple of three bytes. */
+export function readOrbit(meta: Meta, solutions: Solutions, text: string, places: Uint32Array, place: number): Orbit {
+    const [begin = 0, end = 0] = places.subarray(place, place + 2);
+    const record = readRecord(bytesOf(text.slice((begin / 3) * 4, (end / 3) * 4)));
+    const solution = meta.orbits.solutions[place] ?? 0;
+    const period = meta.branches[solutions.branch[solution] ?? 0]?.period ?? 1;
+    const frequency = solutions.frequency[solution] ?? NaN;
+    return { ...record, solution, period, course: courseOf(record, period, frequency), portrait: portraitOf(record, period) };
+}
+
+/** Parts of a step that is drawn by cubics. */
 const PARTS = 4;
 
-/** Samples with those within contacts, each behind the sample whose number it has; away from contacts the motion is smooth, and cubics stand between samples. */
-function portraitOf(displacement: Float64Array, velocity: Float64Array, inside: Float64Array[]): [Float64Array, Float64Array] {
-    const [before, inDisplacement, inVelocity] = inside;
-    const [x, y]: [number[], number[]] = [[], []];
-    const struck = new Set(Array.from(before ?? [], Math.round));
+/** Displacements by the cubics that have the velocities of the samples, which follow a contact of a few samples, too; with a corner at each impact. */
+function courseOf({ displacement, velocity, impulses }: OrbitRecord, period: number, frequency: number): [Float64Array, Float64Array] {
+    const [times, values]: [number[], number[]] = [[], []];
+    const count = displacement.length;
+    const step = period / count;
+    const at = (series: Float64Array, k: number): number => series[k % count] ?? NaN;
     let next = 0;
-    for (let k = 0; k < displacement.length; k++) {
+    for (let k = 0; k < count; k++) {
+        const [from, to] = [at(displacement, k), at(displacement, k + 1)];
+        const [begin, end] = [(at(velocity, k) * step) / frequency, (at(velocity, k + 1) * step) / frequency];
+        times.push(k * step);
+        values.push(from);
+        const corners = impulses.slice(next).filter(({ cycles }) => cycles < (k + 1) * step);
+        next += corners.length;
+        for (const { cycles, displacement: corner } of corners) {
+            times.push(cycles);
+            values.push(corner);
+        }
+        for (let part = 1; corners.length === 0 && part < PARTS; part++) {
+            const t = part / PARTS;
+            times.push((k + t) * step);
+            values.push(from + t * t * (3 - 2 * t) * (to - from) + t * (1 - t) * ((1 - t) * begin - t * end));
+        }
+    }
+    times.push(period);
+    values.push(at(displacement, 0));
+    return [Float64Array.from(times), Float64Array.from(values)];
+}
+
+/**
+ * Samples with what lies between them: points within contacts, and both ends of the jumps of impacts with a gap between. Away from both the motion is smooth, and cubics stand between samples.
+ */
+function portraitOf({ displacement, velocity, inContacts, impulses }: OrbitRecord, period: number): [Float64Array, Float64Array] {
+    const between = new Map<number, [number, number][]>();
+    const add = (step: number, ...points: [number, number][]): void => void between.set(step, [...(between.get(step) ?? []), ...points]);
+    for (const { cycles, displacement: at, velocity: [before, after] } of impulses) {
+        add(Math.floor((cycles / period) * displacement.length), [at, before], [NaN, NaN], [at, after]);
+    }
+    const [steps, inDisplacement, inVelocity] = inContacts;
+    steps.forEach((step, k) => add(Math.round(step), [inDisplacement[k] ?? NaN, inVelocity[k] ?? NaN]));
+    const [x, y]: [number[], number[]] = [[], []];
+    const count = displacement.length;
+    const isStruck = (step: number): boolean => between.has((step + count) % count);
+    for (let k = 0; k < count; k++) {
         x.push(displacement[k] ?? NaN);
         y.push(velocity[k] ?? NaN);
-        const isSmooth = !struck.has(k - 1) && !struck.has(k) && !struck.has(k + 1);
+        const isSmooth = !isStruck(k - 1) && !isStruck(k) && !isStruck(k + 1);
         for (let part = 1; isSmooth && part < PARTS; part++) {
             x.push(smooth(displacement, k + part / PARTS));
             y.push(smooth(velocity, k + part / PARTS));
         }
-        for (; next < (before?.length ?? 0) && Math.round(before?.[next] ?? 0) <= k; next++) {
-            x.push(inDisplacement?.[next] ?? NaN);
-            y.push(inVelocity?.[next] ?? NaN);
+        for (const [across, up] of between.get(k) ?? []) {
+            x.push(across);
+            y.push(up);
         }
     }
     return [Float64Array.from(x), Float64Array.from(y)];
-}
-
-/** Fills a series from its second differences; returns where the next one begins. */
-function readSeries(bytes: Uint8Array, begin: number, values: Float64Array, low: number, step: number): number {
-    let at = begin;
-    const next = (): number => {
-        let [found, shift, byte] = [0, 0, 0x80];
-        while (byte >= 0x80) {
-            byte = bytes[at++] ?? 0;
-            found |= (byte & 0x7f) << shift;
-            shift += 7;
-        }
-        return found;
-    };
-    let [last, slope, zeros] = [0, 0, 0];
-    for (let k = 0; k < values.length; k++) {
-        if (zeros > 0) {
-            zeros--;
-        } else {
-            const folded = next();
-            zeros = folded === 0 ? next() : 0;
-            slope += (folded >>> 1) ^ -(folded & 1);
-        }
-        last += slope;
-        values[k] = low + step * last;
-    }
-    return at;
 }

@@ -2,6 +2,7 @@
 
 import type { Meta, Solutions } from "./data";
 import { element, panel } from "./dom";
+import { digits } from "./format";
 import { ends, LinePlot, type Line, type Plot } from "./line_plot";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
@@ -19,23 +20,34 @@ export class OrbitPlots {
     private readonly displacement: LinePlot;
     private readonly acceleration: LinePlot;
     private readonly force: LinePlot;
+    private readonly impulse: LinePlot;
+    private readonly impulses = element("p", { class: "note" });
+    private readonly forcePanel: HTMLElement;
+    private readonly impulsePanel: HTMLElement;
+    private readonly jumps = element("p", { class: "note" }, ["Dotted: the velocity jumps at an impact on a rigid stop."]);
     private readonly phase: LinePlot;
     private readonly spectrum: LinePlot;
     private readonly support = element("p", { class: "note" }, ["Dashed: the support."]);
     private readonly elements = element("p", { class: "note" });
+    private readonly harmonics = element("p", { class: "note" });
     private orbit: Orbit | null = null;
 
     constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly theme: Theme) {
-        [this.displacement, this.acceleration, this.force] = [new LinePlot(theme, 210), new LinePlot(theme, 210), new LinePlot(theme, 210)];
+        [this.displacement, this.acceleration] = [new LinePlot(theme, 210), new LinePlot(theme, 210)];
+        [this.force, this.impulse] = [new LinePlot(theme, 210), new LinePlot(theme, 210)];
         [this.phase, this.spectrum] = [new LinePlot(theme, 300, "place"), new LinePlot(theme, 300, "nothing")];
+        this.forcePanel = panel("Forces of the local elements", "force", [this.force.host, this.elements]);
+        this.impulsePanel = panel("Impulses of impacts on rigid stops", "impulse", [this.impulse.host, this.impulses]);
         this.root = element("div", { class: "plots" }, [
             panel("Displacement", "displacement", [this.displacement.host, this.support]),
             panel("Acceleration", "acceleration", [this.acceleration.host]),
-            panel("Forces of the local elements", "force", [this.force.host, this.elements]),
-            panel("Phase portrait", "phase", [this.phase.host, element("p", { class: "note" }, ["Circles: phase 0 of each excitation period."])]),
+            this.forcePanel,
+            this.impulsePanel,
+            panel("Phase portrait", "phase", [this.phase.host, element("p", { class: "note" }, ["Circles: phase 0 of each excitation period."]), this.jumps]),
             panel("Spectrum of the acceleration", "spectrum", [
                 this.spectrum.host,
                 element("p", { class: "note" }, ["Lines from bottom to top: eigenfrequencies of the structure without its local elements."]),
+                this.harmonics,
             ]),
         ]);
         theme.listen(() => {
@@ -58,10 +70,17 @@ export class OrbitPlots {
             [closed(values.map((_, k) => ((k + shift) * orbit.period) / values.length), orbit.period + (shift * orbit.period) / values.length), values];
         const isMoved = orbit.support.some((value) => value !== 0);
         this.support.hidden = !isMoved;
-        const moving = isMoved ? [timed(orbit.displacement), timed(orbit.support)] : [timed(orbit.displacement)];
+        const [times, values] = orbit.course;
+        const course: Series = [times, values.subarray(0, -1)];
+        const moving = isMoved ? [course, timed(repeated(orbit.support, orbit.period))] : [course];
         this.displacement.show(over("Displacement (mm)", moving, 1e3, (k) => (k === 0 ? { colour: first } : { colour: second, dash: [5, 3] })));
         this.acceleration.show(over("Acceleration (m/s²)", [timed(orbit.acceleration, 0.5)], 1, () => ({ colour: first })));
         this.force.show(over("Local force (N)", orbit.forces.map((force) => timed(force, 0.5)), 1, (k) => ({ colour: this.theme.period(k + 1), dash: DASHES[k % DASHES.length] ?? [] })));
+        // As in print: where all stops are rigid and none sticks there are no forces to draw.
+        this.forcePanel.hidden = orbit.impulses.length > 0 && orbit.forces.every((force) => force.every((value) => value === 0));
+        this.impulsePanel.hidden = this.jumps.hidden = orbit.impulses.length === 0;
+        this.impulse.show(this.impulsePlot(orbit));
+        this.impulses.textContent = impulsesInWords(orbit);
         const names = this.meta.structure?.stops.map((stop) => stop.name) ?? [];
         this.elements.textContent =
             orbit.forces.length === 0 ? "This structure has no local elements." : orbit.forces.length > 1 ? `In their order: ${names.join(", ")}.` : "";
@@ -73,17 +92,34 @@ export class OrbitPlots {
     point(instant: number): void {
         const orbit = this.orbit;
         if (orbit !== null) {
-            [this.displacement, this.acceleration, this.force].forEach((plot) => plot.point(instant));
+            [this.displacement, this.acceleration, this.force, this.impulse].forEach((plot) => plot.point(instant));
             const place = (instant / orbit.period) * orbit.displacement.length;
             this.phase.point(1e3 * between(orbit.displacement, place), between(orbit.velocity, place));
         }
+    }
+
+    private impulsePlot({ impulses, period }: Orbit): Plot {
+        const elements = [...new Set(impulses.map(({ element: struck }) => struck))].sort((a, b) => a - b);
+        const lines = elements.map((struck) => {
+            const own = impulses.filter((impulse) => impulse.element === struck);
+            return { x: own.map(({ cycles }) => cycles), y: own.map(({ impulse }) => impulse), colour: this.theme.period(struck + 1) };
+        });
+        return {
+            xLabel: TIME,
+            yLabel: "Impulse (N s)",
+            range: { x: [0, period], y: ends([[0], ...lines.map(({ y }) => y)]), logY: false },
+            lines,
+            circles: impulses.map(({ cycles, impulse }) => [cycles, impulse]),
+            stems: 0,
+        };
     }
 
     private phasePlot(orbit: Orbit, colour: string): Plot {
         const [x, y] = [closed(orbit.portrait[0].map((value) => 1e3 * value)), closed(orbit.portrait[1])];
         const step = orbit.displacement.length / orbit.period;
         const circles = Array.from({ length: orbit.period }, (_, k): [number, number] => [1e3 * (orbit.displacement[k * step] ?? NaN), orbit.velocity[k * step] ?? NaN]);
-        return { xLabel: "Displacement (mm)", yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }], circles };
+        const jumps = orbit.impulses.map(({ displacement, velocity }) => ({ x: [1e3 * displacement, 1e3 * displacement], y: [...velocity], colour: this.theme.look.pale, dash: [2, 3] }));
+        return { xLabel: "Displacement (mm)", yLabel: "Velocity (m/s)", range: { x: ends([x]), y: ends([y]), logY: false }, lines: [{ x, y, colour }, ...jumps], circles };
     }
 
     private spectrumPlot(orbit: Orbit, colour: string): Plot {
@@ -95,15 +131,40 @@ export class OrbitPlots {
         // As in print.
         const highest = 1.2 * Math.max(10 * base * orbit.period, ...eigenfrequencies);
         const top = largest > 0 ? 2 * largest : 1;
+        const last = x.length * base;
+        this.harmonics.hidden = last + base > highest;
+        this.harmonics.textContent = `The page carries ${x.length} harmonics of this orbit, up to ${digits(last, 4)} Hz; what lies above is not known here.`;
         return {
             xLabel: "Frequency (Hz)",
             yLabel: "Amplitude (m/s²)",
             range: { x: [0, highest], y: [top / DEPTH / 2, top], logY: true },
             lines: [{ x, y, colour }],
             verticals: eigenfrequencies,
-            stems: true,
+            stems: top / DEPTH / 2,
         };
     }
+}
+
+/** A series so many times, one after the other. */
+function repeated(values: Float64Array, times: number): Float64Array {
+    const whole = new Float64Array(times * values.length);
+    for (let k = 0; k < times; k++) {
+        whole.set(values, k * values.length);
+    }
+    return whole;
+}
+
+/** Impulses up to which each is said. */
+const FEW = 4;
+
+/** How many impulses there are, and how large: of a few each, of more their sum and the largest. */
+function impulsesInWords({ impulses }: Orbit): string {
+    const sizes = impulses.map(({ impulse }) => Math.abs(impulse));
+    if (sizes.length <= FEW) {
+        return `${sizes.length === 1 ? "One impact" : `${sizes.length} impacts`}: ${sizes.map((size) => digits(size, 4)).join(", ")} N s.`;
+    }
+    const sum = sizes.reduce((all, size) => all + size, 0);
+    return `${sizes.length} impacts: together ${digits(sum, 4)} N s, the largest ${digits(Math.max(...sizes), 4)} N s.`;
 }
 
 /** With its first value behind its last one, or another one. */

@@ -6,19 +6,53 @@ import type { Scales } from "./curves";
 export interface Lines {
     stable: Path2D;
     unstable: Path2D;
+    /** Short lines across both, which tell the period. */
+    strokes: Path2D;
     /** Places of branches of one solution, and whether they are stable. */
     dots: [number, number, boolean][];
 }
 
+/** Strokes across a line: so many in a group, the distances of groups and of strokes in a group along it, and half their length. */
+export interface Strokes {
+    count: number;
+    spacing: number;
+    apart: number;
+    reach: number;
+}
+
 /** Squared distance in pixels below which a point is left out. */
 const NEAR = 0.3;
+
+/** Puts strokes across what is drawn of a branch, the first of them near its beginning, so that a short one has some, too. */
+class Stroker {
+    private left: number;
+
+    constructor(private readonly path: Path2D, private readonly look: Strokes) {
+        this.left = look.count > 0 ? look.spacing / 6 : Infinity;
+    }
+
+    along(x: number, y: number, dx: number, dy: number): void {
+        const length = Math.hypot(dx, dy);
+        const { count, spacing, apart, reach } = this.look;
+        for (; this.left <= length && length > 0; this.left += spacing) {
+            for (let k = 0; k < count; k++) {
+                const share = (this.left + (k - (count - 1) / 2) * apart) / length;
+                const [atX, atY] = [x + share * dx, y + share * dy];
+                const [acrossX, acrossY] = [(-dy / length) * reach, (dx / length) * reach];
+                this.path.moveTo(atX - acrossX, atY - acrossY);
+                this.path.lineTo(atX + acrossX, atY + acrossY);
+            }
+        }
+        this.left -= length;
+    }
+}
 
 class Pen {
     private x = NaN;
     private y = NaN;
     private isDown = false;
 
-    constructor(private readonly path: Path2D, private readonly box: [number, number, number, number]) {}
+    constructor(private readonly path: Path2D, private readonly box: [number, number, number, number], private readonly stroker: Stroker) {}
 
     begin(x: number, y: number): void {
         [this.x, this.y, this.isDown] = [x, y, false];
@@ -38,6 +72,7 @@ class Pen {
                 this.path.moveTo(this.x + from * dx, this.y + from * dy);
             }
             this.path.lineTo(this.x + to * dx, this.y + to * dy);
+            this.stroker.along(this.x + from * dx, this.y + from * dy, (to - from) * dx, (to - from) * dy);
             this.isDown = to === 1;
         }
         [this.x, this.y] = [x, y];
@@ -63,12 +98,13 @@ function clipped(x: number, y: number, dx: number, dy: number, box: [number, num
 }
 
 /** Lines of a stretch of solutions; a level that is not finite is a gap. */
-export function linesOf(solutions: Solutions, levels: Float64Array, first: number, count: number, scales: Scales): Lines {
-    const lines: Lines = { stable: new Path2D(), unstable: new Path2D(), dots: [] };
+export function linesOf(solutions: Solutions, levels: Float64Array, first: number, count: number, scales: Scales, strokes: Strokes): Lines {
+    const lines: Lines = { stable: new Path2D(), unstable: new Path2D(), strokes: new Path2D(), dots: [] };
+    const stroker = new Stroker(lines.strokes, strokes);
     const { left, top, width, height, perX, perY, lowX, lowY } = scales;
     const margin = 20;
     const box: [number, number, number, number] = [left - margin, top - margin, left + width + margin, top + height + margin];
-    const pens = [new Pen(lines.unstable, box), new Pen(lines.stable, box)] as const;
+    const pens = [new Pen(lines.unstable, box, stroker), new Pen(lines.stable, box, stroker)] as const;
     const { frequency, flags } = solutions;
     let [lastX, lastY, lastStable, drawn] = [NaN, NaN, -1, 0];
     const end = first + count;

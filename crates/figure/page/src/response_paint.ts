@@ -7,7 +7,7 @@ import type { Frame } from "./frame";
 import { drawMarks, MARKS, type Mark } from "./marks";
 import { dotsOf } from "./overlay";
 import { drawDots } from "./overlay_paint";
-import { linesOf } from "./paths";
+import { linesOf, type Strokes } from "./paths";
 import { LAYERS, type State } from "./state";
 import type { Theme } from "./theme";
 
@@ -62,6 +62,11 @@ function paintChaos(context: CanvasRenderingContext2D, frame: Frame, { meta, sta
     }
 }
 
+/** Strokes across the lines of a branch, in canvas pixels. */
+function strokesOf(count: number, density: number): Strokes {
+    return { count, spacing: 48 * density, apart: 3 * density, reach: 5 * density };
+}
+
 function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales): number {
     const { meta, solutions, curves, state, theme } = scene;
     const levels = curves.levels(state.quantity, state.log);
@@ -72,7 +77,7 @@ function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: S
         if (state.hidden.has(place) || branch.count === 0) {
             return;
         }
-        const lines = linesOf(solutions, levels, branch.first, branch.count, scales);
+        const lines = linesOf(solutions, levels, branch.first, branch.count, scales, strokesOf(theme.strokes(branch.period), density));
         context.strokeStyle = context.fillStyle = theme.period(branch.period);
         context.lineWidth = 1.1 * density;
         context.setLineDash([5 * density, 3 * density]);
@@ -80,6 +85,8 @@ function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: S
         context.lineWidth = 2 * density;
         context.setLineDash([]);
         context.stroke(lines.stable);
+        context.lineWidth = 1.1 * density;
+        context.stroke(lines.strokes);
         for (const [x, y, isStable] of lines.dots) {
             context.beginPath();
             context.arc(x, y, 3 * density, 0, 2 * Math.PI);

@@ -7,7 +7,7 @@ import { hertz } from "./format";
 import { MultiplierTable, type Multiplier } from "./multiplier_table";
 import { Multipliers } from "./multipliers";
 import { numbersOf } from "./numbers";
-import { nearestOrbit, readOrbit, type Orbit } from "./orbit";
+import { nearestOrbit, readOrbit, recordPlaces, type Orbit } from "./orbit";
 import { OrbitPlots } from "./orbit_plots";
 import type { Store } from "./state";
 import type { Theme } from "./theme";
@@ -21,11 +21,13 @@ export class SolutionView {
     private readonly multipliers: Multipliers;
     private readonly orbitParts: HTMLElement[];
     private text: string | null = null;
+    private readonly places: Uint32Array;
     private table: MultiplierTable | null = null;
     /** The orbit that is shown. */
     orbit: Orbit | null = null;
 
     constructor(private readonly meta: Meta, private readonly solutions: Solutions, private readonly store: Store, theme: Theme) {
+        this.places = recordPlaces(meta.orbits.lengths);
         this.plots = new OrbitPlots(meta, solutions, theme);
         this.multipliers = new Multipliers(theme);
         this.animation = new Animation(meta.structure, theme, (instant) => this.plots.point(instant));
@@ -64,7 +66,7 @@ export class SolutionView {
             return;
         }
         this.text ??= orbitText();
-        const orbit = readOrbit(this.meta, this.solutions, this.text, place);
+        const orbit = readOrbit(this.meta, this.solutions, this.text, this.places, place);
         this.orbit = orbit;
         this.which.textContent = this.whichOrbit(selected, orbit.solution);
         this.plots.show(orbit);

@@ -44,6 +44,12 @@ export class Theme {
         return colours[(Math.max(1, period) - 1) % colours.length] ?? this.look.ink;
     }
 
+    /** Number of strokes across the lines of a period, which tell it where colours do not. */
+    strokes(period: number): number {
+        const { strokes } = this.look;
+        return strokes[(Math.max(1, period) - 1) % strokes.length] ?? 0;
+    }
+
     private print(prints: boolean): void {
         this.prints = prints;
         this.change();

@@ -63,8 +63,7 @@ fn meta(page: &Page) -> Value {
         "branches": branches,
         "orbits": {
             "solutions": page.orbits.solutions(),
-            "offsets": page.orbits.offsets(),
-            "length": page.orbits.length(),
+            "lengths": page.orbits.lengths(),
         },
         "multipliers": { "solutions": page.multipliers.count(), "most": page.multipliers.most() },
         "structure": page.structure.as_ref().map(structure),

@@ -1,18 +1,16 @@
 //! The sketch of a beam, to scale along its length.
 
+mod holders;
+mod labels;
+
 use super::{
-    MARGIN, Sketch, SketchBeam, SketchCarrier, SketchEnd, SketchPoint, SketchStop, StopKind,
-    StructureDiagram, stop,
+    MARGIN, Sketch, SketchBeam, SketchCarrier, SketchPoint, SketchStop, StopKind, StructureDiagram, stop,
 };
 use crate::{
     FigureError, Style,
-    sketch::{
-        Behind, HATCH, arrow, at, block, body, damper, dimension, disc, label, line, spring, turn, variable,
-        wall,
-    },
+    sketch::{Behind, HATCH, arrow, at, body, damper, disc, line, spring, turn, variable, wall},
     style::{INK, PAPER},
     svg::{Anchor, SvgWriter, points},
-    text::decimal,
 };
 
 /// Half the depth of the beam, and radius of a mass (pt).
@@ -163,101 +161,6 @@ impl Place<'_> {
         self.draw_dimensions(svg);
     }
 
-    /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from what moves to them.
-    fn draw_carriers(&self, svg: &mut SvgWriter) {
-        let moving: Vec<f64> = self.diagram.moving.iter().filter_map(|name| self.of(name)).collect();
-        let has_bar = [false, true].map(|above| self.draw_bar(svg, &moving, above));
-        for &x in &moving {
-            let (side, end) = match x {
-                x if x == self.left => (-BASE, self.beam.left),
-                x if x == self.right => (BASE, self.beam.right),
-                _ => (0.5 * BASE, SketchEnd::Free),
-            };
-            if end == SketchEnd::Clamped {
-                let top = if has_bar[1] { self.ceiling } else { self.middle - END_HALF };
-                let bottom = if has_bar[0] { self.floor } else { self.middle + END_HALF };
-                block(svg, at(x, top), at(x + side, bottom));
-            } else if has_bar[0] {
-                let top = if end == SketchEnd::Pinned { self.middle + HALF + 7.0 } else { self.middle };
-                block(svg, at(x - 0.5 * BASE, top), at(x + 0.5 * BASE, self.floor));
-            }
-        }
-    }
-
-    /// The stops on a side that ride on the support.
-    fn riding(&self, above: bool) -> impl Iterator<Item = &SketchStop> {
-        let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
-        riding.filter(move |stop| self.is_on(stop, above))
-    }
-
-    /// Whether a bar that moves stands on a side.
-    fn has_bar(&self, above: bool) -> bool {
-        let is_needed =
-            self.riding(above).next().is_some() || (!above && self.inner_moving().next().is_some());
-        is_needed && self.diagram.moving.iter().any(|name| self.of(name).is_some())
-    }
-
-    /// The bar above or below the beam; false if nothing needs it.
-    fn draw_bar(&self, svg: &mut SvgWriter, moving: &[f64], above: bool) -> bool {
-        if !self.has_bar(above) {
-            return false;
-        }
-        let stops = self.riding(above).filter_map(|stop| self.of(&stop.point));
-        let stops: Vec<f64> = stops.flat_map(|x| [x - 7.0, x + 7.0]).collect();
-        let outer = moving.iter().map(|&x| match x {
-            x if x == self.left => x - BASE,
-            x if x == self.right => x + BASE,
-            x => x,
-        });
-        let places: Vec<f64> = stops.into_iter().chain(outer).collect();
-        let from = places.iter().copied().fold(f64::INFINITY, f64::min);
-        let to = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let near = if above { self.ceiling } else { self.floor };
-        block(svg, at(from, near), at(to, if above { near - BASE } else { near + BASE }));
-        true
-    }
-
-    fn draw_end(&self, svg: &mut SvgWriter, end: SketchEnd, is_left: bool) {
-        let (x, side, behind) =
-            if is_left { (self.left, -1.0, Behind::Left) } else { (self.right, 1.0, Behind::Right) };
-        let moves = self.diagram.moves(if is_left { "left" } else { "right" });
-        let (top, bottom) = (self.middle - END_HALF, self.middle + END_HALF);
-        match (end, moves) {
-            (SketchEnd::Clamped, false) => wall(svg, at(x, top), at(x, bottom), behind),
-            (SketchEnd::Clamped, true) | (SketchEnd::Free, _) => {}
-            (SketchEnd::Pinned, _) => {
-                let foot = self.middle + HALF + 7.0;
-                line(
-                    svg,
-                    &[
-                        at(x, self.middle + HALF),
-                        at(x - 4.0, foot),
-                        at(x + 4.0, foot),
-                        at(x, self.middle + HALF),
-                    ],
-                );
-                if moves {
-                    block(svg, at(x - 6.0, foot), at(x + 6.0, foot + BASE));
-                } else {
-                    wall(svg, at(x - 6.0, foot), at(x + 6.0, foot), Behind::Below);
-                }
-            }
-            (SketchEnd::Sliding, _) => {
-                line(svg, &[at(x, top + 3.0), at(x, bottom - 3.0)]);
-                for y in [self.middle - 5.0, self.middle + 5.0] {
-                    disc(svg, at(x + side * 2.0, y), 2.0, PAPER);
-                }
-                wall(svg, at(x + side * 4.0, top), at(x + side * 4.0, bottom), behind);
-            }
-        }
-        if moves {
-            let out = x + side * 14.0;
-            arrow(svg, at(out, self.middle + 9.0), at(out, self.middle - 9.0), true);
-            let anchor = if is_left { Anchor::End } else { Anchor::Start };
-            variable(svg, at(out + side * 3.0, self.middle + 2.5), "u", anchor, self.style);
-        }
-    }
-
     fn draw_point(&self, svg: &mut SvgWriter, point: &SketchPoint) {
         let x = self.across(point.at_m);
         let taken = self.diagram.stops.iter().any(|stop| stop.point == point.name && self.is_on(stop, false));
@@ -320,68 +223,4 @@ impl Place<'_> {
             }
         }
     }
-
-    /// Rows that the names need so that they do not cover each other.
-    fn name_rows(&self) -> u32 {
-        self.rows_of_names().iter().map(|(_, row)| row + 1).max().unwrap_or(0)
-    }
-
-    /// Places and rows of the names, from left to right.
-    fn rows_of_names(&self) -> Vec<(&SketchPoint, u32)> {
-        let mut sorted: Vec<&SketchPoint> = self.beam.points.iter().collect();
-        sorted.sort_by(|a, b| a.at_m.total_cmp(&b.at_m));
-        let mut ends: Vec<f64> = Vec::new();
-        let mut rows = Vec::new();
-        for point in sorted {
-            let half = 0.5 * crate::text::Text::upright(&point.name).width(self.style.tick_size);
-            let x = self.across(point.at_m);
-            let row = ends.iter().position(|end| x - half > *end + 3.0).unwrap_or(ends.len());
-            if row == ends.len() {
-                ends.push(x + half);
-            } else {
-                ends[row] = x + half;
-            }
-            rows.push((point, row as u32));
-        }
-        rows
-    }
-
-    fn draw_names(&self, svg: &mut SvgWriter) {
-        for (point, row) in self.rows_of_names() {
-            let taken =
-                self.diagram.stops.iter().any(|stop| stop.point == point.name && self.is_on(stop, true));
-            let forced = self.diagram.forces.contains(&point.name);
-            let x = self.across(point.at_m);
-            let y = self.middle - MASS - 4.0 - 1.6 * self.style.tick_size * f64::from(row);
-            if taken {
-                label(svg, at(x - 8.0, y), &point.name, Anchor::End, self.style);
-            } else {
-                label(
-                    svg,
-                    at(x, y - if forced { 13.0 } else { 0.0 }),
-                    &point.name,
-                    Anchor::Middle,
-                    self.style,
-                );
-            }
-        }
-    }
-
-    fn draw_dimensions(&self, svg: &mut SvgWriter) {
-        let mut y = self.floor + BASE + HATCH + 0.6 * ROW;
-        let start = self.floor + BASE + 1.0;
-        for at_m in self.measured().into_iter().chain([self.beam.length_m]) {
-            let is_clear = at_m == self.beam.length_m && !self.is_taken_below(self.right);
-            let tops = (start, if is_clear { self.middle + 13.0 } else { start });
-            let text = format!("{} mm", millimetres(at_m));
-            dimension(svg, (self.left, self.across(at_m)), y, tops, &text, self.style);
-            y += ROW;
-        }
-    }
-}
-
-/// Metres in millimetres, as many digits as they need up to four decimals of a metre.
-fn millimetres(metres: f64) -> String {
-    let text = decimal(1e3 * metres, 1);
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }

@@ -6,7 +6,7 @@
 use super::Placed;
 
 /// Most of the orbits that a page carries,
-const MOST: usize = 4000;
+const MOST: usize = 6000;
 /// solutions to each of them, where there are more than a few,
 const SOLUTIONS_TO_AN_ORBIT: usize = 4;
 /// and how many a page carries of few solutions.

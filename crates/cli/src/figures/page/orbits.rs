@@ -6,12 +6,12 @@ mod spectrum;
 
 use std::{collections::VecDeque, f64::consts::TAU, sync::Arc};
 
-use hammerbeam_figure::{OrbitRecord, OrbitRecords, PageOrbit};
+use hammerbeam_figure::{OrbitRecord, OrbitRecords, PageImpulse, PageOrbit};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::{Model, Store, StoreError, store::BranchRecord};
 
-use samples::Instant;
+use samples::{Course, Impulse, Instant};
 use spectrum::spectrum;
 
 use super::{Album, Drawn, Placed, choice};
@@ -26,7 +26,7 @@ const UNDER_WAY: usize = 2;
 /// Modes whose coordinates are carried: what is seen of a structure in motion.
 const DRAWN_MODES: usize = 8;
 /// Relative size from which a mode is worth drawing.
-const VISIBLE: f64 = 1e-3;
+const VISIBLE: f64 = 2e-3;
 
 /// Orbits of the solutions that are wanted most, as many as fit, or as were done when the user asks to stop.
 ///
@@ -130,29 +130,31 @@ impl Drawing {
         integrator: &mut ExactIntegrator,
         solution: &PeriodicSolution,
     ) -> Result<PageOrbit, MotionError> {
-        let Sampling { samples, stride, steps } = sampling(solution.period_multiple);
-        let count = steps * solution.period_multiple as usize;
-        let instants = samples::of_orbit(integrator, solution, samples)?;
+        let (samples, stride) = sampling(solution.period_multiple);
+        let count = samples * solution.period_multiple as usize;
+        let Course { instants, impulses } = samples::of_orbit(integrator, solution, samples)?;
         let (model, frequency_hz) = (&self.model, solution.frequency_hz);
+        let response = |cycles: f64, state: &[f64], forces: &[f64]| {
+            initial::response(model, frequency_hz, cycles.rem_euclid(1.0), state, forces)
+        };
         let mut orbit = PageOrbit {
+            duration_s: f64::from(solution.period_multiple) / frequency_hz,
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
+            support_m: self.support(frequency_hz, samples / stride),
+            impulses: impulses.iter().map(|impulse| page_impulse(impulse, response)).collect(),
             ..PageOrbit::default()
         };
         let (mut regular, mut states) = (Vec::new(), Vec::new());
         for Instant { cycles, place, state, forces } in &instants {
-            let phase = cycles.rem_euclid(1.0);
-            let [displacement, velocity, acceleration] =
-                initial::response(model, frequency_hz, phase, state, forces);
-            let step = ((cycles * steps as f64).floor() as usize).min(count - 1);
+            let [displacement, velocity, acceleration] = response(*cycles, state, forces);
+            let step = ((cycles * samples as f64) as usize).min(count - 1);
             widen(&mut orbit.acceleration_m_s2[step], acceleration);
             for (series, force) in orbit.forces_n.iter_mut().zip(forces) {
                 widen(&mut series[step], *force);
             }
             let Some(place) = place else {
-                let before =
-                    ((cycles * samples as f64) as usize).min(samples * solution.period_multiple as usize - 1);
-                orbit.in_contacts.push((before, displacement, velocity));
+                orbit.in_contacts.push((step, displacement, velocity));
                 continue;
             };
             regular.push(displacement);
@@ -161,8 +163,6 @@ impl Drawing {
                 orbit.velocity_m_s.push(velocity);
                 if (place / 2).is_multiple_of(stride) {
                     states.push(state);
-                    let support = model.system.support_motion(frequency_hz, phase)[0];
-                    orbit.support_m.push(if self.is_moved { support } else { 0.0 });
                 }
             }
         }
@@ -170,6 +170,25 @@ impl Drawing {
         let base_hz = frequency_hz / f64::from(solution.period_multiple);
         orbit.spectrum_m_s2 = spectrum(&regular, base_hz, 1.2 * self.highest_hz.max(10.0 * frequency_hz));
         Ok(orbit)
+    }
+
+    /// Displacements of the support over an excitation period.
+    fn support(&self, frequency_hz: f64, count: usize) -> Vec<f64> {
+        let at = |k: usize| self.model.system.support_motion(frequency_hz, k as f64 / count as f64)[0];
+        (0..count).map(|k| if self.is_moved { at(k) } else { 0.0 }).collect()
+    }
+}
+
+fn page_impulse(impulse: &Impulse, response: impl Fn(f64, &[f64], &[f64]) -> [f64; 3]) -> PageImpulse {
+    let Impulse { element, cycles, impulse_n_s, before, after } = impulse;
+    let [displacement_m, velocity, _] = response(*cycles, before, &[]);
+    let [_, velocity_after, _] = response(*cycles, after, &[]);
+    PageImpulse {
+        element: *element,
+        cycles: *cycles,
+        impulse_n_s: *impulse_n_s,
+        displacement_m,
+        velocity_m_s: [velocity, velocity_after],
     }
 }
 
@@ -190,26 +209,11 @@ fn widen(pair: &mut [f64; 2], value: f64) {
     };
 }
 
-/// How finely an orbit is carried.
-struct Sampling {
-    /// Samples in an excitation period.
-    samples: usize,
-    /// Samples from one of a mode to the next; divides them.
-    stride: usize,
-    /// Steps in an excitation period of which the least and the largest acceleration and force are carried.
-    steps: usize,
-}
-
-/// A phase portrait bends within each excitation period as it does in one: 192 samples in each, where an orbit has more than about a thousand of them fewer.
-/// What is drawn over time has its width in common: fewer steps in each of more periods.
-fn sampling(period_multiple: u32) -> Sampling {
+/// Samples in an excitation period, and from one of a mode to the next, which divides them. A phase portrait bends within each excitation period as it does in one: 192 samples in each,
+/// where an orbit has more than about a thousand of them fewer.
+fn sampling(period_multiple: u32) -> (usize, usize) {
     let samples = (960 / period_multiple.max(1) as usize).clamp(12, 192) / 12 * 12;
-    let (stride, steps) = match period_multiple {
-        0 | 1 => (3, 192),
-        2 => (3, 112),
-        _ => (4, 80),
-    };
-    Sampling { samples, stride, steps: steps.min(samples) }
+    (samples, if period_multiple > 2 { 4 } else { 3 })
 }
 
 /// Coordinates of the modes up to the last one that moves visibly.

@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::{
     Stretch,
-    exact::{ExactIntegrator, MotionError},
+    exact::{ContactPiece, ExactIntegrator, MotionError},
 };
 use hammerbeam_orbit::PeriodicSolution;
 
@@ -21,7 +21,29 @@ pub struct Instant {
     pub forces: Vec<f64>,
 }
 
-/// States at every half step and within contacts, in their order from phase 0 on.
+/// An impact on a rigid stop.
+pub struct Impulse {
+    /// Number of the local element.
+    pub element: usize,
+    /// When it is, as of an instant.
+    pub cycles: f64,
+    /// Impulse along the relative displacement of the element [N s].
+    pub impulse_n_s: f64,
+    /// `[q; q']` before.
+    pub before: Vec<f64>,
+    /// `[q; q']` after.
+    pub after: Vec<f64>,
+}
+
+/// An orbit from phase 0 on.
+pub struct Course {
+    /// States at every half step and within contacts, in their order in time.
+    pub instants: Vec<Instant>,
+    /// Impacts on rigid stops, in their order in time.
+    pub impulses: Vec<Impulse>,
+}
+
+/// States at every half step and within contacts, and impacts.
 ///
 /// Each node of the orbit gives those up to the next one, so that also an orbit that is left fast is followed. A first trace finds the contacts, a
 /// second one the states.
@@ -31,7 +53,7 @@ pub fn of_orbit(
     integrator: &mut ExactIntegrator,
     solution: &PeriodicSolution,
     steps: usize,
-) -> Result<Vec<Instant>, MotionError> {
+) -> Result<Course, MotionError> {
     let (begin, periods) = (solution.phase, f64::from(solution.period_multiple));
     let a_period = 2 * steps;
     let count = a_period * solution.period_multiple as usize;
@@ -40,6 +62,7 @@ pub fn of_orbit(
     let segments = solution.nodes.len();
     let at = |segment: usize| begin + periods * segment as f64 / segments as f64;
     let mut instants = Vec::with_capacity(count + 8 * IN_A_CONTACT);
+    let mut impulses = Vec::new();
     let mut next = first;
     for (segment, node) in solution.nodes.iter().enumerate() {
         let stretch =
@@ -50,7 +73,9 @@ pub fn of_orbit(
         next += regular.len();
         let mut wanted: Vec<(f64, Option<usize>)> =
             regular.iter().map(|&k| (phase(k).clamp(stretch.start, stretch.end), Some(k % count))).collect();
-        wanted.extend(in_contacts(integrator, &stretch, node)?.into_iter().map(|phase| (phase, None)));
+        let contacts = integrator.trace(&stretch, node, &[])?.contacts;
+        wanted.extend(in_contacts(&stretch, &contacts).into_iter().map(|phase| (phase, None)));
+        impulses.extend(contacts.into_iter().filter_map(|contact| impulse(&stretch, contact, periods)));
         wanted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let phases: Vec<f64> = wanted.iter().map(|(phase, _)| *phase).collect();
         let trace = integrator.trace(&stretch, node, &phases)?;
@@ -62,25 +87,38 @@ pub fn of_orbit(
         }
     }
     instants.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
-    Ok(instants)
+    impulses.sort_by(|a: &Impulse, b| a.cycles.total_cmp(&b.cycles));
+    Ok(Course { instants, impulses })
 }
 
 /// Phases within the contacts of a stretch.
-fn in_contacts(
-    integrator: &mut ExactIntegrator,
-    stretch: &Stretch,
-    node: &[f64],
-) -> Result<Vec<f64>, MotionError> {
-    let trace = integrator.trace(stretch, node, &[])?;
+fn in_contacts(stretch: &Stretch, contacts: &[ContactPiece]) -> Vec<f64> {
     let phase = |time: f64| stretch.start + stretch.frequency_hz * time;
     let mut phases = Vec::new();
-    for contact in &trace.contacts {
+    for contact in contacts {
         let from = contact.begin.as_ref().map_or(stretch.start, |touch| phase(touch.time));
         let to = contact.end.map_or(stretch.end, phase).min(stretch.end);
+        if to <= from {
+            continue; // an impact on a rigid stop that does not stick
+        }
         let inside = |k: usize| from + (to - from) * (k as f64 + 0.5) / IN_A_CONTACT as f64;
         phases.extend(
             (0..IN_A_CONTACT).map(inside).filter(|phase| (stretch.start..stretch.end).contains(phase)),
         );
     }
-    Ok(phases)
+    phases
+}
+
+/// The impact with which a contact begins, if it does.
+///
+/// * `periods`: excitation periods of the orbit.
+fn impulse(stretch: &Stretch, contact: ContactPiece, periods: f64) -> Option<Impulse> {
+    let (touch, jump) = (contact.begin?, contact.jump?);
+    Some(Impulse {
+        element: contact.element,
+        cycles: (stretch.start + stretch.frequency_hz * touch.time).rem_euclid(periods),
+        impulse_n_s: -jump.impulse,
+        before: touch.state,
+        after: jump.state,
+    })
 }

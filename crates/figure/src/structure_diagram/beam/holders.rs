@@ -1,0 +1,108 @@
+//! What holds a beam and carries its stops.
+
+use super::{
+    super::{SketchCarrier, SketchEnd, SketchStop},
+    BASE, END_HALF, HALF, Place,
+};
+use crate::{
+    sketch::{Behind, arrow, at, block, disc, line, variable, wall},
+    style::PAPER,
+    svg::{Anchor, SvgWriter},
+};
+
+impl Place<'_> {
+    /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from what moves to them.
+    pub(super) fn draw_carriers(&self, svg: &mut SvgWriter) {
+        let moving: Vec<f64> = self.diagram.moving.iter().filter_map(|name| self.of(name)).collect();
+        let has_bar = [false, true].map(|above| self.draw_bar(svg, &moving, above));
+        for &x in &moving {
+            let (side, end) = match x {
+                x if x == self.left => (-BASE, self.beam.left),
+                x if x == self.right => (BASE, self.beam.right),
+                _ => (0.5 * BASE, SketchEnd::Free),
+            };
+            if end == SketchEnd::Clamped {
+                let top = if has_bar[1] { self.ceiling } else { self.middle - END_HALF };
+                let bottom = if has_bar[0] { self.floor } else { self.middle + END_HALF };
+                block(svg, at(x, top), at(x + side, bottom));
+            } else if has_bar[0] {
+                let top = if end == SketchEnd::Pinned { self.middle + HALF + 7.0 } else { self.middle };
+                block(svg, at(x - 0.5 * BASE, top), at(x + 0.5 * BASE, self.floor));
+            }
+        }
+    }
+
+    /// The stops on a side that ride on the support.
+    pub(super) fn riding(&self, above: bool) -> impl Iterator<Item = &SketchStop> {
+        let riding = self.diagram.stops.iter().filter(|stop| stop.carrier == SketchCarrier::Support);
+        riding.filter(move |stop| self.is_on(stop, above))
+    }
+
+    /// Whether a bar that moves stands on a side.
+    pub(super) fn has_bar(&self, above: bool) -> bool {
+        let is_needed =
+            self.riding(above).next().is_some() || (!above && self.inner_moving().next().is_some());
+        is_needed && self.diagram.moving.iter().any(|name| self.of(name).is_some())
+    }
+
+    /// The bar above or below the beam; false if nothing needs it.
+    pub(super) fn draw_bar(&self, svg: &mut SvgWriter, moving: &[f64], above: bool) -> bool {
+        if !self.has_bar(above) {
+            return false;
+        }
+        let stops = self.riding(above).filter_map(|stop| self.of(&stop.point));
+        let stops: Vec<f64> = stops.flat_map(|x| [x - 7.0, x + 7.0]).collect();
+        let outer = moving.iter().map(|&x| match x {
+            x if x == self.left => x - BASE,
+            x if x == self.right => x + BASE,
+            x => x,
+        });
+        let places: Vec<f64> = stops.into_iter().chain(outer).collect();
+        let from = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let to = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let near = if above { self.ceiling } else { self.floor };
+        block(svg, at(from, near), at(to, if above { near - BASE } else { near + BASE }));
+        true
+    }
+
+    pub(super) fn draw_end(&self, svg: &mut SvgWriter, end: SketchEnd, is_left: bool) {
+        let (x, side, behind) =
+            if is_left { (self.left, -1.0, Behind::Left) } else { (self.right, 1.0, Behind::Right) };
+        let moves = self.diagram.moves(if is_left { "left" } else { "right" });
+        let (top, bottom) = (self.middle - END_HALF, self.middle + END_HALF);
+        match (end, moves) {
+            (SketchEnd::Clamped, false) => wall(svg, at(x, top), at(x, bottom), behind),
+            (SketchEnd::Clamped, true) | (SketchEnd::Free, _) => {}
+            (SketchEnd::Pinned, _) => {
+                let foot = self.middle + HALF + 7.0;
+                line(
+                    svg,
+                    &[
+                        at(x, self.middle + HALF),
+                        at(x - 4.0, foot),
+                        at(x + 4.0, foot),
+                        at(x, self.middle + HALF),
+                    ],
+                );
+                if moves {
+                    block(svg, at(x - 6.0, foot), at(x + 6.0, foot + BASE));
+                } else {
+                    wall(svg, at(x - 6.0, foot), at(x + 6.0, foot), Behind::Below);
+                }
+            }
+            (SketchEnd::Sliding, _) => {
+                line(svg, &[at(x, top + 3.0), at(x, bottom - 3.0)]);
+                for y in [self.middle - 5.0, self.middle + 5.0] {
+                    disc(svg, at(x + side * 2.0, y), 2.0, PAPER);
+                }
+                wall(svg, at(x + side * 4.0, top), at(x + side * 4.0, bottom), behind);
+            }
+        }
+        if moves {
+            let out = x + side * 14.0;
+            arrow(svg, at(out, self.middle + 9.0), at(out, self.middle - 9.0), true);
+            let anchor = if is_left { Anchor::End } else { Anchor::Start };
+            variable(svg, at(out + side * 3.0, self.middle + 2.5), "u", anchor, self.style);
+        }
+    }
+}
