@@ -83,12 +83,12 @@ pub enum QuantityName {
     Force,
 }
 
-fn positive_number(text: &str) -> Result<f64, String> {
+pub fn positive_number(text: &str) -> Result<f64, String> {
     number(text, |number| number > 0.0, "must be a finite number, more than 0")
 }
 
-fn finite(text: &str) -> Result<f64, String> {
-    number(text, |_| true, "must be a finite number of hertz")
+pub fn finite(text: &str) -> Result<f64, String> {
+    number(text, |_| true, "must be a finite number")
 }
 
 fn above_one(text: &str) -> Result<f64, String> {

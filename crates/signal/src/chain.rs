@@ -12,7 +12,7 @@
 //! 4. **Noise**: normal, white, with a standard deviation and a seed.
 //! 5. **Converter**: range and bits. What is beyond the range is clipped.
 //!
-//! What is folded down or clipped is told in the findings of the record.
+//! What is folded down or clipped is told in the findings of the record, each end of the range on its own.
 
 use std::f64::consts::PI;
 
@@ -151,24 +151,31 @@ fn folded(samples: &[f64], sampling_rate_hz: f64, half_rate_hz: f64) -> Option<F
 }
 
 impl Converter {
-    /// What lies beyond the range by more than half a step.
-    fn clipped(self, channel: &str, samples: &[f64]) -> Option<Finding> {
-        let half = self.range / 2.0_f64.powi(self.bits as i32);
-        let beyond = |value: f64| value < -self.range - half || value > self.range - half;
-        let first = samples.iter().position(|value| beyond(*value))?;
-        let begins = |pair: &&[f64]| !beyond(pair[0]) && beyond(pair[1]);
-        Some(Finding::Clipped {
-            channel: channel.to_owned(),
-            samples: samples.iter().filter(|value| beyond(**value)).count(),
-            places: samples.windows(2).filter(begins).count() + usize::from(first == 0),
-            level: self.range,
-            first,
+    /// Size of a step.
+    fn step(self) -> f64 {
+        2.0 * self.range / 2.0_f64.powi(self.bits as i32)
+    }
+
+    /// What lies beyond either end of the range by more than half a step.
+    fn clipped(self, channel: &str, samples: &[f64]) -> impl Iterator<Item = Finding> {
+        // One step less above zero than below, as with two's complement.
+        let ends = [(1.0, self.range - self.step()), (-1.0, -self.range)];
+        ends.into_iter().filter_map(move |(side, level)| {
+            let beyond = |value: f64| side * (value - level) > 0.5 * self.step();
+            let first = samples.iter().position(|value| beyond(*value))?;
+            let begins = |pair: &&[f64]| !beyond(pair[0]) && beyond(pair[1]);
+            Some(Finding::Clipped {
+                channel: channel.to_owned(),
+                samples: samples.iter().filter(|value| beyond(**value)).count(),
+                places: samples.windows(2).filter(begins).count() + usize::from(first == 0),
+                level,
+                first,
+            })
         })
     }
 
     fn convert(self, value: f64) -> f64 {
-        let step = 2.0 * self.range / 2.0_f64.powi(self.bits as i32);
-        // One step less above zero than below, as with two's complement.
+        let step = self.step();
         ((value / step).round() * step).clamp(-self.range, self.range - step)
     }
 }
@@ -349,12 +356,23 @@ mod tests {
                 "sample {k}"
             );
         }
-        // The displacement's harmonics give up to 1e2 and 4e2 m/s²: clipped at both ends in each of two periods.
-        assert!(
-            matches!(&measured.findings[..], [Finding::Clipped { places, level: 100.0, .. }] if *places >= 4),
-            "{:?}",
-            measured.findings
-        );
+        // Each end on its own, with the value that is shown there.
+        let beyond = |holds: &dyn Fn(f64) -> bool| {
+            (0..800).filter(|k| holds(acceleration(f64::from(*k) / RATE))).count()
+        };
+        let expected = [
+            (100.0 - step, beyond(&|value| value > 100.0 - 0.5 * step)),
+            (-100.0, beyond(&|value| value < -100.0 - 0.5 * step)),
+        ];
+        let found: Vec<(f64, usize)> = measured
+            .findings
+            .iter()
+            .filter_map(|finding| match finding {
+                Finding::Clipped { level, samples, .. } => Some((*level, *samples)),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(found, expected);
         let wide = MeasuringChain { converter: Some(Converter { range: 1e3, bits: 8 }), ..chain() };
         assert_eq!(wide.measure(&record(), Motion::Periodic).unwrap().findings, []);
         let wrong = Converter { range: 0.0, bits: 8 };

@@ -64,6 +64,19 @@ pub struct Fit {
     pub points: usize,
     /// Correlation of the errors of both numbers, where both were fitted.
     pub correlation: Option<f64>,
+    /// Another shift that fits about as well, the best of those there are.
+    pub second: Option<SecondMinimum>,
+}
+
+/// Another minimum of the fit, in another valley of the shift of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SecondMinimum {
+    /// Factor, or offset [Hz].
+    pub frequency: f64,
+    /// Factor on values.
+    pub amplitude: f64,
+    /// Its sum of squares over that of the best one.
+    pub cost_ratio: f64,
 }
 
 impl Fit {
@@ -123,6 +136,11 @@ impl Used {
 /// Trials of the shift of frequencies and of the logarithm of the factor.
 const FREQUENCY_TRIALS: usize = 660;
 const AMPLITUDE_STEP: f64 = 0.02;
+/// Trials to each side than which a valley is lower, and distance beyond which refined minima are two, as a factor (an offset counts at 30 Hz).
+const BESIDE: usize = 8;
+const APART: f64 = 0.005;
+/// Chi-squared of one freedom that is exceeded with 5 %.
+const CHI_SQUARED: f64 = 3.84;
 /// Part of the frequency over which a slope is taken, to each side.
 const SECANT: f64 = 0.0025;
 const ITERATIONS: usize = 40;
@@ -133,8 +151,8 @@ pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Res
     let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln() };
     let free = [settings.frequency, settings.amplitude].map(|fixed| matches!(fixed, Fixed::Fitted { .. }));
     let fitted = usize::from(free[0]) + usize::from(free[1]);
-    let begin = problem.best_trial(settings);
-    let at = problem.refine(begin, free);
+    let valleys = problem.valleys(settings);
+    let at = problem.refine(valleys[0], free);
     let rows = problem.rows(at);
     if fitted > 0 && rows.len() <= fitted {
         return Err(ComparisonError::TooFewPoints { fitted, points: rows.len() });
@@ -150,6 +168,7 @@ pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Res
         amplitude: Estimate { value: at[1].exp(), standard_error: error(1).map(|e| e * at[1].exp()) },
         points: rows.len(),
         correlation,
+        second: problem.second(at, &valleys, free),
     })
 }
 
@@ -182,6 +201,12 @@ fn difference(point: &Used, curves: &Curves, shift: Shift) -> Option<f64> {
 /// Shift of the frequency and logarithm of the factor.
 type Place = [f64; 2];
 
+/// A place of the grid and its sum of squares.
+struct Trial {
+    cost: f64,
+    place: Place,
+}
+
 /// A point within the reach: its difference and the derivatives of it.
 struct Row {
     difference: f64,
@@ -207,8 +232,8 @@ impl Problem<'_> {
         self.used.iter().map(of).sum()
     }
 
-    /// The best place of a grid; of equal ones the nearest to no shift and no factor.
-    fn best_trial(&self, settings: &FitSettings) -> Place {
+    /// Places of a grid from which minima are looked for: the best one first (of equal ones the nearest to no shift and no factor), then the best of each other valley of the shift of frequencies.
+    fn valleys(&self, settings: &FitSettings) -> Vec<Place> {
         let none = if self.offset { 0.0 } else { 1.0 };
         let shifts = trials(settings.frequency, FREQUENCY_TRIALS);
         let factors = match settings.amplitude {
@@ -219,23 +244,55 @@ impl Problem<'_> {
                 trials(Fixed::Fitted { low, high }, steps)
             }
         };
+        let profile: Vec<Trial> = shifts.iter().map(|&shift| self.best_factor(shift, &factors)).collect();
+        let far = |trial: &Trial| (trial.place[0] - none).abs() + 1e-3 * trial.place[1].abs();
+        let better = |one: &Trial, other: &Trial| {
+            one.cost < other.cost - 1e-12 || (one.cost <= other.cost + 1e-12 && far(one) < far(other))
+        };
+        let best = profile.iter().fold(&profile[0], |best, one| if better(one, best) { one } else { best });
+        let lowest = |k: usize| {
+            let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(profile.len());
+            profile[near].iter().all(|other| profile[k].cost <= other.cost)
+        };
+        let others = (0..profile.len()).filter(|&k| lowest(k)).map(|k| profile[k].place);
+        std::iter::once(best.place).chain(others).collect()
+    }
+
+    /// The best factor at a shift.
+    fn best_factor(&self, frequency: f64, factors: &[f64]) -> Trial {
         let most = self.reach * self.reach;
-        let mut best = (f64::INFINITY, f64::INFINITY, [shifts[0], factors[0]]);
-        for &frequency in &shifts {
-            let values = self.values(frequency);
-            for &factor in &factors {
-                let of = |(point, values): (&Used, &Vec<f64>)| {
-                    let square = |value: &f64| (factor + point.logarithm - value).powi(2);
-                    values.iter().map(square).fold(most, f64::min)
-                };
-                let cost: f64 = self.used.iter().zip(&values).map(of).sum();
-                let far = (frequency - none).abs() + 1e-3 * factor.abs();
-                if cost < best.0 - 1e-12 || (cost <= best.0 + 1e-12 && far < best.1) {
-                    best = (cost, far, [frequency, factor]);
-                }
+        let values = self.values(frequency);
+        let cost = |factor: f64| {
+            let of = |(point, values): (&Used, &Vec<f64>)| {
+                let square = |value: &f64| (factor + point.logarithm - value).powi(2);
+                values.iter().map(square).fold(most, f64::min)
+            };
+            self.used.iter().zip(&values).map(of).sum::<f64>()
+        };
+        let mut best = Trial { cost: f64::INFINITY, place: [frequency, factors[0]] };
+        for &factor in factors {
+            let found = cost(factor);
+            let nearer = factor.abs() < best.place[1].abs();
+            if found < best.cost - 1e-12 || (found <= best.cost + 1e-12 && nearer) {
+                best = Trial { cost: found, place: [frequency, factor] };
             }
         }
-        best.2
+        best
+    }
+
+    /// The best minimum in another valley, if it is about as good: the data would prefer the best one to it with a probability of less than 95 %, `(n - p)(S' - S)/S < 3.84`
+    /// (chi-squared of one freedom), or by less than a tenth of its sum of squares.
+    fn second(&self, at: Place, valleys: &[Place], free: [bool; 2]) -> Option<SecondMinimum> {
+        let best = self.cost(at);
+        let fitted = free.iter().filter(|free| **free).count();
+        let left = self.used.len().saturating_sub(fitted).max(1) as f64;
+        let good = best * (1.0 + (CHI_SQUARED / left).max(0.1));
+        let apart = |place: &Place| (place[0] - at[0]).abs() > APART * if self.offset { 30.0 } else { 1.0 };
+        let found = valleys[1..].iter().map(|valley| self.refine(*valley, free)).filter(apart);
+        let found =
+            found.map(|place| (self.cost(place), place)).filter(|(cost, _)| *cost <= good && best > 0.0);
+        let (cost, place) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(SecondMinimum { frequency: place[0], amplitude: place[1].exp(), cost_ratio: cost / best })
     }
 
     /// Logarithms of the values of the stable solutions that each point could belong to.
