@@ -39,8 +39,14 @@ fn the_virtual_rig_goes_through_section_4_of_the_paper() {
     let study = RIG
         .replace("sweep_hz = [20.0, 70.0]", "sweep_hz = [28.0, 68.0]")
         .replace("step_hz = 0.5", "step_hz = 1.0")
+        .replace("frequency_hz = [20.0, 78.0]", "frequency_hz = [28.0, 76.0]")
         .replace("other_low_pass_hz = [1500.0, 3000.0]", "other_low_pass_hz = [1500.0]");
-    assert!(study.contains("[28.0, 68.0]") && study.contains("step_hz = 1.0") && study.contains("[1500.0]"));
+    assert!(
+        study.contains("[28.0, 68.0]")
+            && study.contains("[28.0, 76.0]")
+            && study.contains("step_hz = 1.0")
+            && study.contains("[1500.0]")
+    );
     let workshop = Workshop::with(&study);
     let output = workshop.hammerbeam(&["rig", "study.toml", "--out", "out", "--json"]);
     assert_success(&output);
