@@ -11,6 +11,7 @@ mod initial;
 mod interrupt;
 mod kept;
 mod motion_args;
+mod numbers;
 mod output;
 mod overlay_args;
 mod progress;

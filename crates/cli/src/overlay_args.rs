@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::{
     args::positive,
-    compare_args::{finite, positive_number},
+    numbers::{not_zero, positive_number, within},
     signal_args::{InputOptions, Sensor},
 };
 
@@ -67,22 +67,10 @@ pub struct OverlayOptions {
     pub branch: Option<u32>,
 
     /// Factor on measured values; negative for a sensor turned around [default: fitted, and positive]
-    #[arg(long, value_name = "A", value_parser = factor, allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", value_parser = not_zero, allow_negative_numbers = true)]
     pub amplitude_factor: Option<f64>,
 
     /// Folder; overlay.csv is written into it
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-}
-
-fn within(text: &str) -> Result<f64, String> {
-    let percent = finite(text).unwrap_or(f64::NAN);
-    if (0.0..=50.0).contains(&percent) { Ok(percent) } else { Err("must be from 0 to 50 percent".to_owned()) }
-}
-
-fn factor(text: &str) -> Result<f64, String> {
-    match finite(text) {
-        Ok(factor) if factor != 0.0 => Ok(factor),
-        _ => Err("must be a finite number, not 0".to_owned()),
-    }
 }

@@ -32,7 +32,7 @@
 //! | `classify/` | periodic or not, and in which period |
 //! | `exponent/` | the largest Lyapunov exponent |
 //! | `waveform.rs` | records folded onto periods, one waveform laid over another |
-//! | `chain.rs` | what an instrument would have shown of a computed motion |
+//! | `chain/` | what an instrument would have shown of a computed motion |
 //! | `random.rs` | noise from a seed |
 //!
 //! The formulas stand in these files and, for users, in `docs/signals.md`. Errors are [`SignalError`].
