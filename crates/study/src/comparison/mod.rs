@@ -28,7 +28,7 @@
 //! | `curve.rs` | branches as curves of one quantity, by frequency |
 //! | `course.rs` | an orbit in samples, also behind a filter |
 //! | `observed.rs` | from stored branches to such curves |
-//! | `fit.rs` | shift and factor |
+//! | `fit/` | shift and factor |
 //! | `judge.rs` | what becomes of each point |
 //! | `overlay.rs` | a measured course laid over orbits |
 

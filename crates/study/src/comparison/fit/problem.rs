@@ -1,137 +1,7 @@
-//! The shift of frequencies and the factor on values that bring points onto branches.
+//! The sum of squares, its valleys, and how its minima are refined.
 
-use hammerbeam_signal::{Quantity, points::MeasuredPoint};
-
-use super::{ComparisonError, Curves, FrequencyShift, Residual, Shift, curve, period_of};
-
-/// What is given and need not be fitted.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fixed {
-    /// Given.
-    Given(f64),
-    /// To be fitted, within these ends.
-    Fitted {
-        /// Lower end.
-        low: f64,
-        /// Upper end.
-        high: f64,
-    },
-}
-
-/// How a comparison is done.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FitSettings {
-    /// Whether frequencies are shifted by an offset [Hz] instead of a factor.
-    pub offset: bool,
-    /// The factor or offset.
-    pub frequency: Fixed,
-    /// The factor on values.
-    pub amplitude: Fixed,
-    /// Ratio of values beyond which a branch does not explain a point.
-    pub reach: f64,
-}
-
-impl Default for FitSettings {
-    fn default() -> Self {
-        Self {
-            offset: false,
-            frequency: Fixed::Fitted { low: 0.85, high: 1.18 },
-            amplitude: Fixed::Fitted { low: 0.05, high: 20.0 },
-            reach: 1.5,
-        }
-    }
-}
-
-/// A fitted or given number.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Estimate {
-    /// Its value.
-    pub value: f64,
-    /// Its standard error; `None` if it was given.
-    pub standard_error: Option<f64>,
-}
-
-/// What was found.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Fit {
-    /// Whether the shift of frequencies is an offset.
-    pub offset: bool,
-    /// Factor, or offset [Hz].
-    pub frequency: Estimate,
-    /// Factor on values.
-    pub amplitude: Estimate,
-    /// Points that the fit goes by.
-    pub points: usize,
-    /// Correlation of the errors of both numbers, where both were fitted.
-    pub correlation: Option<f64>,
-    /// Another shift that fits about as well, the best of those there are.
-    pub second: Option<SecondMinimum>,
-}
-
-/// Another minimum of the fit, in another valley of the shift of frequencies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SecondMinimum {
-    /// Factor, or offset [Hz].
-    pub frequency: f64,
-    /// Factor on values.
-    pub amplitude: f64,
-    /// Its sum of squares over that of the best one.
-    pub cost_ratio: f64,
-}
-
-impl Fit {
-    /// As a shift.
-    #[must_use]
-    pub fn shift(&self) -> Shift {
-        shift(self.offset, self.frequency.value, self.amplitude.value.ln())
-    }
-}
-
-impl FitSettings {
-    pub(super) fn check(&self) -> Result<(), ComparisonError> {
-        let ensure = |what, found: f64, allowed, holds: bool| {
-            if holds { Ok(()) } else { Err(ComparisonError::Input { what, found, allowed }) }
-        };
-        let more = self.reach > 1.0 && self.reach.is_finite();
-        ensure("the reach", self.reach, "a factor of more than 1", more)?;
-        for found in ends(self.amplitude) {
-            ensure(
-                "the amplitude factor",
-                found,
-                "finite and more than 0",
-                found > 0.0 && found.is_finite(),
-            )?;
-        }
-        for found in ends(self.frequency) {
-            let holds = found.is_finite() && (self.offset || found > 0.0);
-            ensure("the shift of the frequency", found, "finite, and more than 0 as a factor", holds)?;
-        }
-        Ok(())
-    }
-}
-
-fn ends(fixed: Fixed) -> [f64; 2] {
-    match fixed {
-        Fixed::Given(value) => [value; 2],
-        Fixed::Fitted { low, high } => [low, high],
-    }
-}
-
-/// A point that takes part.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Used {
-    frequency_hz: f64,
-    logarithm: f64,
-    period: Option<u32>,
-}
-
-impl Used {
-    pub fn of(point: &MeasuredPoint, quantity: Quantity) -> Option<Self> {
-        let period = period_of(point.kind)?;
-        let logarithm = point.maxima.of(quantity)?.ln();
-        Some(Self { frequency_hz: point.frequency_hz, logarithm, period })
-    }
-}
+use super::{FitSettings, Fixed, SecondMinimum, Used, difference, shift};
+use crate::comparison::{Curves, Shift, curve};
 
 /// Trials of the shift of frequencies and of the logarithm of the factor.
 const FREQUENCY_TRIALS: usize = 660;
@@ -144,62 +14,9 @@ const CHI_SQUARED: f64 = 3.84;
 /// Part of the frequency over which a slope is taken, to each side.
 const SECANT: f64 = 0.0025;
 const ITERATIONS: usize = 40;
-/// Logarithm of the ratio up to which a point pulls, over that up to which it is explained.
-const PULL: f64 = 2.0;
-
-pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
-    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln() };
-    let free = [settings.frequency, settings.amplitude].map(|fixed| matches!(fixed, Fixed::Fitted { .. }));
-    let fitted = usize::from(free[0]) + usize::from(free[1]);
-    let valleys = problem.valleys(settings);
-    let at = problem.refine(valleys[0], free);
-    let rows = problem.rows(at);
-    if fitted > 0 && rows.len() <= fitted {
-        return Err(ComparisonError::TooFewPoints { fitted, points: rows.len() });
-    }
-    let covariance = covariance(&rows, free);
-    let error = |k: usize| free[k].then(|| covariance[k][k].max(0.0).sqrt());
-    let correlation = (fitted == 2)
-        .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE));
-    Ok(Fit {
-        offset: settings.offset,
-        frequency: Estimate { value: at[0], standard_error: error(0) },
-        // The error of a logarithm is a relative one.
-        amplitude: Estimate { value: at[1].exp(), standard_error: error(1).map(|e| e * at[1].exp()) },
-        points: rows.len(),
-        correlation,
-        second: problem.second(at, &valleys, free),
-    })
-}
-
-pub(super) fn residual(used: &[Used], curves: &Curves, shift: Shift, reach: f64) -> Residual {
-    let differences: Vec<f64> = used.iter().filter_map(|point| difference(point, curves, shift)).collect();
-    let within: Vec<f64> = differences.iter().copied().filter(|r| r.abs() <= reach).collect();
-    let rms = |r: &[f64]| {
-        if r.is_empty() { 0.0 } else { (r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64).sqrt() }
-    };
-    Residual {
-        met: differences.len(),
-        within: within.len(),
-        rms: rms(&differences),
-        rms_within: rms(&within),
-    }
-}
-
-fn shift(offset: bool, frequency: f64, log_amplitude: f64) -> Shift {
-    let frequency =
-        if offset { FrequencyShift::Offset(frequency) } else { FrequencyShift::Factor(frequency) };
-    Shift { frequency, amplitude_factor: log_amplitude.exp() }
-}
-
-fn difference(point: &Used, curves: &Curves, shift: Shift) -> Option<f64> {
-    let value = shift.amplitude_factor * point.logarithm.exp();
-    let hit = curves.nearest_stable(shift.frequency.apply(point.frequency_hz), point.period, value)?;
-    Some((value / hit.value).ln())
-}
 
 /// Shift of the frequency and logarithm of the factor.
-type Place = [f64; 2];
+pub(super) type Place = [f64; 2];
 
 /// A place of the grid and its sum of squares.
 struct Trial {
@@ -208,16 +25,16 @@ struct Trial {
 }
 
 /// A point within the reach: its difference and the derivatives of it.
-struct Row {
+pub(super) struct Row {
     difference: f64,
     slopes: [f64; 2],
 }
 
-struct Problem<'a> {
-    used: &'a [Used],
-    curves: &'a Curves,
-    offset: bool,
-    reach: f64,
+pub(super) struct Problem<'a> {
+    pub used: &'a [Used],
+    pub curves: &'a Curves,
+    pub offset: bool,
+    pub reach: f64,
 }
 
 impl Problem<'_> {
@@ -233,7 +50,7 @@ impl Problem<'_> {
     }
 
     /// Places of a grid from which minima are looked for: the best one first (of equal ones the nearest to no shift and no factor), then the best of each other valley of the shift of frequencies.
-    fn valleys(&self, settings: &FitSettings) -> Vec<Place> {
+    pub fn valleys(&self, settings: &FitSettings) -> Vec<Place> {
         let none = if self.offset { 0.0 } else { 1.0 };
         let shifts = trials(settings.frequency, FREQUENCY_TRIALS);
         let factors = match settings.amplitude {
@@ -282,7 +99,7 @@ impl Problem<'_> {
 
     /// The best minimum in another valley, if it is about as good: the data would prefer the best one to it with a probability of less than 95 %, `(n - p)(S' - S)/S < 3.84`
     /// (chi-squared of one freedom), or by less than a tenth of its sum of squares.
-    fn second(&self, at: Place, valleys: &[Place], free: [bool; 2]) -> Option<SecondMinimum> {
+    pub fn second(&self, at: Place, valleys: &[Place], free: [bool; 2]) -> Option<SecondMinimum> {
         let best = self.cost(at);
         let fitted = free.iter().filter(|free| **free).count();
         let left = self.used.len().saturating_sub(fitted).max(1) as f64;
@@ -306,7 +123,7 @@ impl Problem<'_> {
     }
 
     /// Differences within the reach and their slopes.
-    fn rows(&self, at: Place) -> Vec<Row> {
+    pub fn rows(&self, at: Place) -> Vec<Row> {
         let shift = self.shift(at);
         let row = |point: &Used| {
             let difference = difference(point, self.curves, shift).filter(|r| r.abs() <= self.reach)?;
@@ -336,7 +153,7 @@ impl Problem<'_> {
     }
 
     /// Gauss-Newton steps, halved until the cost falls.
-    fn refine(&self, begin: Place, free: [bool; 2]) -> Place {
+    pub fn refine(&self, begin: Place, free: [bool; 2]) -> Place {
         let (mut at, mut cost) = (begin, self.cost(begin));
         for _ in 0..ITERATIONS {
             let rows = self.rows(at);
@@ -400,7 +217,7 @@ fn gauss_newton(rows: &[Row], free: [bool; 2]) -> Option<Place> {
 }
 
 /// Infinite where the points cannot tell the numbers apart.
-fn covariance(rows: &[Row], free: [bool; 2]) -> [[f64; 2]; 2] {
+pub(super) fn covariance(rows: &[Row], free: [bool; 2]) -> [[f64; 2]; 2] {
     let fitted = free.iter().filter(|free| **free).count();
     let left = rows.len().saturating_sub(fitted).max(1);
     let variance = rows.iter().map(|row| row.difference * row.difference).sum::<f64>() / left as f64;
