@@ -9,6 +9,7 @@ use crate::{
     compare_args::{CompareOptions, RigOptions},
     figures::RESOLUTION,
     motion_args::{BasinsOptions, LyapunovOptions, SimulateOptions, SweepOptions},
+    overlay_args::OverlayOptions,
     signal_args::SignalCommand,
 };
 
@@ -56,6 +57,8 @@ pub enum Command {
     Signal(SignalCommand),
     /// Hold measured points against computed branches
     Compare(CompareOptions),
+    /// Lay a recorded motion over the computed orbit that is most alike
+    Overlay(OverlayOptions),
     /// Measure a virtual rig, another model than that of the study, and hold it against the study's branches
     Rig(RigOptions),
     /// Draw everything that a results folder holds, as SVG and PNG

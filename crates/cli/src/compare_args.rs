@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::args::positive;
+use crate::{
+    args::positive,
+    numbers::{above_one, number, positive_number},
+};
 
 #[derive(Debug, Args)]
 pub struct CompareOptions {
@@ -24,7 +27,7 @@ pub struct CompareOptions {
     pub frequency_factor: Option<f64>,
 
     /// Offset added to measured frequencies, instead of a factor
-    #[arg(long, value_name = "HZ", conflicts_with = "frequency_factor", value_parser = finite, allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", conflicts_with = "frequency_factor", value_parser = number, allow_negative_numbers = true)]
     pub frequency_offset: Option<f64>,
 
     /// Fit an offset of the frequency instead of a factor
@@ -81,23 +84,4 @@ pub enum QuantityName {
     Acceleration,
     /// Maximum contact force
     Force,
-}
-
-fn positive_number(text: &str) -> Result<f64, String> {
-    number(text, |number| number > 0.0, "must be a finite number, more than 0")
-}
-
-fn finite(text: &str) -> Result<f64, String> {
-    number(text, |_| true, "must be a finite number of hertz")
-}
-
-fn above_one(text: &str) -> Result<f64, String> {
-    number(text, |number| number > 1.0, "must be a finite number, more than 1")
-}
-
-fn number(text: &str, holds: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && holds(number) => Ok(number),
-        _ => Err(allowed.to_owned()),
-    }
 }

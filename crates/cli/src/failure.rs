@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use hammerbeam_signal::SignalError;
 use hammerbeam_study::{
     Report, StoreError, StudyError,
-    comparison::{ComparisonError, ObservationError},
+    comparison::{ComparisonError, ObservationError, OverlayError},
     export::ExportError,
     rig::RigError,
     run::RunError,
@@ -104,6 +104,18 @@ impl From<ObservationError> for Failure {
     fn from(error: ObservationError) -> Self {
         match error {
             ObservationError::Store(error) => error.into(),
+            other => Self::Other(other.into()),
+        }
+    }
+}
+
+impl From<OverlayError> for Failure {
+    fn from(error: OverlayError) -> Self {
+        match error {
+            OverlayError::Store(error) => error.into(),
+            OverlayError::Signal(error) => error.into(),
+            OverlayError::NoSuchSensor { .. } => Self::BadInput(error.to_string()),
+            OverlayError::Interrupted => Self::Interrupted("interrupted; nothing was written".to_owned()),
             other => Self::Other(other.into()),
         }
     }

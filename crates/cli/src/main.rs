@@ -11,7 +11,9 @@ mod initial;
 mod interrupt;
 mod kept;
 mod motion_args;
+mod numbers;
 mod output;
+mod overlay_args;
 mod progress;
 mod series;
 mod signal_args;
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Command::Update(options) => commands::update::run(options, output),
         Command::Signal(command) => commands::signal::run(command, output),
         Command::Compare(options) => commands::compare::run(options, output),
+        Command::Overlay(options) => commands::overlay::run(options, output),
         Command::Rig(options) => commands::rig::run(options, output),
         Command::Figure(options) => commands::figure::run(options, output),
         Command::Export(options) => commands::export::run(options, output),

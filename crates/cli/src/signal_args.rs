@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
-use crate::args::positive;
+use crate::{
+    args::positive,
+    numbers::{not_negative, number, overlap, part, range},
+};
 
 #[derive(Debug, Subcommand)]
 pub enum SignalCommand {
@@ -326,39 +329,4 @@ pub enum DetrendName {
     None,
     Constant,
     Linear,
-}
-
-pub fn number(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        _ => Err("must be a finite number".to_owned()),
-    }
-}
-
-fn overlap(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if (0.0..=0.95).contains(&number) => Ok(number),
-        _ => Err("must be a number from 0 to 0.95".to_owned()),
-    }
-}
-
-fn part(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number <= 1.0 => Ok(number),
-        _ => Err("must be a number of more than 0, at most 1".to_owned()),
-    }
-}
-
-fn not_negative(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number),
-        _ => Err("must be a finite number, at least 0".to_owned()),
-    }
-}
-
-fn range(text: &str) -> Result<(usize, usize), String> {
-    let numbers = text.split_once(':').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
-    numbers
-        .filter(|(from, to)| from < to)
-        .ok_or_else(|| "must be two numbers of samples, as in 40:150".to_owned())
 }

@@ -180,6 +180,7 @@ fn what_cannot_be_compared_is_refused() {
     refused(&["results", "none.csv"], &["none.csv", "no column is the excitation frequency"]);
     fs::create_dir(workshop.path("empty")).unwrap();
     refused(&["results", "empty"], &["the folder holds no file"]);
+    refused(&["results", "points.csv", "--out", "./results/"], &["--out is the results folder itself"]);
     refused(&["results", "points.csv", "--reach", "1"], &["more than 1"]);
     refused(&["results", "points.csv", "--frequency-factor", "-1"], &["more than 0"]);
     fs::write(workshop.path("few.csv"), "frequency [Hz],tip [mm]\n0.5,50\n").unwrap();

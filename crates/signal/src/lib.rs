@@ -31,7 +31,8 @@
 //! | `decay/` | eigenfrequencies and damping of free decays |
 //! | `classify/` | periodic or not, and in which period |
 //! | `exponent/` | the largest Lyapunov exponent |
-//! | `chain.rs` | what an instrument would have shown of a computed motion |
+//! | `waveform.rs` | records folded onto periods, one waveform laid over another |
+//! | `chain/` | what an instrument would have shown of a computed motion |
 //! | `random.rs` | noise from a seed |
 //!
 //! The formulas stand in these files and, for users, in `docs/signals.md`. Errors are [`SignalError`].
@@ -54,6 +55,7 @@ mod record;
 pub mod resample;
 pub mod spectrum;
 pub mod unit;
+pub mod waveform;
 
 pub use error::SignalError;
 pub use finding::{Finding, Repairs};

@@ -33,6 +33,25 @@ pub struct RawChannel {
     pub samples: Vec<f64>,
 }
 
+impl RawChannel {
+    /// Its samples as times [s], and what is told if no unit of time says what they are in.
+    pub(crate) fn times(&self) -> (Vec<f64>, Option<Finding>) {
+        let known = self.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
+        let factor = known.map_or(1.0, |unit| unit.factor);
+        let told = known.is_none().then(|| Finding::TimeUnitAssumed { name: self.name.clone() });
+        (self.samples.iter().map(|value| value * factor).collect(), told)
+    }
+}
+
+/// The column of the first group that was taken for the time.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct TimeColumn {
+    /// As it is in the file.
+    pub channel: RawChannel,
+    /// Its place among the columns, from 0 on.
+    pub place: usize,
+}
+
 /// Channels with the same times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawGroup {
@@ -47,8 +66,8 @@ pub struct RawGroup {
 pub struct RawRecord {
     /// Channels, by their times.
     pub groups: Vec<RawGroup>,
-    /// Name of the column that was taken for the time.
-    pub time_name: Option<String>,
+    /// The column that was taken for the time.
+    pub(crate) time: Option<TimeColumn>,
     /// What was noticed while reading.
     pub findings: Vec<Finding>,
 }
@@ -57,43 +76,41 @@ impl RawRecord {
     /// A single group.
     #[must_use]
     pub fn single(axis: Axis, channels: Vec<RawChannel>, findings: Vec<Finding>) -> Self {
-        Self { groups: vec![RawGroup { axis, channels }], time_name: None, findings }
+        Self { groups: vec![RawGroup { axis, channels }], time: None, findings }
     }
 
-    /// With a channel as the time, by its name or number. What was taken for the time becomes a channel again.
+    /// With a column as the time, by its name or its number among all columns, from 1 on in the order of the file. What was taken for the time becomes a channel again, where it stands in the file.
     ///
     /// # Errors
     /// [`RecordError::NoSuchChannel`].
     pub fn with_time(mut self, text: &str) -> Result<Self, RecordError> {
-        if self.time_name.as_deref() == Some(text) {
-            return Ok(self);
+        let before = self.time.take();
+        if let (Some(TimeColumn { channel, place }), Some(group)) = (before.clone(), self.groups.first_mut())
+        {
+            group.channels.insert(place, channel);
         }
         let name = self.channel_name(text)?.to_owned();
-        let Some((group, index)) = self.groups.iter_mut().find_map(|group| {
-            let index = group.channels.iter().position(|channel| channel.name == name)?;
-            Some((group, index))
-        }) else {
+        let found = self.groups.iter().enumerate().find_map(|(group, RawGroup { channels, .. })| {
+            Some((group, channels.iter().position(|channel| channel.name == name)?))
+        });
+        let Some((group, place)) = found else { return Ok(self) };
+        let channel = self.groups[group].channels.remove(place);
+        if before.is_some_and(|before| before.channel == channel) {
+            self.time = Some(TimeColumn { channel, place });
             return Ok(self);
-        };
-        let channel = group.channels.remove(index);
-        let known = channel.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
-        let factor = known.map_or(1.0, |unit| unit.factor);
-        let times = channel.samples.iter().map(|value| value * factor).collect();
-        let before = std::mem::replace(&mut group.axis, Axis::Times(times));
+        }
+        let (times, told) = channel.times();
+        self.groups[group].axis = Axis::Times(times);
         let assumed =
             |finding: &Finding| matches!(finding, Finding::TimeAssumed | Finding::TimeUnitAssumed { .. });
         self.findings.retain(|finding| !assumed(finding));
-        if let (Axis::Times(samples), Some(name)) = (before, self.time_name.take()) {
-            group.channels.insert(0, RawChannel { name, unit: Some("s".to_owned()), samples });
-        }
-        if known.is_none() {
-            self.findings.push(Finding::TimeUnitAssumed { name: name.clone() });
-        }
-        self.time_name = Some(name);
+        self.findings.extend(told);
+        // Only the first group has a column of times in any format.
+        self.time = (group == 0).then_some(TimeColumn { channel, place });
         Ok(self)
     }
 
-    /// Name of a channel that is meant by its name or its number, from 1 on in the order of the file. A name comes before a number.
+    /// Name of a channel that is meant by its name or its number, from 1 on in the order of the file, the time not counted. A name comes before a number.
     ///
     /// # Errors
     /// [`RecordError::NoSuchChannel`] with the names there are.

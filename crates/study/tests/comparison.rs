@@ -137,10 +137,10 @@ fn each_point_has_its_verdict() {
     let verdicts: Vec<&str> = found.iter().map(|point| point.verdict.word()).collect();
     assert_eq!(
         verdicts,
-        ["too-far", "no-branch", "no-branch", "aperiodic", "doubtful", "explained", "explained"]
+        ["too-far", "only-unstable", "no-branch", "aperiodic", "doubtful", "explained", "explained"]
     );
     // The unstable stretch is not taken for an explanation, and its end is named: 34.2 Hz is nearer than 35.
-    let Verdict::NoBranch { nearest_hz: Some(nearest) } = found[1].verdict else { panic!("{found:?}") };
+    let Verdict::OnlyUnstable { nearest_hz: Some(nearest) } = found[1].verdict else { panic!("{found:?}") };
     assert!((nearest - 34.2).abs() < 0.02, "{nearest}");
     let unstable = found[1].nearest.unwrap();
     assert!(!unstable.hit.stable && unstable.hit.branch == 1 && unstable.difference.abs() < 1e-3);
@@ -149,6 +149,42 @@ fn each_point_has_its_verdict() {
     assert_eq!(found[5].nearest.unwrap().hit.period_multiple, 2);
     // Of two branches at 25 Hz the nearer one.
     assert_eq!(found[6].nearest.unwrap().hit.branch, 3);
+}
+
+/// Two peaks, the second one at 1.1 times the frequency, of nearly the same height: points on the first one could as well be meant for it.
+#[test]
+fn a_second_minimum_that_is_about_as_good_is_told_and_one_that_is_not_is_not() {
+    let curves = |second: f64| {
+        let peak = |f: f64, at: f64| (-((f / at).ln() / 0.02).powi(2)).exp();
+        let point = |k: usize| {
+            let frequency_hz = 24.0 + 0.01 * k as f64;
+            let value = 1.0 + 5.0 * peak(frequency_hz, 30.0) + second * peak(frequency_hz, 33.0);
+            CurvePoint { frequency_hz, value, stable: true, row: k + 1 }
+        };
+        Curves::new(vec![BranchCurve {
+            branch: 1,
+            period_multiple: 1,
+            points: (0..1600).map(point).collect(),
+        }])
+    };
+    let mut points = Vec::new();
+    for k in 0..21 {
+        let frequency_hz = 29.0 + 0.1 * f64::from(k);
+        let value = 1.0 + 5.0 * (-((frequency_hz / 30.0).ln() / 0.02).powi(2)).exp();
+        // Differences of 3 %.
+        let value = value * (1.0 + 0.03 * (17.0 * f64::from(k)).sin());
+        let maxima = Maxima { acceleration: Some(value), ..Maxima::default() };
+        let kind = Kind::Periodic { period_multiple: Some(1) };
+        points.push(MeasuredPoint { origin: "point".into(), frequency_hz, maxima, kind, excitation: None });
+    }
+    let settings = FitSettings { amplitude: Fixed::Given(1.0), ..FitSettings::default() };
+    let fit = |second| compare(&points, &curves(second), Quantity::Acceleration, &settings).unwrap().fit;
+    let found = fit(5.02);
+    assert!((found.frequency.value - 1.0).abs() < 2e-3, "{found:?}");
+    let second = found.second.unwrap();
+    assert!((second.frequency - 1.1).abs() < 2e-3 && second.amplitude == 1.0, "{second:?}");
+    assert!((1.0..1.25).contains(&second.cost_ratio), "{second:?}");
+    assert_eq!(fit(3.0).second, None);
 }
 
 #[test]

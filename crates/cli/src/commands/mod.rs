@@ -9,6 +9,7 @@ pub mod lyapunov;
 pub mod modes;
 pub mod new;
 pub mod orbit;
+pub mod overlay;
 pub mod rig;
 pub mod run;
 pub mod signal;

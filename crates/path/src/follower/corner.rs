@@ -126,16 +126,19 @@ impl Follower {
         if let Some(back) = meeting(&self.weights, base, &self.trial.node, length).filter(|_| self.turns()) {
             self.evaluate_corner(problem, back, length)?;
         }
-        self.arrive_behind_corner()
+        self.arrive_behind_corner(problem)
     }
 
     /// The trial, with the tangent behind the corner, is the next point.
-    pub(super) fn arrive_behind_corner(&self) -> Result<Arrival, Doubt> {
+    pub(super) fn arrive_behind_corner(
+        &self,
+        problem: &(impl PathProblem + ?Sized),
+    ) -> Result<Arrival, Doubt> {
         if !self.range.contains(self.trial.parameter()) {
             return Err(Doubt::NotLocated);
         }
         let after = self.trial.tangent_parameter();
-        let fold = after * self.state.parameter_sign < 0.0;
+        let fold = self.turned(problem, after);
         let events = Events { corner: self.turns(), fold, ..Events::default() };
         Ok(Arrival { events, parameter_sign: fold.then(|| after.signum()), ..Arrival::default() })
     }

@@ -83,7 +83,7 @@ impl Follower {
             weigh(&self.weights, &root.direction, &mut self.row);
             let limits = Limits { max_displacement: length, ..self.limits(length) };
             let corrected = self.correct_behind_corner(problem, &root.direction, limits);
-            if let Ok(arrival) = corrected.and_then(|()| self.arrive_behind_root_corner(length)) {
+            if let Ok(arrival) = corrected.and_then(|()| self.arrive_behind_root_corner(problem, length)) {
                 return Ok((arrival, length));
             }
         }
@@ -296,18 +296,22 @@ impl Follower {
         add_scaled(&mut self.trial.point, length, direction);
         let limits = Limits { max_displacement: length, ..self.limits(length) };
         self.correct_behind_corner(problem, direction, limits)?;
-        self.arrive_behind_root_corner(length)
+        self.arrive_behind_root_corner(problem, length)
     }
 
     /// The trial is the next point, unless it is on this side of the corner or was walked before.
-    fn arrive_behind_root_corner(&self, length: f64) -> Result<Arrival, Doubt> {
+    fn arrive_behind_root_corner(
+        &self,
+        problem: &(impl PathProblem + ?Sized),
+        length: f64,
+    ) -> Result<Arrival, Doubt> {
         if self.trial.signature == self.state.current.signature {
             return Err(Doubt::Signature);
         }
         if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation, self.state.unit) {
             return Err(Doubt::Retraced { arc_length });
         }
-        Ok(Arrival { uncertainty: length, ..self.arrive_behind_corner()? })
+        Ok(Arrival { uncertainty: length, ..self.arrive_behind_corner(problem)? })
     }
 }
 

@@ -8,7 +8,7 @@
 //! | high-pass | `c / p` | `n` at 1 |
 //! | band-pass | both roots of `s² - (c₂ - c₁) p s + c₁ c₂ = 0` | `n` at -1, `n` at 1 |
 //!
-//! then `z = (1 + s)/(1 - s)`. The gain is one at zero, at half the sampling rate, or in the middle of the band, `s = i sqrt(c₁ c₂)`.
+//! then `z = (1 + s)/(1 - s)`, of which only `1 - z = -2 s/(1 - s)` is computed, since poles may lie close to one. The gain is one at zero, at half the sampling rate, or in the middle of the band, `s = i sqrt(c₁ c₂)`.
 
 use std::{cmp::Ordering, f64::consts::PI};
 
@@ -82,13 +82,16 @@ pub fn butterworth(order: usize, band: Band, sampling_rate_hz: f64) -> Result<Se
             let roots = prototype.flat_map(|p| {
                 let half = p * (high - low) / 2.0;
                 let root = (half * half - low * high).sqrt();
-                [half + root, half - root]
+                // The larger one without cancellation; the product of both is known.
+                let larger = if (half.conj() * root).re >= 0.0 { half + root } else { half - root };
+                [larger, low * high / larger]
             });
             let centre = Complex::new(0.0, (low * high).sqrt());
             (roots.collect(), Zeros::Both, (one + centre) / (one - centre))
         }
     };
-    let poles: Vec<Complex<f64>> = poles.into_iter().map(|s| (one + s) / (one - s)).collect();
+    // Distances of the poles from one, 1 - z.
+    let poles: Vec<Complex<f64>> = poles.into_iter().map(|s| -2.0 * s / (one - s)).collect();
     Ok(chain(&poles, zeros, reference))
 }
 
@@ -100,7 +103,7 @@ enum Zeros {
     Both,
 }
 
-/// One or two poles that make a section, `1 + a1/z + a2/z²`.
+/// One or two poles that make a section, `d² + a1 d + a2` in `d = z - 1`; a single one `d + a2`.
 struct Poles {
     a: [f64; 2],
     /// Angle of a pole with positive imaginary part; none if both are real.
@@ -110,27 +113,29 @@ struct Poles {
     single: bool,
 }
 
-/// Poles by sections. What is left of the imaginary part of a real pole is rounding.
+/// Poles by sections, given by their distances from one. What is left of the imaginary part of a real pole is rounding.
 fn grouped(poles: &[Complex<f64>]) -> Vec<Poles> {
-    let is_real = |pole: &Complex<f64>| pole.im.abs() < 1e-12 * pole.norm().max(1e-300);
-    let pair = |pole: &Complex<f64>| Poles {
-        a: [-2.0 * pole.re, pole.norm_sqr()],
-        angle: Some(pole.arg()),
-        modulus: pole.norm(),
-        single: false,
+    let is_real = |p: &Complex<f64>| p.im.abs() < 1e-12 * p.norm().max(1e-300);
+    let pair = |p: &Complex<f64>| {
+        let z = Complex::new(1.0, 0.0) - p;
+        Poles { a: [2.0 * p.re, p.norm_sqr()], angle: Some(z.arg()), modulus: z.norm(), single: false }
     };
-    let mut real: Vec<f64> = poles.iter().filter(|pole| is_real(pole)).map(|pole| pole.re).collect();
-    real.sort_by(f64::total_cmp);
+    let mut real: Vec<f64> = poles.iter().filter(|p| is_real(p)).map(|p| p.re).collect();
+    real.sort_by(|one, other| other.total_cmp(one));
     let of_real = |pair: &[f64]| {
-        let (sum, product) = (pair.iter().sum::<f64>(), pair.iter().product::<f64>());
         let single = pair.len() == 1;
-        let a2 = if single { 0.0 } else { product };
-        let modulus = if single { product.abs() } else { product.abs().sqrt() };
-        Poles { a: [-sum, a2], angle: None, modulus, single }
+        let a = if single { [0.0, pair[0]] } else { [pair.iter().sum(), pair.iter().product()] };
+        let product: f64 = pair.iter().map(|p| (1.0 - p).abs()).product();
+        Poles { a, angle: None, modulus: if single { product } else { product.sqrt() }, single }
     };
-    let complex = poles.iter().filter(|pole| !is_real(pole) && pole.im > 0.0);
+    let complex = poles.iter().filter(|p| !is_real(p) && p.im < 0.0);
     complex.map(pair).chain(real.chunks(2).map(of_real)).collect()
 }
+
+/// Numerators in powers of `z - 1`: both zeros at -1, both at 1, one at each.
+const BOTH_LOW: [f64; 3] = [1.0, 4.0, 4.0];
+const BOTH_HIGH: [f64; 3] = [1.0, 0.0, 0.0];
+const ONE_EACH: [f64; 3] = [1.0, 2.0, 0.0];
 
 /// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance sees what the others have damped.
 ///
@@ -143,26 +148,31 @@ fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Secti
     let complex = groups.iter().filter(|group| group.angle.is_some()).count();
     let mut number = 0;
     let mut numerator = |group: &Poles| match (zeros, group.single) {
-        (Zeros::Low, false) => [1.0, 2.0, 1.0],
-        (Zeros::Low, true) => [1.0, 1.0, 0.0],
-        (Zeros::High, false) => [1.0, -2.0, 1.0],
-        (Zeros::High, true) => [1.0, -1.0, 0.0],
-        (Zeros::Both, _) if group.angle.is_none() => [1.0, 0.0, -1.0],
+        (Zeros::Low, false) => BOTH_LOW,
+        (Zeros::Low, true) => [0.0, 1.0, 2.0],
+        (Zeros::High, false) => BOTH_HIGH,
+        (Zeros::High, true) => [0.0, 1.0, 0.0],
+        (Zeros::Both, _) if group.angle.is_none() => ONE_EACH,
         (Zeros::Both, _) => {
             number += 1;
             match (2 * number).cmp(&(complex + 1)) {
-                Ordering::Less => [1.0, -2.0, 1.0],
-                Ordering::Equal => [1.0, 0.0, -1.0],
-                Ordering::Greater => [1.0, 2.0, 1.0],
+                Ordering::Less => BOTH_HIGH,
+                Ordering::Equal => ONE_EACH,
+                Ordering::Greater => BOTH_LOW,
             }
         }
     };
-    let mut sections: Vec<(f64, Section)> =
-        groups.iter().map(|group| (group.modulus, Section { b: numerator(group), a: group.a })).collect();
+    let mut sections: Vec<(f64, Section)> = groups
+        .iter()
+        .map(|group| {
+            let (numerator, denominator) = (numerator(group), group.a);
+            (group.modulus, Section { numerator, denominator, single: group.single })
+        })
+        .collect();
     sections.sort_by(|one, other| one.0.total_cmp(&other.0));
     let mut sections: Vec<Section> = sections.into_iter().map(|(_, section)| section).collect();
     let gain: f64 = sections.iter().map(|section| section.response(reference).norm()).product();
-    sections[0].b.iter_mut().for_each(|value| *value /= gain);
+    sections[0].numerator.iter_mut().for_each(|value| *value /= gain);
     Sections::new(sections)
 }
 

@@ -27,5 +27,5 @@ mod sections;
 mod zero_phase;
 
 pub use butterworth::{Band, butterworth};
-pub use periodic::{low_pass_response, periodic_low_pass};
+pub use periodic::{low_pass_response, periodic_low_pass, periodic_zero_phase};
 pub use sections::{Section, Sections};

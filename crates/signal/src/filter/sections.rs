@@ -1,8 +1,18 @@
 //! Chains of second-order sections.
 //!
-//! A section `H = (b0 + b1/z + b2/z²) / (1 + a1/z + a2/z²)` is run with two memories,
-//! `y = b0 x + s1`, `s1 <- b1 x - a1 y + s2`, `s2 <- b2 x - a2 y` (transposed direct form II). For a constant input `x` its steady state is
-//! `y = g x`, `s2 = (b2 - a2 g) x`, `s1 = (b1 - a1 g) x + s2`, with `g = H(1)`.
+//! A section is written in `d = z - 1`, not in `z`:
+//!
+//! `H = g (c0 d² + c1 d + c2)/(d² + a1 d + a2)`, for poles `z = 1 - p`: `a1 = p + p*`, `a2 = p p*`
+//!
+//! A filter far below the sampling rate has its poles near `z = 1`. In `z` their distance from one is a difference of coefficients that are nearly 2 and 1, and their rounding
+//! is amplified by the square of the sampling rate over the cut-off; in `d` it is a coefficient. The two memories are
+//!
+//! `w0 <- w0 + w1`, `w1 <- w1 - (a1 w1 + a2 w0) + x`, `y = g (c0 (x - a1 w1 - a2 w0) + c1 w1 + c2 w0)`
+//!
+//! and in the steady state of a constant input `w0 = x/a2`, `w1 = 0`. A section of first order is `H = g (c1 d + c2)/(d + a2)`, with `w0 <- w0 - a2 w0 + x`.
+//!
+//! # Source
+//! Middleton and Goodwin, IEEE Trans. Autom. Control 31 (1986), 1015-1021, on the operator `d`.
 
 use std::f64::consts::PI;
 
@@ -11,22 +21,29 @@ use realfft::num_complex::Complex;
 /// One section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// Numerator, `b0, b1, b2`.
-    pub b: [f64; 3],
-    /// Denominator without its leading 1: `a1, a2`.
-    pub a: [f64; 2],
+    /// Numerator in powers of `z - 1`, the highest first, gain included; of a section of first order without the first one.
+    pub numerator: [f64; 3],
+    /// Denominator without its leading 1: `a1, a2`; `0, a2` in a section of first order.
+    pub denominator: [f64; 2],
+    /// Whether it is of first order.
+    pub single: bool,
 }
 
 impl Section {
     pub(super) fn response(&self, z: Complex<f64>) -> Complex<f64> {
-        let w = z.inv();
-        let [b0, b1, b2] = self.b;
-        let [a1, a2] = self.a;
-        (b0 + w * (b1 + w * b2)) / (1.0 + w * (a1 + w * a2))
+        let d = z - 1.0;
+        let [c0, c1, c2] = self.numerator;
+        let [a1, a2] = self.denominator;
+        if self.single { (d * c1 + c2) / (d + a2) } else { (d * (d * c0 + c1) + c2) / (d * (d + a1) + a2) }
     }
 
     fn steady_gain(&self) -> f64 {
-        self.b.iter().sum::<f64>() / (1.0 + self.a.iter().sum::<f64>())
+        self.numerator[2] / self.denominator[1]
+    }
+
+    /// Memories in the steady state of a constant input.
+    fn steady(&self, input: f64) -> [f64; 2] {
+        [input / self.denominator[1], 0.0]
     }
 }
 
@@ -78,17 +95,12 @@ impl Sections {
     /// Memories in the steady state of a constant input.
     pub(super) fn steady(&self, input: f64) -> Memory {
         let mut level = input;
-        self.sections
-            .iter()
-            .map(|section| {
-                let gain = section.steady_gain();
-                let second = section.b[2] - section.a[1] * gain;
-                let first = section.b[1] - section.a[0] * gain + second;
-                let memory = [first * level, second * level];
-                level *= gain;
-                memory
-            })
-            .collect()
+        let one = |section: &Section| {
+            let memory = section.steady(level);
+            level *= section.steady_gain();
+            memory
+        };
+        self.sections.iter().map(one).collect()
     }
 
     /// Filters in place.
@@ -99,7 +111,7 @@ impl Sections {
             match (chain.next(), chain.next()) {
                 (Some(one), Some(other)) => run_two(series, one, other),
                 (Some((section, memory)), None) => {
-                    series.iter_mut().for_each(|value| *value = step(section, memory, *value));
+                    series.iter_mut().for_each(|value| *value = section.step(memory, *value));
                     return;
                 }
                 _ => return,
@@ -112,15 +124,24 @@ fn run_two(series: &mut [f64], one: (&Section, &mut [f64; 2]), other: (&Section,
     let (first, second) = (*one.0, *other.0);
     let (mut a, mut b) = (*one.1, *other.1);
     for value in series {
-        let between = step(&first, &mut a, *value);
-        *value = step(&second, &mut b, between);
+        let between = first.step(&mut a, *value);
+        *value = second.step(&mut b, between);
     }
 }
 
-#[inline]
-fn step(section: &Section, memory: &mut [f64; 2], input: f64) -> f64 {
-    let output = section.b[0] * input + memory[0];
-    memory[0] = section.b[1] * input - section.a[0] * output + memory[1];
-    memory[1] = section.b[2] * input - section.a[1] * output;
-    output
+impl Section {
+    #[inline]
+    fn step(&self, memory: &mut [f64; 2], input: f64) -> f64 {
+        let [c0, c1, c2] = self.numerator;
+        let [a1, a2] = self.denominator;
+        let [w0, w1] = *memory;
+        if self.single {
+            let change = input - a2 * w0;
+            memory[0] = w0 + change;
+            return c1 * change + c2 * w0;
+        }
+        let change = input - a1 * w1 - a2 * w0;
+        *memory = [w0 + w1, w1 + change];
+        c0 * change + c1 * w1 + c2 * w0
+    }
 }

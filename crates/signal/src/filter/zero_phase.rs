@@ -6,10 +6,7 @@ use crate::error::{SignalError, ensure_series};
 impl Sections {
     /// Samples by which a series is continued at each end: three times the order of the whole chain plus one.
     fn padding(&self) -> usize {
-        let vanishing = |of: fn(&super::Section) -> f64| {
-            self.sections().iter().filter(|section| of(section) == 0.0).count()
-        };
-        let first_order = vanishing(|section| section.b[2]).min(vanishing(|section| section.a[1]));
+        let first_order = self.sections().iter().filter(|section| section.single).count();
         3 * (2 * self.sections().len() + 1 - first_order)
     }
 

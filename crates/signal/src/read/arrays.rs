@@ -8,13 +8,13 @@
 
 use crate::{
     finding::Finding,
-    raw::{Axis, RawChannel, RawRecord},
+    raw::{Axis, RawChannel, RawRecord, TimeColumn},
     read::{
         ReadError,
         csv::unique,
         time::{compare_rates, rises_evenly, time_column},
     },
-    unit::{Quantity, split_title, unit},
+    unit::split_title,
 };
 
 /// An array of numbers.
@@ -35,10 +35,10 @@ pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<
     let step = step_of(&numbers, &mut findings)?;
     let mut channels: Vec<RawChannel> = arrays.iter().flat_map(|array| split(array, &mut findings)).collect();
     unique(&mut channels);
-    let mut time_name = None;
-    let axis = match (take_time(&mut channels, step.is_none(), &mut findings), step) {
-        (Some((name, times)), _) => {
-            time_name = Some(name);
+    let time = take_time(&mut channels, step.is_none(), &mut findings);
+    let axis = match (&time, step) {
+        (Some(TimeColumn { channel, .. }), _) => {
+            let (times, _) = channel.times();
             compare_rates(step.map(|step| 1.0 / step), &times, &mut findings);
             Axis::Times(times)
         }
@@ -48,7 +48,7 @@ pub(super) fn arrange(arrays: Vec<Array>, mut findings: Vec<Finding>) -> Result<
     if channels.is_empty() {
         return Err(ReadError::NoNumbers);
     }
-    Ok(RawRecord { time_name, ..RawRecord::single(axis, channels, findings) })
+    Ok(RawRecord { time, ..RawRecord::single(axis, channels, findings) })
 }
 
 /// The step that single numbers name [s].
@@ -109,32 +109,25 @@ fn split(array: &Array, findings: &mut Vec<Finding>) -> Vec<RawChannel> {
     }
 }
 
-/// Takes the time [s] out of the channels, with its name.
+/// Takes the time out of the channels.
 fn take_time(
     channels: &mut Vec<RawChannel>,
     search: bool,
     findings: &mut Vec<Finding>,
-) -> Option<(String, Vec<f64>)> {
-    let known = |channel: &RawChannel| {
-        channel.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time)
-    };
+) -> Option<TimeColumn> {
     // Of a field of a structure the last word counts.
     let kinds: Vec<(&str, Option<&str>)> = channels
         .iter()
         .map(|channel| (channel.name.rsplit('.').next().unwrap_or_default(), channel.unit.as_deref()))
         .collect();
-    if let Some(index) = time_column(&kinds) {
-        let channel = channels.remove(index);
-        let factor = known(&channel).map_or(1.0, |unit| unit.factor);
-        if known(&channel).is_none() {
-            findings.push(Finding::TimeUnitAssumed { name: channel.name.clone() });
-        }
-        return Some((channel.name, channel.samples.iter().map(|value| value * factor).collect()));
+    if let Some(place) = time_column(&kinds) {
+        let channel = channels.remove(place);
+        findings.extend(channel.times().1);
+        return Some(TimeColumn { channel, place });
     }
     if search && channels.len() > 1 && rises_evenly(&channels[0].samples) {
         findings.push(Finding::TimeAssumed);
-        let RawChannel { name, samples, .. } = channels.remove(0);
-        return Some((name, samples));
+        return Some(TimeColumn { channel: channels.remove(0), place: 0 });
     }
     None
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use super::polyphase::bessel_i0;
 
 /// Samples to each side.
-const REACH: usize = 16;
+pub(crate) const REACH: usize = 16;
 const BETA: f64 = 10.0;
 /// Places between two samples for which weights are kept; between them they are linear, with an error of about `(pi/1024)²/8`, 1e-6.
 const PLACES: usize = 1024;

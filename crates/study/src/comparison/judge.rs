@@ -23,7 +23,12 @@ pub enum Verdict {
     Explained,
     /// The nearest stable branch of its period is too far off.
     TooFar,
-    /// No stable branch of its period meets the frequency.
+    /// A branch of its period meets the frequency, but is unstable there.
+    OnlyUnstable {
+        /// The nearest frequency at which a stable one of the period exists [Hz].
+        nearest_hz: Option<f64>,
+    },
+    /// No branch of its period meets the frequency.
     NoBranch {
         /// The nearest frequency at which there is one [Hz].
         nearest_hz: Option<f64>,
@@ -41,6 +46,7 @@ impl Verdict {
         match self {
             Self::Explained => "explained",
             Self::TooFar => "too-far",
+            Self::OnlyUnstable { .. } => "only-unstable",
             Self::NoBranch { .. } => "no-branch",
             Self::Aperiodic => "aperiodic",
             Self::Doubtful => "doubtful",
@@ -50,7 +56,16 @@ impl Verdict {
     /// Whether the point is periodic and no branch explains it.
     #[must_use]
     pub const fn is_unexplained(self) -> bool {
-        matches!(self, Self::TooFar | Self::NoBranch { .. })
+        matches!(self, Self::TooFar | Self::OnlyUnstable { .. } | Self::NoBranch { .. })
+    }
+
+    /// Where no stable branch of the period is there: the nearest frequency that has one [Hz].
+    #[must_use]
+    pub const fn nearest_hz(self) -> Option<f64> {
+        match self {
+            Self::OnlyUnstable { nearest_hz } | Self::NoBranch { nearest_hz } => nearest_hz,
+            _ => None,
+        }
     }
 }
 
@@ -96,7 +111,15 @@ pub(super) fn judge(
         Some(period) => match curves.nearest_stable(shifted_hz, period, shifted_value).map(matched) {
             Some(found) if found.difference.abs() <= reach => (Some(found), Verdict::Explained),
             Some(found) => (Some(found), Verdict::TooFar),
-            None => (any(), Verdict::NoBranch { nearest_hz: curves.nearest_frequency(shifted_hz, period) }),
+            None => {
+                let nearest_hz = curves.nearest_frequency(shifted_hz, period);
+                let wanted = |hit: &Hit| period.is_none_or(|period| period == hit.period_multiple);
+                let unstable = hits.iter().copied().filter(wanted);
+                match curve::nearest(unstable, shifted_value).map(matched) {
+                    Some(found) => (Some(found), Verdict::OnlyUnstable { nearest_hz }),
+                    None => (any(), Verdict::NoBranch { nearest_hz }),
+                }
+            }
         },
     };
     PointOutcome { point: point.clone(), value, shifted_hz, shifted_value, nearest, stable_periods, verdict }

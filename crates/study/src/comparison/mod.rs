@@ -18,6 +18,9 @@
 //! roots of the diagonal of `(J^T J)^-1 sum r_i^2 / (n - p)`. Slopes of branches in `J` are secants over 0.5 % of the frequency: at a fold the tangent says nothing of
 //! where points will lie. The errors hold for the matching that was found, and for differences that are independent; a model that is wrong makes them too small.
 //!
+//! **Another minimum** that is about as good is told: the lowest of each other valley of the grid is refined too, and with sums `S` and `S'` it counts if `(n - p)(S' - S)/S` is below 3.84 (chi-squared of one
+//! freedom, 95 %), or `S'/S` below 1.1.
+//!
 //! Aperiodic and doubtful points take no part: branches are of periodic solutions. They are listed with the branch that is nearest, stable or not.
 //!
 //! | file | what |
@@ -25,14 +28,16 @@
 //! | `curve.rs` | branches as curves of one quantity, by frequency |
 //! | `course.rs` | an orbit in samples, also behind a filter |
 //! | `observed.rs` | from stored branches to such curves |
-//! | `fit.rs` | shift and factor |
+//! | `fit/` | shift and factor |
 //! | `judge.rs` | what becomes of each point |
+//! | `overlay.rs` | a measured course laid over orbits |
 
 pub mod course;
 mod curve;
 mod fit;
 mod judge;
 mod observed;
+mod overlay;
 
 use hammerbeam_signal::{
     Quantity,
@@ -40,10 +45,11 @@ use hammerbeam_signal::{
 };
 
 pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
-pub use fit::{Estimate, Fit, FitSettings, Fixed};
+pub use fit::{Estimate, Fit, FitSettings, Fixed, SecondMinimum};
 pub use judge::{Match, PointOutcome, Verdict};
 pub(crate) use observed::thinned;
 pub use observed::{Filter, Observation, ObservationError, curves, curves_of};
+pub use overlay::{Overlay, OverlayError, OverlaySettings, Sought, overlay};
 
 /// Why there is no comparison.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

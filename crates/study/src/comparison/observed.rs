@@ -60,14 +60,13 @@ pub fn curves(
     if observation.filter.is_none() && observation.quantity != Quantity::Velocity {
         return Ok(stored(branches, observation.quantity));
     }
-    let mut all = curves_of(branches, model, observation.spacing_hz, observation.samples, |course, row| {
+    let mut all = curves_of(branches, model, observation.spacing_hz, observation.samples, |course| {
         let series = match observation.quantity {
             Quantity::Displacement => &course.displacement,
             Quantity::Velocity => &course.velocity,
             Quantity::Acceleration => &course.acceleration,
             _ => return Err(ObservationError::FilteredForce),
         };
-        let _ = row;
         Ok(vec![match observation.filter {
             Some(filter) => largest_behind(series, course.duration_s, filter)?,
             None => largest(series),
@@ -85,13 +84,13 @@ pub fn curves_of(
     model: &Model,
     spacing_hz: f64,
     samples: usize,
-    mut values: impl FnMut(&super::course::Course, &PlacedRow) -> Result<Vec<f64>, ObservationError>,
+    mut values: impl FnMut(&super::course::Course) -> Result<Vec<f64>, ObservationError>,
 ) -> Result<Vec<Curves>, ObservationError> {
     let mut found: Vec<Vec<BranchCurve>> = Vec::new();
     for branch in branches.branches() {
         for (index, placed) in thinned(branch, spacing_hz) {
             let orbit = branches.solution(branch, placed)?;
-            let of_orbit = values(&course(model, &orbit, samples)?, placed)?;
+            let of_orbit = values(&course(model, &orbit, samples)?)?;
             found.resize_with(of_orbit.len().max(found.len()), Vec::new);
             for (curves, value) in found.iter_mut().zip(of_orbit) {
                 if curves.last().is_none_or(|last| last.branch != branch.record.id) {

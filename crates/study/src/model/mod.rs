@@ -54,6 +54,23 @@ impl Model {
         Ok(model)
     }
 
+    /// The model with another point of the structure observed.
+    ///
+    /// # Returns
+    /// `None` if no point has this name; [`Self::point_names`] has those there are.
+    #[must_use]
+    pub fn observed_at(&self, point: &str) -> Option<Self> {
+        let point = self.system.model().point(point)?;
+        let response = Response { shape: point.shape.clone(), support_ratio: point.support_ratio };
+        Some(Self { response, ..self.clone() })
+    }
+
+    /// Names of the points of the structure.
+    #[must_use]
+    pub fn point_names(&self) -> Vec<&str> {
+        self.system.model().points.iter().map(|point| point.name.as_str()).collect()
+    }
+
     /// Displacement, velocity and acceleration of the response point at a phase of the excitation.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `build.rs` | the study of the rig |
 //! | `sweep.rs` | stepped sweeps; a record at each frequency, and its point |
+//! | `chaos.rs` | largest exponents of aperiodic motions, from record and motion |
 //! | `decay.rs` | a free decay of the structure without its stops: eigenfrequencies and damping as they are measured |
 //! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
 //! | `signals.rs` | measured and computed signals laid over one another |
@@ -15,6 +16,7 @@
 //! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and threads take whole sweeps, signals or solutions.
 
 mod build;
+mod chaos;
 mod decay;
 mod filter;
 mod signals;
@@ -25,14 +27,15 @@ use hammerbeam_motion::exact::MotionError;
 use hammerbeam_signal::SignalError;
 
 pub use build::changed_study;
+pub use chaos::MotionExponents;
 pub use decay::{MeasuredMode, measured_modes};
 pub use filter::{FilteredBranch, FilteredPoint, FilteredRatio, acceleration_curves, filtered_branches};
-pub use signals::{Computed, SignalPair, compare_signal};
+pub use signals::{SignalPair, compare_signal};
 pub use sweep::{Direction, RigPoint, sweep};
 
 use crate::{
     StoreError,
-    comparison::{ObservationError, course::CourseError},
+    comparison::{ObservationError, OverlayError, course::CourseError},
     file::StudyError,
 };
 
@@ -66,10 +69,35 @@ pub enum RigError {
     /// Curves of branches.
     #[error(transparent)]
     Observation(#[from] ObservationError),
+    /// Signals cannot be laid over one another.
+    #[error(transparent)]
+    Overlay(OverlayError),
     /// The store refuses.
     #[error(transparent)]
     Store(#[from] StoreError),
     /// Stopped from outside.
     #[error("interrupted")]
     Interrupted,
+}
+
+impl RigError {
+    /// Whether a motion could not be computed, so that another one may be.
+    pub(crate) const fn is_of_the_motion(&self) -> bool {
+        matches!(
+            self,
+            Self::Motion(_)
+                | Self::Attractor(AttractorError::Motion(_))
+                | Self::Course(CourseError::Motion(_) | CourseError::Attractor(AttractorError::Motion(_)))
+        )
+    }
+}
+
+impl From<OverlayError> for RigError {
+    fn from(error: OverlayError) -> Self {
+        match error {
+            OverlayError::Interrupted => Self::Interrupted,
+            OverlayError::Store(error) => Self::Store(error),
+            other => Self::Overlay(other),
+        }
+    }
 }

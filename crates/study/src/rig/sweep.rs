@@ -12,7 +12,7 @@ use hammerbeam_signal::{
     points::{Kind, Maxima, MeasuredPoint},
 };
 
-use super::RigError;
+use super::{MotionExponents, RigError, chaos::exponents};
 use crate::{
     Model,
     comparison::course::{Course, follow, largest},
@@ -25,6 +25,8 @@ pub(super) const FINER: f64 = 8.0;
 pub(super) const LEAD_IN: u32 = 4;
 /// Distance of states, relative to their size, up to which a motion has come back.
 const SAME: f64 = 1e-3;
+/// States at and near rest from which a motion is begun anew.
+const TRIALS: u32 = 7;
 /// Longest period that is looked for in the states.
 const LONGEST: usize = 8;
 
@@ -59,9 +61,11 @@ pub struct RigPoint {
     pub classification: Classification,
     /// Excitation periods after which the states come back, without noise; `None` if they do not within eight.
     pub period_of_states: Option<u32>,
+    /// Largest Lyapunov exponents, if the record was taken for aperiodic.
+    pub exponents: Option<MotionExponents>,
     /// Largest acceleration before the filter [m/s²].
     pub unfiltered: f64,
-    /// Whether the motion was begun anew at rest, since the contact was closed when the frequency was changed.
+    /// Whether the motion was begun anew at or near rest, since the contact was closed when the frequency was changed, or the motion from there could not be computed.
     pub begun_anew: bool,
     /// State at phase 0 at the end.
     pub state: Vec<f64>,
@@ -102,11 +106,36 @@ fn one_way(
         }
         let seed =
             2 * (1_000_003 * u64::from(rig.seed) + index as u64) + u64::from(direction == Direction::Down);
-        let point = at(rig, model, (direction, frequency_hz, seed), &state)?;
+        let point = at_or_anew(rig, model, (direction, frequency_hz, seed), &state)?;
         state.clone_from(&point.state);
         points.push(point);
     }
     Ok(points)
+}
+
+/// Measures at a frequency; if the motion from a state cannot be computed (steps of a contact may become too short to go on), that from rest, or near rest: it is as good a measurement.
+fn at_or_anew(
+    rig: &Rig,
+    model: &Model,
+    begin: (Direction, f64, u64),
+    state: &[f64],
+) -> Result<RigPoint, RigError> {
+    let mut found = at(rig, model, begin, state);
+    let scales = state_scales(&model.system, begin.1);
+    let first = scales.len() / 2;
+    for trial in 0..TRIALS {
+        match found {
+            Err(error) if error.is_of_the_motion() => {
+                let mut near_rest = vec![0.0; scales.len()];
+                // The first mode moves off, one way and the other.
+                let share = f64::from(trial) * if trial % 2 == 0 { 0.01 } else { -0.01 };
+                near_rest[first] = share * scales[first];
+                found = at(rig, model, begin, &near_rest).map(|p| RigPoint { begun_anew: true, ..p });
+            }
+            found => return found,
+        }
+    }
+    found
 }
 
 /// A motion that has settled, from a state at phase 0.
@@ -170,10 +199,13 @@ fn at(
         kind,
         excitation: Some((Quantity::Acceleration, amplitude)).filter(|(_, amplitude)| *amplitude > 0.0),
     };
+    let exponents = (kind == Kind::Aperiodic)
+        .then(|| exponents(model, frequency_hz, (&acceleration, rig.sampling_hz), simulation.state()));
     Ok(RigPoint {
         direction,
         point,
         classification,
+        exponents,
         period_of_states: period_of(&state_scales(&model.system, frequency_hz), &states),
         unfiltered: largest(&course.acceleration[lead..]),
         begun_anew,

@@ -123,7 +123,11 @@ pub(super) fn insert_solution(
     Ok(())
 }
 
-pub(super) fn insert_event(transaction: &Transaction<'_>, key: i64, event: &LocatedEvent) -> Result<(), StoreError> {
+pub(super) fn insert_event(
+    transaction: &Transaction<'_>,
+    key: i64,
+    event: &LocatedEvent,
+) -> Result<(), StoreError> {
     let insert = "INSERT INTO event VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
     transaction.prepare_cached(insert)?.execute(params![
         key,

@@ -1,6 +1,6 @@
 //! The study with other numbers, built.
 
-use crate::{Model, StudyError, StudyFile};
+use crate::{Model, StudyError, StudyFile, comparison::course::CourseError};
 
 use super::number::{Number, with_numbers};
 
@@ -23,6 +23,9 @@ pub enum CandidateError {
     /// An orbit could not be followed to these parameters.
     #[error("the response at {frequency_hz} Hz is lost on the way")]
     ResponseLost { frequency_hz: f64 },
+    /// An orbit cannot be gone over.
+    #[error("the velocity of the response at {frequency_hz} Hz cannot be computed: {source}")]
+    Course { frequency_hz: f64, source: CourseError },
     /// Its motion cannot be computed.
     #[error("the response at {frequency_hz} Hz cannot be computed: {source}")]
     Orbit { frequency_hz: f64, source: hammerbeam_orbit::OrbitError },

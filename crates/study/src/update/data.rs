@@ -70,6 +70,8 @@ pub struct MeasuredOrbit {
 pub enum Maximum {
     /// Of the absolute displacement of the response point [m].
     Displacement,
+    /// Of the absolute velocity of the response point [m/s].
+    Velocity,
     /// Of the absolute acceleration of the response point [m/s^2].
     Acceleration,
     /// Of the contact force [N].

@@ -153,12 +153,20 @@ impl fmt::Display for Finding {
             Self::LeftOpen { direction, half_width } => {
                 let verb = if direction.len() == 1 { "determine" } else { "tell apart" };
                 write!(formatter, "the data do not {verb} {}", names(direction))?;
+                if let ([_], true) = (&direction[..], half_width.is_finite()) {
+                    return write!(
+                        formatter,
+                        ": its interval reaches {:.0} % of its value either way (told from {:.0} % on)",
+                        100.0 * half_width,
+                        100.0 * OPEN
+                    );
+                }
                 if half_width.is_infinite() {
                     write!(formatter, ": a step of {} changes nothing that was measured", steps(direction))
                 } else {
                     write!(
                         formatter,
-                        ": along steps of {} the interval reaches {:.0} % either way (told from {:.0} % on)",
+                        ": changed together by steps of {}, they stay within the interval up to {:.0} % of their values either way (told from {:.0} % on)",
                         steps(direction),
                         100.0 * half_width,
                         100.0 * OPEN

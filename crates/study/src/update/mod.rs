@@ -16,7 +16,7 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `data.rs`, `reading.rs` | the data file |
+//! | `data.rs`; `reading.rs`, `measured.rs` | the data file; parameters, measured numbers |
 //! | `number.rs` | numbers of a study by their key paths, and the text with others in their places |
 //! | `candidate.rs` | the study with other numbers, built |
 //! | `observe.rs` | what the model says to each of the data |
@@ -30,6 +30,7 @@ mod candidate;
 mod data;
 mod exact;
 mod finding;
+mod measured;
 mod number;
 mod observe;
 mod outcome;

@@ -205,7 +205,7 @@ fn values(data: &[Datum], model: &Model, orbits: &[PeriodicSolution]) -> Result<
         let (list, mode) = match datum.observation {
             Observation::Eigenfrequency(of) => (table(&model.tables, of.table), of.mode),
             Observation::Damping(of) => (ratios.as_slice(), of.mode),
-            Observation::Response(of) => return Ok(maximum(&orbits[of.orbit].maxima, of.of)),
+            Observation::Response(of) => return maximum(model, &orbits[of.orbit], of.of),
         };
         let (modes, place) = (list.len(), datum.place.clone());
         list.get(mode).copied().ok_or(CandidateError::NoMode { mode: mode + 1, modes, place })

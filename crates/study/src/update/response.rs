@@ -1,10 +1,8 @@
 //! Orbits that are followed as parameters change.
 
-use hammerbeam_orbit::{
-    OrbitMaxima, OrbitSettings, PeriodicSolution, SurveyEffort, neighbouring_orbit, survey,
-};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, SurveyEffort, neighbouring_orbit, survey};
 
-use crate::{Model, file::Study, orbit_solver};
+use crate::{Model, comparison::course::course, file::Study, orbit_solver};
 
 use super::{
     candidate::CandidateError,
@@ -35,9 +33,14 @@ impl Orbits {
     pub fn seek(&self, model: &Model, data: &UpdateData) -> Result<Vec<PeriodicSolution>, CandidateError> {
         let of = |(index, measured): (usize, &MeasuredOrbit)| {
             let found = self.all_stable(model, measured)?;
-            let distance = |orbit: &PeriodicSolution| distance(orbit, index, &data.data);
-            let nearest = found.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            nearest.ok_or(CandidateError::NoResponse {
+            let mut nearest: Option<(f64, PeriodicSolution)> = None;
+            for orbit in found {
+                let distance = distance(model, &orbit, index, &data.data)?;
+                if nearest.as_ref().is_none_or(|(best, _)| distance < *best) {
+                    nearest = Some((distance, orbit));
+                }
+            }
+            nearest.map(|(_, orbit)| orbit).ok_or(CandidateError::NoResponse {
                 frequency_hz: measured.frequency_hz,
                 period_multiple: measured.period_multiple,
             })
@@ -76,22 +79,46 @@ impl Orbits {
     }
 }
 
+/// Samples of an orbit in an excitation period, of which its largest velocity is read.
+const SAMPLES: usize = 2048;
+
 /// A maximum of an orbit.
-pub(super) fn maximum(maxima: &OrbitMaxima, of: Maximum) -> f64 {
-    match of {
+pub(super) fn maximum(model: &Model, orbit: &PeriodicSolution, of: Maximum) -> Result<f64, CandidateError> {
+    let maxima = &orbit.maxima;
+    Ok(match of {
+        Maximum::Velocity => largest_velocity(model, orbit)?,
         Maximum::Displacement => maxima.displacement,
         Maximum::Acceleration => maxima.acceleration,
         Maximum::ContactForce => maxima.contact_force,
         Maximum::ImpactVelocity => maxima.impact_velocity,
-    }
+    })
+}
+
+/// Largest absolute velocity of the response point: of samples, and between them by a parabola, whose error is of the fourth order where the velocity is smooth.
+fn largest_velocity(model: &Model, orbit: &PeriodicSolution) -> Result<f64, CandidateError> {
+    let frequency_hz = orbit.frequency_hz;
+    let course = course(model, orbit, SAMPLES);
+    let velocity = course.map_err(|source| CandidateError::Course { frequency_hz, source })?.velocity;
+    let size = |k: usize| velocity[k % velocity.len()].abs();
+    let top = (0..velocity.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(0);
+    let (before, here, after) = (size(top + velocity.len() - 1), size(top), size(top + 1));
+    let bend = before - 2.0 * here + after;
+    // A jump at a rigid stop has no parabola: the top would lie beyond a sample.
+    let place = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+    Ok(if place.abs() <= 0.5 { here - 0.25 * (before - after) * place } else { here })
 }
 
 /// Sum of squares of an orbit's residuals in the logarithms of its maxima, so that a wrong level of the whole model does not decide.
-fn distance(orbit: &PeriodicSolution, index: usize, data: &[Datum]) -> f64 {
+fn distance(
+    model: &Model,
+    orbit: &PeriodicSolution,
+    index: usize,
+    data: &[Datum],
+) -> Result<f64, CandidateError> {
     let square = |datum: &Datum| match datum.observation {
         Observation::Response(response) if response.orbit == index => {
-            let found = maximum(&orbit.maxima, response.of);
-            Some((found / datum.value).ln().powi(2))
+            let found = maximum(model, orbit, response.of);
+            Some(found.map(|found| (found / datum.value).ln().powi(2)))
         }
         _ => None,
     };

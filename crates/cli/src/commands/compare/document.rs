@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_study::comparison::{Comparison, Estimate, PointOutcome, Residual, Verdict};
+use hammerbeam_study::comparison::{Comparison, Estimate, PointOutcome, Residual};
 use serde_json::{Value, json};
 
 use super::{Compared, measured::Measured};
@@ -42,11 +42,17 @@ pub fn comparison_document(comparison: &Comparison) -> Value {
         "frequency_offset_hz": comparison.fit.offset.then(|| estimate(comparison.fit.frequency)),
         "amplitude_factor": estimate(comparison.fit.amplitude),
         "correlation": comparison.fit.correlation.filter(|value| value.is_finite()),
+        "second_minimum": comparison.fit.second.map(|second| json!({
+            "frequency": second.frequency,
+            "amplitude_factor": second.amplitude,
+            "sum_of_squares_over_best": second.cost_ratio,
+        })),
         "fitted_points": comparison.fit.points,
         "residual_before": residual(comparison.before),
         "residual_after": residual(comparison.after),
         "explained": count("explained"),
         "too_far": count("too-far"),
+        "only_unstable": count("only-unstable"),
         "no_branch": count("no-branch"),
         "aperiodic": count("aperiodic"),
         "doubtful": count("doubtful"),
@@ -81,10 +87,6 @@ pub fn point_document(outcome: &PointOutcome) -> Value {
             "log_difference": nearest.difference,
         })
     });
-    let nearest_hz = match outcome.verdict {
-        Verdict::NoBranch { nearest_hz } => nearest_hz,
-        _ => None,
-    };
     json!({
         "origin": outcome.point.origin,
         "kind": outcome.point.kind.word(),
@@ -95,7 +97,7 @@ pub fn point_document(outcome: &PointOutcome) -> Value {
         "shifted_value": outcome.shifted_value,
         "verdict": outcome.verdict.word(),
         "nearest": nearest,
-        "nearest_stable_hz": nearest_hz,
+        "nearest_stable_hz": outcome.verdict.nearest_hz(),
         "stable_periods_there": outcome.stable_periods,
     })
 }

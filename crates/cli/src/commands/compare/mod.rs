@@ -4,9 +4,10 @@ mod document;
 mod figure;
 mod measured;
 mod records;
-mod stored;
 mod table;
 mod text;
+
+use std::path::PathBuf;
 
 use hammerbeam_signal::Quantity;
 use hammerbeam_study::{
@@ -16,8 +17,9 @@ use hammerbeam_study::{
 
 pub use document::comparison_document;
 pub use figure::draw;
-pub use stored::{StoredComparison, StoredPoint, stored};
+pub use records::frequency_in_name;
 pub use table::write_points;
+pub use text::second_minimum;
 
 use crate::{
     compare_args::{CompareOptions, QuantityName},
@@ -43,6 +45,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
     let model = Model::build(&file)?;
+    let folder = folder(options)?;
     let measured = measured::read(&options.measured, options.reference.as_deref())?;
     let quantities = quantities(options, &measured.points)?;
     let branches = StoredBranches::open(&options.results, &file)?;
@@ -62,7 +65,6 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
         compared.push(Compared { curves, comparison, low_pass_hz });
     }
-    let folder = options.out.clone().unwrap_or_else(|| options.results.join("compare"));
     let mut drawn = Drawn::into(&folder)?;
     for one in &compared {
         let name = format!("points_{}.csv", one.comparison.quantity.word());
@@ -71,13 +73,32 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let name = format!("compare_{}", one.comparison.quantity.word());
         draw(&file, one, &name, &mut drawn);
     }
-    if let Some(name) = table::write_amplitudes(&folder, &measured.points)? {
-        drawn.files.push(name);
-    }
+    let amplitudes = table::write_amplitudes(&folder, &measured.points)?;
+    drawn.files.extend(amplitudes.iter().map(|amplitudes| amplitudes.name.clone()));
+    let notes = amplitudes.map_or_else(Vec::new, |amplitudes| amplitudes.notes);
     let files = drawn.finish()?.names;
-    let document = document::document(options, &measured, &compared, (&folder, &files));
-    output.give(&document, || text::text(options, &measured, &compared, (&folder, &files)));
+    let mut document = document::document(options, &measured, &compared, (&folder, &files));
+    document["excitation_notes"] = serde_json::json!(notes);
+    output.give(&document, || {
+        let mut text = text::text(options, &measured, &compared, (&folder, &files));
+        notes.iter().for_each(|note| text.push_str(&format!("\nnote: {note}")));
+        text
+    });
     Ok(())
+}
+
+/// Where to write: not into the results folder itself, whose tables of points are those of `rig`.
+fn folder(options: &CompareOptions) -> Result<PathBuf, Failure> {
+    let Some(folder) = &options.out else { return Ok(options.results.join("compare")) };
+    let same = match (folder.canonicalize(), options.results.canonicalize()) {
+        (Ok(folder), Ok(results)) => folder == results,
+        _ => false,
+    };
+    if same {
+        let message = "--out is the results folder itself, where the tables of `rig` have the same names; without --out they go into its folder compare";
+        return Err(Failure::BadInput(message.to_owned()));
+    }
+    Ok(folder.clone())
 }
 
 /// How the comparison is done.

@@ -101,7 +101,7 @@ fn amplitude(channel: &Channel, sampling_rate_hz: f64) -> Result<(Quantity, f64)
 }
 
 /// The number before "Hz" in the name of a file, as in `run3_31.5Hz.csv`.
-fn frequency_in_name(path: &Path) -> Option<f64> {
+pub fn frequency_in_name(path: &Path) -> Option<f64> {
     let name = path.file_stem()?.to_str()?;
     let end = name.to_lowercase().rfind("hz")?;
     let before = name.get(..end)?.trim_end_matches([' ', '_', '-']);

@@ -5,7 +5,7 @@ use std::{fs, path::Path};
 use anyhow::Context;
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 use hammerbeam_study::{
-    comparison::{Comparison, PointOutcome, Verdict},
+    comparison::{Comparison, PointOutcome},
     export::{Table, header, number, word},
 };
 
@@ -37,10 +37,6 @@ pub fn write_points(
 fn row(outcome: &PointOutcome, low_pass_hz: Option<f64>) -> Vec<String> {
     let optional = |value: Option<String>| value.unwrap_or_default();
     let hit = outcome.nearest.map(|nearest| nearest.hit);
-    let nearest_hz = match outcome.verdict {
-        Verdict::NoBranch { nearest_hz } => nearest_hz,
-        _ => None,
-    };
     let periods: Vec<String> = outcome.stable_periods.iter().map(u32::to_string).collect();
     vec![
         word(&outcome.point.origin),
@@ -57,17 +53,44 @@ fn row(outcome: &PointOutcome, low_pass_hz: Option<f64>) -> Vec<String> {
         optional(hit.map(|hit| hit.row.to_string())),
         number(hit.map(|hit| hit.value)),
         number(outcome.nearest.map(|nearest| nearest.difference)),
-        number(nearest_hz),
+        number(outcome.verdict.nearest_hz()),
         periods.join("+"),
         number(low_pass_hz),
     ]
 }
 
+/// A measured amplitude of the excitation at a frequency: mean and range of what was measured there.
+#[derive(Clone, Copy)]
+struct Amplitude {
+    frequency_hz: f64,
+    sum: f64,
+    count: u32,
+    low: f64,
+    high: f64,
+}
+
+impl Amplitude {
+    fn mean(&self) -> f64 {
+        self.sum / f64::from(self.count)
+    }
+}
+
+/// What was written of the excitation, and what is to be told of it.
+pub struct Amplitudes {
+    /// Name of the file.
+    pub name: String,
+    /// In words, each with its frequency.
+    pub notes: Vec<String>,
+}
+
+/// Parts by which amplitudes at one frequency may differ, and by which one may lie beside its neighbours, at least.
+const SPREAD: f64 = 0.05;
+const BESIDE: f64 = 0.1;
+/// The same in usual distances from the neighbours.
+const UNUSUAL: f64 = 6.0;
+
 /// Writes the measured amplitudes of the excitation as a study file takes them, if there are two at least: means of what was measured at the same frequency.
-///
-/// # Returns
-/// Name of the file.
-pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Option<String>, Failure> {
+pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Option<Amplitudes>, Failure> {
     let all = |wanted: Quantity| -> Vec<(f64, f64)> {
         let of = |point: &MeasuredPoint| {
             let (quantity, amplitude) = point.excitation_amplitude()?;
@@ -76,30 +99,95 @@ pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Optio
         points.iter().filter_map(of).collect()
     };
     let (moved, pushed) = (all(Quantity::Displacement), all(Quantity::Force));
-    let (key, mut amplitudes) =
-        if moved.is_empty() { ("amplitude_n", pushed) } else { ("amplitude_m", moved) };
-    amplitudes.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut means: Vec<(f64, f64, u32)> = Vec::new();
-    for (frequency_hz, amplitude) in amplitudes {
-        match means.last_mut() {
-            // A millionth is what a frequency is read to.
-            Some((at, sum, count)) if (frequency_hz - *at).abs() <= 1e-6 * frequency_hz => {
-                *sum += amplitude;
-                *count += 1;
-            }
-            _ => means.push((frequency_hz, amplitude, 1)),
-        }
-    }
+    let (key, measured) = if moved.is_empty() { ("amplitude_n", pushed) } else { ("amplitude_m", moved) };
+    let means = means(measured);
     if means.len() < 2 {
         return Ok(None);
     }
     let mut text =
         format!("# Measured amplitudes of the excitation, for [excitation] of a study file.\n{key} = [\n");
-    for (frequency_hz, sum, count) in means {
-        text.push_str(&format!("    [{frequency_hz}, {:.6e}],\n", sum / f64::from(count)));
+    for amplitude in &means {
+        text.push_str(&format!("    [{}, {:.6e}],\n", amplitude.frequency_hz, amplitude.mean()));
     }
     text.push_str("]\n");
-    let name = "excitation.toml";
-    fs::write(folder.join(name), text).with_context(|| format!("cannot write {name}"))?;
-    Ok(Some(name.to_owned()))
+    let name = "excitation.toml".to_owned();
+    fs::write(folder.join(&name), text).with_context(|| format!("cannot write {name}"))?;
+    let notes = spread(&means).chain(beside(&means)).collect();
+    Ok(Some(Amplitudes { name, notes }))
+}
+
+/// Amplitudes by rising frequency, those of the same one together.
+fn means(mut measured: Vec<(f64, f64)>) -> Vec<Amplitude> {
+    measured.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut means: Vec<Amplitude> = Vec::new();
+    for (frequency_hz, value) in measured {
+        match means.last_mut() {
+            // A millionth is what a frequency is read to.
+            Some(last) if (frequency_hz - last.frequency_hz).abs() <= 1e-6 * frequency_hz => {
+                last.sum += value;
+                last.count += 1;
+                (last.low, last.high) = (last.low.min(value), last.high.max(value));
+            }
+            _ => means.push(Amplitude { frequency_hz, sum: value, count: 1, low: value, high: value }),
+        }
+    }
+    means
+}
+
+/// Frequencies at which several were measured that are not the same.
+fn spread(means: &[Amplitude]) -> impl Iterator<Item = String> {
+    let apart = means.iter().filter(|at| at.high - at.low > SPREAD * at.mean());
+    apart.map(|at| {
+        format!(
+            "amplitudes of the excitation at {} Hz go from {:.4e} to {:.4e}; their mean is taken",
+            at.frequency_hz, at.low, at.high
+        )
+    })
+}
+
+/// Amplitudes far from the line between their neighbours: by more than a tenth, and by six times the median distance. The farthest is taken out before the next one is looked for, since it spoils its neighbours' lines.
+fn beside(means: &[Amplitude]) -> impl Iterator<Item = String> {
+    let mut left = means.to_vec();
+    let mut far = Vec::new();
+    while left.len() >= 5 {
+        let off = |w: &[Amplitude]| {
+            let share = (w[1].frequency_hz - w[0].frequency_hz) / (w[2].frequency_hz - w[0].frequency_hz);
+            let line = w[0].mean() + share * (w[2].mean() - w[0].mean());
+            (w[1].mean() / line).ln()
+        };
+        let distances: Vec<f64> = left.windows(3).map(off).collect();
+        let mut sorted: Vec<f64> = distances.iter().map(|off| off.abs()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let limit = BESIDE.max(UNUSUAL * sorted[sorted.len() / 2]);
+        let largest = (0..distances.len()).max_by(|&a, &b| distances[a].abs().total_cmp(&distances[b].abs()));
+        let Some(index) = largest.filter(|&index| distances[index].abs() > limit) else { break };
+        far.push((left.remove(index + 1), distances[index].exp()));
+    }
+    far.into_iter().map(|(at, ratio)| {
+        format!(
+            "the amplitude of the excitation at {} Hz, {:.4e}, is {ratio:.3} times what its neighbours say; it is taken as it is",
+            at.frequency_hz,
+            at.mean()
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_far_from_its_neighbours_and_one_that_spreads_are_told_and_no_others() {
+        let smooth = |f: f64| 5e-4 * (1.0 - 1e-4 * f * f);
+        let mut measured: Vec<(f64, f64)> = (20..60).map(|f| (f64::from(f), smooth(f64::from(f)))).collect();
+        assert_eq!(spread(&means(measured.clone())).chain(beside(&means(measured.clone()))).count(), 0);
+        measured[7].1 *= 1.3;
+        measured.push((40.0, 0.9 * smooth(40.0)));
+        let means = means(measured);
+        assert_eq!(means.len(), 40);
+        let far: Vec<String> = beside(&means).collect();
+        assert!(far.len() == 1 && far[0].contains("at 27 Hz") && far[0].contains("1.3"), "{far:?}");
+        let wide: Vec<String> = spread(&means).collect();
+        assert!(wide.len() == 1 && wide[0].contains("at 40 Hz"), "{wide:?}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_study::comparison::{Comparison, Estimate, PointOutcome, Residual, Verdict};
+use hammerbeam_study::comparison::{Comparison, Estimate, Fit, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
 use crate::compare_args::CompareOptions;
@@ -42,9 +42,10 @@ fn comparison(comparison: &Comparison) -> Vec<String> {
         format!("  residual before         {}", residual(comparison.before)),
         format!("  residual after          {}", residual(comparison.after)),
         format!(
-            "  explained {}, too far {}, no branch {}; aperiodic {}, doubtful {}",
+            "  explained {}, too far {}, only unstable branches {}, no branch {}; aperiodic {}, doubtful {}",
             count("explained"),
             count("too-far"),
+            count("only-unstable"),
             count("no-branch"),
             count("aperiodic"),
             count("doubtful")
@@ -53,6 +54,7 @@ fn comparison(comparison: &Comparison) -> Vec<String> {
     if fit.correlation.is_some_and(|value| value.abs() > 0.95 || !value.is_finite()) {
         lines.push("  note: the points hardly tell shift and factor apart".to_owned());
     }
+    lines.extend(second_minimum(fit).map(|told| format!("  note: {told}")));
     let unexplained: Vec<&PointOutcome> =
         comparison.points.iter().filter(|point| point.verdict.is_unexplained()).collect();
     lines.extend(unexplained.iter().take(LISTED).map(|point| unexplained_text(point)));
@@ -60,6 +62,20 @@ fn comparison(comparison: &Comparison) -> Vec<String> {
         lines.push(format!("  ... and {} more", unexplained.len() - LISTED));
     }
     lines
+}
+
+/// That another shift fits about as well.
+pub fn second_minimum(fit: &Fit) -> Option<String> {
+    let second = fit.second?;
+    let shift = if fit.offset {
+        format!("a frequency offset of {:.4} Hz", second.frequency)
+    } else {
+        format!("a frequency factor of {:.5}", second.frequency)
+    };
+    Some(format!(
+        "{shift} with an amplitude factor of {:.4} fits about as well: its sum of squares is {:.3} times that of the best",
+        second.amplitude, second.cost_ratio
+    ))
 }
 
 fn estimate(estimate: Estimate) -> String {
@@ -79,10 +95,16 @@ fn residual(residual: Residual) -> String {
 fn unexplained_text(outcome: &PointOutcome) -> String {
     let period = outcome.point.kind.period_multiple().map_or_else(String::new, |n| format!(" of period {n}"));
     let why = match (outcome.verdict, outcome.nearest) {
-        (Verdict::NoBranch { nearest_hz: Some(hz) }, _) => {
-            format!("no stable branch{period} there; the nearest at {hz:.4} Hz")
+        (Verdict::OnlyUnstable { .. } | Verdict::NoBranch { .. }, _) => {
+            let there = match outcome.verdict {
+                Verdict::OnlyUnstable { .. } => format!("branches{period} are unstable there"),
+                _ => format!("no branch{period} is there"),
+            };
+            match outcome.verdict.nearest_hz() {
+                Some(hz) => format!("{there}; the nearest stable one is at {hz:.4} Hz"),
+                None => format!("{there}, and none is stable anywhere"),
+            }
         }
-        (Verdict::NoBranch { nearest_hz: None }, _) => format!("no stable branch{period} anywhere"),
         (_, Some(nearest)) => format!(
             "{:.3} times the nearest stable branch{period}, number {}",
             nearest.difference.exp(),

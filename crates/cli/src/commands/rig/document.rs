@@ -17,6 +17,7 @@ pub fn document(found: &Found) -> Value {
         })
         .collect();
     let [right, wrong, doubtful] = tables::agreement(found);
+    let chaos = tables::chaos(found);
     json!({
         "study": found.file.name,
         "title": found.file.study.title,
@@ -37,6 +38,13 @@ pub fn document(found: &Found) -> Value {
             "max_displacement_m": tables::largest_displacement(found),
         },
         "classification": { "as_the_states": right, "not_as_the_states": wrong, "doubtful": doubtful },
+        "chaos": {
+            "aperiodic": chaos.aperiodic,
+            "positive_exponent_of_the_record": chaos.by_record,
+            "positive_exponent_of_the_motion": chaos.by_motion,
+            "both": chaos.by_both,
+            "median_record_over_motion": chaos.median_ratio,
+        },
         "comparisons": comparisons,
         "signals": found.signals.iter().enumerate().map(signal).collect::<Vec<_>>(),
         "filters": filters(found),
@@ -67,10 +75,13 @@ fn signal((index, signal): (usize, &hammerbeam_study::rig::SignalPair)) -> Value
             "over_measured": orbit.frequency_hz / signal.measured_hz,
             "branch": orbit.branch,
             "row": orbit.row,
-            "correlation": orbit.correlation,
-            "lag_cycles": orbit.lag,
-            "max_acceleration_m_s2": orbit.largest,
-            "max_filtered_acceleration_m_s2": orbit.largest_filtered,
+            "correlation": orbit.alignment.correlation,
+            "lag_cycles": hammerbeam_study::rig::SignalPair::lag(orbit),
+            "amplitude_factor": orbit.factor,
+            "residual_before": orbit.residual_before,
+            "residual_after": orbit.residual_after,
+            "max_acceleration_m_s2": orbit.largest.0,
+            "max_filtered_acceleration_m_s2": orbit.largest.1,
         })
     });
     json!({

@@ -4,13 +4,13 @@ use std::{fmt::Write, path::Path};
 
 use hammerbeam_signal::classify::{Classification, Motion};
 use hammerbeam_study::{
-    comparison::{Estimate, PointOutcome, Verdict},
-    rig::{FilteredBranch, FilteredRatio},
+    comparison::{Estimate, PointOutcome},
+    rig::{FilteredBranch, FilteredRatio, SignalPair},
 };
 use serde_json::Value;
 
 use super::{Found, tables};
-use crate::{failure::Failure, figures::replace};
+use crate::{commands::compare::second_minimum, failure::Failure, figures::replace};
 
 /// Solutions that a branch has at least to stand in the report on its own.
 const SHOWN: usize = 20;
@@ -91,6 +91,7 @@ fn markdown(found: &Found) -> String {
     modes(&mut text, found);
     excitation(&mut text, found);
     comparisons(&mut text, found);
+    chaos(&mut text, found);
     signals(&mut text, found);
     filters(&mut text, found);
     points(&mut text, found);
@@ -133,13 +134,13 @@ fn excitation(text: &mut String, found: &Found) {
 fn comparisons(text: &mut String, found: &Found) {
     text.push_str(
         "## Figure 6: measured points over the branches\n\nPoints are shifted by a factor of the frequency and a factor of the value. Residuals are root mean squares of natural logarithms; 0.1 is about 10 %.\n\n\
-         | what | frequency factor | amplitude factor | residual before | after | within reach | explained | too far | no branch | aperiodic | doubtful |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+         | what | frequency factor | amplitude factor | residual before | after | within reach | explained | too far | only unstable branches | no branch | aperiodic | doubtful |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for (name, _, comparison) in &found.comparisons {
         let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {:.3} ({}) | {:.3} ({}) | {:.3} ({}) | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {:.3} ({}) | {:.3} ({}) | {:.3} ({}) | {} | {} | {} | {} | {} | {} |",
             what(name),
             estimate(comparison.fit.frequency, 4),
             estimate(comparison.fit.amplitude, 3),
@@ -151,16 +152,40 @@ fn comparisons(text: &mut String, found: &Found) {
             comparison.after.within,
             count("explained"),
             count("too-far"),
+            count("only-unstable"),
             count("no-branch"),
             count("aperiodic"),
             count("doubtful"),
         );
+    }
+    for (name, _, comparison) in &found.comparisons {
+        if let Some(told) = second_minimum(&comparison.fit) {
+            let _ = writeln!(text, "\nNote, {}: {told}.", what(name));
+        }
     }
     let [right, wrong, doubtful] = tables::agreement(found);
     let _ = writeln!(
         text,
         "\nIn brackets: periodic points that meet a stable branch of their period.\n\n\
          The records tell what the states themselves do (known here, unlike on a rig) at {right} points, something else at {wrong}, and leave {doubtful} in doubt.\n",
+    );
+}
+
+/// Exponents of the aperiodic points, as the paper checks its own.
+fn chaos(text: &mut String, found: &Found) {
+    let chaos = tables::chaos(found);
+    if chaos.aperiodic == 0 {
+        return;
+    }
+    let ratio = chaos.median_ratio.map_or_else(String::new, |ratio| {
+        format!(" Where both are positive, the record gives {ratio:.2} times that of the motion (median).")
+    });
+    let _ = writeln!(
+        text,
+        "## Aperiodic points: largest Lyapunov exponents\n\n\
+         Of {} aperiodic points the record has a positive exponent (Wolf) at {}, the motion itself one whose interval of 95 % is above zero at {}, both at {}.{ratio} \
+         Each is in `measured.csv`.\n",
+        chaos.aperiodic, chaos.by_record, chaos.by_motion, chaos.by_both,
     );
 }
 
@@ -173,27 +198,30 @@ fn what(name: &str) -> &str {
 }
 
 fn signals(text: &mut String, found: &Found) {
-    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike. Residuals: root mean square of the difference over that of the computed signal.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | factor | residual | with the factor | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (index, signal) in found.signals.iter().enumerate() {
         let classified = classified(&signal.classification);
         let name = tables::figure_name(index);
         let _ = match &signal.computed {
             Some(orbit) => writeln!(
                 text,
-                "| {name} | {} | {} | {classified} | {:.3} | {:.4} | {:.4} | {:+.3} | {:.0} | {:.0} | {:.0} |",
+                "| {name} | {} | {} | {classified} | {:.3} | {:.4} | {:.4} | {:+.3} | {:.2} | {:.2} | {:.2} | {:.0} | {:.0} | {:.0} |",
                 signal.measured_hz,
                 signal.period_multiple,
                 orbit.frequency_hz,
                 orbit.frequency_hz / signal.measured_hz,
-                orbit.correlation,
-                orbit.lag,
+                orbit.alignment.correlation,
+                SignalPair::lag(orbit),
+                orbit.factor,
+                orbit.residual_before,
+                orbit.residual_after,
                 signal.largest_measured,
-                orbit.largest,
-                orbit.largest_filtered,
+                orbit.largest.0,
+                orbit.largest.1,
             ),
             None => writeln!(
                 text,
-                "| {name} | {} | {} | {classified} | no stable orbit of this period is near | | | | {:.0} | | |",
+                "| {name} | {} | {} | {classified} | no stable orbit of this period is near | | | | | | | {:.0} | | |",
                 signal.measured_hz, signal.period_multiple, signal.largest_measured,
             ),
         };
@@ -272,11 +300,10 @@ fn verdict(outcome: &PointOutcome) -> String {
         || "- | -".to_owned(),
         |nearest| format!("{} | {:+.3}", nearest.hit.branch, nearest.difference),
     );
-    match outcome.verdict {
-        Verdict::NoBranch { nearest_hz: Some(hz) } => {
-            format!("no branch, the nearest at {hz:.2} Hz | {nearest}")
-        }
-        other => format!("{} | {nearest}", other.word()),
+    let word = outcome.verdict.word();
+    match outcome.verdict.nearest_hz() {
+        Some(hz) => format!("{word}, a stable one at {hz:.2} Hz | {nearest}"),
+        None => format!("{word} | {nearest}"),
     }
 }
 

@@ -51,6 +51,9 @@ fn points(folder: &Path, found: &Found) -> Result<(), Failure> {
         "period_of_states",
         "unfiltered",
         "begun_anew",
+        "largest_exponent_per_s",
+        "exponent_scatter_per_s",
+        "exponent_of_the_motion_per_s",
     ];
     let mut table = Table::begin(folder, "measured.csv", &header(&titles))?;
     for point in &found.points {
@@ -67,6 +70,9 @@ fn points(folder: &Path, found: &Found) -> Result<(), Failure> {
             period(point.period_of_states),
             number(point.unfiltered),
             point.begun_anew.to_string(),
+            number(point.exponents.and_then(|of| Some(of.of_record?.value))),
+            number(point.exponents.and_then(|of| Some(of.of_record?.scatter))),
+            number(point.exponents.and_then(|of| Some(of.of_motion?.0))),
         ])?;
     }
     table.finish()?;
@@ -155,13 +161,13 @@ fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Fa
         "support_displacement_m",
     ];
     let mut table = Table::begin(folder, name, &header(&titles))?;
-    for (k, (phase, measured)) in signal.phases.iter().zip(&signal.measured).enumerate() {
+    for (k, measured) in signal.measured.samples.iter().enumerate() {
         let computed = signal.computed.as_ref();
         table.row(&[
-            number(*phase),
+            number(k as f64 / signal.measured.per_period as f64),
             number(*measured),
             number(computed.map(|orbit| orbit.filtered[k])),
-            number(computed.map(|orbit| orbit.acceleration[k])),
+            number(computed.map(|orbit| orbit.unfiltered[k])),
             number(computed.map(|orbit| orbit.displacement[k])),
             number(computed.map(|orbit| orbit.support[k])),
         ])?;
@@ -191,4 +197,36 @@ pub fn agreement(found: &Found) -> [usize; 3] {
 pub fn largest_displacement(found: &Found) -> f64 {
     let values = found.points.iter().filter_map(|point| point.point.maxima.of(Quantity::Displacement));
     values.fold(0.0, f64::max)
+}
+
+/// What exponents say of the aperiodic points.
+#[derive(Default)]
+pub struct Chaos {
+    pub aperiodic: usize,
+    /// With a positive exponent from the record, and those with one from the motion (its interval above zero).
+    pub by_record: usize,
+    pub by_motion: usize,
+    /// With both.
+    pub by_both: usize,
+    /// Median of the exponent from the record over that of the motion, where both are positive.
+    pub median_ratio: Option<f64>,
+}
+
+/// Counts chaotic motions.
+pub fn chaos(found: &Found) -> Chaos {
+    let mut chaos = Chaos::default();
+    let mut ratios = Vec::new();
+    for exponents in found.points.iter().filter_map(|point| point.exponents) {
+        let of_record = exponents.of_record.map(|of| of.value).filter(|value| *value > 0.0);
+        let of_motion =
+            exponents.of_motion.filter(|(value, half)| value - half > 0.0).map(|(value, _)| value);
+        chaos.aperiodic += 1;
+        chaos.by_record += usize::from(of_record.is_some());
+        chaos.by_motion += usize::from(of_motion.is_some());
+        ratios.extend(of_record.zip(of_motion).map(|(record, motion)| record / motion));
+    }
+    ratios.sort_by(f64::total_cmp);
+    chaos.by_both = ratios.len();
+    chaos.median_ratio = ratios.get(ratios.len() / 2).copied();
+    chaos
 }

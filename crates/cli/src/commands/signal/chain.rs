@@ -21,11 +21,7 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
     let input = input::open(&options.input, None)?;
     let filter = input::filter(&options.band, input.record.sampling_rate_hz)?;
     let chain = MeasuringChain {
-        sensor: match options.sensor {
-            Sensor::Displacement => Quantity::Displacement,
-            Sensor::Velocity => Quantity::Velocity,
-            Sensor::Acceleration => Quantity::Acceleration,
-        },
+        sensor: quantity(options.sensor),
         filter: filter.map(|(_, sections)| (sections, options.zero_phase)),
         sampling_rate_hz: options.sampling,
         noise: options.noise,
@@ -52,6 +48,15 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
     document["results"] = json!(path);
     output.give(&document, || text(&input, &chain, &measured, path.as_deref()));
     Ok(())
+}
+
+/// What a sensor measures.
+pub const fn quantity(sensor: Sensor) -> Quantity {
+    match sensor {
+        Sensor::Displacement => Quantity::Displacement,
+        Sensor::Velocity => Quantity::Velocity,
+        Sensor::Acceleration => Quantity::Acceleration,
+    }
 }
 
 /// Largest value of the quantity in the file, if it is there.

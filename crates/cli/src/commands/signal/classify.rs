@@ -32,7 +32,8 @@ pub fn run(options: &ClassifyOptions, output: Output) -> Result<(), Failure> {
     Ok(())
 }
 
-const fn word(motion: Motion) -> &'static str {
+/// The kind of a motion.
+pub const fn word(motion: Motion) -> &'static str {
     match motion {
         Motion::Periodic { .. } => "periodic",
         Motion::Aperiodic => "aperiodic",

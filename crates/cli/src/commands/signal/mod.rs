@@ -9,7 +9,9 @@ mod input;
 mod lyapunov;
 mod spectrum;
 
-pub use input::largest;
+pub use chain::quantity;
+pub use classify::word;
+pub use input::{Input, largest, open};
 
 use crate::{failure::Failure, output::Output, signal_args::SignalCommand};
 

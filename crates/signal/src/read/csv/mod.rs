@@ -13,12 +13,11 @@ use dialect::Dialect;
 
 use crate::{
     finding::Finding,
-    raw::{Axis, RawChannel, RawRecord},
+    raw::{Axis, RawChannel, RawRecord, TimeColumn},
     read::{
         ReadError,
         time::{compare_rates, rises_evenly, time_column},
     },
-    unit::{Quantity, unit},
 };
 
 /// A line of text with its number, from 1 on.
@@ -50,13 +49,6 @@ pub(crate) fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
     numbered.filter(|(_, line)| !line.trim().is_empty() && !is_comment(line))
 }
 
-/// A column as it was read.
-struct Column {
-    name: String,
-    unit: Option<String>,
-    values: Vec<f64>,
-}
-
 /// Reads separated values.
 ///
 /// # Errors
@@ -79,11 +71,14 @@ pub fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let header = header::read(&before, dialect, width);
     let values = columns(&rows[first..], dialect, width)?;
     let titled = header.titled;
-    let columns =
-        values.into_iter().zip(header.titles).map(|(values, (name, unit))| Column { name, unit, values });
+    let columns = values.into_iter().zip(header.titles).map(|(samples, (name, unit))| RawChannel {
+        name,
+        unit,
+        samples,
+    });
     // A separator at the end of each line makes a column of nothing.
-    let columns: Vec<Column> = columns.filter(|column| !column.values.is_empty()).collect();
-    if !titled && !rises_evenly(&columns[0].values) && dialect.may_be_decimal(&rows[first..]) {
+    let columns: Vec<RawChannel> = columns.filter(|column| !column.samples.is_empty()).collect();
+    if !titled && !rises_evenly(&columns[0].samples) && dialect.may_be_decimal(&rows[first..]) {
         findings.push(Finding::CommasSeparate);
     }
     arrange(columns, titled, header.rate_hz, findings)
@@ -162,40 +157,30 @@ fn columns(rows: &[Line], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>
 
 /// Which column is the time, and the others.
 fn arrange(
-    mut columns: Vec<Column>,
+    mut columns: Vec<RawChannel>,
     titled: bool,
     rate_hz: Option<f64>,
     mut findings: Vec<Finding>,
 ) -> Result<RawRecord, ReadError> {
+    unique(&mut columns);
     let kinds: Vec<(&str, Option<&str>)> =
         columns.iter().map(|column| (column.name.as_str(), column.unit.as_deref())).collect();
-    let assumed = !titled && columns.len() > 1 && rises_evenly(&columns[0].values);
-    let mut time_name = None;
-    let axis = match time_column(&kinds).or(assumed.then_some(0)) {
-        Some(index) => {
-            let column = columns.remove(index);
-            time_name = Some(column.name.clone());
-            let known = column.unit.as_deref().and_then(unit).filter(|unit| unit.quantity == Quantity::Time);
-            if known.is_none() {
-                let unnamed = Finding::TimeUnitAssumed { name: column.name };
-                findings.push(if titled { unnamed } else { Finding::TimeAssumed });
-            }
-            let factor = known.map_or(1.0, |unit| unit.factor);
-            let times: Vec<f64> = column.values.iter().map(|value| value * factor).collect();
+    let assumed = !titled && columns.len() > 1 && rises_evenly(&columns[0].samples);
+    let place = time_column(&kinds).or(assumed.then_some(0));
+    let time = place.map(|place| TimeColumn { channel: columns.remove(place), place });
+    let axis = match &time {
+        Some(TimeColumn { channel, .. }) => {
+            let (times, told) = channel.times();
+            findings.extend(told.map(|told| if titled { told } else { Finding::TimeAssumed }));
             compare_rates(rate_hz, &times, &mut findings);
             Axis::Times(times)
         }
         None => rate_hz.map_or(Axis::Unknown, |rate| Axis::Even { step_s: 1.0 / rate, start_s: 0.0 }),
     };
-    let mut channels: Vec<RawChannel> = columns
-        .into_iter()
-        .map(|Column { name, unit, values }| RawChannel { name, unit, samples: values })
-        .collect();
-    if channels.is_empty() {
+    if columns.is_empty() {
         return Err(ReadError::NoNumbers);
     }
-    unique(&mut channels);
-    Ok(RawRecord { time_name, ..RawRecord::single(axis, channels, findings) })
+    Ok(RawRecord { time, ..RawRecord::single(axis, columns, findings) })
 }
 
 /// Names that stand twice get a number.

@@ -72,9 +72,35 @@ fn time_can_be_named() {
     let by_x = named("x");
     assert_eq!(by_x.groups[0].axis, Axis::Times(vec![1.0, 2.0, 4.0]));
     let clock = &by_x.groups[0].channels[0];
-    assert_eq!((clock.name.as_str(), &clock.samples[..]), ("clock", &[0.0, 1.0, 2.0][..]));
+    // As it stands in the file, with its unit.
+    assert_eq!((clock.name.as_str(), clock.unit.as_deref()), ("clock", Some("ms")));
+    assert_eq!(clock.samples, [0.0, 1000.0, 2000.0]);
     assert_eq!(by_x.findings, [Finding::TimeUnitAssumed { name: "x".to_owned() }]);
     assert!(read_text(text).with_time("b").is_err());
+    // By their numbers among all columns; afterwards channels are counted in the order of the file.
+    assert_eq!(named("1"), read_text(text));
+    assert_eq!(named("2"), by_x);
+    let by_a = named("3");
+    assert_eq!((by_a.channel_name("1"), by_a.channel_name("2")), (Ok("clock"), Ok("x")));
+    assert_eq!(by_a.clone().with_time("1").unwrap().groups, read_text(text).groups);
+    let last = read_text("x [mm],clock [ms],a\n1,0,5\n2,1000,7\n4,2000,9\n");
+    let by_a = last.with_time("3").unwrap();
+    assert_eq!((by_a.channel_name("1"), by_a.channel_name("2")), (Ok("x"), Ok("clock")));
+}
+
+#[test]
+fn rate_that_disagrees_is_told_as_it_is_between_gaps() {
+    // 10 Hz with a gap of 30 s among a hundred samples.
+    let mut text = "Sampling rate: 20 Hz\ntime [s],x [m]\n".to_owned();
+    for k in 0..100 {
+        let t = 0.1 * f64::from(k) + if k < 50 { 0.0 } else { 30.0 };
+        text.push_str(&format!("{t:.3},{k}\n"));
+    }
+    let found = read_text(&text).findings;
+    assert!(
+        matches!(found[..], [Finding::NamedRateDisagrees { found_hz, .. }] if (found_hz - 10.0).abs() < 1e-6),
+        "{found:?}"
+    );
 }
 
 #[test]

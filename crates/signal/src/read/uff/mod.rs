@@ -24,7 +24,8 @@ use header::{Binary, Header};
 /// Lines between the type of a dataset and its values.
 const HEADER_LINES: usize = 11;
 
-/// Whether a file begins with a line of -1 in its columns 5 and 6, and the number of a dataset below. A -1 at the very edge may be a number of a table.
+/// Whether a file begins with a line of nothing but -1, and a line with the number of a dataset below. The -1 has blanks before it, as in its columns 5 and 6; at the very edge, where it may be a
+/// number of a table, the dataset has to be 58.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     let mut lines =
         bytes.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end()).filter(|line| !line.is_empty());

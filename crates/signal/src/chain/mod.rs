@@ -12,7 +12,7 @@
 //! 4. **Noise**: normal, white, with a standard deviation and a seed.
 //! 5. **Converter**: range and bits. What is beyond the range is clipped.
 //!
-//! What is folded down or clipped is told in the findings of the record.
+//! What is folded down or clipped is told in the findings of the record, each end of the range on its own.
 
 use std::f64::consts::PI;
 
@@ -151,24 +151,31 @@ fn folded(samples: &[f64], sampling_rate_hz: f64, half_rate_hz: f64) -> Option<F
 }
 
 impl Converter {
-    /// What lies beyond the range by more than half a step.
-    fn clipped(self, channel: &str, samples: &[f64]) -> Option<Finding> {
-        let half = self.range / 2.0_f64.powi(self.bits as i32);
-        let beyond = |value: f64| value < -self.range - half || value > self.range - half;
-        let first = samples.iter().position(|value| beyond(*value))?;
-        let begins = |pair: &&[f64]| !beyond(pair[0]) && beyond(pair[1]);
-        Some(Finding::Clipped {
-            channel: channel.to_owned(),
-            samples: samples.iter().filter(|value| beyond(**value)).count(),
-            places: samples.windows(2).filter(begins).count() + usize::from(first == 0),
-            level: self.range,
-            first,
+    /// Size of a step.
+    fn step(self) -> f64 {
+        2.0 * self.range / 2.0_f64.powi(self.bits as i32)
+    }
+
+    /// What lies beyond either end of the range by more than half a step.
+    fn clipped(self, channel: &str, samples: &[f64]) -> impl Iterator<Item = Finding> {
+        // One step less above zero than below, as with two's complement.
+        let ends = [(1.0, self.range - self.step()), (-1.0, -self.range)];
+        ends.into_iter().filter_map(move |(side, level)| {
+            let beyond = |value: f64| side * (value - level) > 0.5 * self.step();
+            let first = samples.iter().position(|value| beyond(*value))?;
+            let begins = |pair: &&[f64]| !beyond(pair[0]) && beyond(pair[1]);
+            Some(Finding::Clipped {
+                channel: channel.to_owned(),
+                samples: samples.iter().filter(|value| beyond(**value)).count(),
+                places: samples.windows(2).filter(begins).count() + usize::from(first == 0),
+                level,
+                first,
+            })
         })
     }
 
     fn convert(self, value: f64) -> f64 {
-        let step = 2.0 * self.range / 2.0_f64.powi(self.bits as i32);
-        // One step less above zero than below, as with two's complement.
+        let step = self.step();
         ((value / step).round() * step).clamp(-self.range, self.range - step)
     }
 }
@@ -231,137 +238,4 @@ fn sampled(samples: &[f64], step: f64, motion: Motion) -> Result<Vec<f64>, Signa
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::filter::{Band, butterworth};
-
-    const RATE: f64 = 20_000.0;
-
-    /// Two periods of 50 Hz with a third harmonic: displacement.
-    fn record() -> Record {
-        let value = |k: usize| {
-            let t = 2.0 * PI * 50.0 * k as f64 / RATE;
-            1e-3 * t.cos() + 2e-4 * (3.0 * t + 0.5).sin()
-        };
-        let samples = (0..800).map(value).collect();
-        let channel = Channel { name: "x".to_owned(), unit: None, quantity: Quantity::Displacement, samples };
-        Record { sampling_rate_hz: RATE, start_s: 0.0, channels: vec![channel], findings: Vec::new() }
-    }
-
-    fn acceleration(t: f64) -> f64 {
-        let w = 2.0 * PI * 50.0;
-        -1e-3 * w * w * (w * t).cos() - 2e-4 * 9.0 * w * w * (3.0 * w * t + 0.5).sin()
-    }
-
-    fn chain() -> MeasuringChain {
-        MeasuringChain {
-            sensor: Quantity::Acceleration,
-            filter: None,
-            sampling_rate_hz: None,
-            noise: 0.0,
-            seed: 1,
-            converter: None,
-        }
-    }
-
-    #[test]
-    fn acceleration_follows_from_displacement_over_whole_periods() {
-        let measured = chain().measure(&record(), Motion::Periodic).unwrap();
-        for (k, value) in measured.channels[0].samples.iter().enumerate() {
-            // Differences of rounding times (w_max)^2: 1e-19 m * (6e4 1/s)^2 is 4e-10.
-            assert!((value - acceleration(k as f64 / RATE)).abs() < 1e-8, "sample {k}");
-        }
-        let refused = chain().measure(&record(), Motion::Stretch).unwrap_err();
-        assert!(matches!(refused, SignalError::NoSuchQuantity { .. }), "{refused}");
-        let back = differentiated(&differentiated(&record().channels[0].samples, RATE, 2), RATE, -2);
-        assert!(back.iter().zip(&record().channels[0].samples).all(|(a, b)| (a - b).abs() < 1e-15));
-    }
-
-    /// In the settled state a harmonic is weakened by the gain of the filter and turned by its phase.
-    #[test]
-    fn causal_filter_acts_on_a_periodic_record_as_if_it_had_run_for_ever() {
-        let filter = butterworth(4, Band::LowPass { cut_off_hz: 100.0 }, RATE).unwrap();
-        let mut chain = MeasuringChain { sensor: Quantity::Displacement, ..chain() };
-        chain.filter = Some((filter.clone(), false));
-        let measured = chain.measure(&record(), Motion::Periodic).unwrap();
-        let before = forward(record().channels[0].samples.clone());
-        let after = forward(measured.channels[0].samples.clone());
-        for (bin, frequency) in [(2, 50.0), (6, 150.0)] {
-            assert!(
-                (after[bin].norm() / before[bin].norm() / filter.gain(frequency, RATE) - 1.0).abs() < 1e-10
-            );
-        }
-    }
-
-    #[test]
-    fn sampling_reads_the_signal_where_it_says() {
-        let chain = MeasuringChain { sampling_rate_hz: Some(3_000.0), ..chain() };
-        let measured = chain.measure(&record(), Motion::Periodic).unwrap();
-        assert_eq!((measured.len(), measured.sampling_rate_hz), (120, 3_000.0));
-        for (k, value) in measured.channels[0].samples.iter().enumerate() {
-            // The interpolation's own error is 2e-5 of the amplitude, about 280 m/s².
-            assert!((value - acceleration(k as f64 / 3_000.0)).abs() < 6e-3, "sample {k}");
-        }
-    }
-
-    /// 150 Hz read at 200 Hz come out as 50 Hz.
-    #[test]
-    fn folding_is_told() {
-        let slow = |rate| MeasuringChain { sampling_rate_hz: Some(rate), ..chain() };
-        let folded = slow(200.0).measure(&record(), Motion::Periodic).unwrap().findings;
-        // Accelerations of 50 and 150 Hz are as 1 to 0.2 * 9: 87 % of the root mean square.
-        assert!(
-            matches!(folded[..], [Finding::Folded { half_rate_hz: 100.0, percent }] if (percent - 87.4).abs() < 0.1),
-            "{folded:?}"
-        );
-        assert_eq!(slow(400.0).measure(&record(), Motion::Periodic).unwrap().findings, []);
-    }
-
-    #[test]
-    fn noise_has_its_size_and_follows_from_the_seed() {
-        let noisy = |seed| {
-            MeasuringChain { noise: 2.0, seed, ..chain() }.measure(&record(), Motion::Periodic).unwrap()
-        };
-        let clean = chain().measure(&record(), Motion::Periodic).unwrap();
-        assert_eq!(noisy(7), noisy(7));
-        assert_ne!(noisy(7), noisy(8));
-        let difference = noisy(7).channels[0]
-            .samples
-            .iter()
-            .zip(&clean.channels[0].samples)
-            .map(|(a, b)| (a - b).powi(2))
-            .sum::<f64>();
-        // 800 samples: the standard error of the variance is 5 %.
-        assert!((difference / 800.0 / 4.0 - 1.0).abs() < 0.2);
-    }
-
-    #[test]
-    fn converter_rounds_to_its_steps_and_clips() {
-        let converter = Converter { range: 100.0, bits: 8 };
-        let measured = MeasuringChain { converter: Some(converter), ..chain() }
-            .measure(&record(), Motion::Periodic)
-            .unwrap();
-        let step = 200.0 / 256.0;
-        for (k, value) in measured.channels[0].samples.iter().enumerate() {
-            let expected = acceleration(k as f64 / RATE).clamp(-100.0, 100.0 - step);
-            assert!(
-                (value - expected).abs() <= step / 2.0 + 1e-9 && (value / step).fract().abs() < 1e-9,
-                "sample {k}"
-            );
-        }
-        // The displacement's harmonics give up to 1e2 and 4e2 m/s²: clipped at both ends in each of two periods.
-        assert!(
-            matches!(&measured.findings[..], [Finding::Clipped { places, level: 100.0, .. }] if *places >= 4),
-            "{:?}",
-            measured.findings
-        );
-        let wide = MeasuringChain { converter: Some(Converter { range: 1e3, bits: 8 }), ..chain() };
-        assert_eq!(wide.measure(&record(), Motion::Periodic).unwrap().findings, []);
-        let wrong = Converter { range: 0.0, bits: 8 };
-        assert!(
-            MeasuringChain { converter: Some(wrong), ..chain() }
-                .measure(&record(), Motion::Periodic)
-                .is_err()
-        );
-    }
-}
+mod tests;

@@ -1,0 +1,175 @@
+//! An overlay as a table, a document and in words.
+
+use std::path::Path;
+
+use hammerbeam_figure::plain_number;
+use hammerbeam_signal::classify::Motion;
+use hammerbeam_study::export::{Table, header, number};
+use serde_json::{Value, json};
+
+use super::Laid;
+use crate::{failure::Failure, overlay_args::OverlayOptions};
+
+/// Correlation of a course turned around beyond which it is told: half of what is left without.
+const TURNED: f64 = 0.5;
+
+impl Laid {
+    /// Time at which the excitation of the study has its phase 0 on the clock of the record [s], within the first orbit period.
+    fn phase_zero_s(&self) -> f64 {
+        self.overlay.alignment.shift / self.measured.per_period as f64 / self.classification.frequency_hz
+    }
+
+    /// Whether the sensor seems to be turned around.
+    fn seems_turned(&self) -> bool {
+        1.0 - self.overlay.turned_correlation < TURNED * (1.0 - self.overlay.alignment.correlation)
+    }
+
+    /// What the reader has to know.
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.seems_turned() {
+            notes.push(format!(
+                "turned around the measured signal would be more alike, with a correlation of {:.4}: is the sensor's sign right? --amplitude-factor takes a negative factor",
+                self.overlay.turned_correlation
+            ));
+        }
+        let found = match self.classification.motion {
+            Motion::Periodic { period_multiple } if period_multiple as u32 == self.period_multiple => None,
+            Motion::Periodic { period_multiple } => {
+                Some(format!("of {period_multiple} excitation period(s)"))
+            }
+            Motion::Aperiodic => Some("aperiodic".to_owned()),
+            Motion::Doubtful { reason } => Some(format!("doubtful: {reason}")),
+        };
+        notes.extend(found.map(|found| {
+            format!(
+                "the measured motion is {found}; its mean over {} period(s) is compared",
+                self.period_multiple
+            )
+        }));
+        let mean = self.measured.samples.iter().sum::<f64>() / self.measured.samples.len() as f64;
+        let size = self.overlay.alignment.sizes.0;
+        let scatter = self.measured.scatter / size;
+        if scatter > self.overlay.residual_after {
+            notes.push(format!(
+                "pieces of the record differ from their mean by {:.1} % of it, more than the mean from the orbit",
+                100.0 * scatter
+            ));
+        }
+        if mean.abs() > size {
+            notes.push(format!(
+                "the signals are compared about their means; that of the record is {mean:.4e}"
+            ));
+        }
+        notes
+    }
+}
+
+/// Writes `overlay.csv`.
+pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {
+    let unit = laid.quantity.key();
+    let value = |what: &str| format!("{what}_{}_{unit}", laid.quantity.word());
+    let mut titles = header(&["time_s", "phase_cycles"]);
+    titles.extend(["measured", "shifted", "computed", "computed_unfiltered"].map(value));
+    titles.extend(header(&["orbit_displacement_m", "support_displacement_m"]));
+    let mut table = Table::begin(folder, "overlay.csv", &titles)?;
+    let (overlay, measured) = (&laid.overlay, &laid.measured);
+    let per_period = measured.per_period as f64;
+    let length = measured.samples.len() as f64;
+    let mean = |series: &[f64]| series.iter().sum::<f64>() / length;
+    let (level, computed_level) = (mean(&measured.samples), mean(&overlay.filtered));
+    for (k, value) in measured.samples.iter().enumerate() {
+        let cycles = k as f64 / per_period;
+        table.row(&[
+            number(cycles / laid.classification.frequency_hz),
+            number((k as f64 - overlay.alignment.shift).rem_euclid(length) / per_period),
+            number(*value),
+            number(overlay.factor * (value - level) + computed_level),
+            number(overlay.filtered[k]),
+            number(overlay.unfiltered[k]),
+            number(overlay.displacement[k]),
+            number(overlay.support[k]),
+        ])?;
+    }
+    Ok(table.finish()?.display().to_string())
+}
+
+pub fn document(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Value {
+    let overlay = &laid.overlay;
+    let mut document = laid.input.document();
+    document["results_folder"] = json!(options.results);
+    document["channel"] = json!(laid.input.channel().name);
+    document["sensor"] = json!(laid.quantity.word());
+    document["point"] = json!(laid.point);
+    document["excitation_frequency_hz"] = json!(laid.classification.frequency_hz);
+    document["motion"] = json!(super::super::signal::word(laid.classification.motion));
+    document["period_multiple"] = json!(laid.period_multiple);
+    document["pieces"] = json!(laid.measured.pieces);
+    document["scatter_over_rms"] = json!(laid.measured.scatter / overlay.alignment.sizes.0);
+    document["low_pass_hz"] = json!(options.low_pass);
+    document["order"] = json!(options.low_pass.map(|_| options.order));
+    document["zero_phase"] = json!(options.zero_phase);
+    document["orbit"] = json!({
+        "frequency_hz": overlay.frequency_hz,
+        "over_measured": overlay.frequency_hz / laid.classification.frequency_hz,
+        "branch": overlay.branch,
+        "row": overlay.row,
+        "tried": overlay.tried,
+        "max_abs": overlay.largest.0,
+        "max_abs_filtered": overlay.largest.1,
+    });
+    document["time_shift_s"] = json!(laid.phase_zero_s());
+    document["correlation"] = json!(overlay.alignment.correlation);
+    document["turned_correlation"] = json!(overlay.turned_correlation);
+    document["amplitude_factor"] =
+        json!({ "value": overlay.factor, "given": options.amplitude_factor.is_some() });
+    document["measured_rms"] = json!(overlay.alignment.sizes.0);
+    document["computed_rms"] = json!(overlay.alignment.sizes.1);
+    document["residual_before"] = json!(overlay.residual_before);
+    document["residual_after"] = json!(overlay.residual_after);
+    document["notes"] = json!(laid.notes());
+    document["results"] = json!(table);
+    document
+}
+
+pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> String {
+    let overlay = &laid.overlay;
+    let mut lines = vec![laid.input.heading()];
+    lines.push(format!(
+        "{} at {} of {} over {} excitation period(s) at {:.6} Hz, mean of {} pieces",
+        laid.quantity.word(),
+        laid.point,
+        laid.input.channel().name,
+        laid.period_multiple,
+        laid.classification.frequency_hz,
+        laid.measured.pieces,
+    ));
+    if let Some(cut_off) = options.low_pass {
+        let way = if options.zero_phase { "without phase" } else { "causal" };
+        lines
+            .push(format!("orbits behind a low-pass filter of {cut_off} Hz, order {}, {way}", options.order));
+    }
+    let row = overlay.row.map_or_else(String::new, |row| format!(", row {row}"));
+    lines.push(format!(
+        "most alike of {} orbit(s): {:.6} Hz, {:.5} times the measured frequency; branch {}{row}",
+        overlay.tried,
+        overlay.frequency_hz,
+        overlay.frequency_hz / laid.classification.frequency_hz,
+        overlay.branch,
+    ));
+    lines.push(format!("  correlation            {:.6}", overlay.alignment.correlation));
+    lines.push(format!(
+        "  time shift             {} s: there the excitation has phase 0 on the clock of the record",
+        plain_number(laid.phase_zero_s())
+    ));
+    let given = if options.amplitude_factor.is_some() { " (given)" } else { "" };
+    lines.push(format!("  amplitude factor       {:.6}{given}", overlay.factor));
+    lines.push(format!(
+        "  residual               {:.4} of the computed root mean square, {:.4} with the factor",
+        overlay.residual_before, overlay.residual_after
+    ));
+    lines.extend(table.map(|path| format!("{path}: both courses")));
+    lines.extend(laid.notes().into_iter().map(|note| format!("note: {note}")));
+    lines.extend(laid.input.notes());
+    lines.join("\n")
+}

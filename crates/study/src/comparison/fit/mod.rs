@@ -1,0 +1,191 @@
+//! The shift of frequencies and the factor on values that bring points onto branches.
+
+mod problem;
+
+use hammerbeam_signal::{Quantity, points::MeasuredPoint};
+
+use super::{ComparisonError, Curves, FrequencyShift, Residual, Shift, period_of};
+use problem::{Problem, covariance};
+
+/// What is given and need not be fitted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fixed {
+    /// Given.
+    Given(f64),
+    /// To be fitted, within these ends.
+    Fitted {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+}
+
+/// How a comparison is done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FitSettings {
+    /// Whether frequencies are shifted by an offset [Hz] instead of a factor.
+    pub offset: bool,
+    /// The factor or offset.
+    pub frequency: Fixed,
+    /// The factor on values.
+    pub amplitude: Fixed,
+    /// Ratio of values beyond which a branch does not explain a point.
+    pub reach: f64,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self {
+            offset: false,
+            frequency: Fixed::Fitted { low: 0.85, high: 1.18 },
+            amplitude: Fixed::Fitted { low: 0.05, high: 20.0 },
+            reach: 1.5,
+        }
+    }
+}
+
+/// A fitted or given number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Its value.
+    pub value: f64,
+    /// Its standard error; `None` if it was given.
+    pub standard_error: Option<f64>,
+}
+
+/// What was found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// Whether the shift of frequencies is an offset.
+    pub offset: bool,
+    /// Factor, or offset [Hz].
+    pub frequency: Estimate,
+    /// Factor on values.
+    pub amplitude: Estimate,
+    /// Points that the fit goes by.
+    pub points: usize,
+    /// Correlation of the errors of both numbers, where both were fitted.
+    pub correlation: Option<f64>,
+    /// Another shift that fits about as well, the best of those there are.
+    pub second: Option<SecondMinimum>,
+}
+
+/// Another minimum of the fit, in another valley of the shift of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SecondMinimum {
+    /// Factor, or offset [Hz].
+    pub frequency: f64,
+    /// Factor on values.
+    pub amplitude: f64,
+    /// Its sum of squares over that of the best one.
+    pub cost_ratio: f64,
+}
+
+impl Fit {
+    /// As a shift.
+    #[must_use]
+    pub fn shift(&self) -> Shift {
+        shift(self.offset, self.frequency.value, self.amplitude.value.ln())
+    }
+}
+
+impl FitSettings {
+    pub(super) fn check(&self) -> Result<(), ComparisonError> {
+        let ensure = |what, found: f64, allowed, holds: bool| {
+            if holds { Ok(()) } else { Err(ComparisonError::Input { what, found, allowed }) }
+        };
+        let more = self.reach > 1.0 && self.reach.is_finite();
+        ensure("the reach", self.reach, "a factor of more than 1", more)?;
+        for found in ends(self.amplitude) {
+            ensure(
+                "the amplitude factor",
+                found,
+                "finite and more than 0",
+                found > 0.0 && found.is_finite(),
+            )?;
+        }
+        for found in ends(self.frequency) {
+            let holds = found.is_finite() && (self.offset || found > 0.0);
+            ensure("the shift of the frequency", found, "finite, and more than 0 as a factor", holds)?;
+        }
+        Ok(())
+    }
+}
+
+fn ends(fixed: Fixed) -> [f64; 2] {
+    match fixed {
+        Fixed::Given(value) => [value; 2],
+        Fixed::Fitted { low, high } => [low, high],
+    }
+}
+
+/// A point that takes part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Used {
+    frequency_hz: f64,
+    logarithm: f64,
+    period: Option<u32>,
+}
+
+impl Used {
+    pub fn of(point: &MeasuredPoint, quantity: Quantity) -> Option<Self> {
+        let period = period_of(point.kind)?;
+        let logarithm = point.maxima.of(quantity)?.ln();
+        Some(Self { frequency_hz: point.frequency_hz, logarithm, period })
+    }
+}
+
+/// Logarithm of the ratio up to which a point pulls, over that up to which it is explained.
+const PULL: f64 = 2.0;
+
+pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
+    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln() };
+    let free = [settings.frequency, settings.amplitude].map(|fixed| matches!(fixed, Fixed::Fitted { .. }));
+    let fitted = usize::from(free[0]) + usize::from(free[1]);
+    let valleys = problem.valleys(settings);
+    let at = problem.refine(valleys[0], free);
+    let rows = problem.rows(at);
+    if fitted > 0 && rows.len() <= fitted {
+        return Err(ComparisonError::TooFewPoints { fitted, points: rows.len() });
+    }
+    let covariance = covariance(&rows, free);
+    let error = |k: usize| free[k].then(|| covariance[k][k].max(0.0).sqrt());
+    let correlation = (fitted == 2)
+        .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE));
+    Ok(Fit {
+        offset: settings.offset,
+        frequency: Estimate { value: at[0], standard_error: error(0) },
+        // The error of a logarithm is a relative one.
+        amplitude: Estimate { value: at[1].exp(), standard_error: error(1).map(|e| e * at[1].exp()) },
+        points: rows.len(),
+        correlation,
+        second: problem.second(at, &valleys, free),
+    })
+}
+
+pub(super) fn residual(used: &[Used], curves: &Curves, shift: Shift, reach: f64) -> Residual {
+    let differences: Vec<f64> = used.iter().filter_map(|point| difference(point, curves, shift)).collect();
+    let within: Vec<f64> = differences.iter().copied().filter(|r| r.abs() <= reach).collect();
+    let rms = |r: &[f64]| {
+        if r.is_empty() { 0.0 } else { (r.iter().map(|r| r * r).sum::<f64>() / r.len() as f64).sqrt() }
+    };
+    Residual {
+        met: differences.len(),
+        within: within.len(),
+        rms: rms(&differences),
+        rms_within: rms(&within),
+    }
+}
+
+fn shift(offset: bool, frequency: f64, log_amplitude: f64) -> Shift {
+    let frequency =
+        if offset { FrequencyShift::Offset(frequency) } else { FrequencyShift::Factor(frequency) };
+    Shift { frequency, amplitude_factor: log_amplitude.exp() }
+}
+
+fn difference(point: &Used, curves: &Curves, shift: Shift) -> Option<f64> {
+    let value = shift.amplitude_factor * point.logarithm.exp();
+    let hit = curves.nearest_stable(shift.frequency.apply(point.frequency_hz), point.period, value)?;
+    Some((value / hit.value).ln())
+}
