@@ -24,6 +24,8 @@ pub(super) enum Finding {
 const EDGE: f64 = 0.02;
 /// A slope that falls inside a step to this share of its smaller end value is looked at more closely.
 const DIP: f64 = 0.5;
+/// Error of the matrix where it is nearly singular, in tolerances of a point: at the distance of the whole solution that leaves the default of `fold_tolerance` in a slope.
+const MATRIX_NOISE: f64 = 1000.0;
 /// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
 
@@ -58,14 +60,15 @@ impl Follower {
     /// Whether the parameter has turned, when it has this slope at the trial.
     ///
     /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to `d`, and errors `ε` of a point leave `ε/d` in its
-    /// tangent: a sign of `t_λ` below that is rounding, and says nothing until the path has left.
+    /// tangent: a sign of `t_λ` below that is rounding, and says nothing until the path has left. The matrix is known less well than the point, to some tolerances.
     pub(super) fn turned(&self, problem: &(impl PathProblem + ?Sized), slope: f64) -> bool {
         if slope * self.state.parameter_sign >= 0.0 {
             return false;
         }
         let error = self.trial.correction_norm.max(self.state.current.correction_norm);
         let error = error.max(self.settings.correction_floor);
-        slope.abs() * problem.distance_to_simpler(&self.trial.point) > NOISE * error
+        let of_matrix = MATRIX_NOISE * self.settings.correction_tolerance;
+        slope.abs() * problem.distance_to_simpler(&self.trial.point) > (NOISE * error).max(of_matrix)
     }
 
     /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.
