@@ -194,9 +194,9 @@ impl Follower {
                 return Ok(());
             }
             if found < wanted {
-                shallow = depth
+                shallow = depth;
             } else {
-                deep = depth
+                deep = depth;
             }
             let next = depth + by_square(found);
             depth = if shallow == f64::NEG_INFINITY || deep == f64::INFINITY {
