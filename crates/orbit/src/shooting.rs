@@ -468,6 +468,18 @@ impl PathProblem for ShootingProblem {
         (1..periods).filter_map(shift).map(distance).fold(f64::INFINITY, f64::min)
     }
 
+    /// The orbit as it begins some whole excitation periods later, if nodes lie so far apart.
+    fn images(&self) -> usize {
+        let periods = self.period_multiple as usize;
+        if self.segments.is_multiple_of(periods) { periods } else { 1 }
+    }
+
+    fn image(&self, k: usize, vector: &[f64]) -> Vec<f64> {
+        let (last, shift) = (self.residual.len(), k * self.segments / self.images() * self.node_size());
+        let nodes = vector[shift..last].iter().chain(&vector[..shift]);
+        nodes.chain(&vector[last..]).copied().collect()
+    }
+
     /// Impacts on rigid stops have a speed that goes like the root of the depth.
     fn has_root_corners(&self) -> bool {
         self.system().elements().iter().any(|element| element.law.rigid().is_some())

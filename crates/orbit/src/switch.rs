@@ -4,7 +4,8 @@
 //! leaves along its tangent `v`. The first orbit is sought in the plane `<v, z - z_0> = a`, normal to `v` at a small amplitude `a`: the
 //! present branch does not lie in that plane, so Newton's method cannot fall back to it. `v` is carried along the orbit by the flow, so that it
 //! serves any number of segments; over the second half of a doubled orbit it comes with the other sign by itself. From `z_0 + a v` the orbit
-//! found differs by `O(a^2)` in its states and in its frequency; if either differs by more than `a`, relatively, a smaller amplitude is tried.
+//! found differs by `O(a^2)` in its states and in its frequency; if either differs by more than `a`, relatively, another amplitude is tried. So it is where a contact more or
+//! less shows that a grazing lies between the crossing and the orbit found.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 use hammerbeam_path::{Direction, Follower, ParameterRange};
@@ -49,14 +50,16 @@ impl BranchWalk {
         if crossing.direction.len() != crossing.orbit.nodes[0].len() + 1 {
             return Err(none);
         }
+        let mut other = None;
         for amplitude in AMPLITUDES {
             let signed = if side == Side::Up { amplitude } else { -amplitude };
-            let walk = leave(system, response, crossing, signed, range_hz, settings)?;
-            if let Some(walk) = walk {
-                return Ok(walk);
+            match leave(system, response, crossing, signed, range_hz, settings)? {
+                Some((walk, true)) => return Ok(walk),
+                Some((walk, false)) => other = other.or(Some(walk)),
+                None => {}
             }
         }
-        Err(none)
+        other.ok_or(none)
     }
 
     /// The solution at the present point.
@@ -94,7 +97,7 @@ impl Crossing {
     }
 }
 
-/// A walk from the orbit of this amplitude beside the crossing; `None` if Newton's method does not find it nearby.
+/// A walk from the orbit of this amplitude beside the crossing, and whether that orbit has the contacts of the crossing, so that none was stepped over; `None` if Newton's method does not find it nearby.
 fn leave(
     system: &System,
     response: &Response,
@@ -102,7 +105,7 @@ fn leave(
     amplitude: f64,
     range_hz: (f64, f64),
     settings: &OrbitSettings,
-) -> Result<Option<BranchWalk>, OrbitError> {
+) -> Result<Option<(BranchWalk, bool)>, OrbitError> {
     let orbit = &crossing.orbit;
     let (multiple, segments) =
         (orbit.period_multiple * crossing.factor, orbit.nodes.len() * crossing.factor as usize);
@@ -118,6 +121,10 @@ fn leave(
         problem.watch_stability();
     }
     let base = problem.point(&nodes, orbit.frequency_hz);
+    if evaluate(&mut problem, &base).is_err() {
+        return Ok(None);
+    }
+    let signature = hammerbeam_path::PathProblem::signature(&problem);
     let direction = problem.point(&slopes, crossing.direction[crossing.direction.len() - 1]);
     let norm = |vector: &[f64]| {
         let squares = vector.iter().zip(hammerbeam_path::PathProblem::weights(&problem));
@@ -134,6 +141,7 @@ fn leave(
     else {
         return Ok(None);
     };
+    let same_contacts = follower.current().signature == signature;
     let current = &follower.current().point;
     let last = current.len() - 1;
     let squares = (0..last).map(|i| (current[i] - start[i]).powi(2));
@@ -145,7 +153,7 @@ fn leave(
     }
     let mut walk = BranchWalk::of(problem, follower, orbit.maxima.displacement, (settings, range_hz));
     walk.begins_with_present = true;
-    Ok(Some(walk))
+    Ok(Some((walk, same_contacts)))
 }
 
 /// How an orbit is cut.

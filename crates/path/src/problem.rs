@@ -123,6 +123,17 @@ pub trait PathProblem {
         0
     }
 
+    /// How many images a solution has: itself, and the same one seen otherwise, as an orbit that begins some excitation periods later. A path that comes back to an image of its start has closed.
+    fn images(&self) -> usize {
+        1
+    }
+
+    /// A point or a tangent as its image `k`, from 1 to below [`images`](Self::images); a change of the unknowns that keeps the inner product and the parameter.
+    fn image(&self, k: usize, vector: &[f64]) -> Vec<f64> {
+        let _ = k;
+        vector.to_vec()
+    }
+
     /// Whether `R` may change like a square root behind a change of signature, so that its derivatives grow without bound there (impacts on rigid stops, at grazing).
     fn has_root_corners(&self) -> bool {
         false

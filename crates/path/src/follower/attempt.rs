@@ -26,7 +26,7 @@ impl Follower {
         match self.judge(problem, step)? {
             Finding::Regular if self.changes_signature() => self.arrive_at_change(problem, step, earlier),
             Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
-            Finding::Closing => self.arrive_at_start(problem),
+            Finding::Closing(image) => self.arrive_at_start(problem, image),
             Finding::Fold => self.arrive_at_fold(problem, step),
             Finding::Reversed => self.arrive_at_branch_point(problem, step),
         }

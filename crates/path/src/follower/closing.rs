@@ -3,6 +3,8 @@
 use super::{Arrival, Follower};
 use crate::{
     error::{Doubt, StopReason},
+    point::ContinuationPoint,
+    predictor::Node,
     problem::PathProblem,
     product::{distance, product, progress},
 };
@@ -13,17 +15,38 @@ const FEWEST_POINTS: u64 = 3;
 const ALIGNED: f64 = 0.999;
 
 impl Follower {
-    /// Whether the step to the trial passes the start in the direction in which it was left.
-    pub(super) fn passes_start(&mut self, step: f64) -> bool {
-        let (start, weights) = (&self.state.start, &self.weights);
+    /// The image of the start that the step to the trial passes in the direction in which it was left, if there is one; the start itself is image 0.
+    pub(super) fn passes_start(&mut self, problem: &(impl PathProblem + ?Sized), step: f64) -> Option<usize> {
+        let start = &self.state.start;
         let base = self.state.history.base();
-        if self.state.counters.accepted < FEWEST_POINTS
-            || distance(weights, &start.point, &base.point) > 2.0 * step
-        {
+        let off = (start.parameter() - base.point[base.point.len() - 1]).abs();
+        let far = off * self.weights[base.point.len() - 1].sqrt() > 2.0 * step;
+        if self.state.counters.accepted < FEWEST_POINTS || far || !off.is_finite() {
+            return None;
+        }
+        (0..problem.images()).find(|&image| {
+            let start = self.image_of_start(problem, image);
+            self.passes(&start, step)
+        })
+    }
+
+    /// The start as that image.
+    fn image_of_start(&self, problem: &(impl PathProblem + ?Sized), image: usize) -> Node {
+        let ContinuationPoint { point, tangent, .. } = &self.state.start;
+        match image {
+            0 => Node { point: point.clone(), tangent: tangent.clone() },
+            k => Node { point: problem.image(k, point), tangent: problem.image(k, tangent) },
+        }
+    }
+
+    fn passes(&mut self, start: &Node, step: f64) -> bool {
+        let weights = &self.weights;
+        let base = self.state.history.base();
+        if distance(weights, &start.point, &base.point) > 2.0 * step {
             return false;
         }
         let sigma = progress(weights, &base.tangent, &start.point, &base.point);
-        let fold_first = start.tangent_parameter() * self.state.parameter_sign < 0.0;
+        let fold_first = start.tangent[start.tangent.len() - 1] * self.state.parameter_sign < 0.0;
         let same_way = product(weights, &base.tangent, &start.tangent) > 0.0;
         if sigma <= 0.0 || sigma > self.trial_progress() || fold_first || !same_way {
             return false;
@@ -32,17 +55,18 @@ impl Follower {
         distance(weights, &self.probe.point, &start.point) <= self.settings.allowed_displacement(step)
     }
 
-    /// Ends the branch in the plane through the start, if the path goes through the start itself.
+    /// Ends the branch in the plane through this image of the start, if the path goes through the image itself.
     pub(super) fn arrive_at_start(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
+        image: usize,
     ) -> Result<Arrival, Doubt> {
+        let start = self.image_of_start(problem, image);
         let base = self.state.history.base();
-        let sigma = progress(&self.weights, &base.tangent, &self.state.start.point, &base.point);
+        let sigma = progress(&self.weights, &base.tangent, &start.point, &base.point);
         self.probe_between(problem, sigma, sigma)?;
         self.probe.orient(self.state.orientation);
         std::mem::swap(&mut self.trial, &mut self.probe);
-        let start = &self.state.start;
         let apart = distance(&self.weights, &self.trial.node.point, &start.point);
         let cosine = product(&self.weights, &self.trial.node.tangent, &start.tangent);
         let closed = apart <= 10.0 * self.settings.correction_tolerance && cosine > ALIGNED;

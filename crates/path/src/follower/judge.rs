@@ -16,8 +16,8 @@ pub(super) enum Finding {
     Fold,
     /// The tangents agree but the determinant changed its sign: a branch point, or a jump to another sheet.
     Reversed,
-    /// The start of the branch.
-    Closing,
+    /// The start of the branch, as this image.
+    Closing(usize),
 }
 
 /// Roots of the slope of `λ` this close to an end of the step (share of the step) belong to that end.
@@ -44,8 +44,8 @@ impl Follower {
             return Ok(Finding::Reversed);
         }
         self.check_hidden_folds(step)?;
-        if self.passes_start(step) {
-            return Ok(Finding::Closing);
+        if let Some(image) = self.passes_start(problem, step) {
+            return Ok(Finding::Closing(image));
         }
         if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation, self.state.unit) {
             return Err(Doubt::Retraced { arc_length });
