@@ -5,10 +5,10 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, diagonal, element, hertz, model, settled};
+use common::{assert_agreement, diagonal, element, force, hertz, model, settled};
 use faer::Mat;
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralSettings, advance},
     law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
 };
@@ -32,10 +32,6 @@ fn light() -> Mat<f64> {
 fn coupled() -> Mat<f64> {
     let damper = [0.8, -0.9, 1.1, 0.7];
     Mat::from_fn(4, 4, |i, j| 9.0 * damper[i] * damper[j] + if i == j { 0.02 * FREQUENCIES[i] } else { 0.0 })
-}
-
-fn force(shape: &[f64], order: u32, amplitude: f64, phase: f64) -> HarmonicForce {
-    HarmonicForce { shape: shape.to_vec(), harmonic: Harmonic { order, amplitude, phase } }
 }
 
 /// Several orders and phases of support motion and forces, with gravity.

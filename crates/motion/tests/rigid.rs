@@ -5,18 +5,14 @@ mod common;
 
 use common::{
     assert_agreement, beam_with, diagonal, differences::assert_sensitivities, element, integrator, model,
-    settled,
+    rigid, settled,
 };
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, LawError, Load, LocalElement, Parameter, ParameterError, Stretch, System,
+    Harmonic, HarmonicForce, LawError, Load, LocalElement, Parameter, ParameterError, Stretch, System,
     exact::{ContactPiece, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, observe},
     law::RigidStop,
 };
-
-fn rigid(restitution: f64, gap: f64) -> Law {
-    Law::Rigid(RigidStop::with_gap(restitution, gap).unwrap())
-}
 
 /// A free unit mass, pressed on by a constant force g towards a rigid stop at q = gap.
 fn falling_ball(restitution: f64, gap: f64, g: f64) -> System {

@@ -8,10 +8,10 @@ use std::f64::consts::TAU;
 
 use faer::Mat;
 use hammerbeam_motion::{
-    Flow, Harmonic, Law, Load, LocalElement, Stretch, System,
+    Flow, Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
-    law::HertzStop,
+    law::{CubicSpring, HertzStop, RigidStop},
 };
 use hammerbeam_structure::{PointOutput, ReducedModel, SupportInput};
 
@@ -81,6 +81,21 @@ pub fn model(natural_frequencies: &[f64], damping: Mat<f64>) -> ReducedModel {
 
 pub fn diagonal(values: &[f64]) -> Mat<f64> {
     Mat::from_fn(values.len(), values.len(), |i, j| if i == j { values[i] } else { 0.0 })
+}
+
+/// A rigid stop.
+pub fn rigid(restitution: f64, gap: f64) -> Law {
+    Law::Rigid(RigidStop::with_gap(restitution, gap).unwrap())
+}
+
+/// A cubic spring.
+pub fn cubic(stiffness: f64) -> Law {
+    Law::Cubic(CubicSpring::new(stiffness).unwrap())
+}
+
+/// A harmonic force in modal coordinates.
+pub fn force(shape: &[f64], order: u32, amplitude: f64, phase: f64) -> HarmonicForce {
+    HarmonicForce { shape: shape.to_vec(), harmonic: Harmonic { order, amplitude, phase } }
 }
 
 /// A Hertz stop with a gap.
