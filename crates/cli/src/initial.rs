@@ -101,8 +101,3 @@ fn of_branch(
         None => Err(Failure::NoResult(format!("branch {number} does not cross {frequency_hz} Hz"))),
     }
 }
-
-/// Displacement, velocity and acceleration of the response point at a phase, with the forces of held rigid stops.
-pub fn response(model: &Model, frequency_hz: f64, phase: f64, state: &[f64], forces: &[f64]) -> [f64; 3] {
-    model.response_motion(frequency_hz, phase, state, forces)
-}

@@ -88,9 +88,9 @@ fn courses(workshop: &Workshop) -> Value {
         let mut simulation =
             Simulation::new(model.system.clone(), orbit.frequency_hz, &states[0], motion).unwrap();
         let (samples, _) = simulation.period(576).unwrap();
+        let response = model.response_motion(orbit.frequency_hz);
         let at = |sample: &Sample| {
-            let [displacement, velocity, _] =
-                model.response_motion(orbit.frequency_hz, sample.phase, &sample.state, &sample.forces);
+            let [displacement, velocity, _] = response.at(sample.phase, &sample.state, &sample.forces);
             [displacement, velocity]
         };
         json!({ "solution": solution, "course": samples.iter().map(at).collect::<Vec<_>>() })

@@ -87,6 +87,7 @@ mod instant;
 pub mod law;
 mod load;
 mod parameter;
+mod point_motion;
 mod stretch;
 mod system;
 
@@ -94,5 +95,6 @@ pub use amplitude::{AmplitudeCurve, AmplitudeError};
 pub use law::{Contact, Force, Law, LawError};
 pub use load::{Harmonic, HarmonicForce, Load};
 pub use parameter::{Parameter, ParameterError};
+pub use point_motion::PointMotion;
 pub use stretch::{Flow, Stretch};
 pub use system::{LocalElement, ModalLoad, System, SystemError};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_attractor::{ContactRecord, Sample, Simulation, SystemMap};
-use hammerbeam_motion::exact::ExactSettings;
+use hammerbeam_motion::{PointMotion, exact::ExactSettings};
 use hammerbeam_study::{
     Model, StudyFile,
     export::{Table, number, word},
@@ -93,6 +93,7 @@ impl Phases {
 
 /// What is written down.
 struct Record {
+    response: PointMotion,
     samples: Option<Table>,
     contacts: Option<Table>,
     section: Option<Table>,
@@ -122,6 +123,7 @@ impl Record {
             None => Ok(None),
         };
         Ok(Self {
+            response: model.response_motion(options.frequency),
             samples: table("samples.csv", sample_header(model))?,
             contacts: table("contacts.csv", contact_header())?,
             section: table("stroboscopic.csv", section_header(model))?,
@@ -144,7 +146,7 @@ impl Record {
             if index == phases.section
                 && let Some(table) = &mut self.section
             {
-                table.row(&section_row(model, options.frequency, sample))?;
+                table.row(&section_row(&self.response, sample))?;
             }
         }
         for contact in contacts {
@@ -155,7 +157,7 @@ impl Record {
     }
 
     fn sample(&mut self, model: &Model, frequency_hz: f64, sample: &Sample) -> Result<(), Failure> {
-        let row = sample_row(model, frequency_hz, sample);
+        let row = sample_row(model, (&self.response, frequency_hz), sample);
         let summary = &mut self.summary;
         summary.samples += 1;
         summary.largest_displacement = summary.largest_displacement.max(row[2].abs());
@@ -177,7 +179,7 @@ impl Record {
             summary.listed.push(contact_document(model, contact));
         }
         if let Some(table) = &mut self.contacts {
-            table.row(&contact_row(model, frequency_hz, contact))?;
+            table.row(&contact_row(model, (&self.response, frequency_hz), contact))?;
         }
         Ok(())
     }
@@ -248,9 +250,9 @@ fn sample_header(model: &Model) -> Vec<String> {
     header
 }
 
-fn sample_row(model: &Model, frequency_hz: f64, sample: &Sample) -> Vec<f64> {
+fn sample_row(model: &Model, (response, frequency_hz): (&PointMotion, f64), sample: &Sample) -> Vec<f64> {
     let mut row = vec![sample.time, sample.phase];
-    row.extend(initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces));
+    row.extend(response.at(sample.phase, &sample.state, &sample.forces));
     for (e, force) in sample.forces.iter().enumerate() {
         let [r, ..] = model.system.relative_motion(e, frequency_hz, sample.phase, &sample.state);
         row.extend([r, *force]);
@@ -267,9 +269,8 @@ fn section_header(model: &Model) -> Vec<String> {
     header
 }
 
-fn section_row(model: &Model, frequency_hz: f64, sample: &Sample) -> Vec<String> {
-    let [displacement, velocity, _] =
-        initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces);
+fn section_row(response: &PointMotion, sample: &Sample) -> Vec<String> {
+    let [displacement, velocity, _] = response.at(sample.phase, &sample.state, &sample.forces);
     let first = [sample.time, sample.phase, displacement, velocity];
     first.iter().chain(&sample.state).map(|value| number(*value)).collect()
 }
@@ -292,12 +293,14 @@ fn contact_header() -> Vec<String> {
 }
 
 /// The row is also a point of the section at this contact: displacement and velocity of the response point as it closes.
-fn contact_row(model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Vec<String> {
+fn contact_row(
+    model: &Model,
+    (response, frequency_hz): (&PointMotion, f64),
+    contact: &ContactRecord,
+) -> Vec<String> {
     let begin = contact.begin.as_ref();
     let phase = begin.map(|touch| (touch.time * frequency_hz).fract());
-    let response = begin
-        .zip(phase)
-        .map(|(touch, phase)| initial::response(model, frequency_hz, phase, &touch.state, &[]));
+    let response = begin.zip(phase).map(|(touch, phase)| response.at(phase, &touch.state, &[]));
     vec![
         word(&model.system.elements()[contact.element].name),
         number(begin.map(|touch| touch.time)),

@@ -27,6 +27,7 @@
 //! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
 //! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
+//! | `tracing.rs` | what each piece of motion adds to that |
 
 mod attempt;
 mod block;
@@ -80,6 +81,7 @@ mod stick;
 mod structure;
 mod touching;
 mod trace;
+mod tracing;
 mod weights;
 
 #[cfg(test)]
@@ -91,7 +93,7 @@ pub use decouple::MergedModes;
 pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use near_miss::NearMisses;
-pub use trace::{ContactPiece, Jump, Touchdown, Trace};
+pub use trace::{ContactPiece, Inside, Jump, Touchdown, Trace};
 
 use block::Blocks;
 use course::Course;

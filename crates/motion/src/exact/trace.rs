@@ -1,4 +1,4 @@
-//! A motion written down: its states at given phases, and each of its contacts.
+//! A motion written down: its states at given phases, and each of its contacts. What each piece of motion adds to it is in `tracing.rs`.
 //!
 //! In flight a state is that of the closed form; inside a step with forces it is carried there from the start of the step, forces included
 //! (`sampling.rs`). Of a contact force `F(t)` that acts along the relative displacement `r` are noted
@@ -9,9 +9,7 @@
 //! law that depends on the displacement alone is zero over a whole contact; what comes out is the error of the steps. The largest force is that
 //! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
-use super::{
-    ExactIntegrator, MotionError, collocation::NODES, flight::Touch, flight_maximum::Flown, run::Run,
-};
+use super::{ExactIntegrator, MotionError, run::Run};
 use crate::Stretch;
 
 /// Begin of a contact.
@@ -66,6 +64,19 @@ pub struct Trace {
     pub forces: Vec<Vec<f64>>,
     /// Contacts in the order in which they closed.
     pub contacts: Vec<ContactPiece>,
+    /// States within contacts, besides those at the phases, as far as [`ExactIntegrator::trace_closely`] asks for them; ascending in time.
+    pub inside: Vec<Inside>,
+}
+
+/// A state within a contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inside {
+    /// Time since the start of the stretch [s].
+    pub time: f64,
+    /// Modal state `[q; q']`, length 2n.
+    pub state: Vec<f64>,
+    /// Forces of the elements along their relative displacements [N].
+    pub forces: Vec<f64>,
 }
 
 /// What is being written down.
@@ -73,18 +84,42 @@ pub struct Trace {
 pub(super) struct Tracing {
     /// Times since the start of the stretch at which the state is wanted, ascending [s].
     times: Vec<f64>,
-    trace: Trace,
+    /// States that each step within a contact has at least.
+    in_a_step: usize,
+    pub(super) trace: Trace,
     /// Index of the open piece of each element.
-    open: Vec<Option<usize>>,
+    pub(super) open: Vec<Option<usize>>,
 }
 
 impl Tracing {
-    fn due(&self, before: f64) -> Option<f64> {
-        self.times.get(self.trace.samples.len()).copied().filter(|time| *time < before)
+    /// Times at which the state is wanted in a step: at given phases, and within a contact at equal steps besides, where those are too few.
+    fn due(&self, start: f64, length: f64) -> (Vec<f64>, Vec<f64>) {
+        let left = self.times[self.trace.samples.len()..].iter().copied();
+        let given: Vec<f64> = left.take_while(|time| *time < start + length).collect();
+        let more = if self.open.iter().any(Option::is_some) { self.in_a_step } else { 0 };
+        let more = if given.len() < more { more } else { 0 };
+        let inside = (0..more).map(|k| start + length * (k as f64 + 0.5) / more as f64);
+        (given, inside.collect())
+    }
+
+    /// Notes states in a step.
+    ///
+    /// * `at`: state and forces at a time.
+    pub(super) fn note(&mut self, (start, length): (f64, f64), at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) {
+        let (given, inside) = self.due(start, length);
+        for time in given {
+            let (state, forces) = at(time);
+            self.trace.samples.push(state);
+            self.trace.forces.push(forces);
+        }
+        for time in inside {
+            let (state, forces) = at(time);
+            self.trace.inside.push(Inside { time, state, forces });
+        }
     }
 
     /// Ends the pieces of elements without force. Those that have parted before their penetration has ended may go on.
-    fn end_open(&mut self, run: &Run) {
+    pub(super) fn end_open(&mut self, run: &Run) {
         for (element, open) in self.open.iter_mut().enumerate() {
             let Some(piece) = *open else { continue };
             let contact = &mut self.trace.contacts[piece];
@@ -99,7 +134,7 @@ impl Tracing {
         }
     }
 
-    fn begin(&mut self, element: usize, contact: usize, begin: Option<Touchdown>) {
+    pub(super) fn begin(&mut self, element: usize, contact: usize, begin: Option<Touchdown>) {
         self.open[element] = Some(self.trace.contacts.len());
         self.trace.contacts.push(ContactPiece {
             element,
@@ -120,8 +155,25 @@ impl ExactIntegrator {
     /// # Errors
     /// See [`MotionError`].
     pub fn trace(&mut self, stretch: &Stretch, state: &[f64], phases: &[f64]) -> Result<Trace, MotionError> {
+        self.trace_closely(stretch, state, phases, 0)
+    }
+
+    /// As [`Self::trace`], with states within contacts that are too short for the phases: the trace has [`Trace::inside`].
+    ///
+    /// * `in_a_step`: so many at equal distances in each step of the integrator in which something is in contact and fewer of the phases lie. A contact takes some four steps.
+    ///
+    /// # Errors
+    /// See [`MotionError`].
+    pub fn trace_closely(
+        &mut self,
+        stretch: &Stretch,
+        state: &[f64],
+        phases: &[f64],
+        in_a_step: usize,
+    ) -> Result<Trace, MotionError> {
         let times = phases.iter().map(|phase| (phase - stretch.start) / stretch.frequency_hz).collect();
-        let mut tracing = Tracing { times, trace: Trace::default(), open: vec![None; self.laws.len()] };
+        let open = vec![None; self.laws.len()];
+        let mut tracing = Tracing { times, in_a_step, trace: Trace::default(), open };
         let mut run = self.begin(stretch, state, false)?;
         for element in 0..self.laws.len() {
             if let Some(contact) = run.closed[element] {
@@ -144,151 +196,5 @@ impl ExactIntegrator {
         self.let_go();
         self.run = run;
         result.map(|()| Trace { state: end, ..tracing.trace })
-    }
-
-    /// Writes down a flight of that duration from the state at its start.
-    pub(super) fn trace_flight(&mut self, run: &Run, duration: f64) {
-        let Some(mut tracing) = self.tracing.take() else { return };
-        tracing.end_open(run);
-        while let Some(time) = tracing.due(run.time + duration) {
-            let mut state = self.flight_start.clone();
-            self.blocks.carry(&mut state, (time - run.time).max(0.0));
-            let pressing = self.pressing_forces(run, &state, time);
-            tracing.trace.forces.push(pressing.into_iter().map(|force| 0.0 - force).collect());
-            tracing.trace.samples.push(self.modal_of(state, time));
-        }
-        if !run.stuck.is_empty() {
-            self.trace_held(run, duration, &mut tracing);
-        }
-        self.tracing = Some(tracing);
-    }
-
-    /// Adds what held stops press with during a flight from the state at its start.
-    fn trace_held(&self, run: &Run, duration: f64, tracing: &mut Tracing) {
-        let impulses = self.held_impulses(&self.flight_start, run.time, duration);
-        let flown =
-            Flown { piece: 0, start: run.time, duration, state: &self.flight_start, held: &run.stuck };
-        let first = self.outputs.len() - run.stuck.len();
-        for (j, (&element, impulse)) in run.stuck.iter().zip(impulses).enumerate() {
-            let Some(piece) = tracing.open[element] else { continue };
-            let piece = &mut tracing.trace.contacts[piece];
-            piece.impulse += impulse;
-            piece.peak_force = self.flight_maximum(&flown, (first + j, 0), piece.peak_force);
-        }
-    }
-
-    /// Writes down an impact on a rigid stop, after which the contact sticks or opens.
-    pub(super) fn trace_impact(
-        &mut self,
-        run: &Run,
-        touch: Touch,
-        (impulse, energy): (f64, f64),
-        sticks: bool,
-    ) {
-        if self.tracing.is_none() {
-            return;
-        }
-        self.trace_touch(run, touch);
-        let mut after = run.state.clone();
-        after.iter_mut().zip(&self.inputs[touch.element]).for_each(|(x, b)| *x -= impulse * b);
-        let jump = Jump { impulse, state: self.modal_of(after, run.time) };
-        let Some(tracing) = &mut self.tracing else { return };
-        let open = if sticks { tracing.open[touch.element] } else { tracing.open[touch.element].take() };
-        let Some(piece) = open else { return };
-        let piece = &mut tracing.trace.contacts[piece];
-        piece.jump = (impulse > 0.0).then_some(jump);
-        piece.impulse += impulse;
-        piece.energy_lost += energy;
-        piece.end = (!sticks).then_some(run.time);
-    }
-
-    /// Writes down a contact that closes now.
-    pub(super) fn trace_touch(&mut self, run: &Run, touch: Touch) {
-        let Some(mut tracing) = self.tracing.take() else { return };
-        tracing.end_open(run);
-        let velocity = self.output_jet(&run.state, touch.element, run.time).slope;
-        let state = self.modal_state(run, run.time);
-        tracing.begin(touch.element, touch.contact, Some(Touchdown { time: run.time, velocity, state }));
-        self.tracing = Some(tracing);
-    }
-
-    /// Writes down the solved step that is being accepted; `run` stands at its start.
-    pub(super) fn trace_step(&mut self, run: &Run) {
-        let Some(mut tracing) = self.tracing.take() else { return };
-        tracing.end_open(run);
-        while let Some(time) = tracing.due(run.time + self.step.length) {
-            let mut state = run.state.clone();
-            self.carry_in_step(&mut state, 0.0, (time - run.time).max(0.0));
-            tracing.trace.forces.push(self.forces_of(run, &state, time));
-            tracing.trace.samples.push(self.modal_of(state, time));
-        }
-        for (a, &element) in self.step.active.iter().enumerate() {
-            let Some(piece) = tracing.open[element] else { continue };
-            let piece = &mut tracing.trace.contacts[piece];
-            let (impulse, energy_lost) = self.work_of(run, a);
-            piece.impulse += impulse.abs();
-            piece.energy_lost += energy_lost;
-            let force = &self.step.force[a * NODES..(a + 1) * NODES];
-            piece.peak_force = piece.peak_force.max(self.step.grading().rule().extremum(force).0);
-        }
-        if !run.stuck.is_empty() {
-            let impulses = self.pressing_impulses(&run.state);
-            for (j, (&element, impulse)) in run.stuck.iter().zip(impulses).enumerate() {
-                let Some(piece) = tracing.open[element] else { continue };
-                let piece = &mut tracing.trace.contacts[piece];
-                piece.impulse += impulse;
-                piece.peak_force = self.pressing_maximum(&run.state, j, piece.peak_force);
-            }
-        }
-        self.tracing = Some(tracing);
-    }
-
-    /// Impulse of the force of the a-th active element in the solved step, and the energy that it took.
-    fn work_of(&self, run: &Run, a: usize) -> (f64, f64) {
-        let (step, rule) = (&self.step, self.step.grading().rule());
-        let force = &step.force[a * NODES..(a + 1) * NODES];
-        let velocity = self.velocity_nodes(run, step.active[a]);
-        let (mut impulse, mut work) = (0.0, 0.0);
-        for k in 0..NODES {
-            let part = rule.at_end[0][k] * step.length * force[k];
-            impulse += part;
-            work += part * velocity[k];
-        }
-        (impulse, -work)
-    }
-
-    /// Velocity of an output at the nodes of the solved step.
-    fn velocity_nodes(&self, run: &Run, output: usize) -> [f64; NODES] {
-        let step = &self.step;
-        let length = step.length;
-        if length > self.series.reach() {
-            return std::array::from_fn(|k| self.jet_in_step(&run.state, output, step.node_time(k)).slope);
-        }
-        let loads = (step.active.as_slice(), step.force.as_slice());
-        let mut values = self.series.node_values((output, 1), (step.grading(), length), &run.state, loads);
-        for (k, value) in values.iter_mut().enumerate() {
-            *value += self.drive.jet(output, &self.outputs[output], step.start + step.node_time(k)).slope;
-        }
-        values
-    }
-
-    /// Forces of the elements that act, from the homogeneous block state at a time.
-    fn forces_of(&self, run: &Run, state: &[f64], time: f64) -> Vec<f64> {
-        let force = |element: usize| {
-            let jet = self.output_jet(state, element, time);
-            self.laws[element].pressing_force(jet.value, jet.slope).value
-        };
-        let pressing = self.pressing_forces(run, state, time).into_iter().enumerate();
-        pressing
-            .map(|(element, held)| if self.acts(run, element) { force(element) } else { 0.0 - held })
-            .collect()
-    }
-
-    /// Modal state of a homogeneous block state at a time.
-    fn modal_of(&self, mut block: Vec<f64>, time: f64) -> Vec<f64> {
-        self.drive.add_state(time, 1.0, &mut block);
-        let mut modal = vec![0.0; block.len()];
-        self.blocks.to_modal(&block, &mut modal);
-        modal
     }
 }

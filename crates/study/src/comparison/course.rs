@@ -74,9 +74,10 @@ pub fn follow(
     samples: usize,
 ) -> Result<Course, CourseError> {
     let mut course = Course { duration_s: f64::from(periods) / frequency_hz, ..Course::default() };
+    let response = model.response_motion(frequency_hz);
     for _ in 0..periods {
         for sample in simulation.period(samples)?.0 {
-            let [y, v, a] = model.response_motion(frequency_hz, sample.phase, &sample.state, &sample.forces);
+            let [y, v, a] = response.at(sample.phase, &sample.state, &sample.forces);
             course.displacement.push(y);
             course.velocity.push(v);
             course.acceleration.push(a);

@@ -6,7 +6,7 @@ mod load;
 mod parameter;
 mod structure;
 
-use hammerbeam_motion::{System, SystemError};
+use hammerbeam_motion::{PointMotion, System, SystemError};
 use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureError};
 
@@ -71,23 +71,10 @@ impl Model {
         self.system.model().points.iter().map(|point| point.name.as_str()).collect()
     }
 
-    /// Displacement, velocity and acceleration of the response point at a phase of the excitation.
-    ///
-    /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
-    /// * `forces`: of the local elements along their relative displacements [N]: a state does not tell what a rigid stop presses with while it holds the structure; empty where none does.
+    /// How the response point moves at a frequency, read off states and the forces of all local elements then.
     #[must_use]
-    pub fn response_motion(&self, frequency_hz: f64, phase: f64, state: &[f64], forces: &[f64]) -> [f64; 3] {
-        let n = self.system.dof();
-        let mut rate = self.system.rate(frequency_hz, phase, state);
-        for (element, force) in self.system.elements().iter().zip(forces) {
-            if element.law.rigid().is_some() {
-                (0..n).for_each(|i| rate[n + i] += element.shape[i] * force);
-            }
-        }
-        let support = self.system.support_motion(frequency_hz, phase);
-        let parts = [&state[..n], &state[n..], &rate[n..]];
-        let dot = |values: &[f64]| self.response.shape.iter().zip(values).map(|(a, b)| a * b).sum::<f64>();
-        std::array::from_fn(|k| dot(parts[k]) + self.response.support_ratio * support[k])
+    pub fn response_motion(&self, frequency_hz: f64) -> PointMotion {
+        self.system.point_motion(frequency_hz, &self.response.shape, self.response.support_ratio)
     }
 
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they are followed.

@@ -2,11 +2,14 @@
 
 use hammerbeam_attractor::{ContactRecord, Simulation};
 use hammerbeam_figure::{OrbitImpulse, OrbitSample};
-use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
+use hammerbeam_motion::{
+    PointMotion,
+    exact::{ExactIntegrator, ExactSettings, MotionError},
+};
 use hammerbeam_orbit::{PeriodicSolution, states_at_phase};
 use hammerbeam_study::Model;
 
-use crate::{failure::Failure, initial};
+use crate::failure::Failure;
 
 /// Samples in an excitation period.
 pub(super) const SAMPLES: usize = 2048;
@@ -27,13 +30,14 @@ pub(super) fn course(
     let first = states.first().map_or(&[][..], Vec::as_slice);
     let mut simulation = Simulation::new(model.system.clone(), frequency_hz, first, settings)?;
     let is_moved = model.system.model().support.is_some();
+    let response = model.response_motion(frequency_hz);
     let (mut samples, mut contacts) = (Vec::new(), Vec::new());
     for _ in 0..orbit.period_multiple {
         let (sampled, ended) = simulation.period(SAMPLES)?;
         contacts.extend(ended);
         for sample in sampled {
             let [displacement_m, velocity_m_s, acceleration_m_s2] =
-                initial::response(model, frequency_hz, sample.phase, &sample.state, &sample.forces);
+                response.at(sample.phase, &sample.state, &sample.forces);
             let support = model.system.support_motion(frequency_hz, sample.phase)[0];
             samples.push(OrbitSample {
                 displacement_m,
@@ -46,7 +50,7 @@ pub(super) fn course(
     }
     contacts.extend(simulation.unfinished());
     let mut impulses: Vec<OrbitImpulse> =
-        contacts.iter().filter_map(|contact| impulse(model, frequency_hz, contact)).collect();
+        contacts.iter().filter_map(|contact| impulse(&response, frequency_hz, contact)).collect();
     impulses.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
     let cycles: Vec<f64> = impulses.iter().map(|impulse| impulse.cycles).collect();
     let accelerations = accelerations_beside(model, frequency_hz, (first, orbit.period_multiple), &cycles)?;
@@ -72,6 +76,7 @@ fn accelerations_beside(
     }
     let mut simulation =
         Simulation::new(model.system.clone(), frequency_hz, first, ExactSettings::default())?;
+    let response = model.response_motion(frequency_hz);
     for period in 0..periods {
         let sides = |(k, at): (usize, &f64)| [(k, 0, at - BESIDE), (k, 1, at + BESIDE)];
         let in_period = |(k, side, at): (usize, usize, f64)| {
@@ -84,8 +89,7 @@ fn accelerations_beside(
         let phases: Vec<f64> = wanted.iter().map(|(_, _, phase)| *phase).collect();
         let (samples, _) = simulation.period_at(&phases)?;
         for (sample, (k, side, phase)) in samples.into_iter().zip(wanted) {
-            let [_, _, acceleration] =
-                initial::response(model, frequency_hz, phase, &sample.state, &sample.forces);
+            let [_, _, acceleration] = response.at(phase, &sample.state, &sample.forces);
             found[k][side] = acceleration;
         }
     }
@@ -93,10 +97,10 @@ fn accelerations_beside(
 }
 
 /// The impact with which a contact begins, if it does; without its accelerations.
-fn impulse(model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Option<OrbitImpulse> {
+fn impulse(response: &PointMotion, frequency_hz: f64, contact: &ContactRecord) -> Option<OrbitImpulse> {
     let (touch, jump) = (contact.begin.as_ref()?, contact.jump.as_ref()?);
     let cycles = touch.time * frequency_hz;
-    let at = |state: &[f64]| initial::response(model, frequency_hz, cycles.fract(), state, &[]);
+    let at = |state: &[f64]| response.at(cycles.fract(), state, &[]);
     let [displacement_m, velocity, _] = at(&touch.state);
     let [_, velocity_after, _] = at(&jump.state);
     Some(OrbitImpulse {

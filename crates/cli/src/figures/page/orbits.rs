@@ -7,7 +7,10 @@ mod spectrum;
 use std::{collections::VecDeque, f64::consts::TAU, sync::Arc};
 
 use hammerbeam_figure::{OrbitRecord, OrbitRecords, PageImpulse, PageOrbit};
-use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
+use hammerbeam_motion::{
+    PointMotion,
+    exact::{ExactIntegrator, ExactSettings, MotionError},
+};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::{Model, Store, StoreError, store::BranchRecord};
 
@@ -15,7 +18,7 @@ use samples::{Course, Impulse, Instant};
 use spectrum::spectrum;
 
 use super::{Album, Drawn, Placed, choice};
-use crate::{initial, interrupt::Interrupt, ticker::Ticker};
+use crate::{interrupt::Interrupt, ticker::Ticker};
 
 /// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do not depend on the number of threads.
 const PART: usize = 64;
@@ -134,20 +137,18 @@ impl Drawing {
         let count = samples * solution.period_multiple as usize;
         let Course { instants, impulses } = samples::of_orbit(integrator, solution, samples)?;
         let (model, frequency_hz) = (&self.model, solution.frequency_hz);
-        let response = |cycles: f64, state: &[f64], forces: &[f64]| {
-            initial::response(model, frequency_hz, cycles.rem_euclid(1.0), state, forces)
-        };
+        let response = model.response_motion(frequency_hz);
         let mut orbit = PageOrbit {
             duration_s: f64::from(solution.period_multiple) / frequency_hz,
             acceleration_m_s2: vec![NOTHING; count],
             forces_n: vec![vec![NOTHING; count]; model.system.elements().len()],
             support_m: self.support(frequency_hz, samples / stride),
-            impulses: impulses.iter().map(|impulse| page_impulse(impulse, response)).collect(),
+            impulses: impulses.iter().map(|impulse| page_impulse(impulse, &response)).collect(),
             ..PageOrbit::default()
         };
         let (mut regular, mut states) = (Vec::new(), Vec::new());
         for Instant { cycles, place, state, forces } in &instants {
-            let [displacement, velocity, acceleration] = response(*cycles, state, forces);
+            let [displacement, velocity, acceleration] = response.at(*cycles, state, forces);
             let step = ((cycles * samples as f64) as usize).min(count - 1);
             widen(&mut orbit.acceleration_m_s2[step], acceleration);
             for (series, force) in orbit.forces_n.iter_mut().zip(forces) {
@@ -179,10 +180,10 @@ impl Drawing {
     }
 }
 
-fn page_impulse(impulse: &Impulse, response: impl Fn(f64, &[f64], &[f64]) -> [f64; 3]) -> PageImpulse {
+fn page_impulse(impulse: &Impulse, response: &PointMotion) -> PageImpulse {
     let Impulse { element, cycles, impulse_n_s, before, after } = impulse;
-    let [displacement_m, velocity, _] = response(*cycles, before, &[]);
-    let [_, velocity_after, _] = response(*cycles, after, &[]);
+    let [displacement_m, velocity, _] = response.at(*cycles, before, &[]);
+    let [_, velocity_after, _] = response.at(*cycles, after, &[]);
     PageImpulse {
         element: *element,
         cycles: *cycles,

@@ -2,12 +2,12 @@
 
 use hammerbeam_motion::{
     Stretch,
-    exact::{ContactPiece, ExactIntegrator, MotionError},
+    exact::{ContactPiece, ExactIntegrator, Inside, MotionError},
 };
 use hammerbeam_orbit::PeriodicSolution;
 
-/// Samples in a contact, besides the regular ones.
-const IN_A_CONTACT: usize = 24;
+/// Samples in each of the steps, some four, in which a contact is integrated, unless as many regular ones lie in it.
+const IN_A_STEP: usize = 6;
 
 /// A state of an orbit.
 pub struct Instant {
@@ -45,8 +45,7 @@ pub struct Course {
 
 /// States at every half step and within contacts, and impacts.
 ///
-/// Each node of the orbit gives those up to the next one, so that also an orbit that is left fast is followed. A first trace finds the contacts, a
-/// second one the states.
+/// Each node of the orbit gives those up to the next one, so that also an orbit that is left fast is followed.
 ///
 /// * `steps`: in an excitation period.
 pub fn of_orbit(
@@ -61,7 +60,7 @@ pub fn of_orbit(
     let phase = |k: usize| k as f64 / a_period as f64;
     let segments = solution.nodes.len();
     let at = |segment: usize| begin + periods * segment as f64 / segments as f64;
-    let mut instants = Vec::with_capacity(count + 8 * IN_A_CONTACT);
+    let mut instants = Vec::with_capacity(count + 32 * IN_A_STEP);
     let mut impulses = Vec::new();
     let mut next = first;
     for (segment, node) in solution.nodes.iter().enumerate() {
@@ -71,42 +70,24 @@ pub fn of_orbit(
         let regular: Vec<usize> =
             (next..first + count).take_while(|&k| is_last || phase(k) < stretch.end).collect();
         next += regular.len();
-        let mut wanted: Vec<(f64, Option<usize>)> =
-            regular.iter().map(|&k| (phase(k).clamp(stretch.start, stretch.end), Some(k % count))).collect();
-        let contacts = integrator.trace(&stretch, node, &[])?.contacts;
-        wanted.extend(in_contacts(&stretch, &contacts).into_iter().map(|phase| (phase, None)));
-        impulses.extend(contacts.into_iter().filter_map(|contact| impulse(&stretch, contact, periods)));
-        wanted.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let phases: Vec<f64> = wanted.iter().map(|(phase, _)| *phase).collect();
-        let trace = integrator.trace(&stretch, node, &phases)?;
-        for (((phase, place), state), forces) in wanted.into_iter().zip(trace.samples).zip(trace.forces) {
+        let within = |k: &usize| phase(*k).clamp(stretch.start, stretch.end);
+        let phases: Vec<f64> = regular.iter().map(within).collect();
+        let trace = integrator.trace_closely(&stretch, node, &phases, IN_A_STEP)?;
+        for ((k, state), forces) in regular.into_iter().zip(trace.samples).zip(trace.forces) {
             // What stands at a regular place keeps its number, whatever rounding does to its phase.
-            let cycles =
-                place.map_or_else(|| phase.rem_euclid(periods), |place| place as f64 / a_period as f64);
-            instants.push(Instant { cycles, place, state, forces });
+            let place = k % count;
+            let cycles = place as f64 / a_period as f64;
+            instants.push(Instant { cycles, place: Some(place), state, forces });
         }
+        for Inside { time, state, forces } in trace.inside {
+            let cycles = (stretch.start + stretch.frequency_hz * time).rem_euclid(periods);
+            instants.push(Instant { cycles, place: None, state, forces });
+        }
+        impulses.extend(trace.contacts.into_iter().filter_map(|contact| impulse(&stretch, contact, periods)));
     }
     instants.sort_by(|a, b| a.cycles.total_cmp(&b.cycles));
     impulses.sort_by(|a: &Impulse, b| a.cycles.total_cmp(&b.cycles));
     Ok(Course { instants, impulses })
-}
-
-/// Phases within the contacts of a stretch.
-fn in_contacts(stretch: &Stretch, contacts: &[ContactPiece]) -> Vec<f64> {
-    let phase = |time: f64| stretch.start + stretch.frequency_hz * time;
-    let mut phases = Vec::new();
-    for contact in contacts {
-        let from = contact.begin.as_ref().map_or(stretch.start, |touch| phase(touch.time));
-        let to = contact.end.map_or(stretch.end, phase).min(stretch.end);
-        if to <= from {
-            continue; // an impact on a rigid stop that does not stick
-        }
-        let inside = |k: usize| from + (to - from) * (k as f64 + 0.5) / IN_A_CONTACT as f64;
-        phases.extend(
-            (0..IN_A_CONTACT).map(inside).filter(|phase| (stretch.start..stretch.end).contains(phase)),
-        );
-    }
-    phases
 }
 
 /// The impact with which a contact begins, if it does.
