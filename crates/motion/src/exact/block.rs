@@ -85,11 +85,11 @@ impl Blocks {
     }
 
     /// Modal state of a block state.
-    pub fn to_modal(&self, block: &[f64], modal: &mut [f64]) {
-        match &self.transform {
-            None => modal.copy_from_slice(block),
-            Some(transform) => multiply(&transform.from_blocks, block, modal),
-        }
+    pub fn to_modal(&self, block: Vec<f64>) -> Vec<f64> {
+        let Some(transform) = &self.transform else { return block };
+        let mut modal = vec![0.0; block.len()];
+        multiply(&transform.from_blocks, &block, &mut modal);
+        modal
     }
 
     /// Inputs `[beta; phi]` of a modal load `b`.

@@ -34,9 +34,7 @@ impl ExactIntegrator {
         self.drive_over(stretch);
         let mut block = vec![0.0; 2 * n];
         self.drive.add_state(0.0, 1.0, &mut block);
-        let mut modal = vec![0.0; 2 * n];
-        self.blocks.to_modal(&block, &mut modal);
-        modal
+        self.blocks.to_modal(block)
     }
 
     /// Readies the particular solution over a stretch.
@@ -233,11 +231,13 @@ impl ExactIntegrator {
     }
 
     pub(super) fn modal_state(&self, run: &Run, time: f64) -> Vec<f64> {
-        let mut block = run.state.clone();
+        self.modal_of(run.state.clone(), time)
+    }
+
+    /// Modal state of a homogeneous block state at a time.
+    pub(super) fn modal_of(&self, mut block: Vec<f64>, time: f64) -> Vec<f64> {
         self.drive.add_state(time, 1.0, &mut block);
-        let mut modal = vec![0.0; block.len()];
-        self.blocks.to_modal(&block, &mut modal);
-        modal
+        self.blocks.to_modal(block)
     }
 
     fn flow_of(&mut self, run: &mut Run, stretch: &Stretch) -> Flow {

@@ -110,9 +110,7 @@ impl ExactIntegrator {
         let of_column = |j: usize| {
             let mut block = sensitivity.column(j);
             self.add_particular_column((j, sensitivity.frequency_column()), run.time, 1.0, &mut block);
-            let mut modal = vec![0.0; block.len()];
-            self.blocks.to_modal(&block, &mut modal);
-            modal
+            self.blocks.to_modal(block)
         };
         (0..sensitivity.used_columns()).map(of_column).collect()
     }

@@ -147,12 +147,4 @@ impl ExactIntegrator {
             .map(|(element, held)| if self.acts(run, element) { force(element) } else { 0.0 - held })
             .collect()
     }
-
-    /// Modal state of a homogeneous block state at a time.
-    fn modal_of(&self, mut block: Vec<f64>, time: f64) -> Vec<f64> {
-        self.drive.add_state(time, 1.0, &mut block);
-        let mut modal = vec![0.0; block.len()];
-        self.blocks.to_modal(&block, &mut modal);
-        modal
-    }
 }
