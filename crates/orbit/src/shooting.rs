@@ -20,20 +20,20 @@
 //! theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination by orthogonal transformations over the segments
 //! would keep the tangent, at several times the cost, and is not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end there.
 //!
+//! The equations themselves, as the path crate asks for them, are in `shooting/equations.rs`.
+//!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
+mod equations;
+
 use hammerbeam_motion::{
     Flow, Stretch, System,
-    exact::{ExactIntegrator, MotionError, NearMisses, complete_touches},
+    exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::{
-    DenseLu, Determinant, EvaluationError, Events, Outside, PathProblem, SingularJacobian, TestValue,
-};
+use hammerbeam_path::DenseLu;
 
-use crate::{
-    ContinuationParameter, NoEigenvalues, eigenvalues::eigenvalues, stability, state_scale::StateScale,
-};
+use crate::{ContinuationParameter, NoEigenvalues, eigenvalues::eigenvalues, state_scale::StateScale};
 
 /// The shooting equations of one system.
 #[derive(Debug)]
@@ -323,174 +323,6 @@ fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
         for (value, from) in row.iter().zip(source.chunks_exact(size)) {
             out.iter_mut().zip(from).for_each(|(o, s)| *o += value * s);
         }
-    }
-}
-
-impl PathProblem for ShootingProblem {
-    fn unknowns(&self) -> usize {
-        self.residual.len()
-    }
-
-    fn weights(&self) -> &[f64] {
-        &self.weights
-    }
-
-    /// The first node stays, however the orbit is cut.
-    fn memory_weights(&self) -> Vec<f64> {
-        let weight = self.hertz_per_norm * self.hertz_per_norm;
-        std::iter::repeat_n(weight, self.node_size()).chain([1.0]).collect()
-    }
-
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.touches.fill(0);
-        self.failure = None;
-        self.multipliers = None;
-        let frequency = self.frequency(point);
-        if frequency.is_nan() || frequency <= 0.0 {
-            return Err(EvaluationError::OutsideDomain);
-        }
-        if let Err(error) = self.move_to(point) {
-            self.failure = Some(error);
-            return Err(EvaluationError::OutsideDomain);
-        }
-        // What is evaluated last is often observed next.
-        self.integrator.begin_course();
-        let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
-        self.integrator.end_course();
-        if let Err(error) = evaluated {
-            // What was noted is not the whole motion.
-            self.integrator.begin_course();
-            self.integrator.end_course();
-            self.failure = Some(error);
-            return Err(EvaluationError::NotFinite);
-        }
-        complete_touches(&mut self.touches);
-        self.accumulate();
-        Ok(())
-    }
-
-    fn residual(&self) -> &[f64] {
-        &self.residual
-    }
-
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        let size = self.node_size();
-        let width = size + 1;
-        self.border.clear();
-        self.border.extend_from_slice(row);
-        self.condensed.fill(0.0);
-        let monodromy = &self.products[self.segments];
-        for i in 0..size {
-            let target = &mut self.condensed[i * width..(i + 1) * width];
-            target[..size].copy_from_slice(&monodromy[i * size..(i + 1) * size]);
-            target[i] -= 1.0;
-            target[size] = self.parameter_sums[self.segments][i];
-        }
-        let target = &mut self.condensed[size * width..];
-        target[size] = row[self.segments * size];
-        for k in 0..self.segments {
-            for i in 0..size {
-                let border = row[k * size + i];
-                let product = &self.products[k][i * size..(i + 1) * size];
-                target.iter_mut().zip(product).for_each(|(t, a)| *t += border * a);
-                target[size] += border * self.parameter_sums[k][i];
-            }
-        }
-        self.lu.factorise(width, &self.condensed)
-    }
-
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        let (size, m) = (self.node_size(), self.segments);
-        // `s_k`, for k = 1..=m in place of the right-hand sides.
-        for k in 1..m {
-            let (before, after) = right_hand_side.split_at_mut(k * size);
-            let (carried, target) = (&before[(k - 1) * size..], &mut after[..size]);
-            let matrix = &self.segment_matrices[k];
-            for (row, value) in matrix.chunks_exact(size).zip(target) {
-                *value += row.iter().zip(carried).map(|(g, s)| g * s).sum::<f64>();
-            }
-        }
-        let mut condensed = vec![0.0; size + 1];
-        condensed[..size].copy_from_slice(&right_hand_side[(m - 1) * size..m * size]);
-        let carried = (size..m * size).map(|i| self.border[i] * right_hand_side[i - size]).sum::<f64>();
-        condensed[size] = right_hand_side[m * size] + carried;
-        self.lu.solve(&mut condensed);
-        let change = condensed[size];
-        // `d_k = A_k d_0 + a_k df - s_k`, from the last node back since `s_k` stands where `d_{k-1}` goes.
-        for k in (1..m).rev() {
-            for i in 0..size {
-                let row = &self.products[k][i * size..(i + 1) * size];
-                let carried: f64 = row.iter().zip(&condensed).map(|(a, d)| a * d).sum();
-                right_hand_side[k * size + i] =
-                    carried + self.parameter_sums[k][i] * change - right_hand_side[(k - 1) * size + i];
-            }
-        }
-        right_hand_side[..size].copy_from_slice(&condensed[..size]);
-        right_hand_side[m * size] = change;
-    }
-
-    fn tests(&mut self, values: &mut Vec<TestValue>) {
-        values.clear();
-        if !self.watches_stability {
-            return;
-        }
-        if let Ok(multipliers) = self.multipliers() {
-            values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
-        }
-        // Never negative: between two grazings with the same contacts on both sides they come near zero.
-        let NearMisses { clearance, touch_speed_squared, penetration } = self.integrator.near_misses();
-        values
-            .extend([clearance, touch_speed_squared, penetration].map(|value| TestValue { value, count: 0 }));
-    }
-
-    fn outside(&mut self, events: Events) -> Option<Outside> {
-        if !self.watches_stability {
-            return None;
-        }
-        self.multipliers().ok().map(|multipliers| stability::outside(multipliers, events))
-    }
-
-    /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart.
-    ///
-    /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} - z_j`, the least one over the proper divisors k of N
-    /// for which s is a whole number.
-    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
-        let (periods, m) = (self.period_multiple as usize, self.segments);
-        let states = &point[..self.residual.len()];
-        let shift = |k: usize| {
-            (periods.is_multiple_of(k) && (m * k).is_multiple_of(periods)).then_some(m * k / periods)
-        };
-        let distance = |nodes: usize| {
-            let later = states.iter().cycle().skip(nodes * self.node_size());
-            let squares: f64 = states.iter().zip(later).map(|(a, b)| (a - b) * (a - b)).sum();
-            self.hertz_per_norm * (squares / m as f64).sqrt()
-        };
-        (1..periods).filter_map(shift).map(distance).fold(f64::INFINITY, f64::min)
-    }
-
-    /// The orbit as it begins some whole excitation periods later, if nodes lie so far apart.
-    fn images(&self) -> usize {
-        let periods = self.period_multiple as usize;
-        if self.segments.is_multiple_of(periods) { periods } else { 1 }
-    }
-
-    fn image(&self, k: usize, vector: &[f64]) -> Vec<f64> {
-        let (last, shift) = (self.residual.len(), k * self.segments / self.images() * self.node_size());
-        let nodes = vector[shift..last].iter().chain(&vector[..shift]);
-        nodes.chain(&vector[last..]).copied().collect()
-    }
-
-    /// Impacts on rigid stops have a speed that goes like the root of the depth.
-    fn has_root_corners(&self) -> bool {
-        self.system().elements().iter().any(|element| element.law.rigid().is_some())
-    }
-
-    fn signature(&self) -> u64 {
-        // FNV-1a over the numbers of touches; without any, elements may be closed or open throughout.
-        let still = self.touches.iter().all(|&t| t == 0);
-        let closed = if still { self.integrator.closed_throughout() } else { 0 };
-        let words = self.touches.iter().map(|&t| u64::from(t)).chain([closed]);
-        words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
     }
 }
 

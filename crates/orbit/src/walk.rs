@@ -1,47 +1,32 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
+mod row;
+mod settings;
+mod shorter_period;
+
 use hammerbeam_motion::{
     System,
     exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::{
-    ContinuationPoint, Direction, Follower, Node, ParameterRange, PathProblem, Settings, StepOutcome,
-};
+use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange, StepOutcome};
 
 use crate::{
-    BranchRow, Crossing, Events, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side,
-    StopReason,
+    BranchRow, OrbitError, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason,
     continuation_parameter::ContinuationParameter,
-    cut::begins_with_care,
     density::{LastRows, Place},
-    located,
     recut::Origin,
     shooting::ShootingProblem,
     size::{Cut, orbit_scale},
-    solve::{evaluate, integrator, nodes_from, solution},
+    solve::{evaluate, integrator, nodes_from},
     state_scale::StateScale,
 };
-
-/// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
-/// about the square of this in frequency.
-const MERGED: f64 = 1e-3;
-
-/// Distance from an orbit of shorter period, relative to the orbit, within which a branch that goes there in steps far shorter than that has arrived, if its frequency has nothing left to change: then it is
-/// located as well as a flip has to be. What holds the steps up is the error of the motion, which changes with the choice of contact steps: it is more than what the frequency still has to change.
-const CRAWLS_NEAR: f64 = 1e-4;
-/// Nothing left: this part of the frequency, by the slope there times the distance.
-const STILL: f64 = 2e-9;
-/// Far shorter: this part of the distance.
-const CRAWLS: f64 = 0.02;
+use settings::segment_count;
+pub(crate) use settings::{hertz_per_norm, path_settings};
 
 /// An orbit that has become so many times as large or small as the units in which it is measured gets new units.
 const OUTGROWN: f64 = 4.0;
 /// At every so many accepted points the motion is gone through for its size.
 const LOOK: u64 = 8;
-
-/// Shortest step with rigid stops, over that without. An impact of the speed v depends on the orbit like `1/v`, and v on the distance from grazing like its root: a point of the path, good to its
-/// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
-const SHORTEST_AT_IMPACTS: f64 = 100.0;
 
 /// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more segments. A segment of 3e6 makes steps
 /// of a millionth of a hertz.
@@ -171,50 +156,6 @@ impl BranchWalk {
             evaluations_between: 0,
             origin: None,
         }
-    }
-
-    /// The row of the start, to be taken before the first step.
-    ///
-    /// # Errors
-    /// See [`OrbitError`].
-    pub fn start_row(&mut self) -> Result<BranchRow, OrbitError> {
-        evaluate(&mut self.problem, &self.follower.current().point)?;
-        let mut row = self.row()?;
-        row.events.start = true;
-        Ok(row)
-    }
-
-    /// Whether the present point is where a branch of shorter period flips, or so near to it that its place is known while steps are held up by rounding.
-    fn meets_shorter_period(&mut self) -> bool {
-        self.follower.current().events.branch_point && self.is_near_shorter_period()
-            || self.crawls_to_shorter_period()
-    }
-
-    /// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the orbit, in a small part of the way that is left each.
-    fn crawls_to_shorter_period(&self) -> bool {
-        let history = &self.follower.checkpoint().history;
-        let nodes = &history.nodes[..history.used];
-        let left = |node: &Node| self.problem.distance_to_simpler(&node.point);
-        let near = CRAWLS_NEAR * hertz_per_norm(self.range_hz);
-        let still = |node: &Node| {
-            let slope = node.tangent[node.tangent.len() - 1].abs();
-            slope * left(node) < STILL * self.problem.parameter_size(&node.point)
-        };
-        nodes.len() > 1
-            && left(&nodes[0]) < near
-            && nodes.iter().all(still)
-            && nodes.windows(2).all(|pair| {
-                let step = left(&pair[1]) - left(&pair[0]);
-                (0.0..CRAWLS * left(&pair[0])).contains(&step)
-            })
-    }
-
-    /// Whether the present orbit is, within [`MERGED`], one of shorter period.
-    fn is_near_shorter_period(&mut self) -> bool {
-        self.problem.period_multiple() > 1
-            && self
-                .of_present(|orbit, integrator, scale| orbit.distance_to_shorter_period(integrator, scale))
-                .is_some_and(|distance| distance < MERGED)
     }
 
     /// Something about the present orbit in the units of the walk; `None` if its motion cannot be computed.
@@ -366,18 +307,6 @@ impl BranchWalk {
         self.problem.period_multiple()
     }
 
-    /// The flip at the present point, at which the problem was evaluated last, as a place to leave from; `None` where there is none.
-    pub(crate) fn flip_here(&mut self) -> Result<Option<Crossing>, OrbitError> {
-        if self.follower.current().events.zeros & 1 == 0 {
-            return Ok(None);
-        }
-        let row = self.row()?;
-        let Some(located) = row.located.filter(|located| !located.direction.is_empty()) else {
-            return Ok(None);
-        };
-        Ok(Some(Crossing { orbit: row.solution, direction: located.direction, factor: 2 }))
-    }
-
     /// Why the motion could not be computed at the last evaluation, if so.
     pub(crate) fn motion_failure(&self) -> Option<OrbitError> {
         self.problem.failure().map(|failure| OrbitError::Motion(failure.clone()))
@@ -387,86 +316,5 @@ impl BranchWalk {
     #[must_use]
     pub fn evaluations(&self) -> u64 {
         self.follower.counters().evaluations + self.evaluations_between
-    }
-
-    /// The row of the point at which the problem was evaluated last.
-    pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
-        let current = self.follower.current().clone();
-        let place =
-            located::Place { point: &current, bend: self.frequency_bend(), touches_before: &self.touches };
-        let located = located::describe(&mut self.problem, &place);
-        self.touches.clear();
-        self.touches.extend_from_slice(self.problem.touches());
-        Ok(BranchRow { located, ..self.row_at(&current)? })
-    }
-
-    /// The row of a point of the path at which the problem was evaluated last.
-    pub(crate) fn row_at(&mut self, point: &ContinuationPoint) -> Result<BranchRow, OrbitError> {
-        // The path measures in hertz, the solution relative to the orbit.
-        let error_estimate = point.correction_norm / hertz_per_norm(self.range_hz);
-        let solution = solution(&mut self.problem, &point.point, error_estimate)?;
-        let events = Events {
-            // Where the frequency turns at a branch point it does so on an arm of a pitchfork, which is no fold of cycles.
-            fold: point.events.fold && !point.events.branch_point,
-            branch_point: point.events.branch_point,
-            grazing: point.events.signature_change,
-            flip: point.events.zeros & 1 != 0,
-            neimark_sacker: point.events.zeros & 2 != 0,
-            ..Events::default()
-        };
-        let parameter = self.problem.varied().parameter().map(|_| point.parameter());
-        Ok(BranchRow { solution, parameter, events, located: None })
-    }
-
-    /// Change of the tangent's frequency component per length over the last step.
-    fn frequency_bend(&self) -> f64 {
-        let history = &self.follower.checkpoint().history;
-        let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
-        let last = base.point.len() - 1;
-        let squares = base.point.iter().zip(&before.point).zip(self.problem.weights());
-        let length = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt();
-        (base.tangent[last] - before.tangent[last]).abs() / length.max(f64::MIN_POSITIVE)
-    }
-}
-
-/// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
-pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
-    (high - low) / 100.0
-}
-
-/// Settings of the path from those of the orbits; `length` is [`hertz_per_norm`].
-pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
-    let default = Settings::default();
-    let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
-    let shortest = if rigid { SHORTEST_AT_IMPACTS } else { 1.0 };
-    Settings {
-        initial_step: 0.1 * settings.max_step_hz,
-        max_parameter_step: settings.max_step_hz,
-        max_step_length: 2.0 * settings.max_step_hz,
-        min_step: shortest * default.min_step * length,
-        crawl_step: default.crawl_step * length,
-        correction_tolerance: settings.tolerance * length,
-        correction_floor: default.correction_floor * length,
-        // Rounding of the residual grows with the multipliers.
-        residual_floor: 100.0 * default.residual_floor,
-        sheet_distance: default.sheet_distance * length,
-        signature_step: default.signature_step * length,
-        max_points: settings.max_solutions as u64,
-        ..default
-    }
-}
-
-/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period, and a whole number of them per excitation period, so
-/// that an orbit of shorter period is known when it is met. Nodes must not lie in contacts whose laws remember how they began, nor on impacts: then there is one.
-fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
-    match settings.segments {
-        Segments::Fixed(count) => count.max(1),
-        Segments::Automatic if begins_with_care(system) => 1,
-        Segments::Automatic => {
-            let largest = start.largest_multiplier();
-            let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;
-            let by_contacts = start.maxima.contacts as usize / 12 + 1;
-            by_growth.max(by_contacts).min(16).next_multiple_of(start.period_multiple as usize)
-        }
     }
 }

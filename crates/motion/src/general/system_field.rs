@@ -14,12 +14,18 @@
 //! a law is continued below its level by its tangent there; out of contact its force is zero. Where a force sets in with the jump `-c r'`, the touch comes
 //! earlier by `dr/r'` and brings the impulse `-c dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e . dq)`.
 
+mod field;
+mod onset;
+pub(super) mod region;
+
 use std::f64::consts::TAU;
 
 use faer::c64;
 
-use super::{Column, GeneralError, Point, VectorField, rigid::RigidStops};
-use crate::{Contact, Force, Law, LocalElement, ModalLoad, System};
+use region::force_in_region;
+
+use super::{Point, rigid::RigidStops};
+use crate::{Law, LocalElement, ModalLoad, System};
 
 /// A system at one frequency.
 pub(super) struct SystemField<'a> {
@@ -194,203 +200,6 @@ impl<'a> SystemField<'a> {
     }
 }
 
-impl SystemField<'_> {
-    /// A stretch cannot start in a contact whose law needs to know how it began.
-    pub(super) fn check_start(&self, phase: f64, state: &[f64]) -> Result<(), GeneralError> {
-        let (q, v) = state.split_at(self.system.dof().min(state.len()));
-        for element in self.system.elements().iter().filter(|element| element.law.remembers_impact()) {
-            let contact = element.law.contacts()[0];
-            let penetration = contact.sign * (self.relative_displacement(element, q, phase) - contact.level);
-            let rate = contact.sign * self.relative_velocity(element, v, phase);
-            if penetration > 0.0 || (penetration == 0.0 && rate > 0.0) {
-                return Err(GeneralError::StartsInContact { element: element.name.clone() });
-            }
-        }
-        Ok(())
-    }
-
-    /// What the frequency changes in the rates of the velocities at a fixed state and phase, apart from the length of time.
-    fn add_change_of_forces(&self, at: Point<'_>, sum: &mut [f64]) {
-        self.add_load(|load| &load.by_frequency, TAU * self.period, sum);
-        for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
-            if (slope != 0.0 || damping != 0.0) && element.support_ratio != 0.0 {
-                let [u, v, _] = self.support_by_frequency(at.time);
-                let force = element.support_ratio * (slope * u + damping * v);
-                add_scaled(sum, self.period * force, &element.shape);
-            }
-        }
-    }
-
-    /// Lets the sensitivities jump with the force of a contact that closes.
-    fn jump_at_onset(&self, e: usize, time: f64, columns: &mut [f64]) {
-        let element = &self.system.elements()[e];
-        let (n, damping) = (self.system.dof(), element.law.onset_damping());
-        if damping == 0.0 {
-            return;
-        }
-        let direction = self.free_direction(e);
-        let last = columns.len() / (2 * n);
-        for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
-            let mut displacement = dot(&element.shape, &column[..n]);
-            if index + 1 == last {
-                displacement += element.support_ratio * self.support_by_frequency(time)[0];
-            }
-            let impulse = -damping * displacement;
-            add_scaled(&mut column[n..], impulse, &direction);
-        }
-    }
-
-    /// Keeps the speed of an impact in memory, and its sensitivities `dr' - r'' dr/r'`.
-    fn remember_impact(&mut self, e: usize, at: Point<'_>, columns: &[f64]) {
-        if !self.laws[e].remembers_impact() {
-            return;
-        }
-        let (n, element) = (self.system.dof(), &self.system.elements()[e]);
-        let speed = self.relative_velocity(element, &at.state[n..], at.time);
-        let mut rates = vec![0.0; 2 * n];
-        self.evaluate(at, &mut rates);
-        let support = self.support_motion(at.time);
-        let acceleration =
-            dot(&element.shape, &rates[n..]) / self.period + element.support_ratio * support[2];
-        let last = columns.len() / (2 * n);
-        let row = columns.chunks_exact(2 * n).enumerate().map(|(index, column)| {
-            let mut change = dot(&element.shape, &column[n..]);
-            let mut displacement = dot(&element.shape, &column[..n]);
-            if index + 1 == last {
-                let by_frequency = self.support_by_frequency(at.time);
-                displacement += element.support_ratio * by_frequency[0];
-                change += element.support_ratio * by_frequency[1];
-            }
-            (change - acceleration * displacement / speed) * speed.signum()
-        });
-        self.impacts[e].1 = row.collect();
-        self.laws[e] = self.laws[e].struck_at(speed.abs());
-    }
-}
-
-impl VectorField for SystemField<'_> {
-    fn dimension(&self) -> usize {
-        2 * self.system.dof()
-    }
-
-    fn parts(&self) -> usize {
-        2
-    }
-
-    fn raise_magnitudes(&self, column: Column, magnitudes: &mut [f64]) {
-        let least = match column {
-            Column::State => self.length,
-            Column::ByState => 0.0,
-            Column::ByParameter => self.length * self.period,
-        };
-        magnitudes[0] = magnitudes[0].max(least);
-        magnitudes[1] = magnitudes[1].max(TAU / self.period * magnitudes[0]);
-    }
-
-    fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]) {
-        let n = self.system.dof();
-        if !self.rigid.stops.is_empty() {
-            self.region.clear();
-            self.region.extend_from_slice(at.inside);
-        }
-        self.rotate(at.time);
-        linear_rates(&self.stiffness, &self.damping, self.period, at.state, derivative);
-        let rate = &mut derivative[n..];
-        self.add_load(|load| &load.amplitude, self.period, rate);
-        self.add_local_forces(at, rate);
-        self.hold_rates(at.time, rate);
-    }
-
-    fn tangents(&mut self, _: Point<'_>, columns: &[f64], derivatives: &mut [f64]) {
-        let n = self.system.dof();
-        let pairs = columns.chunks_exact(2 * n).zip(derivatives.chunks_exact_mut(2 * n));
-        for (index, (column, derivative)) in pairs.enumerate() {
-            linear_rates(&self.stiffness, &self.damping, self.period, column, derivative);
-            for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
-                if slope != 0.0 || damping != 0.0 {
-                    let mut force = slope * dot(&element.shape, &column[..n]);
-                    if damping != 0.0 {
-                        force += damping * dot(&element.shape, &column[n..]);
-                    }
-                    add_scaled(&mut derivative[n..], self.period * force, &element.shape);
-                }
-            }
-            for (element, (by_speed, row)) in self.system.elements().iter().zip(&self.impacts) {
-                if *by_speed != 0.0 {
-                    add_scaled(&mut derivative[n..], self.period * by_speed * row[index], &element.shape);
-                }
-            }
-            self.hold_tangent(&mut derivative[n..]);
-        }
-    }
-
-    fn add_by_parameter(&mut self, at: Point<'_>, derivative: &[f64], sum: &mut [f64]) {
-        add_scaled(sum, -self.period, derivative);
-        let n = self.system.dof();
-        if self.rigid.held.is_empty() {
-            return self.add_change_of_forces(at, &mut sum[n..]);
-        }
-        let mut change = vec![0.0; n];
-        self.add_change_of_forces(at, &mut change);
-        self.hold_by_frequency(at.time, &mut change);
-        add_scaled(&mut sum[n..], 1.0, &change);
-    }
-
-    fn begin(&mut self, time: f64, state: &mut [f64], columns: &mut [f64], inside: &mut [bool]) {
-        self.begin_rigid(time, state, columns, inside);
-    }
-
-    fn impact(&mut self, time: f64, motion: (&mut [f64], &mut [f64]), region: (&mut [bool], &[bool])) {
-        self.cross_rigid(time, motion, region);
-    }
-
-    fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
-        let mut first = 0;
-        for (e, element) in self.system.elements().iter().enumerate() {
-            let switch = first;
-            first += switches_of(element);
-            if !element.law.depends_on_velocity() || before[switch] || !at.inside[switch] {
-                continue;
-            }
-            self.remember_impact(e, at, columns);
-            self.jump_at_onset(e, at.time, columns);
-        }
-    }
-
-    fn switches(&self) -> usize {
-        self.switches
-    }
-
-    fn switching(&self, phase: f64, state: &[f64], values: &mut [f64]) {
-        let (q, v) = state.split_at(self.system.dof());
-        let mut k = 0;
-        let held = &self.rigid.held;
-        let pressing =
-            if held.is_empty() { Vec::new() } else { self.pressing_forces(phase, state, &self.region) };
-        for (e, element) in self.system.elements().iter().enumerate() {
-            if held.contains(&e) {
-                values[k] = pressing[e];
-                k += 1;
-                continue;
-            }
-            let contacts = element.law.contacts();
-            if contacts.is_empty() {
-                continue;
-            }
-            let r = self.relative_displacement(element, q, phase);
-            for contact in contacts {
-                values[k] = contact.sign * (r - contact.level);
-                k += 1;
-            }
-            if let Some(pressure) = self.laws[e].pressure() {
-                let rate = contacts[0].sign * self.relative_velocity(element, v, phase);
-                values[k] = pressure.at(values[k - 1], rate);
-                k += 1;
-            }
-        }
-    }
-}
-
 /// Switching functions of an element: its contacts, and the pressure of a law that depends on the velocity, which has one contact.
 pub(super) fn switches_of(element: &LocalElement) -> usize {
     element.law.contacts().len() + usize::from(element.law.depends_on_velocity())
@@ -443,35 +252,6 @@ fn linear_rates(stiffness: &[f64], damping: &Damping, period: f64, state: &[f64]
             }
         }
     }
-}
-
-/// Force of an element whose contacts are held closed or open.
-pub(super) fn force_in_region(law: &Law, (r, speed): (f64, f64), inside: &[bool]) -> Force {
-    let contacts = law.contacts();
-    if contacts.is_empty() {
-        return law.force(r, speed);
-    }
-    if law.depends_on_velocity() {
-        let presses = inside.iter().all(|inside| *inside);
-        return if presses { law.pressing_force(r, speed) } else { Force::ZERO };
-    }
-    let penetration = |contact: &Contact| contact.sign * (r - contact.level);
-    let closed = contacts.iter().zip(inside).filter(|(_, inside)| **inside).map(|(contact, _)| contact);
-    match closed.max_by(|a, b| penetration(a).total_cmp(&penetration(b))) {
-        None => Force::ZERO,
-        Some(contact) if penetration(contact) > 0.0 => law.force(r, speed),
-        Some(contact) => continued_force(law, r, contact),
-    }
-}
-
-/// The tangent of the law at the level of a contact, where the law itself has ended.
-fn continued_force(law: &Law, r: f64, contact: &Contact) -> Force {
-    if contact.onset_exponent > 1.0 {
-        return Force::ZERO;
-    }
-    let beyond = contact.level + contact.sign * (1e-9 * contact.level.abs() + 1e-12);
-    let slope = law.force(beyond, 0.0).slope;
-    Force { value: slope * (r - contact.level), slope, damping: 0.0 }
 }
 
 #[inline]

@@ -1,0 +1,80 @@
+//! What begins with a contact: forces that jump, impacts that are remembered.
+
+use std::f64::consts::TAU;
+
+use super::{SystemField, add_scaled, dot};
+use crate::general::{GeneralError, Point, VectorField};
+
+impl SystemField<'_> {
+    /// A stretch cannot start in a contact whose law needs to know how it began.
+    pub(in crate::general) fn check_start(&self, phase: f64, state: &[f64]) -> Result<(), GeneralError> {
+        let (q, v) = state.split_at(self.system.dof().min(state.len()));
+        for element in self.system.elements().iter().filter(|element| element.law.remembers_impact()) {
+            let contact = element.law.contacts()[0];
+            let penetration = contact.sign * (self.relative_displacement(element, q, phase) - contact.level);
+            let rate = contact.sign * self.relative_velocity(element, v, phase);
+            if penetration > 0.0 || (penetration == 0.0 && rate > 0.0) {
+                return Err(GeneralError::StartsInContact { element: element.name.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// What the frequency changes in the rates of the velocities at a fixed state and phase, apart from the length of time.
+    pub(super) fn add_change_of_forces(&self, at: Point<'_>, sum: &mut [f64]) {
+        self.add_load(|load| &load.by_frequency, TAU * self.period, sum);
+        for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
+            if (slope != 0.0 || damping != 0.0) && element.support_ratio != 0.0 {
+                let [u, v, _] = self.support_by_frequency(at.time);
+                let force = element.support_ratio * (slope * u + damping * v);
+                add_scaled(sum, self.period * force, &element.shape);
+            }
+        }
+    }
+
+    /// Lets the sensitivities jump with the force of a contact that closes.
+    pub(super) fn jump_at_onset(&self, e: usize, time: f64, columns: &mut [f64]) {
+        let element = &self.system.elements()[e];
+        let (n, damping) = (self.system.dof(), element.law.onset_damping());
+        if damping == 0.0 {
+            return;
+        }
+        let direction = self.free_direction(e);
+        let last = columns.len() / (2 * n);
+        for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
+            let mut displacement = dot(&element.shape, &column[..n]);
+            if index + 1 == last {
+                displacement += element.support_ratio * self.support_by_frequency(time)[0];
+            }
+            let impulse = -damping * displacement;
+            add_scaled(&mut column[n..], impulse, &direction);
+        }
+    }
+
+    /// Keeps the speed of an impact in memory, and its sensitivities `dr' - r'' dr/r'`.
+    pub(super) fn remember_impact(&mut self, e: usize, at: Point<'_>, columns: &[f64]) {
+        if !self.laws[e].remembers_impact() {
+            return;
+        }
+        let (n, element) = (self.system.dof(), &self.system.elements()[e]);
+        let speed = self.relative_velocity(element, &at.state[n..], at.time);
+        let mut rates = vec![0.0; 2 * n];
+        self.evaluate(at, &mut rates);
+        let support = self.support_motion(at.time);
+        let acceleration =
+            dot(&element.shape, &rates[n..]) / self.period + element.support_ratio * support[2];
+        let last = columns.len() / (2 * n);
+        let row = columns.chunks_exact(2 * n).enumerate().map(|(index, column)| {
+            let mut change = dot(&element.shape, &column[n..]);
+            let mut displacement = dot(&element.shape, &column[..n]);
+            if index + 1 == last {
+                let by_frequency = self.support_by_frequency(at.time);
+                displacement += element.support_ratio * by_frequency[0];
+                change += element.support_ratio * by_frequency[1];
+            }
+            (change - acceleration * displacement / speed) * speed.signum()
+        });
+        self.impacts[e].1 = row.collect();
+        self.laws[e] = self.laws[e].struck_at(speed.abs());
+    }
+}

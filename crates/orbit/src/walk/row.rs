@@ -1,0 +1,73 @@
+//! The rows of a walk.
+
+use hammerbeam_path::{ContinuationPoint, PathProblem};
+
+use super::{BranchWalk, settings::hertz_per_norm};
+use crate::{
+    BranchRow, Crossing, Events, OrbitError, located,
+    solve::{evaluate, solution},
+};
+
+impl BranchWalk {
+    /// The row of the start, to be taken before the first step.
+    ///
+    /// # Errors
+    /// See [`OrbitError`].
+    pub fn start_row(&mut self) -> Result<BranchRow, OrbitError> {
+        evaluate(&mut self.problem, &self.follower.current().point)?;
+        let mut row = self.row()?;
+        row.events.start = true;
+        Ok(row)
+    }
+
+    /// The flip at the present point, at which the problem was evaluated last, as a place to leave from; `None` where there is none.
+    pub(crate) fn flip_here(&mut self) -> Result<Option<Crossing>, OrbitError> {
+        if self.follower.current().events.zeros & 1 == 0 {
+            return Ok(None);
+        }
+        let row = self.row()?;
+        let Some(located) = row.located.filter(|located| !located.direction.is_empty()) else {
+            return Ok(None);
+        };
+        Ok(Some(Crossing { orbit: row.solution, direction: located.direction, factor: 2 }))
+    }
+
+    /// The row of the point at which the problem was evaluated last.
+    pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
+        let current = self.follower.current().clone();
+        let place =
+            located::Place { point: &current, bend: self.frequency_bend(), touches_before: &self.touches };
+        let located = located::describe(&mut self.problem, &place);
+        self.touches.clear();
+        self.touches.extend_from_slice(self.problem.touches());
+        Ok(BranchRow { located, ..self.row_at(&current)? })
+    }
+
+    /// The row of a point of the path at which the problem was evaluated last.
+    pub(crate) fn row_at(&mut self, point: &ContinuationPoint) -> Result<BranchRow, OrbitError> {
+        // The path measures in hertz, the solution relative to the orbit.
+        let error_estimate = point.correction_norm / hertz_per_norm(self.range_hz);
+        let solution = solution(&mut self.problem, &point.point, error_estimate)?;
+        let events = Events {
+            // Where the frequency turns at a branch point it does so on an arm of a pitchfork, which is no fold of cycles.
+            fold: point.events.fold && !point.events.branch_point,
+            branch_point: point.events.branch_point,
+            grazing: point.events.signature_change,
+            flip: point.events.zeros & 1 != 0,
+            neimark_sacker: point.events.zeros & 2 != 0,
+            ..Events::default()
+        };
+        let parameter = self.problem.varied().parameter().map(|_| point.parameter());
+        Ok(BranchRow { solution, parameter, events, located: None })
+    }
+
+    /// Change of the tangent's frequency component per length over the last step.
+    fn frequency_bend(&self) -> f64 {
+        let history = &self.follower.checkpoint().history;
+        let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
+        let last = base.point.len() - 1;
+        let squares = base.point.iter().zip(&before.point).zip(self.problem.weights());
+        let length = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt();
+        (base.tangent[last] - before.tangent[last]).abs() / length.max(f64::MIN_POSITIVE)
+    }
+}

@@ -1,0 +1,52 @@
+//! How a walk goes: units, settings of the path, segments.
+
+use hammerbeam_motion::System;
+use hammerbeam_path::Settings;
+
+use crate::{OrbitSettings, PeriodicSolution, Segments, cut::begins_with_care};
+
+/// Shortest step with rigid stops, over that without. An impact of the speed v depends on the orbit like `1/v`, and v on the distance from grazing like its root: a point of the path, good to its
+/// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
+const SHORTEST_AT_IMPACTS: f64 = 100.0;
+
+/// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
+pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
+    (high - low) / 100.0
+}
+
+/// Settings of the path from those of the orbits; `length` is [`hertz_per_norm`].
+pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
+    let default = Settings::default();
+    let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
+    let shortest = if rigid { SHORTEST_AT_IMPACTS } else { 1.0 };
+    Settings {
+        initial_step: 0.1 * settings.max_step_hz,
+        max_parameter_step: settings.max_step_hz,
+        max_step_length: 2.0 * settings.max_step_hz,
+        min_step: shortest * default.min_step * length,
+        crawl_step: default.crawl_step * length,
+        correction_tolerance: settings.tolerance * length,
+        correction_floor: default.correction_floor * length,
+        // Rounding of the residual grows with the multipliers.
+        residual_floor: 100.0 * default.residual_floor,
+        sheet_distance: default.sheet_distance * length,
+        signature_step: default.signature_step * length,
+        max_points: settings.max_solutions as u64,
+        ..default
+    }
+}
+
+/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period, and a whole number of them per excitation period, so
+/// that an orbit of shorter period is known when it is met. Nodes must not lie in contacts whose laws remember how they began, nor on impacts: then there is one.
+pub(super) fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
+    match settings.segments {
+        Segments::Fixed(count) => count.max(1),
+        Segments::Automatic if begins_with_care(system) => 1,
+        Segments::Automatic => {
+            let largest = start.largest_multiplier();
+            let by_growth = (largest.max(1.0).ln() / 1e3_f64.ln()).ceil().max(1.0) as usize;
+            let by_contacts = start.maxima.contacts as usize / 12 + 1;
+            by_growth.max(by_contacts).min(16).next_multiple_of(start.period_multiple as usize)
+        }
+    }
+}

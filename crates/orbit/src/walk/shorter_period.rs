@@ -1,0 +1,52 @@
+//! Whether a walk has come to the flip of an orbit of shorter period.
+
+use hammerbeam_path::{Node, PathProblem};
+
+use super::{BranchWalk, settings::hertz_per_norm};
+
+/// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
+/// about the square of this in frequency.
+const MERGED: f64 = 1e-3;
+
+/// Distance from an orbit of shorter period, relative to the orbit, within which a branch that goes there in steps far shorter than that has arrived, if its frequency has nothing left to change: then it is
+/// located as well as a flip has to be. What holds the steps up is the error of the motion, which changes with the choice of contact steps: it is more than what the frequency still has to change.
+const CRAWLS_NEAR: f64 = 1e-4;
+/// Nothing left: this part of the frequency, by the slope there times the distance.
+const STILL: f64 = 2e-9;
+/// Far shorter: this part of the distance.
+const CRAWLS: f64 = 0.02;
+
+impl BranchWalk {
+    /// Whether the present point is where a branch of shorter period flips, or so near to it that its place is known while steps are held up by rounding.
+    pub(super) fn meets_shorter_period(&mut self) -> bool {
+        self.follower.current().events.branch_point && self.is_near_shorter_period()
+            || self.crawls_to_shorter_period()
+    }
+
+    /// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the orbit, in a small part of the way that is left each.
+    fn crawls_to_shorter_period(&self) -> bool {
+        let history = &self.follower.checkpoint().history;
+        let nodes = &history.nodes[..history.used];
+        let left = |node: &Node| self.problem.distance_to_simpler(&node.point);
+        let near = CRAWLS_NEAR * hertz_per_norm(self.range_hz);
+        let still = |node: &Node| {
+            let slope = node.tangent[node.tangent.len() - 1].abs();
+            slope * left(node) < STILL * self.problem.parameter_size(&node.point)
+        };
+        nodes.len() > 1
+            && left(&nodes[0]) < near
+            && nodes.iter().all(still)
+            && nodes.windows(2).all(|pair| {
+                let step = left(&pair[1]) - left(&pair[0]);
+                (0.0..CRAWLS * left(&pair[0])).contains(&step)
+            })
+    }
+
+    /// Whether the present orbit is, within [`MERGED`], one of shorter period.
+    pub(super) fn is_near_shorter_period(&mut self) -> bool {
+        self.problem.period_multiple() > 1
+            && self
+                .of_present(|orbit, integrator, scale| orbit.distance_to_shorter_period(integrator, scale))
+                .is_some_and(|distance| distance < MERGED)
+    }
+}
