@@ -26,6 +26,8 @@ const EDGE: f64 = 0.02;
 const DIP: f64 = 0.5;
 /// Error of the matrix where it is nearly singular, in tolerances of a point: at the distance of the whole solution that leaves the default of `fold_tolerance` in a slope.
 const MATRIX_NOISE: f64 = 1000.0;
+/// Nearer than so many distances of sheets to a simpler path the parameter has to go back by more than errors of points.
+const BESIDE: f64 = 1000.0;
 /// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
 
@@ -60,7 +62,8 @@ impl Follower {
     /// Whether the parameter has turned, when it has this slope at the trial.
     ///
     /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to `d`, and errors `ε` of a point leave `ε/d` in its
-    /// tangent: a sign of `t_λ` below that is rounding, and says nothing until the path has left. The matrix is known less well than the point, to some tolerances.
+    /// tangent: a sign of `t_λ` below that is rounding, and says nothing until the path has left. The matrix is known less well than the point, to some tolerances. Nor does a sign say anything there
+    /// while the parameter goes back by no more than errors of points.
     pub(super) fn turned(&self, problem: &(impl PathProblem + ?Sized), slope: f64) -> bool {
         if slope * self.state.parameter_sign >= 0.0 {
             return false;
@@ -68,7 +71,10 @@ impl Follower {
         let error = self.trial.correction_norm.max(self.state.current.correction_norm);
         let error = error.max(self.settings.correction_floor);
         let of_matrix = MATRIX_NOISE * self.settings.correction_tolerance;
-        slope.abs() * problem.distance_to_simpler(&self.trial.point) > (NOISE * error).max(of_matrix)
+        let left = problem.distance_to_simpler(&self.trial.point);
+        let step = distance(&self.weights, &self.state.history.base().point, &self.trial.node.point);
+        let gone = if left < BESIDE * self.settings.sheet_distance { left.min(step) } else { left };
+        slope.abs() * left > of_matrix && slope.abs() * gone > NOISE * error
     }
 
     /// `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`, else chord and tangents are not of one arc.
