@@ -1,30 +1,30 @@
 //! A measured course laid over computed orbits.
 //!
 //! The measurement is a waveform over `n` excitation periods ([`hammerbeam_signal::waveform`]). Of the stable orbits of that period in a range of frequencies each goes through the
-//! same sensor and filter (line by line of its spectrum, so that there is no transient), is delayed until it is most alike, and the most alike of all is taken: the largest correlation, or, where the factor on
-//! measured values is given, the smallest residual. The paper does the same by eye (figures 7 to 14).
+//! same sensor and filter (line by line of its spectrum, so that there is no transient), is cut to the lines that the record holds, is delayed until it is most alike, and the most alike of all is taken: the
+//! largest correlation, or, where the factor on measured values is given, the smallest residual. The paper does the same by eye (figures 7 to 14).
+//!
+//! An orbit whose motion cannot be gone over again is left out and counted; it is an error only if none is left.
+//!
+//! | file | what |
+//! |---|---|
+//! | `candidates.rs` | the orbits that are tried |
+//! | `laid.rs` | one of them laid under the measurement |
+
+mod candidates;
+mod laid;
 
 use std::sync::atomic::AtomicBool;
 
 use hammerbeam_attractor::in_order;
-use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::{
     Quantity, SignalError,
-    filter::{periodic_low_pass, periodic_zero_phase},
-    waveform::{Alignment, Shifts, Waveform, align, delayed},
+    waveform::{Alignment, Shifts, Waveform},
 };
 
-use super::{
-    Filter,
-    course::{Course, CourseError, course, largest},
-    thinned,
-};
-use crate::{Model, StoreError, StoredBranches, store::BranchRecord};
-
-/// Samples of an orbit in an excitation period, before the filter; a multiple of those of the waveform.
-const SAMPLES: usize = 4096;
-/// Distance of orbits that are tried, as a part of the frequency.
-const SPACING: f64 = 1e-3;
+use super::{Filter, course::CourseError};
+use crate::{Model, StoreError, StoredBranches};
+use candidates::Candidate;
 
 /// Which orbits are tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,13 +72,13 @@ pub struct Overlay {
     pub turned_correlation: f64,
     /// Factor on measured values: given, or the best one.
     pub factor: f64,
-    /// Root mean square of what is left over that of the computed course: without a factor,
+    /// Root mean square of what is left over that of the computed course: with the factor 1, or -1 where [`Overlay::factor`] is negative,
     pub residual_before: f64,
-    /// and with it.
+    /// and with that factor.
     pub residual_after: f64,
-    /// The measured quantity behind the filter, as it is delayed, at the samples of the waveform,
+    /// The measured quantity behind the filter and with the lines that the record holds, as it is delayed, at the samples of the waveform,
     pub filtered: Vec<f64>,
-    /// and without the filter.
+    /// and without filter, with all its lines.
     pub unfiltered: Vec<f64>,
     /// Displacement of the point [m], and of the support [m], so delayed.
     pub displacement: Vec<f64>,
@@ -86,26 +86,33 @@ pub struct Overlay {
     pub support: Vec<f64>,
     /// Largest value of the quantity before and behind the filter, of all samples of the orbit.
     pub largest: (f64, f64),
-    /// Orbits that were tried.
+    /// Orbits that were tried,
     pub tried: usize,
+    /// and others that could not be gone over.
+    pub skipped: usize,
 }
 
 /// Why nothing is laid over.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "each message names its fields")]
 #[non_exhaustive]
 pub enum OverlayError {
     /// The store refuses.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// An orbit cannot be gone over.
-    #[error(transparent)]
-    Course(#[from] CourseError),
+    /// No orbit can be gone over.
+    #[error("none of the {count} orbit(s) can be gone over; the first: {first}")]
+    NoneSampled { count: usize, first: CourseError },
+    /// Nothing of the motion is left to compare.
+    #[error(
+        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
+    )]
+    FilteredAway { cut_off_hz: f64, left: f64 },
     /// The waveform refuses.
     #[error(transparent)]
     Signal(#[from] SignalError),
     /// A sensor that no orbit has.
     #[error("an orbit shows displacement, velocity and acceleration of a point, no {quantity}")]
-    #[expect(missing_docs, reason = "the message names its fields")]
     NoSuchSensor { quantity: &'static str },
     /// Stopped from outside.
     #[error("interrupted")]
@@ -127,116 +134,57 @@ pub fn overlay(
     settings: &OverlaySettings,
     (threads, stop): (usize, &AtomicBool),
 ) -> Result<Option<Overlay>, OverlayError> {
-    let wanted = |record: &BranchRecord| {
-        record.period_multiple == period_multiple && settings.branch.is_none_or(|branch| branch == record.id)
-    };
-    let orbits = match settings.sought {
-        Sought::Near { frequency_hz, part } => stored(branches, wanted, frequency_hz, part)?,
-        Sought::At(frequency_hz) => at(model, branches, wanted, frequency_hz)?,
-    };
-    let look = |(): &mut (), candidate: &Candidate| laid(model, candidate, measured, settings);
+    let orbits = candidates::sought(model, branches, period_multiple, settings)?;
+    let look = |(): &mut (), candidate: &Candidate| laid::laid(model, candidate, measured, settings);
     let tried = in_order(&orbits, threads, stop, || (), look).ok_or(OverlayError::Interrupted)?;
-    let tried = tried.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let count = tried.len();
-    let turned = tried.iter().map(|one| one.turned_correlation).fold(f64::NEG_INFINITY, f64::max);
+    let (laid, skipped) = sampled(tried)?;
+    let tried = laid.len();
+    let turned_correlation = laid.iter().map(|one| one.turned_correlation).fold(f64::NEG_INFINITY, f64::max);
     let worth = |one: &Overlay| match settings.factor {
         Some(_) => -one.residual_after,
         None => one.alignment.correlation,
     };
     // The first of equal ones, whatever the number of threads.
-    let best = tried.into_iter().reduce(|best, one| if worth(&one) > worth(&best) { one } else { best });
-    Ok(best.map(|best| Overlay { tried: count, turned_correlation: turned, ..best }))
+    let best = laid.into_iter().reduce(|best, one| if worth(&one) > worth(&best) { one } else { best });
+    Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, ..best }))
 }
 
-/// Branch, row and orbit.
-type Candidate = (u32, Option<usize>, PeriodicSolution);
+/// What came of an orbit: it was laid over, or could not be gone over.
+type Tried<T> = Result<Result<T, CourseError>, OverlayError>;
 
-fn stored(
-    branches: &StoredBranches,
-    wanted: impl Fn(&BranchRecord) -> bool,
-    frequency_hz: f64,
-    part: f64,
-) -> Result<Vec<Candidate>, StoreError> {
-    let mut orbits = Vec::new();
-    for branch in branches.branches().iter().filter(|branch| wanted(&branch.record)) {
-        for (index, placed) in thinned(branch, SPACING * frequency_hz) {
-            let near = (placed.row.frequency_hz - frequency_hz).abs() <= part * frequency_hz;
-            if near && placed.row.stable {
-                orbits.push((branch.record.id, Some(index + 1), branches.solution(branch, placed)?));
-            }
+/// Those that were laid over, and how many could not be gone over.
+fn sampled<T>(tried: Vec<Tried<T>>) -> Result<(Vec<T>, usize), OverlayError> {
+    let (mut laid, mut skipped) = (Vec::new(), Vec::new());
+    for one in tried {
+        match one? {
+            Ok(one) => laid.push(one),
+            Err(reason) => skipped.push(reason),
         }
     }
-    Ok(orbits)
-}
-
-fn at(
-    model: &Model,
-    branches: &StoredBranches,
-    wanted: impl Fn(&BranchRecord) -> bool,
-    frequency_hz: f64,
-) -> Result<Vec<Candidate>, StoreError> {
-    let found = branches.crossings(model, frequency_hz, wanted)?.into_iter();
-    let stable = found.filter(|(_, orbit)| orbit.stable());
-    Ok(stable.map(|(branch, orbit)| (branch, None, orbit)).collect())
-}
-
-/// The quantity of a course.
-fn sensed(course: &Course, quantity: Quantity) -> Result<&[f64], OverlayError> {
-    match quantity {
-        Quantity::Displacement => Ok(&course.displacement),
-        Quantity::Velocity => Ok(&course.velocity),
-        Quantity::Acceleration => Ok(&course.acceleration),
-        other => Err(OverlayError::NoSuchSensor { quantity: other.word() }),
+    let count = skipped.len();
+    match skipped.into_iter().next() {
+        Some(first) if laid.is_empty() => Err(OverlayError::NoneSampled { count, first }),
+        _ => Ok((laid, count)),
     }
 }
 
-fn laid(
-    model: &Model,
-    (branch, row, orbit): &Candidate,
-    measured: &Waveform,
-    settings: &OverlaySettings,
-) -> Result<Overlay, OverlayError> {
-    let finer = SAMPLES.div_ceil(measured.per_period);
-    let course = course(model, orbit, finer * measured.per_period)?;
-    let unfiltered = sensed(&course, settings.quantity)?;
-    let filtered = match settings.filter {
-        None => unfiltered.to_vec(),
-        Some((filter, zero_phase)) => {
-            let filter = (filter.order, filter.cut_off_hz);
-            let behind = if zero_phase { periodic_zero_phase } else { periodic_low_pass };
-            behind(unfiltered, course.duration_s, filter)?
-        }
-    };
-    let shown = |series: &[f64]| -> Vec<f64> { series.iter().step_by(finer).copied().collect() };
-    let narrow = shown(&filtered);
-    let sign = settings.factor.map_or(1.0, f64::signum);
-    let lie = |sign: f64| {
-        let oriented: Vec<f64> = measured.samples.iter().map(|value| sign * value).collect();
-        align(&oriented, &narrow, settings.shifts)
-    };
-    let alignment = lie(sign)?;
-    let factor = settings.factor.unwrap_or(alignment.factor);
-    // What is delayed by whole samples of the orbit has no overshoot at a contact.
-    let turned = |series: &[f64]| -> Vec<f64> {
-        let mut series = series.to_vec();
-        let steps = (alignment.shift * finer as f64).round() as usize % series.len();
-        series.rotate_right(steps);
-        shown(&series)
-    };
-    Ok(Overlay {
-        frequency_hz: orbit.frequency_hz,
-        branch: *branch,
-        row: *row,
-        factor,
-        residual_before: alignment.residual(1.0),
-        residual_after: alignment.residual(factor.abs()),
-        turned_correlation: lie(-sign)?.correlation,
-        filtered: delayed(&narrow, alignment.shift)?,
-        unfiltered: turned(unfiltered),
-        displacement: turned(&course.displacement),
-        support: turned(&course.support),
-        largest: (largest(unfiltered), largest(&filtered)),
-        alignment,
-        tried: 0,
-    })
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orbit_that_cannot_be_gone_over_is_left_out_and_counted() {
+        let skipped = || Ok(Err(CourseError::NoState));
+        let (laid, count) = sampled(vec![skipped(), Ok(Ok(3)), skipped(), Ok(Ok(5))]).unwrap();
+        assert_eq!((laid, count), (vec![3, 5], 2));
+        assert_eq!(sampled::<u32>(Vec::new()).unwrap(), (Vec::new(), 0));
+        let none = sampled::<u32>(vec![skipped(), skipped()]).unwrap_err();
+        assert!(
+            matches!(none, OverlayError::NoneSampled { count: 2, first: CourseError::NoState }),
+            "{none}"
+        );
+        // What is wrong with the measurement is wrong for all.
+        let wrong = sampled(vec![Ok(Ok(3)), Err(OverlayError::Signal(SignalError::Constant))]).unwrap_err();
+        assert!(matches!(wrong, OverlayError::Signal(SignalError::Constant)), "{wrong}");
+    }
 }
