@@ -178,7 +178,7 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
     ));
     lines.push(format!("  correlation            {:.6}", overlay.alignment.correlation));
     lines.push(format!(
-        "  time shift             {} s: there, first in the record and on its clock, the excitation has phase 0",
+        "  time shift             {} s: there on the clock of the record the orbit begins, the excitation at phase 0",
         plain_number(laid.phase_zero_s())
     ));
     let given = if options.amplitude_factor.is_some() { " (given)" } else { "" };
