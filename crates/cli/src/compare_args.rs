@@ -42,6 +42,10 @@ pub struct CompareOptions {
     #[arg(long, value_name = "RATIO", default_value_t = 1.5, value_parser = above_one, allow_negative_numbers = true)]
     pub reach: f64,
 
+    /// Point of the structure where the sensor is [default: the response point of the study, whose maxima are stored]; needs --out, since RESULTS/compare is what the page lays over the response point
+    #[arg(long, value_name = "NAME", requires = "out")]
+    pub point: Option<String>,
+
     /// Put the branches behind the low-pass filter of the measurement (Butterworth)
     #[arg(long, value_name = "HZ", value_parser = positive, allow_negative_numbers = true)]
     pub low_pass: Option<f64>,

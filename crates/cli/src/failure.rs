@@ -114,7 +114,10 @@ impl From<OverlayError> for Failure {
         match error {
             OverlayError::Store(error) => error.into(),
             OverlayError::Signal(error) => error.into(),
-            OverlayError::NoSuchSensor { .. } => Self::BadInput(error.to_string()),
+            OverlayError::NoSuchSensor { .. } | OverlayError::FilteredAway { .. } => {
+                Self::BadInput(error.to_string())
+            }
+            OverlayError::NoneSampled { .. } => Self::NoResult(error.to_string()),
             OverlayError::Interrupted => Self::Interrupted("interrupted; nothing was written".to_owned()),
             other => Self::Other(other.into()),
         }

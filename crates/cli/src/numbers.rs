@@ -1,5 +1,7 @@
 //! Numbers of options, read with what is allowed.
 
+use hammerbeam_signal::exponent::StraightPart;
+
 /// A finite number of a kind.
 fn bounded(text: &str, holds: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -38,12 +40,17 @@ pub fn part(text: &str) -> Result<f64, String> {
 
 /// Percent of a frequency to each side.
 pub fn within(text: &str) -> Result<f64, String> {
-    bounded(text, |number| (0.0..=50.0).contains(&number), "must be from 0 to 50 percent")
+    bounded(text, |number| number > 0.0 && number <= 50.0, "must be more than 0, at most 50 percent")
 }
 
-pub fn range(text: &str) -> Result<(usize, usize), String> {
+/// Two numbers of samples, or the word for the steepest mean period.
+pub fn straight_part(text: &str) -> Result<StraightPart, String> {
+    if text == "period" {
+        return Ok(StraightPart::SteepestPeriod);
+    }
     let numbers = text.split_once(':').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
-    numbers
-        .filter(|(from, to)| from < to)
-        .ok_or_else(|| "must be two numbers of samples, as in 40:150".to_owned())
+    match numbers {
+        Some((from, to)) if from < to => Ok(StraightPart::Given(from, to)),
+        _ => Err("must be two numbers of samples, as in 40:150, or the word period".to_owned()),
+    }
 }

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
+use hammerbeam_signal::exponent::StraightPart;
 
 use crate::{
     args::positive,
-    numbers::{not_negative, number, overlap, part, range},
+    numbers::{not_negative, number, overlap, part, straight_part},
 };
 
 #[derive(Debug, Subcommand)]
@@ -214,9 +215,9 @@ pub struct ExponentOptions {
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(4..))]
     pub steps: Option<u32>,
 
-    /// First and last sample of the straight part, as in 40:150 [default: it is looked for]
-    #[arg(long, value_name = "FROM:TO", value_parser = range)]
-    pub fit: Option<(usize, usize)>,
+    /// First and last sample of the straight part, as in 40:150, or "period" for the steepest mean period after the first [default: it is looked for]
+    #[arg(long, value_name = "FROM:TO", value_parser = straight_part)]
+    pub fit: Option<StraightPart>,
 
     /// Evolution time of Wolf's method, in samples [default: a part of the mean period]
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(1..))]

@@ -138,6 +138,68 @@ fn points_over_branches() {
     assert!((number(&of_peak.unwrap()["nearest"]["value"]) / expected - 1.0).abs() < 1e-3, "{of_peak:?}");
 }
 
+/// Points 30 % too low in frequency: beyond the factors that are tried.
+#[test]
+fn factor_at_an_end_of_what_is_tried_is_told_in_words_and_in_the_document() {
+    let workshop = measured();
+    let mut table = "frequency [Hz],tip [mm],kind,period\n".to_owned();
+    for k in 0..30 {
+        let f = 0.35 + 0.005 * f64::from(k);
+        writeln!(table, "{},{},periodic,1", f / 1.3, 1e3 * answer(f)).unwrap();
+    }
+    fs::write(workshop.path("far.csv"), table).unwrap();
+    let arguments = ["far.csv", "--amplitude-factor", "1", "--reach", "3"];
+    let factor = &document(&workshop, &arguments)["comparisons"][0]["frequency_factor"];
+    assert_eq!((number(&factor["value"]), &factor["standard_error"]), (1.18, &Value::Null));
+    assert_eq!((&factor["given"], &factor["at_end_of"]), (&false.into(), &serde_json::json!([0.85, 1.18])));
+    let text = stdout(&workshop.hammerbeam(&[&["compare", "results"], &arguments[..]].concat()));
+    assert!(text.contains("1.180000 (at an end of what is tried)"), "{text}");
+    assert!(
+        text.contains("note: the frequency factor is at an end of what is tried, 0.85 to 1.18"),
+        "{text}"
+    );
+}
+
+/// Two masses on their own springs that never meet: displacement over displacement of the support, in closed form.
+#[test]
+fn points_of_another_point_are_held_against_orbits_that_are_gone_over_again() {
+    let study = TWO_MASSES.replace("gap_m = 1.0e-3", "gap_m = 1.0e3").replace("[3.0, 14.0]", "[4.0, 6.0]")
+        + "\n[continuation]\nmax_step_hz = 0.01\n[search]\nfrequencies = 2\nstarts = 1\ntrials = 0\n";
+    let workshop = Workshop::with(&study);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    // The second mass: w0^2 = 4000 1/s^2, damping ratio 0.02 of its motion relative to the frame.
+    let second = |f: f64| {
+        let (w, square) = (2.0 * PI * f, 4000.0_f64);
+        let (real, imaginary) = (square - w * w, 2.0 * 0.02 * square.sqrt() * w);
+        let size = w * w / (real * real + imaginary * imaginary);
+        0.5e-3 * (1.0 + size * real).hypot(size * imaginary)
+    };
+    let mut table = "frequency [Hz],x [mm],kind,period\n".to_owned();
+    for k in 0..12 {
+        let f = 4.2 + 0.13 * f64::from(k);
+        writeln!(table, "{f},{},periodic,1", 1e3 * second(f)).unwrap();
+    }
+    fs::write(workshop.path("points.csv"), table).unwrap();
+    let given = ["points.csv", "--frequency-factor", "1", "--amplitude-factor", "1"];
+    let at = |more: &[&str]| document(&workshop, &[&given[..], more].concat());
+    let found = at(&["--point", "second", "--out", "second"]);
+    assert_eq!(found["point"], "second");
+    // Orbits 0.005 Hz apart on a curve that bends little, maxima between 4096 samples.
+    assert!(number(&found["comparisons"][0]["residual_after"]["log_rms"]) < 2e-5, "{found}");
+    // The response point moves otherwise.
+    let response = at(&[]);
+    assert_eq!(response["point"], "first");
+    assert!(number(&response["comparisons"][0]["residual_after"]["log_rms"]) > 0.1, "{response}");
+    let refused = |more: &[&str], part: &str| {
+        assert_bad_input(
+            &workshop.hammerbeam(&[&["compare", "results", "points.csv"], more].concat()),
+            &[part],
+        );
+    };
+    refused(&["--point", "second"], "--out");
+    refused(&["--point", "third", "--out", "third"], "no point third");
+}
+
 #[test]
 fn records_are_reduced_to_points() {
     let workshop = measured();

@@ -146,6 +146,58 @@ fn other_sensors_other_points_and_filters_are_laid_over_too() {
     let found = overlay(&workshop, &[&turned[..], &AT[..]].concat());
     let shift = (number(&found["time_shift_s"]) - DELAY_S) * MEASURED_HZ - 0.5;
     assert!((shift - shift.round()).abs() < 1e-5 && number(&found["residual_after"]) < 5e-5, "{found}");
+    // Before it is the sign alone that is turned: nothing is left with -1, and half with half of the factor.
+    assert!(number(&found["residual_before"]) < 5e-5, "{found}");
+    let half = ["record.csv", "--channel", "v", "--amplitude-factor", "-0.5"];
+    let found = overlay(&workshop, &[&half[..], &AT[..]].concat());
+    assert!(number(&found["residual_before"]) < 5e-5, "{found}");
+    assert!(
+        (number(&found["residual_after"]) - 0.5).abs() < 5e-5 && found["orbit"]["skipped"] == 0,
+        "{found}"
+    );
+    let output = workshop.hammerbeam(&[&["overlay", "results"], &half[..], &AT[..]].concat());
+    assert!(stdout(&output).contains("with the factor -1, 0.5"), "{}", stdout(&output));
+}
+
+/// A record whose clock shows the time of day, and a frequency that is a little off: over the record it makes 3e-4 of a period, over a day two of them.
+#[test]
+fn the_shift_is_that_of_the_record_wherever_its_clock_begins() {
+    let workshop = linear();
+    const DAY_S: f64 = 86_400.0;
+    let mut csv = "time [s],x [m]\n".to_owned();
+    for k in 0..COUNT {
+        let t = DAY_S + k as f64 / RATE;
+        writeln!(csv, "{t},{}", recorded(t)).unwrap();
+    }
+    fs::write(workshop.path("record.csv"), csv).unwrap();
+    let off = MEASURED_HZ * (1.0 + 6e-6);
+    let told = ["record.csv", "--frequency", &off.to_string(), "--at", "4.8", "--out", "laid"];
+    let found = overlay(&workshop, &told);
+    let shift_s = number(&found["time_shift_s"]);
+    assert!((DAY_S..DAY_S + 1.0 / MEASURED_HZ).contains(&shift_s), "{shift_s}");
+    let cycles = (shift_s - DELAY_S) * MEASURED_HZ;
+    assert!((cycles - cycles.round()).abs() < 3e-4, "{cycles}");
+    // The table's times are those of the record, too.
+    let table = fs::read_to_string(workshop.path("laid/overlay.csv")).unwrap();
+    let first = table.lines().nth(1).unwrap();
+    assert_eq!(first.split(',').next().unwrap().parse::<f64>().unwrap(), DAY_S);
+}
+
+/// A record of 4400 samples a period, more than the 1024 of a waveform: its 1480th harmonic would be folded down to the 456th.
+#[test]
+fn what_a_waveform_does_not_hold_is_not_folded_into_it() {
+    let workshop = linear();
+    let (rate, tone) = (4400.0 * MEASURED_HZ, 1480.0 * MEASURED_HZ);
+    let mut csv = "time [s],x [m]\n".to_owned();
+    for k in 0..44_100 {
+        let t = f64::from(k) / rate;
+        writeln!(csv, "{t},{}", recorded(t) + 1e-3 * (2.0 * PI * tone * t).cos()).unwrap();
+    }
+    fs::write(workshop.path("record.csv"), csv).unwrap();
+    let found = overlay(&workshop, &[&["record.csv"], &AT[..]].concat());
+    assert_found(&found, DELAY_S, FACTOR);
+    let highest = number(&found["compared_up_to_hz"]) / MEASURED_HZ;
+    assert!((highest - 511.0).abs() < 1e-3, "{highest}");
 }
 
 #[test]
@@ -244,6 +296,15 @@ fn what_cannot_be_laid_over_is_refused() {
     refused(&["record.csv", "--frequency", "4.5", "--channel", "number"], &["give --sensor"]);
     refused(&["record.csv", "--frequency", "4.5", "--channel", "force"], &["no force"]);
     refused(&["record.csv", "--frequency", "4.5", "--amplitude-factor", "0"], &["not 0"]);
+    for within in ["0", "-1", "NaN", "51"] {
+        refused(&["record.csv", "--frequency", "4.5", "--within", within], &["more than 0, at most 50"]);
+    }
+    // Order 8 at a twentieth of the frequency leaves 4e-11.
+    let away = ["record.csv", "--low-pass", "0.24", "--order", "8"];
+    refused(
+        &[&away[..], &AT[..]].concat(),
+        &["low-pass filter of 0.24 Hz leaves 3.9e-11", "of the computed motion", "nothing to compare"],
+    );
     let none = |arguments: &[&str], part: &str| {
         let output = run(arguments);
         assert_eq!(output.status.code(), Some(1), "{output:?}");

@@ -180,6 +180,15 @@ fn exponent_of_a_map_by_all_methods() {
     }
     let table = fs::read_to_string(workshop.path("out/divergence.csv")).unwrap();
     assert!(table.starts_with("time_s,rosenstein,kantz\n"));
+    // A map has no period to fit over.
+    let refused = |fit: &str, part: &str| {
+        let arguments =
+            ["signal", "lyapunov", "henon.csv", "--rate", "1", "--method", "rosenstein", "--fit", fit];
+        assert_bad_input(&workshop.hammerbeam(&arguments), &[part]);
+    };
+    refused("period", "the mean period is");
+    refused("9:3", "two numbers of samples");
+    refused("periods", "or the word period");
 }
 
 /// From a study to what an instrument would have shown: simulate writes, chain reads.

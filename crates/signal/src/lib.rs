@@ -31,7 +31,7 @@
 //! | `decay/` | eigenfrequencies and damping of free decays |
 //! | `classify/` | periodic or not, and in which period |
 //! | `exponent/` | the largest Lyapunov exponent |
-//! | `waveform.rs` | records folded onto periods, one waveform laid over another |
+//! | `waveform/` | records folded onto periods, one waveform laid over another |
 //! | `chain/` | what an instrument would have shown of a computed motion |
 //! | `random.rs` | noise from a seed |
 //!

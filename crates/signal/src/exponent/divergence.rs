@@ -4,7 +4,7 @@ use super::{
     Embedding, FLOW, GROUPS, Scattered,
     embedding::States,
     scatter,
-    slope::{rises, slope, straight_part},
+    slope::{growth, rises, slope, steepest_period, straight_part},
     tree::Tree,
 };
 use crate::error::{SignalError, ensure};
@@ -17,13 +17,25 @@ const ENOUGH: f64 = 0.8;
 /// Fewest states.
 const FEWEST: usize = 50;
 
+/// Which part of the curve is taken as straight.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum StraightPart {
+    /// It is looked for between two parts of the rise.
+    #[default]
+    Found,
+    /// From one step to another.
+    Given(usize, usize),
+    /// The mean period in which the curve grows most, after the first one: for flows that go round with one period, whose curves wave with it.
+    SteepestPeriod,
+}
+
 /// How neighbours are followed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct DivergenceSettings {
     /// Steps for which they are followed; `None`: 25 steps of a map; seven mean periods of a flow, doubled until distances grow no more.
     pub steps: Option<usize>,
-    /// First and last step of the straight part; `None`: it is looked for.
-    pub fit: Option<(usize, usize)>,
+    /// The straight part.
+    pub fit: StraightPart,
 }
 
 /// What came out.
@@ -100,7 +112,8 @@ struct Work<'a> {
     states: States<'a>,
     tree: Tree,
     steps: usize,
-    flow: bool,
+    /// Mean period of a flow in steps; `None` of a map.
+    period: Option<usize>,
     /// States that are followed.
     followed: Vec<usize>,
 }
@@ -122,13 +135,21 @@ impl<'a> Work<'a> {
             format!("from 4 to less than the {} states", states.len()),
             holds,
         )?;
-        if let Some((from, to)) = settings.fit {
-            let allowed = format!("after the first one, {from}, and before the last step, {}", steps - 1);
-            ensure("the last step of the fit", to as f64, allowed, to > from && to < steps)?;
+        match settings.fit {
+            StraightPart::Given(from, to) => {
+                let allowed = format!("after the first one, {from}, and before the last step, {}", steps - 1);
+                ensure("the last step of the fit", to as f64, allowed, to > from && to < steps)?;
+            }
+            StraightPart::SteepestPeriod => {
+                let allowed = format!("more than {FLOW} samples where the steepest one is fitted");
+                ensure("the mean period", embedding.mean_period, allowed, flow)?;
+            }
+            StraightPart::Found => {}
         }
         let tree = Tree::new(&states, states.len());
         let followed = (0..states.len()).step_by(states.len().div_ceil(STATES)).collect();
-        Ok(Self { states, tree, steps, flow, followed })
+        let period = flow.then(|| embedding.mean_period.round() as usize);
+        Ok(Self { states, tree, steps, period, followed })
     }
 
     fn radius(&self, smallest: f64, window: usize) -> Result<f64, SignalError> {
@@ -158,7 +179,8 @@ impl<'a> Work<'a> {
         radius: Option<f64>,
     ) -> Result<Divergence, SignalError> {
         let longest = self.states.len() / 4;
-        let free = self.flow && settings.steps.is_none() && settings.fit.is_none();
+        let given = matches!(settings.fit, StraightPart::Given(..));
+        let free = self.period.is_some() && settings.steps.is_none() && !given;
         let mut steps = self.steps;
         let mut sums = self.sums(&follow, steps)?;
         while free && steps < longest && rises(&sums.curve()) {
@@ -168,14 +190,19 @@ impl<'a> Work<'a> {
             sums = longer;
         }
         let curve = sums.curve();
-        let fit = match settings.fit {
-            Some(fit) => fit,
-            None => straight_part(&curve, self.flow)?,
+        let fit = match (settings.fit, self.period) {
+            (StraightPart::Given(from, to), _) => (from, to),
+            (StraightPart::SteepestPeriod, Some(period)) => steepest_period(&curve, period)?,
+            (_, period) => straight_part(&curve, period.is_some())?,
         };
-        let slopes = sums.groups.iter().map(|group| slope(&group.mean(), fit));
+        let steepness = |curve: &[f64]| match settings.fit {
+            StraightPart::SteepestPeriod => growth(curve, fit),
+            _ => slope(curve, fit),
+        };
+        let slopes = sums.groups.iter().map(|group| steepness(&group.mean()));
         let slopes: Vec<f64> = slopes.filter(|slope| slope.is_finite()).collect();
         let exponent = Scattered {
-            value: sampling_rate_hz * slope(&curve, fit),
+            value: sampling_rate_hz * steepness(&curve),
             scatter: sampling_rate_hz * scatter(&slopes),
         };
         Ok(Divergence { exponent, curve, fit, states: sums.found, radius })

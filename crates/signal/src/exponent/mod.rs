@@ -22,9 +22,13 @@
 //!
 //! **Where to fit.** The authors choose the straight part of `S(k) = <ln d>` by eye. Here it is that between 30 % and 70 % of the rise from `S(0)` to the final level
 //! for flows (a mean period of more than [`FLOW`] samples), where distances have turned into the growing direction and do not yet feel the
-//! attractor's size; from 0 to 60 % for maps, whose few steps cannot wait. The final level is only one if the curve is level there: neighbours of flows are followed for twice as long as often as it is
+//! attractor's size. For maps, whose few steps cannot wait, it begins after the first step, in which that turning takes place, and ends at 60 %. The final level is only one if the curve is level there: neighbours of flows are followed for twice as long as often as it is
 //! not. A curve that comes down again has no straight part. The part can be given instead, and should be looked at: the curve belongs
 //! to the result. `slope.rs`
+//!
+//! The curve of a flow that goes round with one period, as Rössler's does, waves with that period, and 30 % to 70 % of its rise are no whole number of waves. What an eye takes there is
+//! [`StraightPart::SteepestPeriod`]: the mean period in which the curve grows most, after the first one and below 80 % of the rise; over a whole period the waves cancel. It is no rule for all flows: the steepest of many stretches is too steep where scatter or the first turning of neighbours
+//! makes it so (Lorenz).
 //!
 //! **Scatter.** The states are cut into ten groups by time; each has its slope (its mean growth). The standard error of their mean is given. It says how far
 //! another record of the same length might be off, and is no interval of confidence: groups are not independent, and the methods have errors of their own (the part that is
@@ -44,7 +48,7 @@ mod slope;
 mod tree;
 mod wolf;
 
-pub use divergence::{Divergence, DivergenceSettings, kantz, rosenstein};
+pub use divergence::{Divergence, DivergenceSettings, StraightPart, kantz, rosenstein};
 pub use embedding::{Embedding, EmbeddingChoice, embedding};
 pub use wolf::{WolfExponent, WolfSettings, wolf};
 

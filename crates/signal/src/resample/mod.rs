@@ -13,4 +13,4 @@ mod sinc;
 pub use fourier::resample_periodic;
 pub use polyphase::{Ratio, resample};
 pub use sinc::Interpolation;
-pub(crate) use sinc::REACH;
+pub(crate) use sinc::{KNOWN_BELOW, REACH};

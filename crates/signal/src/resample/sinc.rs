@@ -9,6 +9,8 @@ use super::polyphase::bessel_i0;
 
 /// Samples to each side.
 pub(crate) const REACH: usize = 16;
+/// Part of the sampling rate below which the error is as stated.
+pub(crate) const KNOWN_BELOW: f64 = 0.4;
 const BETA: f64 = 10.0;
 /// Places between two samples for which weights are kept; between them they are linear, with an error of about `(pi/1024)²/8`, 1e-6.
 const PLACES: usize = 1024;

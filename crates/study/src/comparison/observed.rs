@@ -1,7 +1,7 @@
 //! From stored branches to curves of what an instrument would show.
 //!
-//! Largest displacements, accelerations and contact forces are stored with each solution, exact on the continuous motion. Velocities, and everything behind a filter, are computed
-//! again from the stored orbit, for solutions that are far enough apart: a filtered course has no feature narrower than the branch itself.
+//! Largest displacements and accelerations of the response point, and contact forces, are stored with each solution, exact on the continuous motion. Velocities, other points, and everything behind a filter, are
+//! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no feature narrower than the branch itself.
 
 use hammerbeam_signal::Quantity;
 
@@ -25,6 +25,8 @@ pub struct Filter {
 pub struct Observation {
     /// The quantity.
     pub quantity: Quantity,
+    /// Whether the model observes the response point of the study, whose maxima are stored.
+    pub at_response_point: bool,
     /// The filter before the maximum is taken.
     pub filter: Option<Filter>,
     /// Distance of solutions that are computed again [Hz].
@@ -50,6 +52,8 @@ pub enum ObservationError {
 
 /// Curves of an observation over all branches.
 ///
+/// * `model`: that of the study; its response point is where the sensor is.
+///
 /// # Errors
 /// [`ObservationError`].
 pub fn curves(
@@ -57,7 +61,12 @@ pub fn curves(
     model: &Model,
     observation: &Observation,
 ) -> Result<Curves, ObservationError> {
-    if observation.filter.is_none() && observation.quantity != Quantity::Velocity {
+    let is_stored = match observation.quantity {
+        Quantity::Force => true,
+        Quantity::Velocity => false,
+        _ => observation.at_response_point,
+    };
+    if observation.filter.is_none() && is_stored {
         return Ok(stored(branches, observation.quantity));
     }
     let mut all = curves_of(branches, model, observation.spacing_hz, observation.samples, |course| {

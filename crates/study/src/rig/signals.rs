@@ -76,7 +76,7 @@ pub fn compare_signal(
     let (acceleration, start_s) = measure(rig, rig_model, points, (measured_hz, period_multiple))?;
     let classification = classify(&acceleration, rig.sampling_hz, measured_hz, &ClassifySettings::default())?;
     let periods = (period_multiple as usize, SHOWN);
-    let measured = folded(&acceleration, (rig.sampling_hz, start_s), measured_hz, periods)?;
+    let measured = folded(&acceleration, (rig.sampling_hz, -start_s), measured_hz, periods)?;
     let filter = Filter { order: rig.low_pass_order as usize, cut_off_hz: rig.low_pass_hz };
     let settings = OverlaySettings {
         quantity: Quantity::Acceleration,

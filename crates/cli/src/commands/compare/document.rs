@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_study::comparison::{Comparison, Estimate, PointOutcome, Residual};
+use hammerbeam_study::comparison::{Comparison, Estimate, Origin, PointOutcome, Residual};
 use serde_json::{Value, json};
 
 use super::{Compared, measured::Measured};
@@ -11,7 +11,7 @@ use crate::compare_args::CompareOptions;
 pub fn document(
     options: &CompareOptions,
     measured: &Measured,
-    compared: &[Compared],
+    (compared, point): (&[Compared], &str),
     (folder, files): (&Path, &[String]),
 ) -> Value {
     let findings = measured.findings.iter().map(
@@ -19,6 +19,7 @@ pub fn document(
     );
     json!({
         "results": options.results,
+        "point": point,
         "measured": options.measured,
         "low_pass_hz": options.low_pass,
         "order": options.low_pass.map(|_| options.order),
@@ -46,6 +47,7 @@ pub fn comparison_document(comparison: &Comparison) -> Value {
             "frequency": second.frequency,
             "amplitude_factor": second.amplitude,
             "sum_of_squares_over_best": second.cost_ratio,
+            "at_end_of_what_is_tried": second.at_end,
         })),
         "fitted_points": comparison.fit.points,
         "residual_before": residual(comparison.before),
@@ -62,8 +64,12 @@ pub fn comparison_document(comparison: &Comparison) -> Value {
 }
 
 fn estimate(estimate: Estimate) -> Value {
-    let error = estimate.standard_error.filter(|error| error.is_finite());
-    json!({ "value": estimate.value, "standard_error": error, "given": estimate.standard_error.is_none() })
+    json!({
+        "value": estimate.value,
+        "standard_error": estimate.standard_error().filter(|error| error.is_finite()),
+        "given": estimate.origin == Origin::Given,
+        "at_end_of": estimate.ends().map(|(low, high)| [low, high]),
+    })
 }
 
 fn residual(residual: Residual) -> Value {

@@ -23,7 +23,10 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
     };
     let [low, high] = file.study.excitation.frequency_hz;
     let diagram = ResponseDiagram {
-        title: file.study.title.clone(),
+        title: compared
+            .point
+            .as_ref()
+            .map_or_else(|| file.study.title.clone(), |point| format!("{}, at {point}", file.study.title)),
         parameter: String::new(),
         curves: compared.curves.branches().iter().map(|branch| curve(branch, quantity)).collect(),
         frequency_range_hz: Some((low, high)),

@@ -19,7 +19,7 @@ pub use document::comparison_document;
 pub use figure::draw;
 pub use records::frequency_in_name;
 pub use table::write_points;
-pub use text::second_minimum;
+pub use text::{estimate, fit_notes};
 
 use crate::{
     compare_args::{CompareOptions, QuantityName},
@@ -38,13 +38,16 @@ pub struct Compared {
     pub comparison: Comparison,
     /// Cut-off of the filter that the curves are behind (Hz), if there is one.
     pub low_pass_hz: Option<f64>,
+    /// The point that was measured, if it is not the response point of the study.
+    pub point: Option<String>,
 }
 
 pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
-    let model = Model::build(&file)?;
+    let (model, point) = observed(&file, options.point.as_deref())?;
+    let at_response_point = point == file.study.response.point;
     let folder = folder(options)?;
     let measured = measured::read(&options.measured, options.reference.as_deref())?;
     let quantities = quantities(options, &measured.points)?;
@@ -59,11 +62,12 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let mut compared = Vec::new();
     for quantity in quantities {
         let filter = filter.filter(|_| quantity != Quantity::Force);
-        let observation = Observation { quantity, filter, spacing_hz, samples: SAMPLES };
+        let observation = Observation { quantity, at_response_point, filter, spacing_hz, samples: SAMPLES };
         let curves = curves(&branches, &model, &observation)?;
         let comparison = compare(&measured.points, &curves, quantity, &settings(options))?;
         let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
-        compared.push(Compared { curves, comparison, low_pass_hz });
+        let point = (!at_response_point).then(|| point.clone());
+        compared.push(Compared { curves, comparison, low_pass_hz, point });
     }
     let mut drawn = Drawn::into(&folder)?;
     for one in &compared {
@@ -77,14 +81,25 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     drawn.files.extend(amplitudes.iter().map(|amplitudes| amplitudes.name.clone()));
     let notes = amplitudes.map_or_else(Vec::new, |amplitudes| amplitudes.notes);
     let files = drawn.finish()?.names;
-    let mut document = document::document(options, &measured, &compared, (&folder, &files));
+    let mut document = document::document(options, &measured, (&compared, &point), (&folder, &files));
     document["excitation_notes"] = serde_json::json!(notes);
     output.give(&document, || {
-        let mut text = text::text(options, &measured, &compared, (&folder, &files));
+        let mut text = text::text(options, &measured, (&compared, &point), (&folder, &files));
         notes.iter().for_each(|note| text.push_str(&format!("\nnote: {note}")));
         text
     });
     Ok(())
+}
+
+/// The model with a point observed, that of the study if none is told, and its name.
+pub fn observed(file: &StudyFile, point: Option<&str>) -> Result<(Model, String), Failure> {
+    let model = Model::build(file)?;
+    let Some(name) = point else { return Ok((model, file.study.response.point.clone())) };
+    let observed = model.observed_at(name).ok_or_else(|| {
+        let names = model.point_names().join(", ");
+        Failure::BadInput(format!("--point: the structure has no point {name}; it has {names}"))
+    })?;
+    Ok((observed, name.to_owned()))
 }
 
 /// Where to write: not into the results folder itself, whose tables of points are those of `rig`.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hammerbeam_study::comparison::{Comparison, Estimate, Fit, PointOutcome, Residual, Verdict};
+use hammerbeam_study::comparison::{Comparison, Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
 use crate::compare_args::CompareOptions;
@@ -13,11 +13,11 @@ const LISTED: usize = 20;
 pub fn text(
     options: &CompareOptions,
     measured: &Measured,
-    compared: &[Compared],
+    (compared, point): (&[Compared], &str),
     (folder, files): (&Path, &[String]),
 ) -> String {
-    let mut lines =
-        vec![format!("{} measured point(s) over {}", measured.points.len(), options.results.display())];
+    let (count, results) = (measured.points.len(), options.results.display());
+    let mut lines = vec![format!("{count} measured point(s) over {results}, at {point}")];
     if let Some(cut_off) = options.low_pass {
         lines.push(format!("branches behind a low-pass filter of {cut_off} Hz, order {}", options.order));
     }
@@ -37,8 +37,8 @@ fn comparison(comparison: &Comparison) -> Vec<String> {
     let frequency = if fit.offset { "frequency offset (Hz)" } else { "frequency factor" };
     let mut lines = vec![
         format!("\n{} [{}]", quantity.word(), quantity.symbol()),
-        format!("  {frequency:<22} {}", estimate(fit.frequency)),
-        format!("  {:<22} {}", "amplitude factor", estimate(fit.amplitude)),
+        format!("  {frequency:<22} {}", estimate(fit.frequency, 6)),
+        format!("  {:<22} {}", "amplitude factor", estimate(fit.amplitude, 6)),
         format!("  residual before         {}", residual(comparison.before)),
         format!("  residual after          {}", residual(comparison.after)),
         format!(
@@ -51,10 +51,7 @@ fn comparison(comparison: &Comparison) -> Vec<String> {
             count("doubtful")
         ),
     ];
-    if fit.correlation.is_some_and(|value| value.abs() > 0.95 || !value.is_finite()) {
-        lines.push("  note: the points hardly tell shift and factor apart".to_owned());
-    }
-    lines.extend(second_minimum(fit).map(|told| format!("  note: {told}")));
+    lines.extend(fit_notes(fit).into_iter().map(|told| format!("  note: {told}")));
     let unexplained: Vec<&PointOutcome> =
         comparison.points.iter().filter(|point| point.verdict.is_unexplained()).collect();
     lines.extend(unexplained.iter().take(LISTED).map(|point| unexplained_text(point)));
@@ -64,24 +61,48 @@ fn comparison(comparison: &Comparison) -> Vec<String> {
     lines
 }
 
+/// What has to be known of a fit: numbers that are no minimum, or not told apart, and another minimum.
+pub fn fit_notes(fit: &Fit) -> Vec<String> {
+    let frequency = if fit.offset { "frequency offset" } else { "frequency factor" };
+    let at_end = |(name, estimate): (&str, Estimate)| {
+        let (low, high) = estimate.ends()?;
+        Some(format!(
+            "the {name} is at an end of what is tried, {low} to {high}, beyond which the sum of squares may fall: this is no minimum and has no standard error, and all else is for this value; give the true one if it lies out there"
+        ))
+    };
+    let mut notes: Vec<String> = [(frequency, fit.frequency), ("amplitude factor", fit.amplitude)]
+        .into_iter()
+        .filter_map(at_end)
+        .collect();
+    if fit.correlation.is_some_and(|value| value.abs() > 0.95 || !value.is_finite()) {
+        notes.push("the points hardly tell shift and factor apart".to_owned());
+    }
+    notes.extend(second_minimum(fit));
+    notes
+}
+
 /// That another shift fits about as well.
-pub fn second_minimum(fit: &Fit) -> Option<String> {
+fn second_minimum(fit: &Fit) -> Option<String> {
     let second = fit.second?;
     let shift = if fit.offset {
         format!("a frequency offset of {:.4} Hz", second.frequency)
     } else {
         format!("a frequency factor of {:.5}", second.frequency)
     };
+    let end = if second.at_end { ", at an end of what is tried" } else { "" };
     Some(format!(
-        "{shift} with an amplitude factor of {:.4} fits about as well: its sum of squares is {:.3} times that of the best",
+        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} times that of the best",
         second.amplitude, second.cost_ratio
     ))
 }
 
-fn estimate(estimate: Estimate) -> String {
-    match estimate.standard_error {
-        None => format!("{:.6} (given)", estimate.value),
-        Some(error) => format!("{:.6}, standard error {error:.6}", estimate.value),
+/// A number and where it comes from.
+pub fn estimate(estimate: Estimate, digits: usize) -> String {
+    let value = estimate.value;
+    match estimate.origin {
+        Origin::Given => format!("{value:.digits$} (given)"),
+        Origin::Minimum { standard_error } => format!("{value:.digits$} ± {standard_error:.digits$}"),
+        Origin::AtEnd { .. } => format!("{value:.digits$} (at an end of what is tried)"),
     }
 }
 

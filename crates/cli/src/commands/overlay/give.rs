@@ -14,9 +14,20 @@ use crate::{failure::Failure, overlay_args::OverlayOptions};
 const TURNED: f64 = 0.5;
 
 impl Laid {
-    /// Time at which the excitation of the study has its phase 0 on the clock of the record [s], within the first orbit period.
+    /// Time of a phase of the waveform within the first orbit period of the record, on its clock [s].
+    fn time_s(&self, samples: f64) -> f64 {
+        let cycles = samples / self.measured.per_period as f64;
+        self.input.record.start_s + cycles / self.classification.frequency_hz
+    }
+
+    /// The first time in the record at which the orbit begins, with the excitation of the study at its phase 0, on the clock of the record [s].
     fn phase_zero_s(&self) -> f64 {
-        self.overlay.alignment.shift / self.measured.per_period as f64 / self.classification.frequency_hz
+        self.time_s(self.overlay.alignment.shift)
+    }
+
+    /// Frequency of the highest line that is compared [Hz].
+    fn highest_hz(&self) -> f64 {
+        self.measured.lines as f64 / f64::from(self.period_multiple) * self.classification.frequency_hz
     }
 
     /// Whether the sensor seems to be turned around.
@@ -47,6 +58,12 @@ impl Laid {
                 self.period_multiple
             )
         }));
+        if self.overlay.skipped > 0 {
+            notes.push(format!(
+                "{} more orbit(s) could not be gone over and are left out",
+                self.overlay.skipped
+            ));
+        }
         let mean = self.measured.samples.iter().sum::<f64>() / self.measured.samples.len() as f64;
         let size = self.overlay.alignment.sizes.0;
         let scatter = self.measured.scatter / size;
@@ -79,9 +96,8 @@ pub fn write(folder: &Path, laid: &Laid) -> Result<String, Failure> {
     let mean = |series: &[f64]| series.iter().sum::<f64>() / length;
     let (level, computed_level) = (mean(&measured.samples), mean(&overlay.filtered));
     for (k, value) in measured.samples.iter().enumerate() {
-        let cycles = k as f64 / per_period;
         table.row(&[
-            number(cycles / laid.classification.frequency_hz),
+            number(laid.time_s(k as f64)),
             number((k as f64 - overlay.alignment.shift).rem_euclid(length) / per_period),
             number(*value),
             number(overlay.factor * (value - level) + computed_level),
@@ -105,6 +121,7 @@ pub fn document(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> V
     document["motion"] = json!(super::super::signal::word(laid.classification.motion));
     document["period_multiple"] = json!(laid.period_multiple);
     document["pieces"] = json!(laid.measured.pieces);
+    document["compared_up_to_hz"] = json!(laid.highest_hz());
     document["scatter_over_rms"] = json!(laid.measured.scatter / overlay.alignment.sizes.0);
     document["low_pass_hz"] = json!(options.low_pass);
     document["order"] = json!(options.low_pass.map(|_| options.order));
@@ -115,6 +132,7 @@ pub fn document(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> V
         "branch": overlay.branch,
         "row": overlay.row,
         "tried": overlay.tried,
+        "skipped": overlay.skipped,
         "max_abs": overlay.largest.0,
         "max_abs_filtered": overlay.largest.1,
     });
@@ -136,13 +154,14 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
     let overlay = &laid.overlay;
     let mut lines = vec![laid.input.heading()];
     lines.push(format!(
-        "{} at {} of {} over {} excitation period(s) at {:.6} Hz, mean of {} pieces",
+        "{} at {} of {} over {} excitation period(s) at {:.6} Hz, mean of {} pieces, lines up to {:.1} Hz",
         laid.quantity.word(),
         laid.point,
         laid.input.channel().name,
         laid.period_multiple,
         laid.classification.frequency_hz,
         laid.measured.pieces,
+        laid.highest_hz(),
     ));
     if let Some(cut_off) = options.low_pass {
         let way = if options.zero_phase { "without phase" } else { "causal" };
@@ -159,14 +178,17 @@ pub fn text(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> Strin
     ));
     lines.push(format!("  correlation            {:.6}", overlay.alignment.correlation));
     lines.push(format!(
-        "  time shift             {} s: there the excitation has phase 0 on the clock of the record",
+        "  time shift             {} s: there on the clock of the record the orbit begins, the excitation at phase 0",
         plain_number(laid.phase_zero_s())
     ));
     let given = if options.amplitude_factor.is_some() { " (given)" } else { "" };
     lines.push(format!("  amplitude factor       {:.6}{given}", overlay.factor));
     lines.push(format!(
-        "  residual               {:.4} of the computed root mean square, {:.4} with the factor",
-        overlay.residual_before, overlay.residual_after
+        "  residual               {:.4} of the computed root mean square with the factor {}, {:.4} with {:.6}",
+        overlay.residual_before,
+        overlay.factor.signum(),
+        overlay.residual_after,
+        overlay.factor,
     ));
     lines.extend(table.map(|path| format!("{path}: both courses")));
     lines.extend(laid.notes().into_iter().map(|note| format!("note: {note}")));

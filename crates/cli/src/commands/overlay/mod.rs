@@ -10,12 +10,12 @@ use hammerbeam_signal::{
     waveform::{Shifts, Waveform, folded},
 };
 use hammerbeam_study::{
-    Model, Store, StoredBranches, StudyFile,
+    Store, StoredBranches, StudyFile,
     comparison::{Filter, Overlay, OverlaySettings, Sought, overlay},
 };
 
 use super::{
-    compare::frequency_in_name,
+    compare::{frequency_in_name, observed},
     run::threads,
     signal::{Input, open, quantity},
 };
@@ -40,7 +40,7 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
-    let (model, point) = observed(&file, options)?;
+    let (model, point) = observed(&file, options.point.as_deref())?;
     let input = open(&options.input, options.reference.as_deref())?;
     let quantity = sensor(&input, options)?;
     let rate = input.record.sampling_rate_hz;
@@ -52,9 +52,9 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     };
     let classification = classify(samples, rate, frequency_hz, &settings)?;
     let period_multiple = period(&classification, options)?;
-    let clock = (rate, input.record.start_s);
+    // Pieces begin with the record: where its clock had its zero is no matter of the motion.
     let pieces = (period_multiple as usize, SHOWN);
-    let measured = folded(samples, clock, classification.frequency_hz, pieces)?;
+    let measured = folded(samples, (rate, 0.0), classification.frequency_hz, pieces)?;
     let branches = StoredBranches::open(&options.results, &file)?;
     let settings = settings_of(options, quantity, classification.frequency_hz);
     let interrupt = Interrupt::listen()?;
@@ -67,17 +67,6 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
         give::text(&laid, options, table.as_deref())
     });
     Ok(())
-}
-
-/// The model with the sensor's point observed, and its name.
-fn observed(file: &StudyFile, options: &OverlayOptions) -> Result<(Model, String), Failure> {
-    let model = Model::build(file)?;
-    let Some(name) = &options.point else { return Ok((model, file.study.response.point.clone())) };
-    let point = model.observed_at(name).ok_or_else(|| {
-        let names = model.point_names().join(", ");
-        Failure::BadInput(format!("--point: the structure has no point {name}; it has {names}"))
-    })?;
-    Ok((point, name.clone()))
 }
 
 /// What the channel shows: its unit says so, or the user.

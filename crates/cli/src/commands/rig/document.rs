@@ -75,6 +75,8 @@ fn signal((index, signal): (usize, &hammerbeam_study::rig::SignalPair)) -> Value
             "over_measured": orbit.frequency_hz / signal.measured_hz,
             "branch": orbit.branch,
             "row": orbit.row,
+            "tried": orbit.tried,
+            "skipped": orbit.skipped,
             "correlation": orbit.alignment.correlation,
             "lag_cycles": hammerbeam_study::rig::SignalPair::lag(orbit),
             "amplitude_factor": orbit.factor,

@@ -103,6 +103,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
             curves: curves.clone(),
             comparison: comparison.clone(),
             low_pass_hz: found.low_pass_hz(name),
+            point: None,
         };
         draw(&found.file, &compared, name, &mut drawn);
     }
@@ -153,7 +154,13 @@ fn comparisons(
     let measured: Vec<MeasuredPoint> = points.iter().map(|point| point.point.clone()).collect();
     let stored_curves = |quantity: Quantity| {
         // Stored maxima need no orbit, and so no spacing.
-        let observation = Observation { quantity, filter: None, spacing_hz: 0.0, samples: SAMPLES };
+        let observation = Observation {
+            quantity,
+            at_response_point: true,
+            filter: None,
+            spacing_hz: 0.0,
+            samples: SAMPLES,
+        };
         curves(stored, model, &observation)
     };
     let all = [

@@ -4,13 +4,17 @@ use std::{fmt::Write, path::Path};
 
 use hammerbeam_signal::classify::{Classification, Motion};
 use hammerbeam_study::{
-    comparison::{Estimate, PointOutcome},
+    comparison::PointOutcome,
     rig::{FilteredBranch, FilteredRatio, SignalPair},
 };
 use serde_json::Value;
 
 use super::{Found, tables};
-use crate::{commands::compare::second_minimum, failure::Failure, figures::replace};
+use crate::{
+    commands::compare::{estimate, fit_notes},
+    failure::Failure,
+    figures::replace,
+};
 
 /// Solutions that a branch has at least to stand in the report on its own.
 const SHOWN: usize = 20;
@@ -50,6 +54,7 @@ pub fn text(found: &Found, folder: &Path, files: &[String]) -> String {
             comparison.before.rms,
             comparison.after.rms
         ));
+        lines.extend(fit_notes(&comparison.fit).into_iter().map(|told| format!("    note: {told}")));
     }
     for (index, filter) in found.filters.iter().enumerate() {
         let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
@@ -159,7 +164,7 @@ fn comparisons(text: &mut String, found: &Found) {
         );
     }
     for (name, _, comparison) in &found.comparisons {
-        if let Some(told) = second_minimum(&comparison.fit) {
+        for told in fit_notes(&comparison.fit) {
             let _ = writeln!(text, "\nNote, {}: {told}.", what(name));
         }
     }
@@ -198,7 +203,7 @@ fn what(name: &str) -> &str {
 }
 
 fn signals(text: &mut String, found: &Found) {
-    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike. Residuals: root mean square of the difference over that of the computed signal.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | factor | residual | with the factor | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike. Residuals: root mean square of the difference over that of the computed signal.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | factor | residual, factor 1 | with the factor | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (index, signal) in found.signals.iter().enumerate() {
         let classified = classified(&signal.classification);
         let name = tables::figure_name(index);
@@ -225,6 +230,16 @@ fn signals(text: &mut String, found: &Found) {
                 signal.measured_hz, signal.period_multiple, signal.largest_measured,
             ),
         };
+    }
+    for (index, signal) in found.signals.iter().enumerate() {
+        if let Some(orbit) = signal.computed.as_ref().filter(|orbit| orbit.skipped > 0) {
+            let name = tables::figure_name(index);
+            let _ = writeln!(
+                text,
+                "\nNote, {name}: {} orbit(s) could not be gone over and are left out.",
+                orbit.skipped
+            );
+        }
     }
     text.push('\n');
 }
@@ -304,12 +319,5 @@ fn verdict(outcome: &PointOutcome) -> String {
     match outcome.verdict.nearest_hz() {
         Some(hz) => format!("{word}, a stable one at {hz:.2} Hz | {nearest}"),
         None => format!("{word} | {nearest}"),
-    }
-}
-
-fn estimate(estimate: Estimate, digits: usize) -> String {
-    match estimate.standard_error {
-        None => format!("{:.digits$}", estimate.value),
-        Some(error) => format!("{:.digits$} ± {error:.digits$}", estimate.value),
     }
 }

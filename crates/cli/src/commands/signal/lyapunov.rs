@@ -27,7 +27,7 @@ pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {
     };
     let (samples, rate) = (&input.channel().samples, input.record.sampling_rate_hz);
     let embedding = embedding(samples, &choice)?;
-    let follow = DivergenceSettings { steps: whole(options.steps), fit: options.fit };
+    let follow = DivergenceSettings { steps: whole(options.steps), fit: options.fit.unwrap_or_default() };
     let pair = WolfSettings { evolution: whole(options.evolution), ..WolfSettings::default() };
     let wanted = |method: Method| options.method == method || options.method == Method::All;
     let found = Found {

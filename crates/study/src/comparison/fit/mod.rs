@@ -12,7 +12,7 @@ use problem::{Problem, covariance};
 pub enum Fixed {
     /// Given.
     Given(f64),
-    /// To be fitted, within these ends.
+    /// To be fitted, between these ends; the lower one is below the upper one.
     Fitted {
         /// Lower end.
         low: f64,
@@ -50,8 +50,47 @@ impl Default for FitSettings {
 pub struct Estimate {
     /// Its value.
     pub value: f64,
-    /// Its standard error; `None` if it was given.
-    pub standard_error: Option<f64>,
+    /// Where it comes from.
+    pub origin: Origin,
+}
+
+/// Where a number comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// It was given.
+    Given,
+    /// It is where the sum of squares is smallest.
+    Minimum {
+        /// Its standard error; that of one number beside another that is at an end holds for that end.
+        standard_error: f64,
+    },
+    /// It is at an end of what is tried, beyond which the sum of squares may fall: no minimum, so that there is no standard error.
+    AtEnd {
+        /// Lower end.
+        low: f64,
+        /// Upper end.
+        high: f64,
+    },
+}
+
+impl Estimate {
+    /// Its standard error, if it has one.
+    #[must_use]
+    pub const fn standard_error(&self) -> Option<f64> {
+        match self.origin {
+            Origin::Minimum { standard_error } => Some(standard_error),
+            Origin::Given | Origin::AtEnd { .. } => None,
+        }
+    }
+
+    /// The ends of what is tried, if it is at one.
+    #[must_use]
+    pub const fn ends(&self) -> Option<(f64, f64)> {
+        match self.origin {
+            Origin::AtEnd { low, high } => Some((low, high)),
+            Origin::Given | Origin::Minimum { .. } => None,
+        }
+    }
 }
 
 /// What was found.
@@ -65,7 +104,7 @@ pub struct Fit {
     pub amplitude: Estimate,
     /// Points that the fit goes by.
     pub points: usize,
-    /// Correlation of the errors of both numbers, where both were fitted.
+    /// Correlation of the errors of both numbers, where both are at their minimum.
     pub correlation: Option<f64>,
     /// Another shift that fits about as well, the best of those there are.
     pub second: Option<SecondMinimum>,
@@ -78,8 +117,10 @@ pub struct SecondMinimum {
     pub frequency: f64,
     /// Factor on values.
     pub amplitude: f64,
-    /// Its sum of squares over that of the best one.
+    /// Its sum of squares over that of the best one, 1 at least.
     pub cost_ratio: f64,
+    /// Whether one of both numbers is at an end of what is tried.
+    pub at_end: bool,
 }
 
 impl Fit {
@@ -97,6 +138,11 @@ impl FitSettings {
         };
         let more = self.reach > 1.0 && self.reach.is_finite();
         ensure("the reach", self.reach, "a factor of more than 1", more)?;
+        for fixed in [self.frequency, self.amplitude] {
+            if let Fixed::Fitted { low, high } = fixed {
+                ensure("the upper end of what is tried", high, "above the lower one", low < high)?;
+            }
+        }
         for found in ends(self.amplitude) {
             ensure(
                 "the amplitude factor",
@@ -110,6 +156,15 @@ impl FitSettings {
             ensure("the shift of the frequency", found, "finite, and more than 0 as a factor", holds)?;
         }
         Ok(())
+    }
+}
+
+impl Fixed {
+    fn logarithm(self) -> Self {
+        match self {
+            Self::Given(value) => Self::Given(value.ln()),
+            Self::Fitted { low, high } => Self::Fitted { low: low.ln(), high: high.ln() },
+        }
     }
 }
 
@@ -140,27 +195,34 @@ impl Used {
 const PULL: f64 = 2.0;
 
 pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
-    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln() };
-    let free = [settings.frequency, settings.amplitude].map(|fixed| matches!(fixed, Fixed::Fitted { .. }));
-    let fitted = usize::from(free[0]) + usize::from(free[1]);
-    let valleys = problem.valleys(settings);
-    let at = problem.refine(valleys[0], free);
-    let rows = problem.rows(at);
-    if fitted > 0 && rows.len() <= fitted {
-        return Err(ComparisonError::TooFewPoints { fitted, points: rows.len() });
+    let tried = [settings.frequency, settings.amplitude.logarithm()].map(ends);
+    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln(), tried };
+    let minima = problem.minima();
+    let best = problem.best(&minima);
+    let rows = problem.rows(best.place);
+    let asked = problem.free().into_iter().filter(|free| *free).count();
+    if asked > 0 && rows.len() <= asked {
+        return Err(ComparisonError::TooFewPoints { fitted: asked, points: rows.len() });
     }
+    let at_end = problem.at_end(best.place);
+    let free: [bool; 2] = std::array::from_fn(|k| problem.free()[k] && !at_end[k]);
     let covariance = covariance(&rows, free);
-    let error = |k: usize| free[k].then(|| covariance[k][k].max(0.0).sqrt());
-    let correlation = (fitted == 2)
-        .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE));
+    let origin = |k: usize, fixed: Fixed, scale: f64| match fixed {
+        Fixed::Given(_) => Origin::Given,
+        Fixed::Fitted { low, high } if at_end[k] => Origin::AtEnd { low, high },
+        Fixed::Fitted { .. } => Origin::Minimum { standard_error: scale * covariance[k][k].max(0.0).sqrt() },
+    };
+    let [frequency, logarithm] = best.place;
+    let amplitude = logarithm.exp();
     Ok(Fit {
         offset: settings.offset,
-        frequency: Estimate { value: at[0], standard_error: error(0) },
+        frequency: Estimate { value: frequency, origin: origin(0, settings.frequency, 1.0) },
         // The error of a logarithm is a relative one.
-        amplitude: Estimate { value: at[1].exp(), standard_error: error(1).map(|e| e * at[1].exp()) },
+        amplitude: Estimate { value: amplitude, origin: origin(1, settings.amplitude, amplitude) },
         points: rows.len(),
-        correlation,
-        second: problem.second(at, &valleys, free),
+        correlation: (free == [true; 2])
+            .then(|| covariance[0][1] / (covariance[0][0] * covariance[1][1]).sqrt().max(f64::MIN_POSITIVE)),
+        second: problem.second(best, &minima),
     })
 }
 

@@ -1,9 +1,9 @@
 //! The sum of squares, its valleys, and how its minima are refined.
 
-use super::{FitSettings, Fixed, SecondMinimum, Used, difference, shift};
+use super::{SecondMinimum, Used, difference, shift};
 use crate::comparison::{Curves, Shift, curve};
 
-/// Trials of the shift of frequencies and of the logarithm of the factor.
+/// Trials of the shift of frequencies, and steps of the logarithm of the factor.
 const FREQUENCY_TRIALS: usize = 660;
 const AMPLITUDE_STEP: f64 = 0.02;
 /// Trials to each side than which a valley is lower, and distance beyond which refined minima are two, as a factor (an offset counts at 30 Hz).
@@ -14,14 +14,17 @@ const CHI_SQUARED: f64 = 3.84;
 /// Part of the frequency over which a slope is taken, to each side.
 const SECANT: f64 = 0.0025;
 const ITERATIONS: usize = 40;
+/// Difference of sums of squares that is none.
+const SAME: f64 = 1e-12;
 
 /// Shift of the frequency and logarithm of the factor.
 pub(super) type Place = [f64; 2];
 
-/// A place of the grid and its sum of squares.
-struct Trial {
-    cost: f64,
-    place: Place,
+/// A place and its sum of squares.
+#[derive(Clone, Copy)]
+pub(super) struct Trial {
+    pub place: Place,
+    pub cost: f64,
 }
 
 /// A point within the reach: its difference and the derivatives of it.
@@ -35,9 +38,25 @@ pub(super) struct Problem<'a> {
     pub curves: &'a Curves,
     pub offset: bool,
     pub reach: f64,
+    /// Lower and upper end of each number; the same for one that is given.
+    pub tried: [[f64; 2]; 2],
 }
 
 impl Problem<'_> {
+    /// Which numbers are fitted.
+    pub fn free(&self) -> [bool; 2] {
+        self.tried.map(|[low, high]| low < high)
+    }
+
+    /// Which of the fitted ones are at an end.
+    pub fn at_end(&self, place: Place) -> [bool; 2] {
+        std::array::from_fn(|k| self.free()[k] && self.tried[k].contains(&place[k]))
+    }
+
+    fn trial(&self, place: Place) -> Trial {
+        Trial { place, cost: self.cost(place) }
+    }
+
     fn shift(&self, at: Place) -> Shift {
         shift(self.offset, at[0], at[1])
     }
@@ -49,30 +68,30 @@ impl Problem<'_> {
         self.used.iter().map(of).sum()
     }
 
-    /// Places of a grid from which minima are looked for: the best one first (of equal ones the nearest to no shift and no factor), then the best of each other valley of the shift of frequencies.
-    pub fn valleys(&self, settings: &FitSettings) -> Vec<Place> {
-        let none = if self.offset { 0.0 } else { 1.0 };
-        let shifts = trials(settings.frequency, FREQUENCY_TRIALS);
-        let factors = match settings.amplitude {
-            Fixed::Given(value) => vec![value.ln()],
-            Fixed::Fitted { low, high } => {
-                let steps = ((high.ln() - low.ln()) / AMPLITUDE_STEP).ceil().max(1.0) as usize;
-                let (low, high) = (low.ln(), high.ln());
-                trials(Fixed::Fitted { low, high }, steps)
-            }
+    /// Minima of all valleys of the shift of frequencies: the best of a grid in each, refined.
+    pub fn minima(&self) -> Vec<Trial> {
+        let [[low, high], [least, most]] = self.tried;
+        let steps = ((most - least) / AMPLITUDE_STEP).ceil().max(1.0) as usize;
+        let factors = trials(least, most, steps);
+        let profile: Vec<Trial> = trials(low, high, FREQUENCY_TRIALS)
+            .into_iter()
+            .map(|shift| self.best_factor(shift, &factors))
+            .collect();
+        let lowest = |k: &usize| {
+            let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(profile.len());
+            profile[near].iter().all(|other| profile[*k].cost <= other.cost)
         };
-        let profile: Vec<Trial> = shifts.iter().map(|&shift| self.best_factor(shift, &factors)).collect();
+        (0..profile.len()).filter(lowest).map(|k| self.refine(profile[k].place)).collect()
+    }
+
+    /// The lowest of some minima; of equal ones the nearest to no shift and no factor.
+    pub fn best(&self, minima: &[Trial]) -> Trial {
+        let none = if self.offset { 0.0 } else { 1.0 };
         let far = |trial: &Trial| (trial.place[0] - none).abs() + 1e-3 * trial.place[1].abs();
         let better = |one: &Trial, other: &Trial| {
-            one.cost < other.cost - 1e-12 || (one.cost <= other.cost + 1e-12 && far(one) < far(other))
+            one.cost < other.cost - SAME || (one.cost <= other.cost + SAME && far(one) < far(other))
         };
-        let best = profile.iter().fold(&profile[0], |best, one| if better(one, best) { one } else { best });
-        let lowest = |k: usize| {
-            let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(profile.len());
-            profile[near].iter().all(|other| profile[k].cost <= other.cost)
-        };
-        let others = (0..profile.len()).filter(|&k| lowest(k)).map(|k| profile[k].place);
-        std::iter::once(best.place).chain(others).collect()
+        *minima.iter().fold(&minima[0], |best, one| if better(one, best) { one } else { best })
     }
 
     /// The best factor at a shift.
@@ -90,7 +109,7 @@ impl Problem<'_> {
         for &factor in factors {
             let found = cost(factor);
             let nearer = factor.abs() < best.place[1].abs();
-            if found < best.cost - 1e-12 || (found <= best.cost + 1e-12 && nearer) {
+            if found < best.cost - SAME || (found <= best.cost + SAME && nearer) {
                 best = Trial { cost: found, place: [frequency, factor] };
             }
         }
@@ -99,17 +118,20 @@ impl Problem<'_> {
 
     /// The best minimum in another valley, if it is about as good: the data would prefer the best one to it with a probability of less than 95 %, `(n - p)(S' - S)/S < 3.84`
     /// (chi-squared of one freedom), or by less than a tenth of its sum of squares.
-    pub fn second(&self, at: Place, valleys: &[Place], free: [bool; 2]) -> Option<SecondMinimum> {
-        let best = self.cost(at);
-        let fitted = free.iter().filter(|free| **free).count();
+    pub fn second(&self, best: Trial, minima: &[Trial]) -> Option<SecondMinimum> {
+        let fitted = self.free().into_iter().filter(|free| *free).count();
         let left = self.used.len().saturating_sub(fitted).max(1) as f64;
-        let good = best * (1.0 + (CHI_SQUARED / left).max(0.1));
-        let apart = |place: &Place| (place[0] - at[0]).abs() > APART * if self.offset { 30.0 } else { 1.0 };
-        let found = valleys[1..].iter().map(|valley| self.refine(*valley, free)).filter(apart);
-        let found =
-            found.map(|place| (self.cost(place), place)).filter(|(cost, _)| *cost <= good && best > 0.0);
-        let (cost, place) = found.min_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(SecondMinimum { frequency: place[0], amplitude: place[1].exp(), cost_ratio: cost / best })
+        let good = best.cost * (1.0 + (CHI_SQUARED / left).max(0.1));
+        let distance = APART * if self.offset { 30.0 } else { 1.0 };
+        let apart = |other: &&Trial| (other.place[0] - best.place[0]).abs() > distance;
+        let found = minima.iter().filter(apart).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+        (best.cost > 0.0 && found.cost <= good).then(|| SecondMinimum {
+            frequency: found.place[0],
+            amplitude: found.place[1].exp(),
+            // Equal ones differ by rounding.
+            cost_ratio: (found.cost / best.cost).max(1.0),
+            at_end: self.at_end(found.place).contains(&true),
+        })
     }
 
     /// Logarithms of the values of the stable solutions that each point could belong to.
@@ -152,35 +174,51 @@ impl Problem<'_> {
         -by_frequency * if self.offset { 1.0 } else { point.frequency_hz }
     }
 
-    /// Gauss-Newton steps, halved until the cost falls.
-    pub fn refine(&self, begin: Place, free: [bool; 2]) -> Place {
-        let (mut at, mut cost) = (begin, self.cost(begin));
+    /// Gauss-Newton steps within what is tried, halved until the cost falls.
+    fn refine(&self, begin: Place) -> Trial {
+        let mut at = self.trial(begin);
         for _ in 0..ITERATIONS {
-            let rows = self.rows(at);
-            let Some(step) = gauss_newton(&rows, free) else { break };
-            let tried = (0..12).map(|halvings| 0.5_f64.powi(halvings)).find_map(|share| {
-                let place = [at[0] + share * step[0], at[1] + share * step[1]];
-                let found = self.cost(place);
-                (found < cost).then_some((place, found))
-            });
-            let Some((place, found)) = tried else { break };
-            let done = cost - found <= 1e-13 * cost;
-            (at, cost) = (place, found);
+            let Some(step) = self.step(at.place) else { break };
+            let place = |share: f64| -> Place {
+                std::array::from_fn(|k| {
+                    let [low, high] = self.tried[k];
+                    (at.place[k] + share * step[k]).clamp(low, high)
+                })
+            };
+            let shorter = (0..12).map(|halvings| self.trial(place(0.5_f64.powi(halvings))));
+            let Some(found) = shorter.into_iter().find(|found| found.cost < at.cost) else { break };
+            let done = at.cost - found.cost <= 1e-13 * at.cost;
+            at = found;
             if done {
                 break;
             }
         }
         at
     }
-}
 
-fn trials(fixed: Fixed, count: usize) -> Vec<f64> {
-    match fixed {
-        Fixed::Given(value) => vec![value],
-        Fixed::Fitted { low, high } => {
-            (0..=count).map(|k| low + (high - low) * k as f64 / count as f64).collect()
+    /// A Gauss-Newton step; a number that is at an end and would leave it is held there, and the other one goes alone.
+    fn step(&self, at: Place) -> Option<Place> {
+        let rows = self.rows(at);
+        let mut free = self.free();
+        loop {
+            let step = gauss_newton(&rows, free)?;
+            let leaves = |k: &usize| {
+                let [low, high] = self.tried[*k];
+                free[*k] && ((at[*k] <= low && step[*k] < 0.0) || (at[*k] >= high && step[*k] > 0.0))
+            };
+            let Some(held) = (0..2).find(leaves) else { return Some(step) };
+            free[held] = false;
         }
     }
+}
+
+/// Evenly spaced numbers from one end to the other, both included; one where they are the same.
+fn trials(low: f64, high: f64, steps: usize) -> Vec<f64> {
+    if low == high {
+        return vec![low];
+    }
+    let inner = (1..steps).map(|k| low + (high - low) * k as f64 / steps as f64);
+    [low].into_iter().chain(inner).chain([high]).collect()
 }
 
 /// `J^T J`, with the identity in the rows that are not free.
