@@ -225,6 +225,70 @@ fn a_damaged_solution_costs_only_the_figures_that_need_it() {
     }
 }
 
+/// Rows of solutions that are gone: what needs them is named with their numbers, everything else is drawn.
+#[test]
+fn missing_solutions_are_named_and_cost_only_the_figures_that_need_them() {
+    let workshop = short_run("");
+    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let up = "id >> 33 = (SELECT id FROM start WHERE branch = 1) AND id >> 32 & 1 = 0";
+    let remove = format!("DELETE FROM solution WHERE {up} AND (id & 4294967295) BETWEEN 3 AND 5");
+    assert_eq!(database.execute(&remove, []).unwrap(), 3);
+    database.close().unwrap();
+    let output = workshop.hammerbeam(&["figure", "results", "--out", "drawn", "--json"]);
+    assert_success(&output);
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let drawn = document["files"].as_array().unwrap();
+    assert!(
+        ["structure.svg", "modes.svg", "excitation.svg"].iter().all(|name| drawn.contains(&(*name).into()))
+    );
+    let sentence = "solutions 3 to 5 on the up side of branch 1 are missing from results.db; a run of the study into a new folder";
+    for name in ["response", "page", "multipliers-1"] {
+        let is_named = stderr(&output).lines().any(|line| line.starts_with(name) && line.contains(sentence));
+        assert!(is_named, "{name}: {}", stderr(&output));
+        assert!(!drawn.contains(&format!("{name}.svg").into()));
+    }
+    let alone = workshop.hammerbeam(&["figure", "results", "--kind", "response", "--out", "alone"]);
+    assert_eq!(alone.status.code(), Some(1), "there is nothing else to draw");
+}
+
+/// Two commands that draw into one folder at once both come to their end.
+#[test]
+fn one_folder_may_be_drawn_into_by_two_commands_at_once() {
+    let workshop = short_run("");
+    let draw = || {
+        std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+            .args(["figure", "results", "--out", "drawn"])
+            .current_dir(workshop.path(""))
+            .stdout(std::process::Stdio::null())
+            .stderr(std::process::Stdio::piped())
+            .spawn()
+            .unwrap()
+    };
+    for child in [draw(), draw(), draw()] {
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    let names = fs::read_dir(workshop.path("drawn")).unwrap().map(|entry| entry.unwrap().file_name());
+    assert!(names.into_iter().all(|name| !name.to_string_lossy().ends_with(".part")));
+}
+
+/// What the font lacks is told, on the terminal and in the document.
+#[test]
+fn characters_that_the_font_lacks_are_told() {
+    let workshop = Workshop::changed(common::TWO_MASSES, "title = \"", "title = \"振動 Größe: ");
+    assert_success(&workshop.hammerbeam(&RUN));
+    let output =
+        workshop.hammerbeam(&["figure", "results", "--kind", "structure", "--out", "drawn", "--json"]);
+    assert_success(&output);
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["characters_not_in_font"], serde_json::json!(["動", "振"]));
+    assert!(
+        stderr(&output).contains("lacks these characters, \u{fffd} stands for each: 動 振"),
+        "{}",
+        stderr(&output)
+    );
+}
+
 /// Of a long branch not every solution is drawn. One that is not drawn and is damaged is told as well.
 #[test]
 fn a_damaged_solution_between_those_that_are_drawn_is_told() {
