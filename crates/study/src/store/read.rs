@@ -127,7 +127,7 @@ impl Store {
     /// Hands over the rows of a branch end to end: the down side reversed, the start, the up side.
     ///
     /// # Errors
-    /// The database refuses, or `take` does.
+    /// Solutions are missing or damaged, the database refuses, or `take` does.
     pub fn each_row<E: From<StoreError>>(
         &self,
         branch: &BranchRecord,
@@ -282,10 +282,10 @@ impl Store {
         }))
     }
 
-    /// Keys and rows of a walk in the order in which they were walked.
+    /// The rows of a walk in the order in which they were walked.
     ///
     /// # Errors
-    /// The database refuses.
+    /// Solutions are missing or damaged, or the database refuses.
     pub fn walked(&self, start: u32, side: Side) -> Result<Vec<Row>, StoreError> {
         let mut rows = Vec::new();
         self.each_row_of_walk::<StoreError>(walk_id(start, side), "ASC", |row| {
