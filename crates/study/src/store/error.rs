@@ -36,8 +36,8 @@ pub enum StoreError {
     DamagedSolution { branch: String, side: &'static str, number: u32, source: Box<StoreError> },
     /// Rows of solutions that a walk has counted are not there.
     #[error(
-        "{} on the {side} side of branch {branch} {} missing from results.db; a run of the study into a new folder computes them again",
-        numbers(*first, *last), if first == last { "is" } else { "are" }
+        "{} missing from results.db; a run of the study into a new folder computes {} again",
+        place(*first, *last, side, branch), if first == last { "it" } else { "them" }
     )]
     MissingSolutions { branch: String, side: &'static str, first: u32, last: u32 },
     /// Something stored has a name that this program does not know.
@@ -80,8 +80,13 @@ impl StoreError {
     }
 }
 
-fn numbers(first: u32, last: u32) -> String {
-    if first == last { format!("solution {first}") } else { format!("solutions {first} to {last}") }
+fn place(first: u32, last: u32, side: &str, branch: &str) -> String {
+    let place = format!("on the {side} side of branch {branch}");
+    if first == last {
+        format!("solution {first} {place} is")
+    } else {
+        format!("solutions {first} to {last} {place} are")
+    }
 }
 
 fn indented(lines: &[String]) -> String {
