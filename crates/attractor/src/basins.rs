@@ -270,6 +270,20 @@ fn is_same(scales: &[f64], known: &Attractor, found: &Attractor) -> bool {
     }
 }
 
+/// Whether each cell of a grid begins behind a rigid stop, where no state of the structure is.
+///
+/// # Errors
+/// [`AttractorError::Input`], [`AttractorError::StateLength`], or the damping has no block form.
+pub fn behind_rigid_stops(
+    system: &System,
+    frequency_hz: f64,
+    grid: &Grid,
+) -> Result<Vec<bool>, AttractorError> {
+    grid.check(2 * system.dof())?;
+    let map = SystemMap::new(system.clone(), frequency_hz, 1, ExactSettings::default())?;
+    Ok((0..grid.cells()).map(|cell| map.check_in_front_of_stops(&grid.state(cell)).is_err()).collect())
+}
+
 /// Part of the cells that lead to each attractor, with its standard error; index 0 is for motions that cannot be computed.
 #[must_use]
 pub fn fractions(cells: &[u32], attractors: usize) -> Vec<Estimate> {

@@ -95,15 +95,14 @@ pub fn draw(
     Ok(())
 }
 
-/// Where a stored solution cannot be read, the figures that need it are named with the reason, and the others are drawn.
+/// Where a stored solution is missing or cannot be read, the figures that need it are named with the reason, and the others are drawn.
 fn unless_damaged<T>(
     result: Result<T, impl Into<Failure>>,
     name: &str,
     drawn: &mut Drawn<'_>,
 ) -> Result<Option<T>, Failure> {
-    let is_damage = |error: &anyhow::Error| {
-        matches!(error.downcast_ref::<StoreError>(), Some(StoreError::DamagedSolution { .. }))
-    };
+    let is_damage =
+        |error: &anyhow::Error| error.downcast_ref::<StoreError>().is_some_and(StoreError::is_of_solutions);
     match result.map_err(Into::into) {
         Ok(found) => Ok(Some(found)),
         Err(Failure::Other(error)) if is_damage(&error) => {

@@ -5,7 +5,7 @@ mod common;
 
 use std::fs;
 
-use common::{Workshop, assert_bad_input, assert_success, stderr, stdout};
+use common::{RUN, Workshop, assert_bad_input, assert_success, files, short_run, stderr, stdout};
 use serde_json::Value;
 
 const DUFFING: &str = include_str!("../../../studies/duffing.toml");
@@ -28,14 +28,6 @@ fn motions() -> Workshop {
         assert_success(&workshop.hammerbeam(&arguments));
     }
     workshop
-}
-
-fn files(workshop: &Workshop, arguments: &[&str]) -> Vec<String> {
-    let output = workshop.hammerbeam(&[&["figure", "results", "--json"][..], arguments].concat());
-    assert_success(&output);
-    let document: Value = serde_json::from_str(&stdout(&output)).expect("one JSON document");
-    assert_eq!(document["not_drawn"].as_array().unwrap().len(), 0, "{}", stderr(&output));
-    document["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap().to_owned()).collect()
 }
 
 #[track_caller]
@@ -123,16 +115,6 @@ fn an_orbit_is_drawn_with_the_force_of_its_stop() {
     assert!(workshop.path("drawn/orbit-1-spectrum.png").is_file());
 }
 
-const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
-
-/// A run of one short branch.
-fn short_run(added: &str) -> Workshop {
-    let study = common::TWO_MASSES.replacen("[3.0, 14.0]", "[13.5, 14.0]", 1);
-    let workshop = Workshop::with(&format!("{study}\n{added}"));
-    assert_success(&workshop.hammerbeam(&RUN));
-    workshop
-}
-
 #[test]
 fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     let orbit = "[figures]\nlow_pass_hz = 30.0\n[[figures.orbit]]\nfrequency_hz = 13.7\n";
@@ -199,56 +181,6 @@ fn an_orbit_that_no_branch_has_is_bad_input() {
     assert!(workshop.path("results/orbit_13.7Hz_period1-spectrum.svg").is_file());
     let refused = workshop.hammerbeam(&["figure", "results", "--orbit", "13.7:0"]);
     assert_bad_input(&refused, &["a whole number from 1 to 64"]);
-}
-
-/// Solutions whose multipliers are cut: what needs them is named with the solution, everything else is drawn.
-#[test]
-fn a_damaged_solution_costs_only_the_figures_that_need_it() {
-    let workshop = short_run("");
-    let whole = files(&workshop, &["--out", "whole"]);
-    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
-    let of_branch =
-        "UPDATE solution SET multipliers = x'00' WHERE id >> 33 = (SELECT id FROM start WHERE branch = 1)";
-    assert!(database.execute(of_branch, []).unwrap() > 0);
-    database.close().unwrap();
-    let output = workshop.hammerbeam(&["figure", "results", "--out", "drawn", "--json"]);
-    assert_success(&output);
-    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
-    let drawn = document["files"].as_array().unwrap();
-    let missing: Vec<&String> = whole.iter().filter(|name| !drawn.contains(&name.as_str().into())).collect();
-    assert!(missing.iter().all(|name| name.starts_with("multipliers-1")), "{missing:?}");
-    assert!(!missing.is_empty());
-    let sentence = "side of branch 1 is damaged: the stored multipliers has 1 bytes";
-    for name in ["multipliers-1", "multipliers on the page"] {
-        let is_named = stderr(&output).lines().any(|line| line.starts_with(name) && line.contains(sentence));
-        assert!(is_named, "{name}: {}", stderr(&output));
-    }
-}
-
-/// Of a long branch not every solution is drawn. One that is not drawn and is damaged is told as well.
-#[test]
-fn a_damaged_solution_between_those_that_are_drawn_is_told() {
-    let workshop = short_run("[continuation]\nmax_step_hz = 0.0001\n");
-    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
-    let one = |query: &str| database.query_row(query, [], |row| row.get::<_, i64>(0)).unwrap();
-    // Keys hold the start above bit 33, the side in bit 32, and the number on that side; the down side comes first, reversed.
-    let of_branch = "id >> 33 = (SELECT id FROM start WHERE branch = 1)";
-    let count =
-        |side: u8| one(&format!("SELECT count(*) FROM solution WHERE {of_branch} AND id >> 32 & 1 = {side}"));
-    let (down, up) = (count(1), count(0));
-    assert!(down + up > 4000, "only {} solutions, of which every one is drawn", down + up);
-    let (side, number) = if up > 10 { ("up", 2 + (down + 1) % 2) } else { ("down", 2 + down % 2) };
-    let first = one(&format!(
-        "SELECT min(id) FROM solution WHERE {of_branch} AND id >> 32 & 1 = {}",
-        u8::from(side == "down")
-    ));
-    let damage = format!("UPDATE solution SET multipliers = x'00' WHERE id = {}", first + number);
-    assert_eq!(database.execute(&damage, []).unwrap(), 1);
-    database.close().unwrap();
-    let output = workshop.hammerbeam(&["figure", "results", "--kind", "multipliers", "--out", "drawn"]);
-    assert_eq!(output.status.code(), Some(1), "there is one branch");
-    let sentence = format!("solution {number} on the {side} side of branch 1 is damaged");
-    assert!(stderr(&output).contains(&sentence), "{sentence}: {}", stderr(&output));
 }
 
 #[test]

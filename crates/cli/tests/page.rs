@@ -395,7 +395,8 @@ fn in_a_browser(pages: &Value) {
     };
     run(&["node_modules/typescript/bin/tsc", "--noEmit"]);
     run(&["build.mjs", "--compare"]);
-    run(&["--test", "test/ticks.test.mjs"]);
+    let plain = ["ticks", "plane", "masses"].map(|name| format!("test/{name}.test.mjs"));
+    run(&[&["--test"], &plain.each_ref().map(String::as_str)[..]].concat());
     let tests =
         ["opening", "orbit", "keys", "overlay", "print"].map(|name| format!("test/page/{name}.test.mjs"));
     // One browser at a time.

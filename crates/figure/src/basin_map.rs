@@ -1,12 +1,14 @@
 //! Basins of attraction: a plane of initial states, each cell in the colour of the attractor that it leads to.
 
+use std::collections::BTreeSet;
+
 use crate::{
     Figure, FigureError, MotionKind, Style,
     chart::{Chart, Measure, Panel},
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
-    style::{INK, PALE_INK, PAPER, fill},
+    style::{IMPOSSIBLE, INK, NOT_COMPUTED, PAPER, fill},
 };
 
 /// A plane of initial states.
@@ -26,6 +28,8 @@ pub struct BasinMap {
     pub cells_along: usize,
     /// Attractor of each cell, counted from 1, row by row from the lower left corner; 0 where it is not known. Cells that are still missing are left white.
     pub cells: Vec<u32>,
+    /// Whether each of these cells begins behind a rigid stop, where no motion can begin; may be shorter.
+    pub behind_stop: Vec<bool>,
     /// The attractors.
     pub attractors: Vec<Destination>,
 }
@@ -53,7 +57,7 @@ impl BasinMap {
             let points = self.cells.len();
             return Err(FigureError::Empty { quantity: "cell", curves: self.attractors.len(), points });
         }
-        let mut layers: Vec<Layer> = (0..self.numbers()).map(|number| self.layer(number)).collect();
+        let mut layers: Vec<Layer> = self.fates().map(|fate| self.layer(fate)).collect();
         for destination in &self.attractors {
             let points = destination.places.clone();
             for (full, colour, radius) in [(true, PAPER, 2.2), (true, INK, 1.4)] {
@@ -68,54 +72,67 @@ impl BasinMap {
             heading: String::new(),
         };
         let x = Measure::new(&self.x_label).between(self.x_range);
-        let legend = vec![(0..self.numbers()).filter_map(|number| self.entry(number)).collect(), self.note()];
+        let legend = vec![self.fates().map(|fate| self.entry(fate)).collect(), self.note()];
         let (title, description) = (self.title.clone(), self.description());
         Chart { title, x, panels: vec![panel], legend, description, aspect: Some(0.9) }.draw(style)
     }
 
-    /// One more than the greatest number that a cell may have.
-    fn numbers(&self) -> u32 {
-        self.cells.iter().copied().max().unwrap_or(0).max(self.attractors.len() as u32) + 1
+    /// What becomes of the motion from each cell.
+    fn each_fate(&self) -> impl Iterator<Item = Fate> + '_ {
+        self.cells.iter().enumerate().map(|(cell, number)| match number {
+            0 if self.behind_stop.get(cell) == Some(&true) => Fate::BehindStop,
+            0 => Fate::NotComputed,
+            number => Fate::Attractor(*number),
+        })
     }
 
-    /// The cells of an attractor, neighbours in a row joined.
-    fn layer(&self, number: u32) -> Layer {
+    /// All of those, once each.
+    fn fates(&self) -> impl Iterator<Item = Fate> + use<> {
+        self.each_fate().collect::<BTreeSet<Fate>>().into_iter()
+    }
+
+    /// The cells of a fate, neighbours in a row joined.
+    fn layer(&self, fate: Fate) -> Layer {
+        let fates: Vec<Fate> = self.each_fate().collect();
         let step = |(from, to): (f64, f64)| (to - from) / self.cells_along as f64;
         let (width, height) = (step(self.x_range), step(self.y_range));
         let mut cells = Vec::new();
-        for (row, line) in self.cells.chunks(self.cells_along).enumerate() {
+        for (row, line) in fates.chunks(self.cells_along).enumerate() {
             let bottom = self.y_range.0 + row as f64 * height;
             let mut column = 0;
             for run in line.chunk_by(|a, b| a == b) {
                 let left = self.x_range.0 + column as f64 * width;
                 column += run.len();
-                if run[0] == number {
+                if run[0] == fate {
                     cells.push([left, self.x_range.0 + column as f64 * width, bottom, bottom + height]);
                 }
             }
         }
-        Layer::Cells { cells, colour: colour(number) }
+        Layer::Cells { cells, colour: fate.colour() }
     }
 
-    fn share(&self, number: u32) -> f64 {
-        self.cells.iter().filter(|&&cell| cell == number).count() as f64 / self.cells.len() as f64
+    fn share(&self, fate: Fate) -> f64 {
+        self.each_fate().filter(|found| *found == fate).count() as f64 / self.cells.len() as f64
     }
 
-    fn name(&self, number: u32) -> String {
-        let percent = format!("{:.1}\u{2009}%", 100.0 * self.share(number));
-        match (number as usize).checked_sub(1).map(|index| self.attractors.get(index)) {
-            None => format!("not computed, {percent}"),
-            Some(None) => format!("attractor {number}, {percent}"),
-            Some(Some(Destination { kind, branch, .. })) => {
+    fn name(&self, fate: Fate) -> String {
+        let percent = format!("{:.1}\u{2009}%", 100.0 * self.share(fate));
+        let number = match fate {
+            Fate::BehindStop => return format!("begins behind a rigid stop, {percent}"),
+            Fate::NotComputed => return format!("not computed, {percent}"),
+            Fate::Attractor(number) => number,
+        };
+        match self.attractors.get(number as usize - 1) {
+            None => format!("attractor {number}, {percent}"),
+            Some(Destination { kind, branch, .. }) => {
                 let branch = branch.map_or_else(String::new, |branch| format!(", branch {branch}"));
                 format!("{number}: {}{branch}, {percent}", kind.words())
             }
         }
     }
 
-    fn entry(&self, number: u32) -> Option<Entry> {
-        let is_drawn = self.cells.contains(&number);
-        is_drawn.then(|| Entry { sample: Sample::Cell(colour(number)), name: self.name(number) })
+    fn entry(&self, fate: Fate) -> Entry {
+        Entry { sample: Sample::Cell(fate.colour()), name: self.name(fate) }
     }
 
     fn note(&self) -> Vec<Entry> {
@@ -126,8 +143,7 @@ impl BasinMap {
     }
 
     fn description(&self) -> String {
-        let drawn = (0..self.numbers()).filter(|number| self.cells.contains(number));
-        let names: Vec<String> = drawn.map(|number| self.name(number)).collect();
+        let names: Vec<String> = self.fates().map(|fate| self.name(fate)).collect();
         let wanted = self.cells_along * self.cells_along;
         let missing = wanted.saturating_sub(self.cells.len());
         let missing =
@@ -141,6 +157,22 @@ impl BasinMap {
     }
 }
 
-fn colour(number: u32) -> &'static str {
-    number.checked_sub(1).map_or(PALE_INK, |index| fill(index as usize))
+/// What becomes of a motion from a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Fate {
+    /// There is none: no state of the structure is there.
+    BehindStop,
+    NotComputed,
+    /// It leads to the attractor of that number, counted from 1.
+    Attractor(u32),
+}
+
+impl Fate {
+    fn colour(self) -> &'static str {
+        match self {
+            Self::BehindStop => IMPOSSIBLE,
+            Self::NotComputed => NOT_COMPUTED,
+            Self::Attractor(number) => fill(number as usize - 1),
+        }
+    }
 }

@@ -9,7 +9,7 @@ use crate::{
     font::CAPITAL_HEIGHT,
     layer::Layer,
     legend::{Entry, Legend},
-    plot::{Area, Plot, lettering, room_below, room_left},
+    plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleKind, extent},
     svg::{Anchor, Point, SvgWriter, points},
     text::{Text, wrap},
@@ -151,7 +151,7 @@ impl Chart {
         let axes: Vec<Axis> = scales.iter().zip(&self.panels).map(|pair| axis(pair, guess)).collect();
         let labels = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, labels);
-        let right = points(style.width_mm) - MARGIN - style.tick_size;
+        let right = points(style.width_mm) - MARGIN - room_right(style, &across, left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left).len() as f64;
         let legend = Legend::new(self.legend.clone(), style, right - left).height(style);
         let head = MARGIN + 1.5 * title * style.label_size + legend + GAP;

@@ -10,7 +10,7 @@ use crate::{
     font::CAPITAL_HEIGHT,
     legend::{Entry, Legend, Sample},
     marks::Mark,
-    plot::{Area, Plot, lettering, room_below, room_left},
+    plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleChoice, ScaleKind, extent},
     style::{Pattern, bifurcation_pattern},
     svg::{Anchor, Dashes, Point, Stroke, SvgWriter, points},
@@ -111,7 +111,7 @@ impl CurveDiagram {
         let plot_height = points(style.height_mm) - room_below(style);
         let y = Axis::new(up, Text::upright("Excitation frequency (Hz)"), 0.85 * plot_height, TICK_SPACING.1);
         let left = room_left(style, y.label_width(style.tick_size));
-        let right = points(style.width_mm) - MARGIN - style.tick_size;
+        let right = points(style.width_mm) - MARGIN - room_right(style, &across, left, TICK_SPACING.0);
         let x = Axis::new(across, Text::upright(&self.parameter), right - left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left);
         let legend = Legend::new(vec![self.entries()], style, right - left);

@@ -45,11 +45,12 @@ impl ExcitationDiagram {
         let y = Measure::new(self.quantity.clone());
         let y = if largest > 0.0 { y.between((0.0, 1.06 * largest)) } else { y };
         let panels = vec![Panel { quantity: "amplitude", y, layers, heading: String::new() }];
-        let description = format!(
-            "amplitude of the excitation over its frequency, {} rows, {} measured",
-            self.rows.len(),
-            self.measured.len()
-        );
+        let measured = match self.measured.len() {
+            0 => String::new(),
+            count => format!(", {count} measured"),
+        };
+        let rows = self.rows.len();
+        let description = format!("amplitude of the excitation over its frequency, {rows} rows{measured}");
         let x = Measure::new("Excitation frequency (Hz)");
         let frequencies = self.rows.iter().chain(&self.measured).map(|(frequency, _)| *frequency);
         let ends = extent(frequencies.filter(|frequency| frequency.is_finite()));

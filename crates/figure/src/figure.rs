@@ -46,6 +46,11 @@ impl Figure {
         &self.description
     }
 
+    /// Characters of its texts that the bundled font lacks, in the order of their codes; the replacement character � stands for each.
+    pub fn characters_lacking(&self) -> impl Iterator<Item = char> + '_ {
+        self.svg.lacking.iter().copied()
+    }
+
     /// Width on paper (mm).
     #[must_use]
     pub fn width_mm(&self) -> f64 {

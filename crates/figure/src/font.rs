@@ -60,6 +60,11 @@ pub(crate) fn character_width(face: &[u8], character: char) -> f64 {
     advance(face, character).unwrap_or(UNKNOWN_WIDTH)
 }
 
+/// Whether a face has a character.
+pub(crate) fn has(face: &[u8], character: char) -> bool {
+    advance(face, character).is_some()
+}
+
 fn advance(face: &[u8], character: char) -> Option<f64> {
     let units_per_em = read_u16(face, table(face, b"head")? + 18)?;
     let wide_glyphs = read_u16(face, table(face, b"hhea")? + 34)?;

@@ -11,7 +11,7 @@ use crate::{
     sketch::{Behind, at, wall},
     style::{GRID, INK, PALE_INK, PERIOD_COLOUR},
     svg::{Anchor, Dashes, Point, Stroke, SvgWriter, points},
-    text::{Text, decimal, wrap},
+    text::{Text, cut, decimal, wrap},
 };
 
 /// Most modes that are drawn, the lowest.
@@ -135,14 +135,11 @@ impl ModeDiagram {
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (place, name) in sorted {
             let x = self.across(*place, style);
-            let half = 0.5 * Text::upright(name).width(style.tick_size);
+            let name = cut(name, style.tick_size, points(style.width_mm) - 2.0 * MARGIN);
+            let half = 0.5 * name.width(style.tick_size);
             let middle = x.min(points(style.width_mm) - MARGIN - half).max(MARGIN + half);
             if middle - half > taken + 2.0 {
-                svg.text(
-                    at(middle, top - 2.0),
-                    &Text::upright(name),
-                    lettering(style.tick_size, Anchor::Middle),
-                );
+                svg.text(at(middle, top - 2.0), &name, lettering(style.tick_size, Anchor::Middle));
                 taken = middle + half;
             }
         }

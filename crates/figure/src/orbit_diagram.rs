@@ -34,6 +34,8 @@ pub struct OrbitDiagram {
     pub impulses: Vec<OrbitImpulse>,
     /// The acceleration behind a low-pass filter, as an instrument shows it.
     pub filtered: Option<FilteredAcceleration>,
+    /// Names of the local elements; those without one are numbered.
+    pub element_names: Vec<String>,
     /// Eigenfrequencies of the structure without its local elements (Hz), marked in the spectrum.
     pub eigenfrequencies_hz: Vec<f64>,
 }
@@ -63,6 +65,11 @@ pub struct OrbitSample {
 }
 
 impl OrbitDiagram {
+    fn element_name(&self, element: usize) -> String {
+        let name = self.element_names.get(element).filter(|name| !name.is_empty());
+        name.cloned().unwrap_or_else(|| format!("local element {}", element + 1))
+    }
+
     /// Displacement, acceleration, forces of the local elements, impulses of rigid stops and support motion over the period.
     ///
     /// Where a velocity jumps the displacement has a corner and the acceleration a gap: it is an impulse there.
@@ -98,7 +105,7 @@ impl OrbitDiagram {
         }
         let several = elements > 1 && self.has_forces();
         let mut legend: Vec<Entry> =
-            (0..elements).filter(|_| several).map(|k| entry(k, format!("local element {}", k + 1))).collect();
+            (0..elements).filter(|_| several).map(|k| entry(k, self.element_name(k))).collect();
         panels.extend(self.impulse_panel());
         legend.extend(self.impulse_entries());
         if self.samples.iter().any(|sample| sample.support_m.is_some()) {

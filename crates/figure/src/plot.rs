@@ -3,8 +3,9 @@
 use crate::{
     axis::Axis,
     font::CAPITAL_HEIGHT,
+    scale::Scale,
     style::{GRID, INK, Style},
-    svg::{Anchor, Point, Stroke, SvgWriter, TextStyle},
+    svg::{Anchor, Point, Stroke, SvgWriter, TextStyle, points},
     text::Text,
     ticks::Tick,
 };
@@ -41,6 +42,17 @@ pub(crate) fn room_below(style: &Style) -> f64 {
 /// Room left of the frame for numbers of a width and the label of the vertical axis (pt).
 pub(crate) fn room_left(style: &Style, label_width: f64) -> f64 {
     style.tick_length + LABEL_GAP + label_width + AXIS_LABEL_GAP + style.label_size
+}
+
+/// Room right of the frame (pt): for as much of a number of the horizontal axis as juts out there.
+///
+/// * `left`: of the frame (pt).
+/// * `spacing`: distance of the numbers of the axis (pt).
+pub(crate) fn room_right(style: &Style, scale: &Scale, left: f64, spacing: f64) -> f64 {
+    let length = points(style.width_mm) - left - style.tick_size;
+    let axis = Axis::new(*scale, Text::default(), length, spacing);
+    let jut = |tick| 0.5 * number(tick).width(style.tick_size) - (1.0 - scale.share(tick.value)) * length;
+    labelled(&axis).map(jut).fold(style.tick_size, f64::max)
 }
 
 fn tick_label_depth(style: &Style) -> f64 {

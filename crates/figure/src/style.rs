@@ -33,13 +33,20 @@ pub(crate) fn line_pattern(number: usize) -> Pattern {
     Pattern { colour: PERIOD_COLOURS[place], dashes: DASHES[place] }
 }
 
+/// Colour of a kind of motion that is not certain.
+const DOUBTFUL: &str = "#898989";
+
+/// Colours of initial states that no motion was computed from, and of those that cannot be: they lie behind a rigid stop.
+pub(crate) const NOT_COMPUTED: &str = INK;
+pub(crate) const IMPOSSIBLE: &str = "#b6b4be";
+
 /// Colour of a kind of motion: dark where it repeats, light where not.
 pub(crate) fn kind_colour(kind: MotionKind) -> &'static str {
     match kind {
         MotionKind::Periodic { .. } => PERIOD_COLOURS[0],
         MotionKind::QuasiPeriodic => PERIOD_COLOURS[2],
         MotionKind::Chaotic => PERIOD_COLOURS[1],
-        MotionKind::Doubtful => PALE_INK,
+        MotionKind::Doubtful => DOUBTFUL,
     }
 }
 
@@ -284,11 +291,12 @@ mod tests {
     #[test]
     fn fills_are_told_apart_in_grey_print() {
         let kinds = MotionKind::ALL.map(kind_colour);
-        for colours in [&kinds[..], &FILLS[..]] {
+        let cells = [&FILLS[..], &[NOT_COMPUTED, IMPOSSIBLE]].concat();
+        for colours in [&kinds[..], &cells[..]] {
             for (one, other) in pairs(colours.len() as u32) {
                 let [a, b] = [one, other].map(|number| colours[number as usize - 1]);
                 let apart = (lightness(a) - lightness(b)).abs();
-                assert!(apart > 5.0 && distance(a, b) > 10.0, "{a} and {b}: {apart}, {}", distance(a, b));
+                assert!(apart > 7.5 && distance(a, b) > 10.0, "{a} and {b}: {apart}, {}", distance(a, b));
             }
         }
     }

@@ -3,12 +3,15 @@
 //! Coordinates have two decimals, 0.01 pt, which is a twentieth of a pixel at 300 pixels per inch. There are
 //! no ids, so any number of figures may stand in one page.
 
-use std::fmt::Write;
+use std::{collections::BTreeSet, fmt::Write};
 
 use crate::{
     font::{self, Characters},
     text::Text,
 };
+
+/// What is drawn in place of a character that the font lacks.
+const LACKING: char = '\u{fffd}';
 
 /// A place on the page (pt), y downwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +52,7 @@ pub(crate) struct SvgWriter {
     /// Where the fonts stand in it (bytes).
     fonts_at: usize,
     characters: Characters,
+    lacking: BTreeSet<char>,
 }
 
 /// An SVG document, and the fonts that it needs.
@@ -59,6 +63,8 @@ pub(crate) struct Document {
     fonts_at: usize,
     /// Those of its text.
     pub(crate) characters: Characters,
+    /// Characters that the font lacks: [`LACKING`] stands for them.
+    pub(crate) lacking: BTreeSet<char>,
 }
 
 impl Document {
@@ -83,7 +89,8 @@ impl SvgWriter {
             font::FAMILIES
         );
         let fonts_at = document.len();
-        let mut writer = Self { document, fonts_at, characters: Characters::default() };
+        let (characters, lacking) = (Characters::default(), BTreeSet::new());
+        let mut writer = Self { document, fonts_at, characters, lacking };
         writer.add(format_args!("<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"));
         writer
     }
@@ -145,9 +152,10 @@ impl SvgWriter {
             style.colour,
         ));
         for span in &text.spans {
-            let content = escape(&span.content);
+            let drawn: String = span.content.chars().map(|one| self.drawable(one, span.italic)).collect();
+            let content = escape(&drawn);
             let Characters { upright, italic } = &mut self.characters;
-            if span.italic { italic } else { upright }.extend(span.content.chars());
+            if span.italic { italic } else { upright }.extend(drawn.chars());
             match span.italic {
                 true => self.add(format_args!("<tspan font-style=\"italic\">{content}</tspan>")),
                 false => self.document.push_str(&content),
@@ -156,10 +164,20 @@ impl SvgWriter {
         self.document.push_str("</text>\n");
     }
 
+    /// A character, or what stands for one that the font lacks, which is remembered.
+    fn drawable(&mut self, character: char, italic: bool) -> char {
+        if character.is_control() || font::has(if italic { font::ITALIC } else { font::UPRIGHT }, character) {
+            return character;
+        }
+        self.lacking.insert(character);
+        LACKING
+    }
+
     /// Ends the document.
     pub(crate) fn finish(mut self) -> Document {
         self.document.push_str("</svg>\n");
-        Document { text: self.document, fonts_at: self.fonts_at, characters: self.characters }
+        let Self { document: text, fonts_at, characters, lacking } = self;
+        Document { text, fonts_at, characters, lacking }
     }
 
     fn add(&mut self, arguments: std::fmt::Arguments<'_>) {
@@ -245,6 +263,18 @@ mod tests {
     #[test]
     fn markup_in_a_text_is_only_text() {
         assert_eq!(escape("a<b> & \"c\"\u{0}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd} ");
+    }
+
+    /// Drawn as it is, every one of them would be the same empty box, which no reader of a PDF could search for.
+    #[test]
+    fn a_character_that_the_font_lacks_is_replaced_and_told() {
+        let mut writer = SvgWriter::new(84.0, 20.0, "振動", "");
+        let style = TextStyle { size: 7.0, colour: "#222222", anchor: Anchor::Start, upwards: false };
+        writer.text(Point { x: 5.0, y: 20.0 }, &Text::upright("Größe 振 🔨\tЖ").variable("梁x"), style);
+        let document = writer.finish();
+        assert_eq!(document.lacking, ['振', '梁', '🔨'].into());
+        assert!(document.text.contains("Größe \u{fffd} \u{fffd} Ж<tspan font-style=\"italic\">\u{fffd}x<"));
+        assert!(document.text.contains("<title>振動</title>"), "what is read and not drawn is left as it is");
     }
 
     #[test]

@@ -64,6 +64,17 @@ pub(crate) fn wrap(content: &str, size: f64, width: f64) -> Vec<Text> {
     lines.into_iter().map(Text::upright).collect()
 }
 
+/// A text no wider than `width` (pt): cut behind what has room, with an ellipsis there.
+pub(crate) fn cut(content: &str, size: f64, width: f64) -> Text {
+    let whole = Text::upright(content);
+    if whole.width(size) <= width {
+        return whole;
+    }
+    let starts: Vec<usize> = content.char_indices().map(|(start, _)| start).collect();
+    let cut = starts.iter().rev().map(|&end| Text::upright(format!("{}…", content[..end].trim_end())));
+    cut.into_iter().find(|text| text.width(size) <= width).unwrap_or_default()
+}
+
 /// A number with so many decimals, a true minus sign, and thin spaces between thousands from 10 000 on.
 pub(crate) fn decimal(value: f64, decimals: usize) -> String {
     let digits = format!("{:.decimals$}", value.abs());
@@ -138,5 +149,14 @@ mod tests {
         let words: Vec<_> = lines.iter().map(|line| line.spans[0].content.clone()).collect();
         assert_eq!(words.join(" "), "Clamped beam with an elastic stop at its contact mass");
         assert!(wrap("  ", 8.0, 90.0).is_empty());
+    }
+
+    #[test]
+    fn what_has_no_room_is_cut_and_says_so() {
+        assert_eq!(cut("contact", 7.0, 90.0), Text::upright("contact"));
+        let text = cut("première masse with a very long name", 7.0, 60.0);
+        assert!(text.width(7.0) <= 60.0 && text.width(7.0) > 50.0);
+        assert!(text.spans[0].content.starts_with("première") && text.spans[0].content.ends_with('…'));
+        assert_eq!(cut("contact", 7.0, 1.0), Text::default());
     }
 }

@@ -220,6 +220,50 @@ fn of_many_modes_the_lowest_are_drawn_and_said_so() {
     assert_on_the_page(&masses.draw(&Style::single_column()).unwrap());
 }
 
+/// Labels and names that have no room would run over the edge of the paper.
+#[test]
+fn long_names_and_long_last_numbers_stay_on_the_page() {
+    let long = "première masse with a very very long name indeed, longer than any frame of any figure in a column of a journal";
+    let mut named = modes(2);
+    named.points = vec![(0.0, long.to_owned())];
+    let figure = named.draw(&Style::single_column()).unwrap();
+    assert!(figure.svg().contains("…<"), "the name is cut and says so");
+    assert_in_the_width(&figure);
+    let rows = vec![(300_000.0, 1.0), (600_000.0, 2.0)];
+    let excitation =
+        ExcitationDiagram { rows, quantity: "Amplitude (N)".to_owned(), ..ExcitationDiagram::default() };
+    for style in [Style::single_column(), Style::double_column()] {
+        let figure = excitation.draw(&style).unwrap();
+        assert!(figure.svg().contains(">600\u{2009}000<"));
+        assert_in_the_width(&figure);
+    }
+}
+
+/// Every text ends before the edge, by the advances of Arial: no glyph of its letters and digits is wider than 0.834 of the type size but M, W and m, digits are 0.556 wide.
+fn assert_in_the_width(figure: &Figure) {
+    let width = figure.width_mm() * 72.0 / 25.4;
+    let svg = figure.svg();
+    for text in svg.split("<text ").skip(1).filter(|text| !text.contains("rotate")) {
+        let of = |name: &str| text.split(&format!("{name}=\"")).nth(1).unwrap().split('"').next().unwrap();
+        let number = |name: &str| of(name).parse::<f64>().unwrap();
+        let content = text.split('>').nth(1).unwrap().split('<').next().unwrap();
+        let advance = |character: char| match character {
+            '0'..='9' => 0.556,
+            '\u{2009}' => 0.2,
+            'i' | 'l' | 'j' | ' ' | '.' | ',' | 'f' | 't' => 0.222,
+            _ => 0.5,
+        };
+        let long: f64 = content.chars().map(advance).sum::<f64>() * number("font-size");
+        let right = number("x")
+            + match of("text-anchor") {
+                "start" => long,
+                "middle" => 0.5 * long,
+                _ => 0.0,
+            };
+        assert!(right <= width, "{content:?} ends at {right} of {width}");
+    }
+}
+
 #[test]
 fn modes_without_a_shape_are_refused() {
     let mut diagram = modes(2);

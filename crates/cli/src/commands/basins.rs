@@ -92,7 +92,9 @@ fn grid(options: &BasinsOptions, model: &Model) -> Result<Grid, Failure> {
 }
 
 /// What one unit of a coordinate adds to the modal state.
-fn direction(name: &str, flag: &str, model: &Model) -> Result<Vec<f64>, Failure> {
+///
+/// * `flag`: what named it, for the message where there is no such coordinate.
+pub fn direction(name: &str, flag: &str, model: &Model) -> Result<Vec<f64>, Failure> {
     let n = model.system.dof();
     let mut direction = vec![0.0; 2 * n];
     let first = model.response.shape[0];

@@ -27,16 +27,17 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
     let wishes = wishes(options, &file);
     figures::draw(&store, (&file, &model), &wishes, &mut drawn)?;
     drop(snapshot);
-    let Files { names: files, refused } = drawn.finish()?;
+    let Files { names: files, refused, lacking } = drawn.finish()?;
     if files.is_empty() {
         let results = options.results.display();
         return Err(Failure::NoResult(format!("{results} holds nothing of what was asked for to draw")));
     }
     let refused: Vec<_> =
         refused.iter().map(|(name, reason)| json!({ "figure": name, "reason": reason })).collect();
-    output.give(&json!({ "folder": folder, "files": files, "not_drawn": refused }), || {
-        format!("{} files in {}:\n{}", files.len(), folder.display(), files.join("\n"))
-    });
+    let document =
+        json!({ "folder": folder, "files": files, "not_drawn": refused, "characters_not_in_font": lacking });
+    output
+        .give(&document, || format!("{} files in {}:\n{}", files.len(), folder.display(), files.join("\n")));
     Ok(())
 }
 

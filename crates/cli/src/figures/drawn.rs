@@ -1,6 +1,7 @@
 //! Files as they are drawn: each written whole or not at all, on several threads.
 
 use std::{
+    collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
     sync::{
@@ -49,6 +50,8 @@ pub struct Drawn<'a> {
     /// Names of the files.
     pub files: Vec<String>,
     refused: Vec<(String, String)>,
+    /// Characters that the font lacks.
+    lacking: BTreeSet<char>,
     crew: Crew,
     interrupt: Option<Interrupt>,
     /// Whether something was left out since the user has asked to stop.
@@ -66,6 +69,8 @@ pub struct Files {
     pub names: Vec<String>,
     /// Names of figures that cannot be drawn, each with the reason.
     pub refused: Vec<(String, String)>,
+    /// Characters of their texts that the font lacks.
+    pub lacking: Vec<String>,
 }
 
 impl<'a> Drawn<'a> {
@@ -78,6 +83,7 @@ impl<'a> Drawn<'a> {
             formats: FigureFormat::USUAL.to_vec(),
             files: Vec::new(),
             refused: Vec::new(),
+            lacking: BTreeSet::new(),
             crew: Crew::of(1),
             interrupt: None,
             is_cut: false,
@@ -161,7 +167,14 @@ impl<'a> Drawn<'a> {
         for (name, reason) in &self.refused {
             anstream::eprintln!("{name}: {reason}");
         }
-        Ok(Files { names: self.files, refused: self.refused })
+        let lacking: Vec<String> = self.lacking.iter().map(char::to_string).collect();
+        if !lacking.is_empty() {
+            let all = lacking.join(" ");
+            anstream::eprintln!(
+                "the font of the figures lacks these characters, \u{fffd} stands for each: {all}"
+            );
+        }
+        Ok(Files { names: self.files, refused: self.refused, lacking })
     }
 }
 
@@ -170,6 +183,7 @@ impl Album for Drawn<'_> {
     fn add(&mut self, name: &str, figure: Result<Figure, FigureError>) {
         match figure {
             Ok(figure) => {
+                self.lacking.extend(figure.characters_lacking());
                 let (resolution, formats) = (self.resolution, self.formats.clone());
                 let names: Vec<String> =
                     formats.iter().map(|format| format!("{name}.{}", format.suffix())).collect();
@@ -195,11 +209,41 @@ fn is_raised(interrupt: Option<&Interrupt>) -> bool {
     interrupt.is_some_and(Interrupt::raised)
 }
 
-/// Writes a file so that it is there complete or not at all.
+/// Writes a file so that it is there complete or not at all, whoever else writes it at the same time.
 pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    static WRITTEN: AtomicU64 = AtomicU64::new(0);
     let mut unfinished = path.as_os_str().to_owned();
-    unfinished.push(".part");
-    fs::write(&unfinished, bytes)
-        .and_then(|()| fs::rename(&unfinished, path))
-        .with_context(|| format!("cannot write {}", path.display()))
+    unfinished.push(format!(".{}-{}.part", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
+    let written = fs::write(&unfinished, bytes).and_then(|()| fs::rename(&unfinished, path));
+    if written.is_err() {
+        // What is left of it is of no use; that the file cannot be written is told, not that this cannot be taken away.
+        let _ = fs::remove_file(&unfinished);
+    }
+    written.with_context(|| format!("cannot write {}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every writer ends with its own bytes whole or with those of another one, and nothing else is left in the folder.
+    #[test]
+    fn one_file_is_written_by_several_at_once_and_nothing_is_left_of_a_failure() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("page.html");
+        std::thread::scope(|scope| {
+            for writer in 0..8_u8 {
+                let path = &path;
+                scope.spawn(move || (0..20).for_each(|_| replace(path, &vec![writer; 200_000]).unwrap()));
+            }
+        });
+        let bytes = fs::read(&path).unwrap();
+        assert!(bytes.len() == 200_000 && bytes.iter().all(|byte| *byte == bytes[0]));
+        fs::create_dir(folder.path().join("taken")).unwrap();
+        assert!(replace(&folder.path().join("taken"), b"x").is_err());
+        let mut names: Vec<_> =
+            fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        assert_eq!(names, ["page.html", "taken"]);
+    }
 }

@@ -1,6 +1,6 @@
 //! Figures of motions that need not repeat: sweeps, exponents, sections, basins.
 
-use hammerbeam_attractor::{Attractor, Class};
+use hammerbeam_attractor::{Attractor, Axis, Class, Grid, behind_rigid_stops};
 use hammerbeam_figure::{
     BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, MotionKind, Origin,
     SectionDiagram, Style, SweepDiagram, SweptMotion, plain_number,
@@ -11,6 +11,7 @@ use hammerbeam_study::{
 };
 
 use super::Album;
+use crate::{commands::basins::direction, failure::Failure};
 
 /// Draws the settled motions of every sweep.
 pub fn draw_sweeps(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
@@ -88,7 +89,7 @@ pub fn draw_basins(
     store: &Store,
     (file, model): (&StudyFile, &Model),
     drawn: &mut impl Album,
-) -> anyhow::Result<()> {
+) -> Result<(), Failure> {
     let requests: Vec<RequestRecord> =
         store.requests()?.into_iter().filter(|request| request.kind == RequestKind::Basins).collect();
     if requests.is_empty() {
@@ -119,6 +120,7 @@ pub fn draw_basins(
                 scale * number(&request, &format!("{axis}.high"))?,
             ))
         };
+        let behind_stop = behind_stops(&request, model, frequency_hz)?;
         let map = BasinMap {
             title: format!("{title}, {} Hz", plain_number(frequency_hz)),
             x_label: coordinate(&request, "x"),
@@ -127,6 +129,7 @@ pub fn draw_basins(
             y_range: range("y")?,
             cells_along: number(&request, "grid")? as usize,
             cells,
+            behind_stop,
             attractors: destinations,
         };
         drawn.add(&format!("basins-{}", request.id), map.draw(&Style::single_column()));
@@ -217,6 +220,21 @@ pub fn kind(class: Class) -> MotionKind {
 fn number(request: &RequestRecord, key: &str) -> Result<f64, StoreError> {
     let found = request.word(key).unwrap_or_default();
     found.parse().map_err(|_| StoreError::Unknown { what: "grid of basins", found: found.to_owned() })
+}
+
+/// Whether each cell of a request begins behind a rigid stop.
+fn behind_stops(request: &RequestRecord, model: &Model, frequency_hz: f64) -> Result<Vec<bool>, Failure> {
+    let axis = |name: &str| {
+        let coordinate = request.word(&format!("{name}.coordinate")).unwrap_or_default();
+        Ok::<_, Failure>(Axis {
+            direction: direction(coordinate, name, model)?,
+            low: number(request, &format!("{name}.low"))?,
+            high: number(request, &format!("{name}.high"))?,
+            count: number(request, "grid")? as usize,
+        })
+    };
+    let grid = Grid { base: vec![0.0; 2 * model.system.dof()], x: axis("x")?, y: axis("y")? };
+    Ok(behind_rigid_stops(&model.system, frequency_hz, &grid)?)
 }
 
 /// A coordinate of the initial state in words, with its unit.

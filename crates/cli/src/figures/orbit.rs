@@ -128,6 +128,7 @@ fn diagram(
         samples,
         impulses,
         filtered,
+        element_names: model.system.elements().iter().map(|element| element.name.clone()).collect(),
         eigenfrequencies_hz,
     })
 }

@@ -9,6 +9,7 @@ use std::{
 };
 
 use assert_cmd::Command;
+use serde_json::Value;
 use tempfile::TempDir;
 
 /// A beam with a stop, as in the studies folder.
@@ -100,4 +101,24 @@ pub fn assert_bad_input(output: &Output, parts: &[&str]) {
     for part in parts {
         assert!(message.contains(part), "\"{part}\" is missing in:\n{message}");
     }
+}
+
+/// Computes the study.
+pub const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// A run of one short branch.
+pub fn short_run(added: &str) -> Workshop {
+    let study = TWO_MASSES.replacen("[3.0, 14.0]", "[13.5, 14.0]", 1);
+    let workshop = Workshop::with(&format!("{study}\n{added}"));
+    assert_success(&workshop.hammerbeam(&RUN));
+    workshop
+}
+
+/// Files that `figure` draws of the folder, of which nothing is refused.
+pub fn files(workshop: &Workshop, arguments: &[&str]) -> Vec<String> {
+    let output = workshop.hammerbeam(&[&["figure", "results", "--json"][..], arguments].concat());
+    assert_success(&output);
+    let document: Value = serde_json::from_str(&stdout(&output)).expect("one JSON document");
+    assert_eq!(document["not_drawn"].as_array().unwrap().len(), 0, "{}", stderr(&output));
+    document["files"].as_array().unwrap().iter().map(|name| name.as_str().unwrap().to_owned()).collect()
 }

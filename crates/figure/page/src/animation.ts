@@ -3,8 +3,9 @@
 import type { Structure } from "./data";
 import { button, choice, element, panel } from "./dom";
 import { drawBeam } from "./draw_beam";
-import { drawMasses, rowsOf } from "./draw_masses";
+import { drawMasses } from "./draw_masses";
 import { digits } from "./format";
+import { layoutOf } from "./mass_layout";
 import { largestDisplacement, poseAt } from "./motion";
 import type { Orbit } from "./orbit";
 import type { Theme } from "./theme";
@@ -38,6 +39,7 @@ export class Animation {
             this.draw();
         });
         this.root = panel("The structure in motion", "motion", [this.canvas, element("div", { class: "controls" }, [this.play, this.slider, pace.root]), this.speed]);
+        this.canvas.addEventListener("mousemove", ({ offsetX }) => (this.canvas.title = this.nameAt(offsetX)));
         theme.listen(() => this.draw());
         new ResizeObserver(() => this.draw()).observe(this.canvas);
         requestAnimationFrame((now) => this.step(now));
@@ -93,19 +95,28 @@ export class Animation {
         if (this.structure.beam) {
             this.enlarged = drawBeam(sketch, this.structure, pose, (0.36 * HEIGHT) / largest);
         } else {
-            drawMasses(sketch, this.structure, pose, rowsOf(this.structure, width).room / largest);
+            this.isNamed = drawMasses(sketch, this.structure, pose, layoutOf(this.structure.places.length, width).room / largest);
         }
         this.tell();
         this.at(this.instant);
     }
 
     private enlarged = 0;
+    /** Whether every mass has its name beside it. */
+    private isNamed = true;
+
+    /** The name of the mass at a distance from the left (CSS pixels), which may be cut in the drawing. */
+    private nameAt(left: number): string {
+        const places = this.structure?.beam === false ? this.structure.places : [];
+        const { rest, spacing } = layoutOf(places.length, this.canvas.clientWidth);
+        return places.find((_, k) => Math.abs((rest[k] ?? NaN) - left) <= spacing / 2)?.name ?? "";
+    }
 
     private tell(): void {
         const slower = this.seconds * this.frequency;
         const pace = slower >= 1 ? `${digits(slower, 3)} times slower` : `${digits(1 / slower, 3)} times faster`;
         const size = this.enlarged > 0 ? ` Displacements are drawn ${digits(this.enlarged, 2)} times larger than lengths.` : "";
-        const text = `Played ${pace}.${size} Largest displacement: ${digits(1e3 * this.largest, 3)} mm. A stop is coloured while it is pressed, a rigid one for a moment at an impact.`;
+        const text = `Played ${pace}.${size} Largest displacement: ${digits(1e3 * this.largest, 3)} mm. A stop is coloured while it is pressed, a rigid one for a moment at an impact.${this.isNamed ? "" : " Point at a mass for its name."}`;
         if (this.speed.textContent !== text) {
             this.speed.textContent = text;
         }

@@ -1,6 +1,6 @@
 // The solutions as they are drawn: a quantity in the unit of its axis, on a linear or logarithmic scale, in pixels.
 
-import type { Quantity, Solutions } from "./data";
+import type { Measured, Quantity, Solutions } from "./data";
 import { MEASURES } from "./format";
 import type { Range } from "./frame";
 
@@ -51,6 +51,12 @@ export class Curves {
             this.kept.set(key, levels);
         }
         return levels;
+    }
+
+    /** Quantities of which there is something, measured ones among them: without contacts over a time there are no forces. */
+    present(measured: readonly Measured[]): Quantity[] {
+        const always: readonly Quantity[] = ["displacement", "acceleration", ...measured.map(({ quantity }) => quantity)];
+        return (Object.keys(MEASURES) as Quantity[]).filter((quantity) => always.includes(quantity) || this.solutions.maxima[quantity].some((value) => value > 0));
     }
 
     /** Least and largest of a quantity among the branches that are drawn, and of other values, widened a little; null where nothing is. */

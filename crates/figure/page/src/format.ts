@@ -16,8 +16,34 @@ export function digits(value: number, count: number): string {
     return text.replace("e+", "e").replaceAll("-", "−");
 }
 
-/** Labels of ticks at a distance, all of them with the digits that tell neighbours apart; powers of ten where they are very small or very large. */
-export function ticks(splits: readonly (number | null)[], distance: number): string[] {
+/** Digits of a label up to which it is written in full. */
+const LONGEST = 7;
+
+/**
+ * What the labels of an axis have in common, where they would have too many digits to stand beside each other; 0 where they have not.
+ *
+ * It has no more digits than it needs to leave short labels: its last one is that of the width of the axis.
+ *
+ * * `low`, `high`: the ends of the axis; `distance`: of its ticks.
+ */
+export function commonPart(low: number, high: number, distance: number): number {
+    const largest = Math.max(Math.abs(low), Math.abs(high));
+    const digitsOf = Math.floor(Math.log10(largest)) - Math.floor(Math.log10(distance) + 1e-9) + 1;
+    if (!(digitsOf > LONGEST)) {
+        return 0;
+    }
+    const last = Math.ceil(Math.log10(high - low));
+    const nearer = low < 0 ? high : low;
+    return last >= 0 ? Math.trunc(nearer / 10 ** last) * 10 ** last : Number((Math.trunc(nearer * 10 ** -last) / 10 ** -last).toFixed(Math.min(20, -last)));
+}
+
+/**
+ * Labels of ticks at a distance, all of them with the digits that tell neighbours apart; powers of ten where they are very small or very large.
+ *
+ * * `common`: what they leave out.
+ */
+export function ticks(marked: readonly (number | null)[], distance: number, common = 0): string[] {
+    const splits = marked.map((value) => (value === null ? null : value - common));
     const largest = splits.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
     // The last digit of the distance, which uPlot takes from 1, 2, 2.5 and 5 times a power of ten.
     let last = Math.floor(Math.log10(distance) + 1e-9);

@@ -2,7 +2,7 @@
 
 import uPlot from "uplot";
 
-import { ticks } from "./format";
+import { commonPart, ticks } from "./format";
 import { logAxis, type LogAxis } from "./log_axis";
 import type { Theme } from "./theme";
 
@@ -23,6 +23,8 @@ export interface FrameOptions {
     range: () => Range;
     paint: Painter;
     height: () => number;
+    /** Distance of labels on the horizontal axis at least, where they are short (CSS pixels). */
+    space?: number;
 }
 
 /** Width of the labels of a vertical axis at least (CSS pixels). */
@@ -40,13 +42,36 @@ const LABEL_FONT = "13px system-ui, sans-serif";
 /** Distance of labels on a vertical axis (CSS pixels). */
 const TALL = 36;
 
+/** Distance of labels on a horizontal axis: the longest ones have a place there (CSS pixels). */
+const WIDE = 76;
+
+/** Width of a character of a label at most (CSS pixels). */
+const CHARACTER = 7.8;
+
+/** Room to the right of a plot whose labels are short (CSS pixels). */
+const RIGHT = 18;
+
 function logarithmic(plot: uPlot): LogAxis {
     const { min, max } = plot.scales["y"] ?? {};
     return logAxis(min ?? 0.1, max ?? 1, plot.bbox.height / uPlot.pxRatio / TALL);
 }
 
+/** What the labels of an axis leave out, at a distance of its ticks. */
+function commonOf(plot: uPlot, axis: "x" | "y", distance: number): number {
+    const { min, max } = plot.scales[axis] ?? {};
+    return commonPart(min ?? 0, max ?? 1, distance);
+}
+
+/** A label of an axis that says what is left out at its ticks: "Frequency − 39.69 (Hz)". */
+function less(label: string, common: number): string {
+    const [name = "", unit = ""] = label.split(/ (?=\([^()]*\)$)/);
+    return common === 0 ? label : `${name} ${common > 0 ? "−" : "+"} ${Math.abs(common)}${unit === "" ? "" : ` ${unit}`}`;
+}
+
 export class Frame {
     plot: uPlot;
+    /** Characters of the last label of the horizontal axis. */
+    private lastLabel = 0;
     private logY: boolean;
     private readonly listeners: (() => void)[] = [];
 
@@ -69,10 +94,8 @@ export class Frame {
     /** Draws anew, with the axes as they are now. */
     redraw(): void {
         const { x, y, logY } = this.range();
-        const [across, up] = this.plot.axes;
-        const labels = [this.options.xLabel(), this.options.yLabel()];
-        if (logY !== this.logY || across?.label !== labels[0] || up?.label !== labels[1]) {
-            // uPlot fixes the kind of a scale and the labels when it is made.
+        if (logY !== this.logY) {
+            // uPlot fixes the kind of a scale when it is made.
             this.logY = logY;
             this.plot.destroy();
             this.plot = this.create();
@@ -133,7 +156,7 @@ export class Frame {
             ...this.size(),
             ms: 1e-3,
             pxAlign: false,
-            padding: [8, 18, 0, 0],
+            padding: [8, () => Math.max(RIGHT, 0.5 * CHARACTER * this.lastLabel), 0, 0],
             legend: { show: false },
             cursor: { show: false },
             scales: {
@@ -144,20 +167,24 @@ export class Frame {
             axes: [
                 {
                     ...common,
-                    label: this.options.xLabel(),
+                    label: (plot: uPlot, _: number, distance: number) => less(this.options.xLabel(), commonOf(plot, "x", distance)),
                     labelSize: 20,
                     size: 30,
-                    space: 70,
-                    values: (_, splits, __, ___, distance) => ticks(splits, distance),
+                    space: this.options.space ?? WIDE,
+                    values: (plot, splits, __, ___, distance) => {
+                        const labels = ticks(splits, distance, commonOf(plot, "x", distance));
+                        this.lastLabel = labels.at(-1)?.length ?? 0;
+                        return labels;
+                    },
                 },
                 {
                     ...common,
-                    label: this.options.yLabel(),
+                    label: (plot: uPlot, _: number, distance: number) => less(this.options.yLabel(), logY ? logarithmic(plot).common : commonOf(plot, "y", distance)),
                     labelSize: 20,
-                    size: (_, labels) => Math.max(NARROW, 12 + 7.2 * Math.max(0, ...(labels ?? []).map((label) => label.length))),
+                    size: (_, labels) => Math.max(NARROW, 12 + CHARACTER * Math.max(0, ...(labels ?? []).map((label) => label.length))),
                     space: TALL,
                     ...(logY ? { splits: (plot: uPlot) => logarithmic(plot).splits, filter: (_: uPlot, splits: number[]) => splits } : {}),
-                    values: (plot, splits, __, ___, distance) => (logY ? logarithmic(plot).labels : ticks(splits, distance)),
+                    values: (plot, splits, __, ___, distance) => (logY ? logarithmic(plot).labels : ticks(splits, distance, commonOf(plot, "y", distance))),
                 },
             ],
             hooks: { draw: [(plot) => this.paint(plot)] },

@@ -3,8 +3,6 @@
 import type { Meta, Quantity, Solutions } from "./data";
 import { LAYERS, START, type State } from "./state";
 
-const QUANTITIES: readonly Quantity[] = ["displacement", "acceleration", "force", "velocity"];
-
 /** Shortest decimal that is good to a hundred millionth of the width of the view. */
 function short(value: number, width: number): string {
     const digits = Math.min(15, Math.max(0, Math.ceil(8 - Math.log10(Math.abs(width) || 1))));
@@ -57,9 +55,9 @@ function pair(text: string | null): [number, number] | null {
 /**
  * The state of a link; what is not there, or makes no sense, is as at the start.
  *
- * `suits`: whether a logarithmic axis suits a quantity.
+ * `quantities`: those of which there is something; `suits`: whether a logarithmic axis suits a quantity.
  */
-export function fromHash(hash: string, meta: Meta, suits: (quantity: Quantity) => boolean): State {
+export function fromHash(hash: string, meta: Meta, quantities: readonly Quantity[], suits: (quantity: Quantity) => boolean): State {
     const words = new URLSearchParams(hash.replace(/^#/, ""));
     const [x, y] = [pair(words.get("x")), pair(words.get("y"))];
     const [id, number] = (words.get("at") ?? "").split(":").map(Number);
@@ -70,7 +68,7 @@ export function fromHash(hash: string, meta: Meta, suits: (quantity: Quantity) =
     const theme = words.get("theme");
     const section = Number(words.get("section") ?? 1) - 1;
     const scale = words.get("scale");
-    const quantity = QUANTITIES.find((one) => one === words.get("show")) ?? START.quantity;
+    const quantity = quantities.find((one) => one === words.get("show")) ?? START.quantity;
     return {
         quantity,
         log: scale === null ? suits(quantity) : scale === "log",

@@ -9,6 +9,8 @@ import type { Store } from "./state";
 
 export interface Actions {
     response: Response;
+    /** Those that can be shown. */
+    quantities: readonly Quantity[];
     quantity: (quantity: Quantity) => void;
     section: (place: number) => void;
     play: () => void;
@@ -44,8 +46,6 @@ const POINTER: readonly [string, string][] = [
 
 /** What scrolls a list. */
 const SCROLLING: ReadonlySet<string> = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "PageUp", "PageDown", "Home", "End", " "]);
-
-const QUANTITIES: readonly Quantity[] = ["displacement", "acceleration", "force", "velocity"];
 
 export function helpDialog(): HTMLDialogElement {
     const list = (rows: readonly [string, string][]): HTMLElement =>
@@ -115,7 +115,7 @@ export function listenToKeys(meta: Meta, solutions: Solutions, store: Store, act
         "-": () => zoom(1 / 0.6),
         "0": () => store.update({ view: null }),
         " ": actions.play,
-        q: () => actions.quantity(QUANTITIES[(QUANTITIES.indexOf(store.state.quantity) + 1) % QUANTITIES.length] ?? "displacement"),
+        q: () => actions.quantity(actions.quantities[(actions.quantities.indexOf(store.state.quantity) + 1) % actions.quantities.length] ?? "displacement"),
         l: () => store.update({ log: !store.state.log, view: null }),
         m: () => store.update({ marks: !store.state.marks }),
         d: () => store.update({ theme: document.documentElement.dataset["theme"] === "dark" ? "light" : "dark" }),

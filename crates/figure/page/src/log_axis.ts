@@ -1,10 +1,12 @@
 // Ticks of a logarithmic axis: at 1 to 9 times powers of ten, labelled where there is room; where fewer than three of them are seen, at equal distances.
 
-import { logTicks, ticks } from "./format";
+import { commonPart, logTicks, ticks } from "./format";
 
 export interface LogAxis {
     splits: number[];
     labels: string[];
+    /** What the labels leave out. */
+    common: number;
 }
 
 /** Ticks between two positive values with room for so many labels. */
@@ -31,7 +33,7 @@ export function logAxis(low: number, high: number, room: number): LogAxis {
         return mantissas.includes(mantissa) && Number(exponent) % every === 0;
     };
     const labels = logTicks(splits.map((value) => (isLabelled(value) ? value : null)));
-    return { splits, labels };
+    return { splits, labels, common: 0 };
 }
 
 /** Ticks at 1, 2 or 5 times a power of ten from each other. */
@@ -43,5 +45,6 @@ function evenly(low: number, high: number, room: number): LogAxis {
     for (let k = Math.ceil(low / distance); k * distance <= high && splits.length < 50; k++) {
         splits.push(k * distance);
     }
-    return { splits, labels: ticks(splits, distance) };
+    const common = commonPart(low, high, distance);
+    return { splits, labels: ticks(splits, distance, common), common };
 }

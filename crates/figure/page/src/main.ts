@@ -6,8 +6,9 @@ import { branchList } from "./branch_list";
 import { controls } from "./controls";
 import { Curves } from "./curves";
 import { readMeta, readSolutions, type Quantity } from "./data";
-import { element } from "./dom";
+import { button, element } from "./dom";
 import { figurePanel } from "./figures";
+import { digits } from "./format";
 import { fromHash, toHash } from "./hash";
 import { helpDialog, listenToKeys } from "./keys";
 import { legend } from "./legend";
@@ -22,12 +23,14 @@ import { Theme } from "./theme";
 const meta = readMeta();
 const solutions = readSolutions(meta.branches);
 const curves = new Curves(solutions);
-const store = new Store(fromHash(location.hash, meta, (quantity) => curves.spansMuch(quantity)));
+const quantities = curves.present(meta.measured);
+const stateOf = (hash: string): State => fromHash(hash, meta, quantities, (quantity) => curves.spansMuch(quantity));
+const store = new Store(stateOf(location.hash));
 const theme = new Theme(meta, store);
 
 const page = document.getElementById("page") ?? document.body;
 const help = helpDialog();
-const said = element("span", { class: "note", role: "status" });
+const said = element("p", { class: "note said", role: "status" });
 const view = new SolutionView(meta, solutions, store, theme);
 const diagram = element("div", { class: "diagram" });
 const zoom = (factor: number): void => response.zoomAboutSelected(factor);
@@ -36,16 +39,23 @@ const whole = (): void => store.update({ view: null });
 const show = (quantity: Quantity): void => store.update({ quantity, log: curves.spansMuch(quantity), view: null });
 const showHelp = (): void => help.showModal();
 
+/** Says something for some seconds. */
+function say(...words: (string | Node)[]): void {
+    window.clearTimeout(saying);
+    said.replaceChildren(...words);
+    saying = window.setTimeout(() => said.replaceChildren(), 6000);
+}
+let saying = 0;
+
 /** Copies the address of what is shown; where the clipboard is closed it says where the address stands. */
 async function copyLink(): Promise<void> {
     address.write();
     try {
         await navigator.clipboard.writeText(location.href);
-        said.textContent = "The link is copied.";
+        say("The link is copied.");
     } catch {
-        said.textContent = "The address of this page is the link.";
+        say("The address of this page is the link.");
     }
-    window.setTimeout(() => (said.textContent = ""), 4000);
 }
 
 const copy = (): void => void copyLink();
@@ -54,16 +64,25 @@ const subtitle = `${counted(meta.branches.length, "branch", "branches")}, ${coun
 page.append(
     element("header", {}, [element("h1", {}, [meta.title || "Results"]), element("p", {}, [subtitle])]),
     ...(meta.notice === "" ? [] : [element("p", { class: "notice", role: "alert" }, [meta.notice])]),
-    controls(meta, store, { quantity: show, whole, zoom, copyLink: copy, help: showHelp }),
+    controls(meta, quantities, store, { quantity: show, whole, zoom, copyLink: copy, help: showHelp }),
     said,
     diagram,
 );
 const lists = element("div", { class: "lists" });
-/** Opens the section at a place of their list, and brings it to the reader. */
+/** Opens the section at a place of their list; what the reader looks at stays where it is. */
 const openSection = (place: number): void => {
-    if (place >= 0) {
-        store.update({ section: place });
-        document.getElementById("section")?.scrollIntoView({ block: "nearest" });
+    if (place < 0) {
+        return;
+    }
+    store.update({ section: place });
+    const panel = document.getElementById("section");
+    const box = panel?.getBoundingClientRect();
+    if (panel && box && (box.top > window.innerHeight - 200 || box.bottom < 100)) {
+        const go = button("Go to it", "Scroll to the Poincaré section", () => {
+            panel.scrollIntoView({ block: "nearest" });
+            said.replaceChildren();
+        });
+        say(`The Poincaré section at ${digits(meta.sections[place]?.frequency ?? NaN, 6)} Hz is open.`, go);
     }
 };
 const response = new Response(meta, solutions, curves, store, theme, openSection, diagram);
@@ -89,11 +108,11 @@ if (solutions.count === 0) {
     diagram.prepend(element("p", { class: "notice" }, ["No periodic solution is stored."]));
 }
 view.show();
-listenToKeys(meta, solutions, store, { response, quantity: show, section: openSection, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
+listenToKeys(meta, solutions, store, { response, quantities, quantity: show, section: openSection, play: () => view.animation.toggle(), copyLink: copy, help: showHelp });
 
 const address = new Address(
     () => toHash(store.state, meta, solutions),
-    (hash) => store.update(fromHash(hash, meta, (quantity) => curves.spansMuch(quantity))),
+    (hash) => store.update(stateOf(hash)),
 );
 store.listen(() => address.plan());
 

@@ -41,13 +41,13 @@ const triangle = polygon([[0, -1.1], [1, 0.8], [-1, 0.8]]);
 
 const CHANGES = NEIMARK_SACKER | FLIP;
 
-/** From back to front. */
+/** From back to front. A fold lies behind the change of stability at its place: a dot within a mark means a measured point. */
 export const MARKS: readonly Mark[] = [
     { bits: GRAZING, name: "grazing", radius: 3.2, distance: 11, outline: triangle, isFilled: false, isPale: true },
     { bits: CHANGES, ofUnstable: true, name: "flip or Neimark–Sacker of unstable solutions", radius: 2, distance: 9, outline: circle, isFilled: false, isPale: true },
+    { bits: FOLD, name: "fold", radius: 2, distance: 5, outline: circle, isFilled: true, isPale: false },
     { bits: NEIMARK_SACKER, ofUnstable: false, name: "Neimark–Sacker", radius: 3.4, distance: 7, outline: circle, isFilled: false, isPale: false },
     { bits: FLIP, ofUnstable: false, name: "flip", radius: 3.4, distance: 7, outline: diamond, isFilled: false, isPale: false },
-    { bits: FOLD, name: "fold", radius: 2, distance: 5, outline: circle, isFilled: true, isPale: false },
     { bits: BRANCH_POINT, name: "branch point", radius: 3.2, distance: 7, outline: square, isFilled: false, isPale: false },
 ];
 

@@ -4,11 +4,11 @@ import { element, panel } from "./dom";
 import { complex } from "./format";
 import { Frame, MARGINS } from "./frame";
 import type { Multiplier } from "./multiplier_table";
+import { edgesOf, isWithin, type Edges } from "./plane";
 import type { Theme } from "./theme";
 
+/** Height at most (CSS pixels); less where the frame is narrow: it is no higher than wide. */
 const HEIGHT = 300;
-/** Largest distance from 0 that is drawn. */
-const FARTHEST = 4;
 /** Entries of the list. */
 const LISTED = 12;
 
@@ -30,15 +30,13 @@ export class Multipliers {
         this.multipliers = multipliers;
         this.whose.textContent =
             multipliers.length === 0 ? `The page has no multipliers ${whose}.` : `${multipliers.length < most ? `The ${multipliers.length} largest of ${most}` : `All ${multipliers.length}`} ${whose}.`;
-        const far = multipliers.filter((one) => !(modulus(one) <= this.reach()));
-        this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.filter(([, im]) => im >= 0).map(([re, im]) => complex(re, im)).join(", ")}.`;
         // Of a pair the one above the axis stands for both.
         const listed = multipliers.filter(([, im]) => im >= 0).slice(0, LISTED).map(([re, im]) => element("li", {}, [`${complex(re, im)}`]));
         this.list.replaceChildren(...listed);
         if (this.frame === null) {
             const range = (): { x: [number, number]; y: [number, number]; logY: false } => {
-                const across = this.reach() * ((this.host.clientWidth - MARGINS.across) / (HEIGHT - MARGINS.up));
-                return { x: [-across, across], y: [-this.reach(), this.reach()], logY: false };
+                const [across, up] = this.edges();
+                return { x: [-across, across], y: [-up, up], logY: false };
             };
             this.frame = new Frame(
                 this.host,
@@ -47,7 +45,8 @@ export class Multipliers {
                     yLabel: () => "Imaginary part",
                     range,
                     paint: (context, frame) => this.paint(context, frame),
-                    height: () => HEIGHT,
+                    height: () => this.height(),
+                    space: 44,
                 },
                 this.theme,
             );
@@ -62,15 +61,25 @@ export class Multipliers {
         return frame === null ? [0, 0] : [frame.toX(1) - frame.toX(0), frame.toY(0) - frame.toY(1)];
     }
 
-    /** Distance from 0 that is drawn. */
-    private reach(): number {
-        const largest = this.multipliers.reduce((most, one) => Math.max(most, modulus(one)), 0);
-        return largest <= FARTHEST / 1.15 ? Math.max(1.25, 1.15 * largest) : 1.6;
+    private height(): number {
+        return Math.max(160, Math.min(HEIGHT, this.host.clientWidth - MARGINS.across + MARGINS.up));
+    }
+
+    private edges(): Edges {
+        return edgesOf(this.multipliers, this.host.clientWidth - MARGINS.across, this.height() - MARGINS.up);
+    }
+
+    /** Says what lies outside the frame, of a pair one for both. */
+    private tell(edges: Edges): void {
+        const far = this.multipliers.filter((one) => one[1] >= 0 && !isWithin(one, edges));
+        this.outside.textContent = far.length === 0 ? "" : `Outside the frame: ${far.map(([re, im]) => complex(re, im)).join(", ")}.`;
     }
 
     private paint(context: CanvasRenderingContext2D, frame: Frame): void {
         const density = frame.density;
         const { look } = this.theme;
+        const edges: Edges = [frame.range().x[1], frame.range().y[1]];
+        this.tell(edges);
         const centre = [frame.toX(0), frame.toY(0)] as const;
         context.lineWidth = 1.2 * density;
         context.strokeStyle = look.pale;
@@ -78,8 +87,8 @@ export class Multipliers {
         context.arc(...centre, frame.toX(1) - centre[0], 0, 2 * Math.PI);
         context.stroke();
         for (const one of this.multipliers) {
-            if (modulus(one) <= this.reach()) {
-                const isOutside = modulus(one) >= 1;
+            if (isWithin(one, edges)) {
+                const isOutside = Math.hypot(...one) >= 1;
                 context.beginPath();
                 context.arc(frame.toX(one[0]), frame.toY(one[1]), 4 * density, 0, 2 * Math.PI);
                 context.fillStyle = isOutside ? this.theme.period(2) : this.theme.period(1);
@@ -90,8 +99,4 @@ export class Multipliers {
             }
         }
     }
-}
-
-function modulus([re, im]: Multiplier): number {
-    return Math.hypot(re, im);
 }

@@ -45,6 +45,6 @@ export function dotText(dot: Dot, { quantity }: State): [string, string][] {
         ["As measured", place(point.measured)],
         ["Shifted", place(point.shifted)],
         ["Compared", point.verdict.replaceAll("-", " ")],
-        ["From", `${series.name}: ${point.origin}`],
+        ["From", `${series.name}: ${point.origin.replace("__line_", ", line ")}`],
     ];
 }

@@ -1,19 +1,11 @@
 // Labels of axes, without a browser.
 
 import assert from "node:assert/strict";
-import { join } from "node:path";
 import { test } from "node:test";
 
-import { build } from "esbuild";
+import { functionsOf } from "./functions.mjs";
 
-/** The functions of a file of src/. */
-async function functionsOf(file) {
-    const options = { absWorkingDir: join(import.meta.dirname, ".."), bundle: true, format: "esm", write: false };
-    const { outputFiles } = await build({ ...options, entryPoints: [`src/${file}`] });
-    return import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
-}
-
-const { ticks } = await functionsOf("format.ts");
+const { commonPart, ticks } = await functionsOf("format.ts");
 const { logAxis } = await functionsOf("log_axis.ts");
 const valueOf = (label) => Number(label.replaceAll("−", "-"));
 
@@ -31,6 +23,26 @@ test("labels say where the ticks are, from the smallest to the largest distances
     }
     assert.deepEqual(ticks([0, 0.5, 1, null], 0.5), ["0", "0.5", "1.0", ""]);
     assert.deepEqual(ticks([-112.17825, -112.17824], 1e-5), ["−112.17825", "−112.17824"]);
+});
+
+test("labels stay short however near their ticks are, and say with what they leave out where those are", () => {
+    for (const [low, width] of [[39.692213781, 2e-8], [39.69, 1e-5], [3.694525686, 3e-9], [123456.7, 1e-4], [-112.178251, 3e-7], [599990, 1e-3], [0.99999999, 4e-8]]) {
+        const distance = 10 ** Math.floor(Math.log10(width / 4));
+        const first = Math.ceil(low / distance);
+        const splits = Array.from({ length: 5 }, (_, k) => (first + k) * distance);
+        const common = commonPart(low, low + width, distance);
+        assert.notEqual(common, 0);
+        const labels = ticks(splits, distance, common);
+        labels.forEach((label, k) => {
+            assert.ok(label.length <= 9, `${label} of ${splits[k]}`);
+            assert.ok(Math.abs(common + valueOf(label) - splits[k]) < 1e-3 * distance, `${common} + ${label} at ${splits[k]}`);
+        });
+        assert.ok(`${common}`.length <= 13, `${common}`);
+    }
+    assert.equal(commonPart(19, 110, 10), 0);
+    assert.equal(commonPart(39.6, 39.7, 0.01), 0);
+    assert.equal(commonPart(3e5, 6e5, 5e4), 0);
+    assert.equal(commonPart(-1, 1, 0.5), 0);
 });
 
 test("ticks of a logarithmic axis stand at round numbers, wherever it begins", () => {

@@ -117,7 +117,7 @@ impl OrbitDiagram {
     /// What the stems are of, where several stops are struck.
     pub(super) fn impulse_entries(&self) -> Vec<Entry> {
         let struck = self.struck();
-        let name = |element: usize| format!("impulse of local element {}", element + 1);
+        let name = |element: usize| format!("impulse of {}", self.element_name(element));
         let entry = |&element: &usize| Entry { sample: Sample::Dot(dot(element)), name: name(element) };
         if struck.len() > 1 { struck.iter().map(entry).collect() } else { Vec::new() }
     }

@@ -8,7 +8,7 @@ use crate::{
     layer::Layer,
     legend::{Entry, Legend, Sample},
     marks::Mark,
-    plot::{Area, Plot, lettering, room_below, room_left},
+    plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleKind, extent},
     style::{INK, PeriodLook, SHADE, Style, period_look},
     svg::{Anchor, Point, SvgWriter, points},
@@ -82,16 +82,13 @@ impl<'a> Page<'a> {
             .collect();
         let label_width = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, label_width);
-        let right = points(style.width_mm) - MARGIN - style.tick_size;
+        let across = Scale::exact(ScaleKind::Linear, range_hz);
+        let right = points(style.width_mm) - MARGIN - room_right(style, &across, left, TICK_SPACING.0);
         let title = wrap(&diagram.title, style.label_size, right - left);
         let legend = Legend::new(entries(panels, diagram), style, right - left);
         let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
-        let horizontal = Axis::new(
-            Scale::exact(ScaleKind::Linear, range_hz),
-            Text::upright(horizontal_label(diagram)),
-            right - left,
-            TICK_SPACING.0,
-        );
+        let horizontal =
+            Axis::new(across, Text::upright(horizontal_label(diagram)), right - left, TICK_SPACING.0);
         let lowest = axes.len() - 1;
         let labels = axes.iter().map(|axis| axis.label.width(style.label_size));
         let plot_height = labels.fold(panel_height - head, f64::max);

@@ -14,7 +14,13 @@ fn basins_name_class_period_branch_and_fraction() {
     {
         assert!(svg.contains(words), "{words}");
     }
-    assert!(svg.contains("attractor at phase 0"));
+    assert!(svg.contains("attractor at phase 0") && !svg.contains("rigid stop"));
+    let cells = vec![0, 2, 1, 0];
+    let stopped = BasinMap { cells, behind_stop: vec![true, false, false, false], ..basins() };
+    let svg = stopped.draw(&Style::single_column()).unwrap().svg();
+    for words in ["not computed, 25.0\u{2009}%", "begins behind a rigid stop, 25.0\u{2009}%"] {
+        assert!(svg.contains(words), "{words}");
+    }
     let unfinished = BasinMap { cells: vec![1, 2, 1], ..basins() }.draw(&Style::default()).unwrap();
     assert!(unfinished.description().ends_with("1 cells are not done yet"), "{}", unfinished.description());
 }

@@ -11,6 +11,9 @@ fn impulses_stand_in_a_panel_of_their_own_with_their_unit() {
     assert!(svg.contains(">Impulse (N s)<") && !svg.contains("Local force"), "no force acts over a time");
     assert!(svg.contains(words) && history.description().contains(words));
     assert!(svg.contains(">impulse of local element 2<"));
+    let element_names = vec!["left stop".to_owned(), "right stop".to_owned()];
+    let named = OrbitDiagram { element_names, ..struck() }.draw_history(&Style::default()).unwrap().svg();
+    assert!(named.contains(">impulse of right stop<") && !named.contains("local element"));
     let phase = struck().draw_phase(&Style::single_column()).unwrap().svg();
     assert!(phase.contains(">jump at an impact<"));
     let without = orbit().draw_phase(&Style::single_column()).unwrap().svg();

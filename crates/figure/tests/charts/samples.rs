@@ -17,6 +17,7 @@ pub fn basins() -> BasinMap {
         y_range: (0.0, 2.0),
         cells_along: 2,
         cells: vec![1, 2, 1, 0],
+        behind_stop: Vec::new(),
         attractors: vec![
             destination(MotionKind::Periodic { period: 3 }, Some(2), vec![(0.5, 0.5)]),
             destination(MotionKind::Chaotic, None, vec![]),
@@ -92,6 +93,7 @@ pub fn orbit() -> OrbitDiagram {
         samples: (0..256).map(sample).collect(),
         impulses: Vec::new(),
         filtered: None,
+        element_names: Vec::new(),
         eigenfrequencies_hz: vec![18.0],
     }
 }

@@ -34,6 +34,12 @@ pub enum StoreError {
     /// What is stored of a solution cannot be read.
     #[error("solution {number} on the {side} side of branch {branch} is damaged: {source}")]
     DamagedSolution { branch: String, side: &'static str, number: u32, source: Box<StoreError> },
+    /// Rows of solutions that a walk has counted are not there.
+    #[error(
+        "{} missing from results.db; a run of the study into a new folder computes {} again",
+        place(*first, *last, side, branch), if first == last { "it" } else { "them" }
+    )]
+    MissingSolutions { branch: String, side: &'static str, first: u32, last: u32 },
     /// Something stored has a name that this program does not know.
     #[error("the stored {what} {found} is unknown")]
     Unknown { what: &'static str, found: String },
@@ -53,6 +59,12 @@ impl StoreError {
         Self::Folder { folder: folder.to_owned(), source }
     }
 
+    /// Whether solutions are missing or cannot be read, as opposed to a whole folder: what does not need them can be had.
+    #[must_use]
+    pub fn is_of_solutions(&self) -> bool {
+        matches!(self, Self::DamagedSolution { .. } | Self::MissingSolutions { .. })
+    }
+
     /// Whether the user pointed at the wrong folder, as opposed to a disk that refuses.
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
@@ -61,9 +73,19 @@ impl StoreError {
             Self::Database(_)
                 | Self::Damaged { .. }
                 | Self::DamagedSolution { .. }
+                | Self::MissingSolutions { .. }
                 | Self::Unknown { .. }
                 | Self::OutOfOrder { .. }
         )
+    }
+}
+
+fn place(first: u32, last: u32, side: &str, branch: &str) -> String {
+    let place = format!("on the {side} side of branch {branch}");
+    if first == last {
+        format!("solution {first} {place} is")
+    } else {
+        format!("solutions {first} to {last} {place} are")
     }
 }
 

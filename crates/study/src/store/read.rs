@@ -3,7 +3,7 @@
 use hammerbeam_orbit::{
     ContactChange, EventStatus, Events, LocatedEvent, OrbitMaxima, PeriodicSolution, Side,
 };
-use rusqlite::{Row as SqlRow, params};
+use rusqlite::{OptionalExtension, Row as SqlRow, params};
 
 use super::{Store, StoreError, StoredReason, blob, first_key, solution_key, walk_id, write::unpack_events};
 
@@ -127,7 +127,7 @@ impl Store {
     /// Hands over the rows of a branch end to end: the down side reversed, the start, the up side.
     ///
     /// # Errors
-    /// The database refuses, or `take` does.
+    /// Solutions are missing or damaged, the database refuses, or `take` does.
     pub fn each_row<E: From<StoreError>>(
         &self,
         branch: &BranchRecord,
@@ -171,6 +171,27 @@ impl Store {
         Ok(())
     }
 
+    /// Refuses a walk of which not every solution that it has counted is there, so that no other one takes its number.
+    fn check_complete(&self, walk: i64) -> Result<(), StoreError> {
+        // Counted first: a run that writes meanwhile only adds.
+        let count = "SELECT solutions FROM walk WHERE id = ?1";
+        let counted: i64 =
+            self.connection.query_row(count, [walk], |row| row.get(0)).optional()?.unwrap_or(0);
+        let (first, end) = (first_key(walk), first_key(walk) + counted);
+        let mut keys = self
+            .connection
+            .prepare_cached("SELECT id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id")?;
+        let mut expected = first;
+        for key in keys.query_map(params![first, end], |row| row.get::<_, i64>(0))? {
+            let key = key?;
+            if key != expected {
+                return Err(self.missing(expected, key - 1));
+            }
+            expected += 1;
+        }
+        if expected < end { Err(self.missing(expected, end - 1)) } else { Ok(()) }
+    }
+
     fn each_row_of_walk<E: From<StoreError>>(
         &self,
         walk: i64,
@@ -179,6 +200,7 @@ impl Store {
     ) -> Result<(), E> {
         let select = format!("SELECT {ROW}, id FROM solution WHERE id >= ?1 AND id < ?2 ORDER BY id {order}");
         let failed = |error: rusqlite::Error| E::from(StoreError::from(error));
+        self.check_complete(walk)?;
         let mut statement = self.connection.prepare_cached(&select).map_err(failed)?;
         let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
         while let Some(row) = rows.next().map_err(failed)? {
@@ -207,21 +229,29 @@ impl Store {
         );
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, key >> 33])?;
-        let row = rows.next()?.ok_or(rusqlite::Error::QueryReturnedNoRows)?;
+        let Some(row) = rows.next()? else { return Err(self.missing(key, key)) };
         read_solution(row).map_err(|error| self.damaged(key, error))
     }
 
     /// Says which solution it is that cannot be read.
     fn damaged(&self, key: i64, error: StoreError) -> StoreError {
+        let (branch, side) = self.place_of(key);
+        StoreError::DamagedSolution { branch, side, number: key as u32, source: Box::new(error) }
+    }
+
+    /// Says which solutions of a walk are not there, from one key to another.
+    fn missing(&self, first: i64, last: i64) -> StoreError {
+        let (branch, side) = self.place_of(first);
+        StoreError::MissingSolutions { branch, side, first: first as u32, last: last as u32 }
+    }
+
+    /// Branch and side of a solution, in words.
+    fn place_of(&self, key: i64) -> (String, &'static str) {
         let select = "SELECT branch FROM start WHERE id = ?1";
         let branch: Option<u32> =
             self.connection.query_row(select, [key >> 33], |row| row.get(0)).unwrap_or_default();
-        StoreError::DamagedSolution {
-            branch: branch.map_or_else(|| "(none yet)".to_owned(), |branch| branch.to_string()),
-            side: if key >> 32 & 1 == 1 { "down" } else { "up" },
-            number: key as u32,
-            source: Box::new(error),
-        }
+        let branch = branch.map_or_else(|| "(none yet)".to_owned(), |branch| branch.to_string());
+        (branch, if key >> 32 & 1 == 1 { "down" } else { "up" })
     }
 }
 
@@ -252,10 +282,10 @@ impl Store {
         }))
     }
 
-    /// Keys and rows of a walk in the order in which they were walked.
+    /// The rows of a walk in the order in which they were walked.
     ///
     /// # Errors
-    /// The database refuses.
+    /// Solutions are missing or damaged, or the database refuses.
     pub fn walked(&self, start: u32, side: Side) -> Result<Vec<Row>, StoreError> {
         let mut rows = Vec::new();
         self.each_row_of_walk::<StoreError>(walk_id(start, side), "ASC", |row| {

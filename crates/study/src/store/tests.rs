@@ -68,6 +68,21 @@ fn a_solution_comes_back_with_every_bit() {
     assert_eq!(labels, ["start", "fold+grazing+end"]);
 }
 
+/// No other solution takes the number of one that is gone.
+#[test]
+fn a_solution_that_is_gone_is_told_by_its_place() {
+    let folder = tempdir().unwrap();
+    let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+    let key = begin(&mut store);
+    assert_eq!(store.walked(key, Side::Up).unwrap().len(), 1);
+    store.connection.execute("DELETE FROM solution", []).unwrap();
+    let sentence = "solution 0 on the up side of branch 1 is missing from results.db; a run of the study into a new folder computes it again";
+    for error in [store.walked(key, Side::Up).unwrap_err(), store.solution(key, Side::Up, 0).unwrap_err()] {
+        assert_eq!(error.to_string(), sentence);
+        assert!(error.is_of_solutions() && !error.is_bad_input());
+    }
+}
+
 #[test]
 fn a_folder_of_another_study_is_refused_with_the_difference_and_left_alone() {
     let folder = tempdir().unwrap();

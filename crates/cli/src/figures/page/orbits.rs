@@ -56,7 +56,7 @@ pub fn carried(
             let mut solutions = Vec::with_capacity(part.len());
             for &number in part {
                 match solution(store, records, stored, number) {
-                    Err(error @ StoreError::DamagedSolution { .. }) => {
+                    Err(error) if error.is_of_solutions() => {
                         drawn.refuse("an orbit of the page", error.to_string());
                         solutions.push(None);
                     }

@@ -42,23 +42,23 @@ fn point_words(point: &BeamPoint) -> String {
     let carried = parts.iter().filter(|(value, _)| *value > 0.0);
     let carried: Vec<String> = carried.map(|(value, unit)| format!("{} {unit}", number(*value))).collect();
     let carried = if carried.is_empty() { String::new() } else { format!(", {}", carried.join(", ")) };
-    format!("{}: at {} mm{carried}.", capital(&point.name), number(1e3 * point.at_m))
+    format!("{}: at {} mm{carried}.", point.name, number(1e3 * point.at_m))
 }
 
 fn lumped_words(lumped: &Lumped) -> Vec<String> {
-    let masses = lumped.masses.iter().map(|mass| format!("{} {} kg", mass.name, number(mass.mass_kg)));
+    let masses = lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, number(mass.mass_kg)));
     let between = |ends: &[String; 2]| format!("{}–{}", ends[0], ends[1]);
     let springs = lumped.springs.iter();
-    let springs = springs.map(|s| format!("{} {} N/m", between(&s.between), number(s.stiffness_n_m)));
+    let springs = springs.map(|s| format!("{} ({} N/m)", between(&s.between), number(s.stiffness_n_m)));
     let dampers = lumped.dampers.iter();
-    let dampers = dampers.map(|d| format!("{} {} N s/m", between(&d.between), number(d.damping_n_s_m)));
+    let dampers = dampers.map(|d| format!("{} ({} N s/m)", between(&d.between), number(d.damping_n_s_m)));
     let lists =
         [("Masses", masses.collect()), ("Springs", springs.collect()), ("Dampers", dampers.collect())];
     let line = |(what, list): (&str, Vec<String>)| {
         (!list.is_empty()).then(|| {
-            let more = if list.len() > LISTED { ", ..." } else { "" };
+            let end = if list.len() > LISTED { ", …" } else { "." };
             let listed: Vec<&str> = list.iter().take(LISTED).map(String::as_str).collect();
-            format!("{what}: {}{more}.", listed.join(", "))
+            format!("{what}: {}{end}", listed.join(", "))
         })
     };
     lists.into_iter().filter_map(line).collect()
@@ -104,7 +104,7 @@ fn stop_words(stop: &Stop) -> String {
         ),
         StopLaw::Cubic { stiffness_n_m3 } => format!("cubic spring {} N/m³", number(stiffness_n_m3)),
     };
-    format!("{} {place}: {law}.", capital(&stop.name))
+    format!("{} {place}: {law}.", stop.name)
 }
 
 fn rest(approach: Approach, side: Side) -> String {
@@ -178,11 +178,6 @@ pub fn number(value: f64) -> String {
 fn raise(character: char) -> char {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     character.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize])
-}
-
-fn capital(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

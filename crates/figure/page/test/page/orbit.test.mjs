@@ -112,16 +112,23 @@ test("the structure moves, and stands still when it is paused", options, async (
     assert.deepEqual(tab.complaints, []);
 });
 
-test("the unit circle stays one when the window changes", options, async () => {
+test("the unit circle stays one, and whole, when the window changes and on paper", options, async () => {
     const tab = await open(pages.run, `#at=${pages.run.first_branch}:100`);
     await tab.until(orbitIsOpen);
-    for (const width of [1400, 700, 1100, 420]) {
-        await tab.send("Emulation.setDeviceMetricsOverride", { width, height: 900, deviceScaleFactor: 1, mobile: false });
+    const check = async (where) => {
         await drawn(tab);
         await drawn(tab);
         const [across, up] = await tab.value(`hammerbeam.unitCircle()`);
-        assert.ok(up > 10 && Math.abs(across - up) < 1.5, `${across} across, ${up} up at ${width} pixels`);
+        assert.ok(up > 10 && Math.abs(across - up) < 1.5, `${across} across, ${up} up ${where}`);
+        const halves = await tab.value(`(() => { const { width, height } = document.querySelector("#multipliers .u-over").getBoundingClientRect(); const density = document.querySelector("#multipliers canvas").width / document.querySelector("#multipliers canvas").getBoundingClientRect().width; return [width, height].map((size) => 0.5 * size * density); })()`);
+        assert.ok(across < halves[0] && up < halves[1], `a radius of ${across} in a frame of ${halves} ${where}`);
+    };
+    for (const width of [1400, 700, 1110, 420, 320]) {
+        await tab.send("Emulation.setDeviceMetricsOverride", { width, height: 900, deviceScaleFactor: 1, mobile: false });
+        await check(`at ${width} pixels`);
     }
+    await tab.value(`window.dispatchEvent(new Event("beforeprint"))`);
+    await check("on paper");
     assert.deepEqual(tab.complaints, []);
 });
 

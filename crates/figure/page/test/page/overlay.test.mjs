@@ -78,7 +78,12 @@ test("a click on a chaotic range and keys open the nearest chaotic motion with i
     // That with the velocity, of two of the same frequency; the point that is not finite has no place.
     assert.deepEqual([await section(), await points()], [1, "200"]);
     assert.ok((await tab.value(`document.querySelector("#section").innerText`)).includes("0.2500 ± 0.010"));
-    assert.equal(await tab.value(`(() => { const { top, bottom } = document.querySelector("#section").getBoundingClientRect(); return bottom > 0 && top < innerHeight; })()`), true);
+    // The diagram stays where it is; where the section is out of sight that is told, with a way to it.
+    const isInView = `(() => { const { top, bottom } = document.querySelector("#section").getBoundingClientRect(); return bottom > 100 && top < innerHeight - 200; })()`;
+    assert.deepEqual([await tab.value(`scrollY`), await tab.value(isInView)], [0, false]);
+    assert.ok((await tab.value(`document.querySelector(".said").innerText`)).includes("15.0000 Hz is open"));
+    await tab.value(`document.querySelector(".said button").click()`);
+    assert.equal(await tab.value(isInView), true);
     await tab.value(`scrollTo(0, 0)`);
     await strip(28);
     assert.deepEqual([await section(), await points()], [3, "50"]);
