@@ -23,7 +23,7 @@ pub(super) const DECADES: f64 = 5.0;
 /// Largest number of steps of a value.
 const MOST_STEPS: f64 = 4_194_304.0;
 /// Highest order of a predictor.
-const HIGHEST_ORDER: usize = 4;
+const HIGHEST_ORDER: i32 = 4;
 
 /// Kinds of numbers.
 #[derive(Debug, Clone, Copy)]
@@ -70,14 +70,20 @@ impl Writer {
 
     /// Writes whole numbers by the predictor that suits them best.
     fn counts(&mut self, of: Of, counts: &[i32]) {
-        let cost = |order: &usize| -> u32 {
-            (0..counts.len())
-                .map(|k| u32::BITS - missed(counts, k, *order).unsigned_abs().leading_zeros())
-                .sum()
+        let cost = |missed: &[i32]| -> u32 {
+            missed.iter().map(|number| u32::BITS - number.unsigned_abs().leading_zeros()).sum()
         };
-        let order = (0..=HIGHEST_ORDER).min_by_key(cost).unwrap_or_default();
-        self.numbers(Of::Head, [order as i32]);
-        self.numbers(of, (0..counts.len()).map(|k| missed(counts, k, order)));
+        let mut missed = counts.to_vec();
+        let (mut least, mut order, mut best) = (cost(&missed), 0, missed.clone());
+        for higher in 1..=HIGHEST_ORDER {
+            differences(&mut missed);
+            if cost(&missed) < least {
+                (least, order) = (cost(&missed), higher);
+                best.copy_from_slice(&missed);
+            }
+        }
+        self.numbers(Of::Head, [order]);
+        self.numbers(of, best);
     }
 
     /// Writes a series with the size of its steps.
@@ -164,10 +170,11 @@ pub(super) fn numbers(impulse: &PageImpulse) -> [f64; 5] {
     [impulse.cycles, impulse.impulse_n_s, impulse.displacement_m, before, after]
 }
 
-/// What the predictor of an order misses a value by.
-pub(super) fn missed(counts: &[i32], k: usize, order: usize) -> i32 {
-    let weights: &[i32] = [&[1][..], &[1, -1], &[1, -2, 1], &[1, -3, 3, -1], &[1, -4, 6, -4, 1]][order];
-    weights.iter().zip(counts[..=k].iter().rev()).map(|(weight, count)| weight * count).sum()
+/// Each number less the one before, with a zero before the first: what a predictor misses numbers by becomes what that of the next order does.
+fn differences(numbers: &mut [i32]) {
+    for k in (1..numbers.len()).rev() {
+        numbers[k] -= numbers[k - 1];
+    }
 }
 
 /// By how many steps a velocity changes from a sample to the next.
