@@ -20,6 +20,7 @@
 use crate::{
     AttractorError, Estimate, Lyapunov, LyapunovSettings, SectionMap,
     returns::{settles, turns},
+    section::WATCHED_PERIODS,
     settle::{Patience, Settled, settle},
     zero_one,
 };
@@ -164,7 +165,7 @@ pub struct Classified {
 /// * `parts`: sections in a period of the map.
 ///
 /// # Errors
-/// The motion cannot be computed.
+/// [`AttractorError::NeverOpens`], or the motion cannot be computed.
 pub fn classify(
     map: &mut impl SectionMap,
     parts: u64,
@@ -172,7 +173,7 @@ pub fn classify(
     effort: &Effort,
 ) -> Result<Classified, AttractorError> {
     let mut state = match settle(map, parts, state, effort.patience)? {
-        Settled::Repeats(states) => return Ok(periodic(states)),
+        Settled::Repeats(states) => return periodic(map, states),
         Settled::Restless(state) => state,
     };
     let mut restless = examine(map, parts, &state, effort)?;
@@ -180,22 +181,30 @@ pub fn classify(
         state = restless.states.pop().unwrap_or(state);
         let once_more = Patience { skipped: 0, ..effort.patience };
         match settle(map, parts, &state, once_more)? {
-            Settled::Repeats(states) => return Ok(periodic(states)),
+            Settled::Repeats(states) => return periodic(map, states),
             Settled::Restless(state) => restless = examine(map, parts, &state, effort)?,
         }
     }
     Ok(restless)
 }
 
-fn periodic(states: Vec<Vec<f64>>) -> Classified {
-    let class = Class::Periodic { period: states.len() };
-    Classified { class, states, largest_exponent: None, zero_one: None }
+/// A motion that has come back to the last of these states, one for each of its periods.
+///
+/// # Errors
+/// [`AttractorError::NeverOpens`], or the motion cannot be computed.
+pub(crate) fn periodic(
+    map: &mut impl SectionMap,
+    states: Vec<Vec<f64>>,
+) -> Result<Classified, AttractorError> {
+    let period = states.len();
+    map.check_opens(&states[period - 1], period)?;
+    Ok(Classified { class: Class::Periodic { period }, states, largest_exponent: None, zero_one: None })
 }
 
 /// Asks both indicators of a motion that does not repeat.
 ///
 /// # Errors
-/// The motion cannot be computed.
+/// [`AttractorError::NeverOpens`], or the motion cannot be computed.
 pub fn examine(
     map: &mut impl SectionMap,
     parts: u64,
@@ -211,6 +220,7 @@ pub fn examine(
             states.push(average.state().to_vec());
         }
     }
+    map.check_opens(average.state(), WATCHED_PERIODS)?;
     let spectrum = average.spectrum().expect("all blocks are whole");
     let largest = spectrum.exponents[0];
     let period = map.duration() * parts as f64;

@@ -66,7 +66,7 @@ pub use lyapunov::{BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Sp
 pub use parallel::in_order;
 pub use part::Part;
 pub use poincare::{Section, SectionPoint, poincare};
-pub use section::{FieldMap, SectionMap, StepMap, SystemMap, state_scales};
+pub use section::{FieldMap, SectionMap, StepMap, SystemMap, WATCHED_PERIODS, state_scales};
 pub use settle::{Patience, Settled, distance, settle};
 pub use simulate::{ContactRecord, Sample, Simulation};
 pub use sweep::{Observable, SweepPoint, SweepSettings, Sweeper, frequencies};
