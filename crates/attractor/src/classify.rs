@@ -5,7 +5,7 @@
 //!
 //! | indicator | regular | chaotic | else |
 //! |---|---|---|---|
-//! | exponent | `-2/N <= L <= 10/N`, half width `<= 10/N` | `L - half width > 10/N` | undecided, or below: still settling |
+//! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N` | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
 //! and, of a motion that both call regular, its returns (`returns.rs`): the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is
@@ -30,6 +30,8 @@ const REGULAR_BELOW: f64 = 0.2;
 const CHAOTIC_ABOVE: f64 = 0.8;
 /// What the exponent per period of a regular motion may be, times the number of periods.
 const ZERO: f64 = 10.0;
+/// What its half width may be, times the number of periods. A torus that stretches tangent vectors by e on the way shows `1/n` in each of the 20 blocks of `n = N/20` periods, so that `10/N` is usual.
+const WIDTH: f64 = 20.0;
 /// The same below zero.
 const SHRINKING: f64 = 2.0;
 
@@ -261,7 +263,7 @@ fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) 
     if value < -SHRINKING / periods as f64 {
         return Class::Doubtful(Doubt::NotSettled);
     }
-    let known = largest.half_width * period <= zero;
+    let known = largest.half_width * period <= WIDTH / periods as f64;
     let exponent =
         if value <= zero { Some(false).filter(|_| known) } else { Some(true).filter(|_| low > zero) };
     let test = match zero_one {
@@ -291,7 +293,7 @@ mod tests {
         assert_eq!(judge(0.3, 0.02, 0.05), Class::Doubtful(Doubt::IndicatorsDisagree));
         assert_eq!(judge(0.002, 0.001, 0.95), Class::Doubtful(Doubt::IndicatorsDisagree));
         assert_eq!(judge(0.03, 0.025, 0.95), Class::Doubtful(Doubt::ExponentUndecided));
-        assert_eq!(judge(0.003, 0.011, 0.03), Class::Doubtful(Doubt::ExponentUndecided));
+        assert_eq!(judge(0.003, 0.021, 0.03), Class::Doubtful(Doubt::ExponentUndecided));
         assert_eq!(judge(0.3, 0.02, 0.5), Class::Doubtful(Doubt::ZeroOneUndecided));
         assert_eq!(judge(-0.3, 0.02, 0.5), Class::Doubtful(Doubt::NotSettled));
     }

@@ -15,7 +15,7 @@ use crate::{
     ticker::Ticker,
 };
 
-/// Samples of a motion at most, some 50 GB of text.
+/// Samples in a table at most, some 50 GB of text.
 const MOST_SAMPLES: u64 = 1_000_000_000;
 /// Contacts that a document lists; all of them are in `contacts.csv`.
 const LISTED: usize = 1000;
@@ -24,9 +24,9 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     let samples = options.periods * u64::from(options.samples_per_period);
-    if samples > MOST_SAMPLES {
+    if options.out.is_some() && samples > MOST_SAMPLES {
         return Err(Failure::BadInput(format!(
-            "--periods {} times --samples-per-period {} is {samples} samples, must be {MOST_SAMPLES} at most",
+            "--periods {} times --samples-per-period {} is {samples} samples, must be {MOST_SAMPLES} at most with --out",
             options.periods, options.samples_per_period
         )));
     }

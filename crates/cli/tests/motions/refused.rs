@@ -22,7 +22,7 @@ fn options_that_make_no_sense_are_refused() {
         (&simulate, &["--samples-per-period", "0"], "0 is not in 1..="),
         (
             &simulate,
-            &["--periods", "2000", "--samples-per-period", "1000000"],
+            &["--periods", "2000", "--samples-per-period", "1000000", "--out", "out"],
             "is 2000000000 samples, must be",
         ),
         (&simulate, &["--section-phase", "1.5"], "must be a number of cycles from 0 to 1"),
@@ -94,7 +94,8 @@ fn basins_without_an_attractor_are_exit_code_1() {
     let output = workshop.hammerbeam(&[&["basins", "study.toml", "--frequency", "0.3"][..], &cells].concat());
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("no motion from any of the 4 cells"), "{}", stderr(&output));
-    assert_eq!(stdout(&output), "");
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["error"]["exit_code"], 1);
 }
 
 /// At rest the mass is pressed against a stop whose law needs the speed of an impact, and some states about it lie in the contact: the search begins beside, and its orbit is the motion that
