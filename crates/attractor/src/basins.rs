@@ -16,8 +16,9 @@ use std::sync::atomic::AtomicBool;
 use hammerbeam_motion::{System, exact::ExactSettings};
 
 use crate::{
-    AttractorError, Class, Classified, Doubt, Effort, Estimate, Grid, SectionMap, SystemMap, examine,
-    in_order,
+    AttractorError, Class, Classified, Doubt, Effort, Estimate, Grid, SectionMap, SystemMap,
+    classify::periodic,
+    examine, in_order,
     settle::{Patience, Settled, advance_period, distance, settle_unless},
 };
 
@@ -62,7 +63,7 @@ enum Destination {
     Known(usize),
     /// To one that was not known when its round began.
     New(Attractor),
-    /// The motion cannot be computed, or the state lies behind a rigid stop.
+    /// No motion begins at the state, or it cannot be computed, or it keeps a contact closed that remembers how it began.
     Lost,
 }
 
@@ -71,7 +72,8 @@ enum Destination {
 pub struct Round {
     /// The first cell of the round.
     pub first: usize,
-    /// Number of the attractor of each of its cells, counted from 1; 0 where the motion cannot be computed, or begins behind a rigid stop.
+    /// Number of the attractor of each of its cells, counted from 1; 0 where no motion begins or leads to an attractor: behind a rigid stop, within a contact that remembers its
+    /// impact, where a motion settles with such a contact closed, or cannot be computed.
     pub cells: Vec<u32>,
     /// Attractors that are new; the first one has the number `known + 1`.
     pub found: Vec<Attractor>,
@@ -168,12 +170,7 @@ impl Basins {
                 return Ok(Destination::Known(known));
             }
             let end = match settled {
-                Settled::Repeats(states) => {
-                    let class = Class::Periodic { period: states.len() };
-                    let none = (None, None);
-                    let (largest_exponent, zero_one) = none;
-                    return Ok(Destination::New(Attractor { class, states, largest_exponent, zero_one }));
-                }
+                Settled::Repeats(states) => return Ok(Destination::New(periodic(map, states)?.into())),
                 Settled::Restless(end) => end,
             };
             let (probes, end) = probes(map, end)?;

@@ -5,11 +5,13 @@
 //!
 //! | indicator | regular | chaotic | else |
 //! |---|---|---|---|
-//! | exponent | `-2/N <= L <= 10/N` | `L - half width > 10/N` | undecided, or below: still settling |
+//! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N` | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
-//! and, of a motion that both call regular, its returns: the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is no period, and
-//! falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of the N periods to the last, for any n, the motion is still settling.
+//! and, of a motion that both call regular, its returns (`returns.rs`): the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is
+//! no period, and falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of the N periods to the last, for any n, the motion is still settling. Weak chaos in narrow bands
+//! looks regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in its spectrum. So a motion is quasi-periodic only if its returns are those on a torus:
+//! that of n periods which is closest is three times as far after `3 n`.
 //!
 //! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink). Where both agree the motion is quasi-periodic or
 //! chaotic; where they do not it is doubtful, with the reason. A motion whose largest exponent is below zero is on its way to a periodic one: it is given
@@ -17,7 +19,9 @@
 
 use crate::{
     AttractorError, Estimate, Lyapunov, LyapunovSettings, SectionMap,
-    settle::{Patience, Settled, distance, settle},
+    returns::{settles, turns},
+    section::WATCHED_PERIODS,
+    settle::{Patience, Settled, settle},
     zero_one,
 };
 
@@ -26,10 +30,10 @@ const REGULAR_BELOW: f64 = 0.2;
 const CHAOTIC_ABOVE: f64 = 0.8;
 /// What the exponent per period of a regular motion may be, times the number of periods.
 const ZERO: f64 = 10.0;
+/// What its half width may be, times the number of periods. A torus that stretches tangent vectors by e on the way shows `1/n` in each of the 20 blocks of `n = N/20` periods, so that `10/N` is usual.
+const WIDTH: f64 = 20.0;
 /// The same below zero.
 const SHRINKING: f64 = 2.0;
-/// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks by `1/N` in a period has 0.5.
-const STEADY: f64 = 0.8;
 
 /// How much is spent on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +77,8 @@ pub enum Doubt {
     ExponentUndecided,
     /// K lies between the bounds.
     ZeroOneUndecided,
+    /// Both indicators say regular, but the motion does not come back as on a torus.
+    NotTurning,
     /// Neighbouring motions come closer, but it has not repeated yet, or only after more periods than were looked for.
     NotSettled,
 }
@@ -120,8 +126,13 @@ impl std::fmt::Display for Class {
 
 impl Doubt {
     /// Every doubt.
-    pub const ALL: [Self; 4] =
-        [Self::IndicatorsDisagree, Self::ExponentUndecided, Self::ZeroOneUndecided, Self::NotSettled];
+    pub const ALL: [Self; 5] = [
+        Self::IndicatorsDisagree,
+        Self::ExponentUndecided,
+        Self::ZeroOneUndecided,
+        Self::NotTurning,
+        Self::NotSettled,
+    ];
 
     /// In words.
     #[must_use]
@@ -130,6 +141,9 @@ impl Doubt {
             Self::IndicatorsDisagree => "the exponent and the 0-1 test disagree",
             Self::ExponentUndecided => "the largest exponent is neither near zero nor surely above it",
             Self::ZeroOneUndecided => "the 0-1 test is undecided",
+            Self::NotTurning => {
+                "the exponent is near zero and the 0-1 test says regular, but the motion does not come back as on a torus"
+            }
             Self::NotSettled => "the motion has not settled, or its period is longer than those looked for",
         }
     }
@@ -153,7 +167,7 @@ pub struct Classified {
 /// * `parts`: sections in a period of the map.
 ///
 /// # Errors
-/// The motion cannot be computed.
+/// [`AttractorError::NeverOpens`], or the motion cannot be computed.
 pub fn classify(
     map: &mut impl SectionMap,
     parts: u64,
@@ -161,7 +175,7 @@ pub fn classify(
     effort: &Effort,
 ) -> Result<Classified, AttractorError> {
     let mut state = match settle(map, parts, state, effort.patience)? {
-        Settled::Repeats(states) => return Ok(periodic(states)),
+        Settled::Repeats(states) => return periodic(map, states),
         Settled::Restless(state) => state,
     };
     let mut restless = examine(map, parts, &state, effort)?;
@@ -169,22 +183,30 @@ pub fn classify(
         state = restless.states.pop().unwrap_or(state);
         let once_more = Patience { skipped: 0, ..effort.patience };
         match settle(map, parts, &state, once_more)? {
-            Settled::Repeats(states) => return Ok(periodic(states)),
+            Settled::Repeats(states) => return periodic(map, states),
             Settled::Restless(state) => restless = examine(map, parts, &state, effort)?,
         }
     }
     Ok(restless)
 }
 
-fn periodic(states: Vec<Vec<f64>>) -> Classified {
-    let class = Class::Periodic { period: states.len() };
-    Classified { class, states, largest_exponent: None, zero_one: None }
+/// A motion that has come back to the last of these states, one for each of its periods.
+///
+/// # Errors
+/// [`AttractorError::NeverOpens`], or the motion cannot be computed.
+pub(crate) fn periodic(
+    map: &mut impl SectionMap,
+    states: Vec<Vec<f64>>,
+) -> Result<Classified, AttractorError> {
+    let period = states.len();
+    map.check_opens(&states[period - 1], period)?;
+    Ok(Classified { class: Class::Periodic { period }, states, largest_exponent: None, zero_one: None })
 }
 
 /// Asks both indicators of a motion that does not repeat.
 ///
 /// # Errors
-/// The motion cannot be computed.
+/// [`AttractorError::NeverOpens`], or the motion cannot be computed.
 pub fn examine(
     map: &mut impl SectionMap,
     parts: u64,
@@ -200,28 +222,27 @@ pub fn examine(
             states.push(average.state().to_vec());
         }
     }
+    map.check_opens(average.state(), WATCHED_PERIODS)?;
     let spectrum = average.spectrum().expect("all blocks are whole");
     let largest = spectrum.exponents[0];
     let period = map.duration() * parts as f64;
     let zero_one = zero_one(&liveliest(&states, &map.scales()));
     let mut class = judge(largest, period, states.len(), zero_one);
-    if class == Class::QuasiPeriodic && settles(&states, &map.scales(), effort.patience.longest) {
-        class = Class::Doubtful(Doubt::NotSettled);
+    if class == Class::QuasiPeriodic {
+        class = judge_returns(&states, &map.scales(), effort.patience.longest);
     }
     Ok(Classified { class, states, largest_exponent: Some(largest), zero_one })
 }
 
-/// Whether the returns after some number of periods, up to the longest, come closer and closer.
-fn settles(states: &[Vec<f64>], scales: &[f64], longest: usize) -> bool {
-    let mean = |pairs: &[Vec<f64>], n: usize| {
-        let all = pairs.iter().zip(&pairs[n..]).map(|(before, now)| distance(scales, before, now));
-        all.sum::<f64>() / (pairs.len() - n) as f64
-    };
-    let quarter = states.len() / 4;
-    (1..=longest.min(quarter / 2)).any(|n| {
-        let last = mean(&states[states.len() - quarter..], n);
-        last < STEADY * mean(&states[..quarter], n)
-    })
+/// What a motion is that both indicators call regular.
+fn judge_returns(states: &[Vec<f64>], scales: &[f64], longest: usize) -> Class {
+    if settles(states, scales, longest) {
+        Class::Doubtful(Doubt::NotSettled)
+    } else if turns(states, scales) {
+        Class::QuasiPeriodic
+    } else {
+        Class::Doubtful(Doubt::NotTurning)
+    }
 }
 
 /// The entry of the states that moves most, in the scales.
@@ -242,7 +263,9 @@ fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) 
     if value < -SHRINKING / periods as f64 {
         return Class::Doubtful(Doubt::NotSettled);
     }
-    let exponent = if value <= zero { Some(false) } else { Some(true).filter(|_| low > zero) };
+    let known = largest.half_width * period <= WIDTH / periods as f64;
+    let exponent =
+        if value <= zero { Some(false).filter(|_| known) } else { Some(true).filter(|_| low > zero) };
     let test = match zero_one {
         Some(k) if k < REGULAR_BELOW => Some(false),
         Some(k) if k > CHAOTIC_ABOVE => Some(true),
@@ -270,6 +293,7 @@ mod tests {
         assert_eq!(judge(0.3, 0.02, 0.05), Class::Doubtful(Doubt::IndicatorsDisagree));
         assert_eq!(judge(0.002, 0.001, 0.95), Class::Doubtful(Doubt::IndicatorsDisagree));
         assert_eq!(judge(0.03, 0.025, 0.95), Class::Doubtful(Doubt::ExponentUndecided));
+        assert_eq!(judge(0.003, 0.021, 0.03), Class::Doubtful(Doubt::ExponentUndecided));
         assert_eq!(judge(0.3, 0.02, 0.5), Class::Doubtful(Doubt::ZeroOneUndecided));
         assert_eq!(judge(-0.3, 0.02, 0.5), Class::Doubtful(Doubt::NotSettled));
     }

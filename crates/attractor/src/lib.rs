@@ -10,6 +10,7 @@
 //! | does it repeat, after how many periods? | distance of states | `settle.rs` |
 //! | do neighbouring motions part, and how fast? | Lyapunov exponents, by QR, with confidence from block averages | `tangents.rs`, `lyapunov.rs` |
 //! | the same, from a series alone | the 0-1 test | `zero_one.rs` |
+//! | does it come back as on a torus? | shifts that are tripled | `returns.rs` |
 //! | which kind is it? | all of these; doubtful where they disagree | `classify.rs` |
 //!
 //! | file | idea |
@@ -49,6 +50,7 @@ mod parallel;
 mod part;
 mod poincare;
 mod random;
+mod returns;
 mod section;
 mod settle;
 mod simulate;
@@ -64,7 +66,7 @@ pub use lyapunov::{BLOCKS, Convergence, Estimate, Lyapunov, LyapunovSettings, Sp
 pub use parallel::in_order;
 pub use part::Part;
 pub use poincare::{Section, SectionPoint, poincare};
-pub use section::{FieldMap, SectionMap, StepMap, SystemMap, state_scales};
+pub use section::{FieldMap, SectionMap, StepMap, SystemMap, WATCHED_PERIODS, state_scales};
 pub use settle::{Patience, Settled, distance, settle};
 pub use simulate::{ContactRecord, Sample, Simulation};
 pub use sweep::{Observable, SweepPoint, SweepSettings, Sweeper, frequencies};

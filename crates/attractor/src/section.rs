@@ -16,6 +16,9 @@ use crate::{AttractorError, Part};
 /// How far behind a rigid stop a state counts as on it, relative to the displacement there.
 const ON_THE_STOP: f64 = 1e-9;
 
+/// Periods over which a motion that does not repeat is looked at for a contact that stays closed.
+pub const WATCHED_PERIODS: usize = 64;
+
 /// Sections of motions in time can be halved so often.
 const MOST_HALVINGS: u32 = 12;
 
@@ -51,6 +54,16 @@ pub trait SectionMap {
 
     /// Takes the last [`SectionMap::flow`] back, where the map holds more than the state says.
     fn take_back(&mut self) {}
+
+    /// Refuses a settled motion in which a contact stays closed that remembers how it began.
+    ///
+    /// * `state`: that to which the motion has come last, at phase 0; `periods`: excitation periods that are looked at.
+    ///
+    /// # Errors
+    /// [`AttractorError::NeverOpens`], or the motion cannot be computed.
+    fn check_opens(&mut self, _state: &[f64], _periods: usize) -> Result<(), AttractorError> {
+        Ok(())
+    }
 
     /// How many directions the last [`SectionMap::flow`] has lost for good.
     fn directions_lost(&self) -> usize {
@@ -132,16 +145,23 @@ impl SystemMap {
         -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
     }
 
-    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes.
+    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes, or in a contact whose law remembers its impact.
     ///
     /// # Errors
-    /// [`AttractorError::BehindRigidStop`], of the first such stop.
+    /// [`AttractorError::BehindRigidStop`], [`AttractorError::WithinContact`], of the first such stop.
     pub fn check_in_front_of_stops(&self, state: &[f64]) -> Result<(), AttractorError> {
         let system = self.integrator.system();
         for (number, element) in system.elements().iter().enumerate() {
+            let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
+            if element.law.remembers_impact() {
+                let depths = element.law.contacts().iter().map(|contact| contact.sign * (r - contact.level));
+                let depth = depths.fold(f64::NEG_INFINITY, f64::max);
+                if depth > 0.0 {
+                    return Err(AttractorError::WithinContact { stop: element.name.clone(), depth });
+                }
+            }
             let Some(stop) = element.law.rigid() else { continue };
             let level = stop.level();
-            let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
             // A state on the stop may have come from a motion, with its rounding.
             let depth = r - level;
             if depth > ON_THE_STOP * r.abs().max(level.abs()) {
@@ -197,6 +217,25 @@ impl SectionMap for SystemMap {
 
     fn take_back(&mut self) {
         self.integrator.set_memory(self.memory_before.clone());
+    }
+
+    fn check_opens(&mut self, state: &[f64], periods: usize) -> Result<(), AttractorError> {
+        if !self.integrator.system().remembers_impacts() {
+            return Ok(());
+        }
+        let memory = self.integrator.memory();
+        let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: periods as f64 };
+        let trace = self.integrator.trace(&stretch, state, &[]);
+        self.integrator.set_memory(memory);
+        let elements = self.integrator.system().elements();
+        let stays = trace?.contacts.into_iter().find(|contact| {
+            contact.begin.is_none()
+                && contact.end.is_none()
+                && elements[contact.element].law.remembers_impact()
+        });
+        stays.map_or(Ok(()), |contact| {
+            Err(AttractorError::NeverOpens { element: elements[contact.element].name.clone() })
+        })
     }
 
     /// Two with each rigid stop that held the structure.

@@ -14,7 +14,7 @@ use crate::{
     section::state_scales,
 };
 
-/// Draws of a state of a diagram until it lies before all rigid stops.
+/// Draws of a state of a diagram until a motion can begin at it.
 const MOST_DRAWS: usize = 1000;
 
 /// What is read off a motion: `shape . q + support_ratio u`.
@@ -86,7 +86,7 @@ impl Sweeper {
     /// The motion that one which begins at this state at phase 0 settles to.
     ///
     /// # Errors
-    /// [`AttractorError::BehindRigidStop`], and those of [`Sweeper::at`].
+    /// [`AttractorError::BehindRigidStop`], [`AttractorError::WithinContact`], and those of [`Sweeper::at`].
     pub fn begin_at(&mut self, frequency_hz: f64, state: &[f64]) -> Result<SweepPoint, AttractorError> {
         self.map.set_frequency(frequency_hz);
         self.map.check_in_front_of_stops(state)?;
@@ -147,7 +147,8 @@ impl Sweeper {
         })
     }
 
-    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always the same ones; of those about it, none behind a rigid stop.
+    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always the same ones; of those about it, none behind a rigid stop or within a contact
+    /// that remembers its impact: where no draw is in front of all of them, the last one is reflected at them.
     ///
     /// # Errors
     /// [`AttractorError::Input`]: the frequency makes no sense.
@@ -179,7 +180,8 @@ impl Sweeper {
                 }
                 state = drawn();
             }
-            states.push(state);
+            let system = self.map.integrator().system();
+            states.push(system.in_front_of_contacts(frequency_hz, 0.0, &state).unwrap_or(state));
         }
         states.truncate(count);
         Ok(states)

@@ -52,6 +52,29 @@ fn circle(rotation: f64) -> impl SectionMap {
     })
 }
 
+/// The logistic map `x' = r x (1 - x)` just beyond the end of its period doublings, r = 3.5699457, beside a direction that contracts: weak chaos in many narrow bands, and periodic windows. No map of an
+/// interval, and no map that shrinks every area, has an invariant circle, so none of its motions is quasi-periodic.
+#[test]
+fn weak_chaos_in_bands_is_not_called_quasi_periodic() {
+    let mut restless = 0;
+    for k in 0..40 {
+        let r = 3.57 + 2.5e-4 * f64::from(k);
+        let mut map = StepMap::new(2, move |z: &[f64]| {
+            (vec![r * z[0] * (1.0 - z[0]), 0.5 * z[1]], faer::mat![[r * (1.0 - 2.0 * z[0]), 0.0], [0.0, 0.5]])
+        });
+        let found = kind(&mut map, &[0.3, 0.1]);
+        assert_ne!(
+            found.class,
+            Class::QuasiPeriodic,
+            "{r}: {:?} {:?}",
+            found.largest_exponent,
+            found.zero_one
+        );
+        restless += u32::from(found.class.period().is_none());
+    }
+    assert!(restless > 20, "{restless}");
+}
+
 #[test]
 fn motion_on_an_invariant_circle_is_quasi_periodic_or_periodic() {
     let golden = 0.5 * (5f64.sqrt() - 1.0);

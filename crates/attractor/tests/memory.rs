@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 
 use common::{element, model};
 use hammerbeam_attractor::{
-    Class, Effort, LyapunovSettings, Observable, SectionMap, SweepSettings, Sweeper, SystemMap, lyapunov,
+    AttractorError, Axis, Basins, Class, Effort, Grid, LyapunovSettings, Observable, SectionMap,
+    SweepSettings, Sweeper, SystemMap, lyapunov,
 };
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Stretch, System,
@@ -22,8 +23,16 @@ const PLAIN: f64 = -2.2;
 
 /// Unit mass on a spring, `w = 1`, damping 0.04, with a stop after Lankarani and Nikravesh.
 fn oscillator(phase: f64) -> System {
-    let harmonic = Harmonic { order: 1, amplitude: 0.2, phase };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    pressed(phase, 0.0)
+}
+
+/// The same under a weight that pulls it towards the stop.
+fn pressed(phase: f64, weight: f64) -> System {
+    let force = |order, amplitude, phase| HarmonicForce {
+        shape: vec![1.0],
+        harmonic: Harmonic { order, amplitude, phase },
+    };
+    let load = Load { support: vec![], forces: vec![force(0, weight, 0.0), force(1, 0.2, phase)] };
     let elastic = HertzStop::with_gap(20.0, 0.5).unwrap();
     let law = RestitutionStop::new(elastic, RestitutionModel::LankaraniNikravesh, 0.7).unwrap();
     let stop = element(&[1.0], 0.0, Law::Restitution(law));
@@ -82,4 +91,38 @@ fn a_sweep_goes_on_from_within_a_contact() {
             .at(FREQUENCY_HZ, &first.state)
             .is_err()
     );
+}
+
+/// A weight of 8 N against a force of 0.2 N: after its first bounces the contact stays closed, and its damping says for ever how fast it began. Such a motion is not one of the system.
+#[test]
+fn a_contact_that_stays_closed_is_refused_by_name() {
+    let system = pressed(0.0, 8.0);
+    let never_opens = |error: AttractorError| matches!(error, AttractorError::NeverOpens { .. });
+    let observable = Observable { shape: vec![1.0], support_ratio: 0.0 };
+    let motion = ExactSettings::default();
+    let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion };
+    let mut sweeper = Sweeper::new(&system, &observable, settings).unwrap();
+    assert!(never_opens(sweeper.begin_at(FREQUENCY_HZ, &[0.0, 0.0]).unwrap_err()));
+    let axis = |direction: [f64; 2]| Axis { direction: direction.to_vec(), low: -1.0, high: 0.4, count: 2 };
+    let grid = Grid { base: vec![0.0; 2], x: axis([1.0, 0.0]), y: axis([0.0, 1.0]) };
+    let mut basins = Basins::new(system, FREQUENCY_HZ, grid, Effort::default(), motion).unwrap();
+    let stop = std::sync::atomic::AtomicBool::new(false);
+    let mut cells = Vec::new();
+    while let Some(round) = basins.round(1, &stop) {
+        cells.extend(round.cells);
+    }
+    assert_eq!((cells, basins.attractors().len()), (vec![0; 4], 0));
+}
+
+/// The rest and the linear motion lie within the contact of a weight; the other states of a diagram do not, whatever the law.
+#[test]
+fn a_diagram_begins_in_front_of_contacts() {
+    let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion: ExactSettings::default() };
+    let observable = Observable { shape: vec![1.0], support_ratio: 0.0 };
+    for weight in [0.0, 8.0, 1e6] {
+        let mut sweeper = Sweeper::new(&pressed(0.0, weight), &observable, settings).unwrap();
+        let starts = sweeper.starts(FREQUENCY_HZ, 12).unwrap();
+        // The gap is 0.5 m.
+        assert!(starts[2..].iter().all(|state| state[0] <= 0.5), "{weight}: {starts:?}");
+    }
 }

@@ -14,13 +14,14 @@ impl From<AttractorError> for Failure {
         match error {
             AttractorError::Input { .. }
             | AttractorError::StateLength { .. }
-            | AttractorError::BehindRigidStop { .. } => Self::BadInput(error.to_string()),
+            | AttractorError::BehindRigidStop { .. }
+            | AttractorError::WithinContact { .. } => Self::BadInput(error.to_string()),
             other => Self::NoResult(other.to_string()),
         }
     }
 }
 
-/// The state that `--initial` means: one that a motion can begin at, in front of every rigid stop.
+/// The state that `--initial` means: one in front of every rigid stop, and in no contact whose law remembers its impact.
 ///
 /// * `map`: of the system at the frequency.
 pub fn state(

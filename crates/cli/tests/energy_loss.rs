@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Workshop, assert_success, stdout};
+use common::{Workshop, assert_success, stderr, stdout};
 use serde_json::Value;
 
 /// One mass that is shaken against a stop above it.
@@ -104,4 +104,39 @@ fn a_branch_whose_contact_passes_phase_0_is_followed_and_verified() {
     let document: Value = serde_json::from_str(&stdout(&verify)).unwrap();
     assert_eq!(document["agree"], true, "{document}");
     assert!(document["sampled"].as_u64().unwrap() > 100, "{document}");
+}
+
+/// A weight that presses the mass through its gap, and a force that throws it off at every turn if it is strong enough.
+fn pressed(amplitude_n: f64) -> Workshop {
+    let study = study("law = \"lankarani-nikravesh\"\nstiffness_n_m15 = 1e6\nrestitution = 0.6");
+    let vary = study.find("[[vary]]").unwrap();
+    let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 300.0\norder = 0\n";
+    Workshop::with(
+        &format!("{}{load}", &study[..vary])
+            .replace("amplitude_n = 5.0", &format!("amplitude_n = {amplitude_n:?}"))
+            .replace("[5.2, 6.4]", "[15.0, 15.2]"),
+    )
+}
+
+/// The linear response and the place of rest lie within the contact: a run begins in front of it, and has the orbit that `sweep` settles on from a state far away.
+#[test]
+fn a_run_begins_in_front_of_a_contact_against_which_a_weight_presses() {
+    let workshop = pressed(1000.0);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let sweep = ["sweep", "study.toml", "--from", "15.1", "--to", "15.1", "--initial=-0.3,0"];
+    let output = workshop.hammerbeam(&[&sweep[..], &["--results", "results", "--json"]].concat());
+    assert_success(&output);
+    let found: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let motion = &found["motions"][0];
+    assert_eq!((&motion["class"], motion["branch"].is_u64()), (&Value::from("periodic"), true), "{motion}");
+}
+
+/// A weak force never opens the contact: the run says why it has nothing.
+#[test]
+fn a_run_that_finds_nothing_says_why() {
+    let output = pressed(1.0).hammerbeam(&["run", "study.toml", "--out", "results"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let told = stderr(&output);
+    assert!(told.contains("no periodic solution was found between 15 and 15.2 Hz"), "{told}");
+    assert!(told.contains("wall is closed over the whole motion"), "{told}");
 }

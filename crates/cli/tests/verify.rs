@@ -189,10 +189,64 @@ fn touches_of_a_deep_contact_that_just_opens_agree() {
     assert_eq!(velocity["disagree"], 0, "{document:#}");
 }
 
+/// A spring that is just touched beside a rigid stop that is struck hard: what the spring pushes with is known as badly as its own shallow contact, and not as well as the other's.
+#[test]
+fn the_force_of_a_contact_is_judged_by_its_own_depth() {
+    let workshop = Workshop::with(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{ name = "m", mass_kg = 1.0 }]
+        spring = [{ between = ["m", "ground"], stiffness_n_m = 1.0 }]
+        damper = [{ between = ["m", "ground"], damping_n_s_m = 0.04 }]
+        [excitation]
+        kind = "force"
+        at = "m"
+        amplitude_n = 0.4
+        frequency_hz = [0.165, 0.168]
+        [[stop]]
+        name = "grazed"
+        at = "m"
+        law = "hertz"
+        stiffness_n_m15 = 40.0
+        side = "below"
+        gap_m = 0.6
+        [[stop]]
+        name = "struck"
+        at = "m"
+        law = "rigid"
+        restitution = 0.66
+        side = "above"
+        gap_m = 0.5
+        [response]
+        period_multiples = [1]
+        [search]
+        frequencies = 2
+        [continuation]
+        max_step_hz = 0.0005
+        "#,
+    );
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let weak = values(&workshop.csv("results"), "max_contact_force_n").into_iter().filter(|f| *f < 1e-8);
+    assert!(weak.count() > 2, "the spring is not just touched");
+    assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
+    // A force as strong as usual that is wrong by a millionth is found.
+    let connection = Connection::open(workshop.path("results/results.db")).unwrap();
+    let wrong = "UPDATE solution SET max_contact_force_n = max_contact_force_n * 1.000001 \
+        WHERE max_contact_force_n = (SELECT max(max_contact_force_n) FROM solution)";
+    assert!(connection.execute(wrong, []).unwrap() > 0);
+    let found = workshop.hammerbeam(&["verify", "results", "--all"]);
+    assert_eq!(found.status.code(), Some(3), "{}", stdout(&found));
+}
+
 /// The impact velocities of a table that are not zero [m/s].
 fn impact_velocities(table: &str) -> Vec<f64> {
-    let column = |name| table.lines().next().unwrap().split(',').position(|title| title == name).unwrap();
-    let place = column("max_impact_velocity_m_s");
+    values(table, "max_impact_velocity_m_s")
+}
+
+/// A column of a table, without zeros.
+fn values(table: &str, name: &str) -> Vec<f64> {
+    let place = table.lines().next().unwrap().split(',').position(|title| title == name).unwrap();
     let values = table.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse().unwrap());
     values.filter(|v: &f64| *v > 0.0).collect()
 }

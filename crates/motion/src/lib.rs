@@ -83,6 +83,7 @@
 mod amplitude;
 pub mod exact;
 pub mod general;
+mod in_front;
 mod instant;
 pub mod law;
 mod load;

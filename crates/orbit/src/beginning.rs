@@ -18,7 +18,7 @@ fn begins(integrator: &mut ExactIntegrator, frequency_hz: f64, state: &[f64]) ->
     !matches!(begun, Err(MotionError::StartsInContact { .. } | MotionError::PressedWithoutImpact { .. }))
 }
 
-/// A state at phase 0 at which a motion can begin: the given one, or its mirror image about the place of rest, or the one half-way to `other`. The given one, too, if there is no motion from any.
+/// A state at phase 0 at which a motion can begin: the given one, or one in front of the contacts, or the one half-way to `other`. The given one, too, if there is no motion from any.
 pub(crate) fn beginning_near(
     integrator: &mut ExactIntegrator,
     frequency_hz: f64,
@@ -29,11 +29,21 @@ pub(crate) fn beginning_near(
         return state;
     }
     let half_way = state.iter().zip(other).map(|(a, b)| 0.5 * (a + b)).collect();
-    let candidates = [mirrored(integrator.system(), &state), half_way];
+    let candidates = [in_front(integrator.system(), frequency_hz, &state), half_way];
     candidates.into_iter().find(|candidate| begins(integrator, frequency_hz, candidate)).unwrap_or(state)
 }
 
-/// The mirror image of a state about the place of rest.
-pub(crate) fn mirrored(system: &System, state: &[f64]) -> Vec<f64> {
-    state.iter().zip(state_of_rest(system)).map(|(z, rest)| 2.0 * rest - z).collect()
+/// Of a state at phase 0 within a contact whose law remembers its impact: its mirror image about the place of rest, or, where that lies in such a contact too, as where a constant load presses
+/// the structure against its stop, its reflection at the stop. The state itself if it is in none, or if none is found outside.
+pub(crate) fn in_front(system: &System, frequency_hz: f64, state: &[f64]) -> Vec<f64> {
+    let within = |state: &[f64]| system.is_in_remembered_contact(frequency_hz, 0.0, state);
+    if !within(state) {
+        return state.to_vec();
+    }
+    let mirrored: Vec<f64> =
+        state.iter().zip(state_of_rest(system)).map(|(z, rest)| 2.0 * rest - z).collect();
+    if !within(&mirrored) {
+        return mirrored;
+    }
+    system.in_front_of_contacts(frequency_hz, 0.0, state).unwrap_or_else(|| state.to_vec())
 }

@@ -52,13 +52,13 @@ const ELSEWHERE_EFFORT: Effort = Effort { starts: 3, attempts: 3 };
 /// What a search has found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FoundOrbits {
-    /// The orbits: stable before unstable, then largest displacement first.
+    /// The orbits, in the order that the search promises.
     pub orbits: Vec<PeriodicSolution>,
     /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its bound, or an interruption.
     pub incomplete: Option<OrbitError>,
 }
 
-/// Finds the orbits of minimal period `period_multiple` at `frequency_hz`.
+/// Finds the orbits of minimal period `period_multiple` at `frequency_hz`: stable before unstable, then largest displacement first.
 ///
 /// * `range_hz`: the frequencies within which branches are followed.
 /// * `interrupted`: asked now and then; once it says true the search ends with what it has found.

@@ -4,7 +4,7 @@ use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Segments,
-    beginning::mirrored,
+    beginning::in_front,
     cut::search_cut,
     noise::Noise,
     size::scale_from,
@@ -102,8 +102,8 @@ pub(crate) fn check_multiple(found: u32) -> Result<(), OrbitError> {
     if (1..=most).contains(&found) { Ok(()) } else { Err(OrbitError::PeriodMultiple { found, most }) }
 }
 
-/// The linear response, and states in its neighbourhood and well beyond it, always the same ones. Of a state within a contact that must not be begun in, its mirror image about
-/// the place of rest is taken.
+/// The linear response, and states in its neighbourhood and well beyond it, always the same ones. A state within a contact that must not be begun in
+/// is moved in front of it.
 pub(crate) fn starting_states(
     system: &System,
     response: &Response,
@@ -127,9 +127,7 @@ pub(crate) fn starting_states(
     }
     if system.remembers_impacts() {
         for state in &mut states {
-            if system.is_in_remembered_contact(frequency_hz, 0.0, state) {
-                *state = mirrored(system, state);
-            }
+            *state = in_front(system, frequency_hz, state);
         }
     }
     Ok(states)

@@ -7,7 +7,7 @@
 use hammerbeam_motion::{Stretch, System};
 
 use crate::{
-    OrbitError, OrbitSettings, PeriodicSolution, Response,
+    FoundOrbits, OrbitError, OrbitSettings, PeriodicSolution, Response,
     cut::search_cut,
     matching::{distance_in_phase, states_at_phase},
     size::{orbit_scale, scale_from},
@@ -40,7 +40,8 @@ const REPEATED: f64 = 1e-6;
 /// Two orbits this close, relative to the orbit, are the same.
 const SAME: f64 = 1e-6;
 
-/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the order in which they were met.
+/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the order in which they were met. A start from which no motion can be computed makes
+/// the search incomplete.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion cannot be computed from any start.
@@ -51,7 +52,7 @@ pub fn survey(
     multiples: &[u32],
     effort: &SurveyEffort,
     settings: &OrbitSettings,
-) -> Result<Vec<PeriodicSolution>, OrbitError> {
+) -> Result<FoundOrbits, OrbitError> {
     let survey = Survey { system, response, frequency_hz, multiples, effort, settings };
     let mut found: Vec<PeriodicSolution> = Vec::new();
     let mut failure = None;
@@ -74,7 +75,7 @@ pub fn survey(
         Some(error) if !computed => Err(error),
         _ => {
             found.sort_by_key(|orbit| orbit.period_multiple);
-            Ok(found)
+            Ok(FoundOrbits { orbits: found, incomplete: failure })
         }
     }
 }

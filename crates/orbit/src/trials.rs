@@ -6,7 +6,7 @@
 use hammerbeam_motion::{Stretch, System};
 
 use crate::{
-    Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    FoundOrbits, Interruption, OrbitError, OrbitSettings, Response,
     catalogue::Catalogue,
     sampling::{Passed, Patience, sample},
     start::{STARTS, starting_states},
@@ -19,7 +19,7 @@ const PASSING: usize = 1;
 /// Further trials for each orbit that is known.
 const FOR_EACH: usize = 2;
 
-/// Finds orbits of one excitation period at a frequency, in the order in which they were met.
+/// Finds orbits of one excitation period at a frequency, in the order in which they were met. A start from which no motion can be computed makes the search incomplete.
 ///
 /// * `trials`: trials of Newton's method without a new orbit after which it ends.
 /// * `interrupted`: asked before each trial.
@@ -33,7 +33,7 @@ pub fn harmonic_trials(
     trials: usize,
     settings: &OrbitSettings,
     interrupted: Interruption<'_>,
-) -> Result<Vec<PeriodicSolution>, OrbitError> {
+) -> Result<FoundOrbits, OrbitError> {
     let mut catalogue = Catalogue::new(system, response, settings, frequency_hz)?;
     let mut passed = Passed::default();
     let mut failure = None;
@@ -43,12 +43,14 @@ pub fn harmonic_trials(
             Err(error) => failure = Some(error),
         }
     }
-    if let (true, Some(error)) = (passed.motions.is_empty(), failure) {
-        return Err(error);
+    match failure {
+        Some(error) if passed.motions.is_empty() => return Err(error),
+        _ => {}
     }
     let patience = Patience { trials, for_each: FOR_EACH, asks_for_two_arrivals: false, most: 8 * trials };
     sample(&mut catalogue, &passed, 1, patience, interrupted)?;
-    Ok(catalogue.known.into_iter().map(|known| known.solution).collect())
+    let orbits = catalogue.known.into_iter().map(|known| known.solution).collect();
+    Ok(FoundOrbits { orbits, incomplete: failure })
 }
 
 /// States at the excitation periods of a motion.

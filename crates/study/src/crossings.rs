@@ -128,7 +128,8 @@ impl StoredBranches {
 
     /// The branch that a periodic motion lies on.
     ///
-    /// * `states`: at phase 0 of each of its excitation periods.
+    /// * `states`: at phase 0 of each of its excitation periods, or of some of them over and over: of an orbit that is in contact at phase 0 with a law that remembers its impact, not all may be
+    ///   known. One in common with an orbit of as many periods is enough.
     ///
     /// # Errors
     /// The store refuses.
@@ -145,9 +146,7 @@ impl StoredBranches {
         let Ok(mut integrator) = motion else { return Ok(None) };
         let mut same = |orbit: &PeriodicSolution| {
             let there = states_at_phase(&mut integrator, orbit, 0.0).unwrap_or_default();
-            there
-                .first()
-                .is_some_and(|there| states.iter().any(|state| distance(&scales, state, there) < SAME))
+            there.iter().any(|there| states.iter().any(|state| distance(&scales, state, there) < SAME))
         };
         Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
     }

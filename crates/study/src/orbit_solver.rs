@@ -9,7 +9,7 @@ use hammerbeam_orbit::{
 use crate::{
     Model,
     file::{self, Study},
-    run::{Match, Origin, Solver, Walk},
+    run::{Match, Origin, Solver, Surveyed, Walk},
 };
 
 /// Frequencies in the part of the range of a survey at which harmonic solutions are tried.
@@ -121,10 +121,11 @@ impl Solver for OrbitSolver<'_> {
         width_hz: f64,
         multiples: &[u32],
         interrupted: Interruption<'_>,
-    ) -> Result<Vec<PeriodicSolution>, String> {
+    ) -> Result<Surveyed, String> {
         let (system, response, settings) = (&self.model.system, self.response(), &self.settings);
-        let mut found = survey(system, response, frequency_hz, multiples, &self.effort, settings)
+        let found = survey(system, response, frequency_hz, multiples, &self.effort, settings)
             .map_err(|error| error.to_string())?;
+        let FoundOrbits { orbits: mut found, mut incomplete } = found;
         // What has not settled yet may be near a stable solution, too.
         found.retain(|orbit| self.unstable_starts || orbit.stable());
         if self.trials > 0 && multiples.contains(&1) {
@@ -133,10 +134,13 @@ impl Solver for OrbitSolver<'_> {
                 let at_hz = frequency_hz + place * width_hz;
                 let tried =
                     harmonic_trials(system, response, at_hz, self.trials, settings, &mut *interrupted);
-                found.extend(tried.map_err(|error| error.to_string())?);
+                let tried = tried.map_err(|error| error.to_string())?;
+                found.extend(tried.orbits);
+                incomplete = incomplete.or(tried.incomplete);
             }
         }
-        Ok(found)
+        let incomplete = incomplete.map(|error| format!("the search is not complete: {error}"));
+        Ok(Surveyed { solutions: found, incomplete })
     }
 
     fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {

@@ -54,9 +54,15 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     if let Some(folder) = &options.out {
         write_basins(folder, "", (basins.grid(), &cells), basins.attractors(), &result.branches)?;
     }
+    if result.lost() == total {
+        return Err(Failure::NoResult(format!("no motion from any of the {total} cells: {NOT_COMPUTED}")));
+    }
     output.give(&result.document(), || result.text());
     Ok(())
 }
+
+/// Why a cell has no attractor.
+const NOT_COMPUTED: &str = "they begin behind a rigid stop or within a contact that remembers its impact, or settle with such a contact closed for good, or their motion could not be computed";
 
 /// What is asked of the study.
 fn request(options: &BasinsOptions) -> Vec<String> {
@@ -198,10 +204,7 @@ impl Outcome<'_> {
             ));
         }
         if self.lost() > 0 {
-            lines.push(format!(
-                "  {} cell(s) begin behind a rigid stop, or their motion could not be computed",
-                self.lost()
-            ));
+            lines.push(format!("  {} cell(s) without an attractor: {NOT_COMPUTED}", self.lost()));
         }
         if let Some(folder) = &self.options.out {
             lines.push(format!("basins.csv and attractors.csv are in {}", folder.display()));

@@ -1,6 +1,6 @@
 //! `hammerbeam lyapunov`: the exponents of a motion.
 
-use hammerbeam_attractor::{Lyapunov, LyapunovSettings, SectionMap, SystemMap, zero_one};
+use hammerbeam_attractor::{Lyapunov, LyapunovSettings, SectionMap, SystemMap, WATCHED_PERIODS, zero_one};
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, Store, StudyFile,
@@ -153,6 +153,9 @@ impl<'a> Motion<'a> {
                 states.push(average.state().to_vec());
             }
             tell(self.options.transient_periods + sections / parts);
+        }
+        if whole {
+            map.check_opens(average.state(), WATCHED_PERIODS)?;
         }
         let Some(spectrum) = average.spectrum() else { return Ok((None, false)) };
         let series: Vec<f64> = states.iter().map(|state| state[0]).collect();

@@ -105,7 +105,19 @@ impl Summary<'_> {
 
     fn nothing(&self) -> String {
         let [low, high] = self.study.excitation.frequency_hz;
-        format!("no periodic solution was found between {low} and {high} Hz")
+        let mut lines = vec![format!("no periodic solution was found between {low} and {high} Hz")];
+        lines.extend(self.failed_text());
+        if self.left() > 0 {
+            lines.push(format!("the search is not complete: {}", self.out_of_time()));
+        }
+        lines.join("\n")
+    }
+
+    fn out_of_time(&self) -> String {
+        format!(
+            "out of time: {} searches, flips and branch points are left; the same command goes on with them",
+            self.left()
+        )
     }
 
     /// Searches, flips and branch points that were not come to.
@@ -113,7 +125,7 @@ impl Summary<'_> {
         self.jobs.iter().filter(|job| job.outcome.is_none()).count()
     }
 
-    /// Those of which nothing came, with the reason.
+    /// Those of which nothing came or that were not complete, with the reason.
     fn failed(&self) -> impl Iterator<Item = (&JobRecord, &str)> {
         let ended = self.jobs.iter().filter(|job| job.outcome.is_some());
         ended.filter_map(|job| Some((job, job.message.as_deref()?)))
@@ -126,7 +138,7 @@ impl Summary<'_> {
             return Vec::new();
         }
         let mut lines = vec![format!(
-            "\nnothing came of {} of {} searches, flips and branch points:",
+            "\n{} of {} searches, flips and branch points led to nothing or were not complete:",
             failed.len(),
             self.jobs.len()
         )];
@@ -166,10 +178,7 @@ impl Summary<'_> {
         lines.extend(self.pieces.iter().map(piece_text));
         lines.extend(self.failed_text());
         if self.left() > 0 {
-            lines.push(format!(
-                "\nout of time: {} searches, flips and branch points are left; the same command goes on with them",
-                self.left()
-            ));
+            lines.push(format!("\n{}", self.out_of_time()));
         }
         lines.push(format!("{} files with figures in {}", figures.len(), self.folder));
         lines.join("\n")

@@ -15,12 +15,21 @@ use crate::{
     ticker::Ticker,
 };
 
+/// Samples in a table at most, some 50 GB of text.
+const MOST_SAMPLES: u64 = 1_000_000_000;
 /// Contacts that a document lists; all of them are in `contacts.csv`.
 const LISTED: usize = 1000;
 
 pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
+    let samples = options.periods * u64::from(options.samples_per_period);
+    if options.out.is_some() && samples > MOST_SAMPLES {
+        return Err(Failure::BadInput(format!(
+            "--periods {} times --samples-per-period {} is {samples} samples, must be {MOST_SAMPLES} at most with --out",
+            options.periods, options.samples_per_period
+        )));
+    }
     let frequency_hz = options.frequency;
     let motion = ExactSettings::default();
     let mut map = SystemMap::new(model.system.clone(), frequency_hz, 1, motion)?;

@@ -20,6 +20,11 @@ fn options_that_make_no_sense_are_refused() {
         (&simulate[..3], &["-5"][..], "must be a number of hertz"),
         (&simulate, &["--periods", "0"], "0 is not in 1..="),
         (&simulate, &["--samples-per-period", "0"], "0 is not in 1..="),
+        (
+            &simulate,
+            &["--periods", "2000", "--samples-per-period", "1000000", "--out", "out"],
+            "is 2000000000 samples, must be",
+        ),
         (&simulate, &["--section-phase", "1.5"], "must be a number of cycles from 0 to 1"),
         (&simulate, &["--initial", "1,2"], "found 2 number(s); allowed: rest, linear, branch:N"),
         (&simulate[..3], &["0"], "must be a number of hertz, more than 0 and at most 1e10"),
@@ -65,7 +70,12 @@ fn states_in_which_no_motion_begins_are_refused_by_name() {
     let memory = Workshop::with(&remembering());
     for (workshop, initial, code, part) in [
         (&rigid, "1.5,0", 2, "the state lies 5.000e-1 m behind the rigid stop \"stop\""),
-        (&memory, "0.1,0", 1, "its law needs to know how fast it closed"),
+        (
+            &memory,
+            "0.1,0",
+            2,
+            "the state lies 1.000e-1 m within the contact of \"stop\", and its law needs to know how fast it closed",
+        ),
         // The force pushes the mass against the stop at which it rests.
         (&memory, "rest", 1, "stop is pressed on without an impact"),
     ] {
@@ -74,6 +84,18 @@ fn states_in_which_no_motion_begins_are_refused_by_name() {
         assert_eq!(output.status.code(), Some(code), "{initial}: {}", stderr(&output));
         assert!(stderr(&output).contains(part), "{initial}: {}", stderr(&output));
     }
+}
+
+/// All cells of this grid lie behind the stop: there is nothing to give, and it is told.
+#[test]
+fn basins_without_an_attractor_are_exit_code_1() {
+    let workshop = Workshop::with(IMPACT_OSCILLATOR);
+    let cells = ["--x", "q1=2..3", "--y", "v1=0..1", "--grid", "2", "--json"];
+    let output = workshop.hammerbeam(&[&["basins", "study.toml", "--frequency", "0.3"][..], &cells].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("no motion from any of the 4 cells"), "{}", stderr(&output));
+    let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert_eq!(document["error"]["exit_code"], 1);
 }
 
 /// At rest the mass is pressed against a stop whose law needs the speed of an impact, and some states about it lie in the contact: the search begins beside, and its orbit is the motion that

@@ -30,6 +30,50 @@ fn sweep_shows_hysteresis_and_names_the_branch() {
     assert_eq!(table(&workshop, "out/sweep_samples.csv").len(), 23);
 }
 
+/// An orbit of two periods that is in contact at phase 0 of one of them, with a law that remembers its impact: whichever of the two its motion comes to, its branch is named.
+#[test]
+fn sweep_names_the_branch_of_a_subharmonic_motion_within_a_contact() {
+    let workshop = Workshop::with(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{ name = "m", mass_kg = 1.0 }]
+        spring = [{ between = ["m", "ground"], stiffness_n_m = 1.0 }]
+        damper = [{ between = ["m", "ground"], damping_n_s_m = 0.04 }]
+        [excitation]
+        kind = "force"
+        at = "m"
+        amplitude_n = 0.4
+        frequency_hz = [0.136, 0.144]
+        [[stop]]
+        at = "m"
+        side = "above"
+        gap_m = 0.6
+        law = "lee-wang"
+        stiffness_n_m15 = 40.0
+        restitution = 0.6
+        [response]
+        period_multiples = [2]
+        [search]
+        frequencies = 2
+        [continuation]
+        budget_solutions = 1500
+        "#,
+    );
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let sweep = ["sweep", "study.toml", "--from", "0.14", "--to", "0.14", "--results", "results", "--json"];
+    let of = |initial: &str| {
+        let found = document(&workshop, &[&sweep[..], &["--initial", initial]].concat());
+        let motion = found["motions"][0].clone();
+        assert_eq!(motion["period"], 2, "{motion}");
+        assert!(motion["branch"].is_u64(), "{initial}: {motion}");
+        motion["sampled_displacements_m"][0].as_f64().unwrap()
+    };
+    // One ends in the contact, the other in front of it, one period later: both cases are there.
+    let ends = [of("0,0"), of("0.1,0.1")];
+    assert!(ends[0].max(ends[1]) > 0.6 && ends[0].min(ends[1]) < 0.6, "{ends:?}");
+}
+
 #[test]
 fn diagram_from_many_starts_finds_both_motions_whatever_the_threads() {
     let workshop = Workshop::with(DUFFING);

@@ -44,7 +44,7 @@ use watch::Samples;
 
 pub use error::GeneralError;
 pub use field::{Column, Point, VectorField};
-pub use observe::{Observed, observe};
+pub use observe::{ElementMaxima, Observed, observe};
 
 use crate::{Flow, Stretch, System};
 

@@ -44,6 +44,34 @@ pub struct Observed {
     /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero. An impact on a rigid stop gives
     /// `v^2/(2 |r''|)`, to which the motion would have gone.
     pub extrema: Vec<f64>,
+    /// The same element by element.
+    pub of_elements: Vec<ElementMaxima>,
+}
+
+/// What the contacts of one element do.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ElementMaxima {
+    /// Largest contact force [N].
+    pub contact_force: f64,
+    /// Largest speed with which a contact closes [m/s]; zero if none does.
+    pub impact_velocity: f64,
+    /// Sum of the impulses [N s].
+    pub impulse: f64,
+    /// Deepest of the extrema of the penetration [m], zero if none is above the level; of impacts on a rigid stop as in [`Observed::extrema`].
+    pub deepest: f64,
+}
+
+impl ElementMaxima {
+    /// Of a stretch and the one after it.
+    #[must_use]
+    pub fn joined(self, later: Self) -> Self {
+        Self {
+            contact_force: self.contact_force.max(later.contact_force),
+            impact_velocity: self.impact_velocity.max(later.impact_velocity),
+            impulse: self.impulse + later.impulse,
+            deepest: self.deepest.max(later.deepest),
+        }
+    }
 }
 
 /// Motion of a system over a stretch, observed at a response point of displacement `shape . q + support_ratio u`.
@@ -67,7 +95,8 @@ pub fn observe(
     let mut march = March::new(&mut field, settings, (stretch.start, stretch.end), state);
     march.run(&mut observer)?;
     let flow = march.flow();
-    let Observer { maxima, closed, extrema, contacts, impacts, .. } = observer;
+    let Observer { maxima, closed, extrema, contacts, impacts, of_elements, .. } = observer;
+    let whole = of_elements.iter().copied().fold(ElementMaxima::default(), ElementMaxima::joined);
     let closed = contacts.iter().zip(&closed).filter(|(_, closed)| **closed).map(|(watched, _)| watched);
     Ok(Observed {
         flow: Flow {
@@ -80,14 +109,15 @@ pub fn observe(
         next_step: flow.next_step,
         displacement: maxima.displacement,
         acceleration: maxima.acceleration,
-        contact_force: maxima.contact_force,
-        impact_velocity: maxima.impact_velocity,
-        impulse: maxima.impulse,
+        contact_force: whole.contact_force,
+        impact_velocity: whole.impact_velocity,
+        impulse: whole.impulse,
         touches: maxima.touches,
         impacts,
         closed_throughout: closed
             .fold(0, |bits, watched| bits | 1_u64.checked_shl(watched.element as u32).unwrap_or(0)),
         extrema,
+        of_elements,
     })
 }
 
@@ -104,9 +134,6 @@ impl Observed {
 struct Maxima {
     displacement: f64,
     acceleration: f64,
-    contact_force: f64,
-    impact_velocity: f64,
-    impulse: f64,
     touches: u32,
 }
 
@@ -157,6 +184,7 @@ struct Observer<'a> {
     closed: Vec<bool>,
     maxima: Maxima,
     extrema: Vec<f64>,
+    of_elements: Vec<ElementMaxima>,
     /// Impacts on rigid stops, and how many stuck.
     impacts: Vec<[u32; 2]>,
     /// Takes steps of its own to where something is largest.
@@ -176,6 +204,7 @@ impl<'a> Observer<'a> {
             contacts,
             maxima: Maxima::default(),
             extrema: Vec::new(),
+            of_elements: vec![ElementMaxima::default(); field.system.elements().len()],
             impacts: vec![
                 [0; 2];
                 if field.rigid.stops.is_empty() { 0 } else { field.system.elements().len() }
@@ -212,8 +241,20 @@ impl<'a> Observer<'a> {
         let acceleration = self.acceleration(field, at).abs();
         self.maxima.displacement = self.maxima.displacement.max(displacement.abs());
         self.maxima.acceleration = self.maxima.acceleration.max(acceleration);
-        let largest = self.forces(field, at).fold(0.0, f64::max);
-        self.maxima.contact_force = self.maxima.contact_force.max(largest);
+        let forces: Vec<f64> = self.forces(field, at).collect();
+        for (element, force) in self.of_elements.iter_mut().zip(forces) {
+            element.contact_force = element.contact_force.max(force);
+        }
+    }
+
+    /// Notes an extremum of the penetration of an element.
+    fn add_extremum(&mut self, element: usize, extremum: f64) {
+        self.extrema.push(extremum);
+        self.of_elements[element].deepest = self.of_elements[element].deepest.max(extremum);
+    }
+
+    fn add_touch(&mut self, element: usize, speed: f64) {
+        self.of_elements[element].impact_velocity = self.of_elements[element].impact_velocity.max(speed);
     }
 
     /// Contact forces of the elements.
@@ -274,19 +315,22 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
         for impact in &impacts {
             self.impacts[impact.element][0] += 1;
             self.impacts[impact.element][1] += u32::from(impact.sticks);
-            self.maxima.impact_velocity = self.maxima.impact_velocity.max(impact.speed);
-            self.maxima.impulse += impact.impulse;
-            self.extrema.extend(Some(impact.depth).filter(|depth| depth.is_finite()));
+            self.add_touch(impact.element, impact.speed);
+            self.of_elements[impact.element].impulse += impact.impulse;
+            if impact.depth.is_finite() {
+                self.add_extremum(impact.element, impact.depth);
+            }
         }
         for place in 0..self.contacts.len() {
             let watched = &self.contacts[place];
             let is_rigid = field.laws[watched.element].rigid().is_some();
             if !is_rigid && at.inside[watched.penetration] && !self.inside[watched.penetration] {
-                let [_, velocity] = self.read(field, Output::Element(watched.element), at.time, at.state);
+                let element = watched.element;
+                let [_, velocity] = self.read(field, Output::Element(element), at.time, at.state);
                 self.maxima.touches += 1;
-                self.maxima.impact_velocity = self.maxima.impact_velocity.max(velocity.abs());
+                self.add_touch(element, velocity.abs());
             }
-            self.closed[place] &= watched.presses(at.inside);
+            self.closed[place] &= self.contacts[place].presses(at.inside);
         }
         // A force that sets in with a jump may be largest at once.
         if !impacts.is_empty()

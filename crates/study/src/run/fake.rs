@@ -2,7 +2,7 @@
 
 use hammerbeam_orbit::{BranchRow, Crossing, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 
-use super::{Match, Origin, Solver, Walk};
+use super::{Match, Origin, Solver, Surveyed, Walk};
 
 /// One branch for each period multiple of 1 and 2; the harmonic one overhangs.
 pub(crate) struct FakeSolver {
@@ -60,9 +60,9 @@ impl Solver for FakeSolver {
         _width_hz: f64,
         multiples: &[u32],
         _interrupted: hammerbeam_orbit::Interruption<'_>,
-    ) -> Result<Vec<PeriodicSolution>, String> {
+    ) -> Result<Surveyed, String> {
         match multiples.contains(&2) {
-            true => Ok(vec![self.solution(2, frequency_hz - 15.0)]),
+            true => Ok(Surveyed { solutions: vec![self.solution(2, frequency_hz - 15.0)], incomplete: None }),
             false => Err("no solution".to_owned()),
         }
     }

@@ -40,7 +40,7 @@ mod worker;
 pub use plan::Plan;
 pub use progress::{Observer, Progress, Quiet, VariedProgress};
 pub use runner::{RunError, RunOutcome, run};
-pub use solver::{Match, Origin, Solver, Walk};
+pub use solver::{Match, Origin, Solver, Surveyed, Walk};
 
 #[cfg(test)]
 mod fake;

@@ -11,7 +11,7 @@ use std::{
 };
 
 use super::{
-    Observer, Plan, Progress, Solver,
+    Observer, Plan, Progress, Solver, Surveyed,
     agenda::Agenda,
     decide::Decisions,
     schedule::next_task,
@@ -174,9 +174,9 @@ impl Run<'_> {
                 self.busy -= 1;
                 let record = self.agenda.jobs[job as usize].record.clone();
                 let (starts, message) = match starts {
-                    Ok(starts) => {
-                        let message = too_many(starts.len());
-                        (starts, message)
+                    Ok(Surveyed { solutions, incomplete }) => {
+                        let message = too_many(solutions.len()).or(incomplete);
+                        (solutions, message)
                     }
                     Err(message) => (Vec::new(), Some(message)),
                 };

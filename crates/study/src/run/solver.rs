@@ -16,7 +16,7 @@ pub trait Solver: Sync {
         interrupted: Interruption<'_>,
     ) -> Result<PeriodicSolution, String>;
 
-    /// All periodic solutions of these minimal periods that simulation leads to at a frequency, and harmonic ones that few trials find elsewhere in its
+    /// Periodic solutions of these minimal periods that simulation leads to at a frequency, and harmonic ones that few trials find elsewhere in its
     /// part of the range.
     ///
     /// * `width_hz`: of the part, of which the frequency is the middle.
@@ -30,7 +30,7 @@ pub trait Solver: Sync {
         width_hz: f64,
         multiples: &[u32],
         interrupted: Interruption<'_>,
-    ) -> Result<Vec<PeriodicSolution>, String>;
+    ) -> Result<Surveyed, String>;
 
     /// The solution at a crossing, as one of the branch that leaves there, if one does.
     ///
@@ -57,6 +57,15 @@ pub trait Solver: Sync {
     /// # Errors
     /// Why that is not possible, in words.
     fn matcher<'a>(&'a self, solution: &'a PeriodicSolution) -> Result<Box<dyn Match + 'a>, String>;
+}
+
+/// What a survey has found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Surveyed {
+    /// The solutions.
+    pub solutions: Vec<PeriodicSolution>,
+    /// Why not everything was looked at that was meant to be, in words.
+    pub incomplete: Option<String>,
 }
 
 /// Where a walk begins.

@@ -10,9 +10,9 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_orbit::{BranchRow, Crossing, PeriodicSolution, Side, StopReason};
+use hammerbeam_orbit::{BranchRow, Crossing, Side, StopReason};
 
-use super::{Origin, Solver, Walk};
+use super::{Origin, Solver, Surveyed, Walk};
 use crate::store::{StoredMemory, StoredReason};
 
 /// Solutions are sent together after this time,
@@ -64,7 +64,7 @@ pub(super) enum From {
 #[derive(Debug)]
 pub(super) enum Report {
     /// What came of a job.
-    Evaluated { job: u32, starts: Result<Vec<PeriodicSolution>, String> },
+    Evaluated { job: u32, starts: Result<Surveyed, String> },
     /// More of a walk.
     Walked(Stretch),
     /// The task was given up as it was told; there is nothing more of it.
@@ -133,15 +133,12 @@ pub(super) fn work(
     }
 }
 
-fn evaluate(
-    solver: &dyn Solver,
-    question: &Question,
-    stop: &AtomicBool,
-) -> Result<Vec<PeriodicSolution>, String> {
+fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Result<Surveyed, String> {
+    let complete = |solutions| Surveyed { solutions, incomplete: None };
     match question {
         Question::Harmonic(frequency_hz) => {
             let mut stopped = || stop.load(Ordering::Relaxed);
-            Ok(vec![solver.find_harmonic(*frequency_hz, &mut stopped)?])
+            Ok(complete(vec![solver.find_harmonic(*frequency_hz, &mut stopped)?]))
         }
         Question::Survey { frequency_hz, width_hz, multiples } => {
             solver.survey(*frequency_hz, *width_hz, multiples, &mut || stop.load(Ordering::Relaxed))
@@ -149,7 +146,7 @@ fn evaluate(
         Question::Leave(crossing) => {
             // Only a branch that can be begun is one.
             solver.begin(&Origin::Crossing(crossing.clone()), Side::Up)?;
-            Ok(vec![solver.root(crossing)?])
+            Ok(complete(vec![solver.root(crossing)?]))
         }
     }
 }

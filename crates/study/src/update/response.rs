@@ -57,7 +57,7 @@ impl Orbits {
         let multiples = [measured.period_multiple];
         let found =
             survey(&model.system, &model.response, frequency_hz, &multiples, &self.effort, &self.settings);
-        let mut found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?;
+        let mut found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?.orbits;
         found.retain(PeriodicSolution::stable);
         Ok(found)
     }

@@ -1,6 +1,6 @@
 //! When a stored solution and a recomputed one agree; the formulae stand in the module docs.
 
-use hammerbeam_motion::{Law, LocalElement, System};
+use hammerbeam_motion::{Law, LocalElement, System, general::ElementMaxima};
 use hammerbeam_orbit::PeriodicSolution;
 
 use super::{
@@ -37,6 +37,8 @@ struct Measures {
     contact: [f64; 2],
     /// Bound of the relative acceleration of an element just before it touches [m/s^2].
     approach: f64,
+    /// What a unit of force accelerates the element by, of rigid stops [m/s^2/N].
+    rigid: Vec<Option<f64>>,
     /// The same of the response point, and its acceleration [m/s^2].
     displacement: f64,
     acceleration: f64,
@@ -63,6 +65,7 @@ impl Measures {
             approach: most(&|i| frequencies[i] * velocities[i])
                 + driven(system, frequency_hz)
                 + pushed(system) * found.maxima.contact_force,
+            rigid: system.elements().iter().map(mobility_if_rigid).collect(),
             displacement: size(response, &|i| lengths[i]),
             acceleration: size(response, &|i| frequencies[i] * velocities[i]),
         }
@@ -74,16 +77,39 @@ impl Measures {
     /// `L_r e / v`, over which the acceleration, `W` at most, changes the velocity by `W L_r e / v`. So `|dv| <= (V_r + W L_r / v) e`.
     /// `W` is what a state of size one, all loads (a weight among them) and the largest force of another element make of it. A weak touch need not be one of a shallow contact: where a deep contact just opens, the flight between is as low as
     /// `v^2 / 2 W` and the penetration behind the touch as deep as ever, and says nothing of `v`.
-    fn touch_factor(&self, found: &Recomputed) -> f64 {
-        let ([length, velocity], impact) = (self.contact, found.maxima.impact_velocity);
+    fn touch_factor(&self, impact: f64) -> f64 {
+        let [length, velocity] = self.contact;
         1.0 + velocity / impact + self.approach * length / (impact * impact)
     }
 
-    /// `g = 1 + min(g_v - 1, L_r / p)`, for what a contact does: its force follows the penetration, which is wrong by `L_r e` of `p`.
-    fn contact_factor(&self, found: &Recomputed) -> f64 {
-        let deepest = found.extrema.iter().copied().fold(0.0, f64::max);
-        1.0 + (self.touch_factor(found) - 1.0).min(self.contact[0] / deepest)
+    /// `g = 1 + min(g_v - 1, L_r / p)`, for what the contacts of an element do, by its own impacts and its own deepest penetration: its force follows the penetration, which is wrong by `L_r e` of `p`.
+    /// A rigid stop that holds the structure all the time presses with what keeps it from being accelerated, by `W` at most over the mobility.
+    fn contact_factor(&self, (rigid, element): (Option<f64>, &ElementMaxima)) -> f64 {
+        if let (Some(mobility), 0.0) = (rigid, element.impact_velocity) {
+            return 1.0 + self.approach / (mobility * element.contact_force);
+        }
+        1.0 + (self.touch_factor(element.impact_velocity) - 1.0).min(self.contact[0] / element.deepest)
     }
+
+    /// The factor of the element in which something is largest; `None` if it is zero in all.
+    fn factor_of_largest(&self, found: &Recomputed, of: impl Fn(&ElementMaxima) -> f64) -> Option<f64> {
+        let largest = self.elements(found).max_by(|a, b| of(a.1).total_cmp(&of(b.1)))?;
+        (of(largest.1) > 0.0).then(|| self.contact_factor(largest))
+    }
+
+    /// `sum_j g_j J_j`.
+    fn impulse(&self, found: &Recomputed) -> f64 {
+        let pushing = self.elements(found).filter(|(_, element)| element.impulse > 0.0);
+        pushing.map(|element| self.contact_factor(element) * element.1.impulse).sum()
+    }
+
+    fn elements<'f>(&self, found: &'f Recomputed) -> impl Iterator<Item = (Option<f64>, &'f ElementMaxima)> {
+        self.rigid.iter().copied().zip(&found.of_elements)
+    }
+}
+
+fn mobility_if_rigid(element: &LocalElement) -> Option<f64> {
+    element.law.rigid().map(|_| element.shape.iter().map(|phi| phi * phi).sum())
 }
 
 /// Largest relative acceleration of an element that the loads and the support make [m/s^2].
@@ -155,8 +181,10 @@ fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> C
 
 fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Comparison>) {
     let (stored, new) = (&row.maxima, &found.maxima);
-    let touches = new.contact_force > 0.0 || new.impact_velocity > 0.0;
-    let factor = if touches { measures.contact_factor(found) } else { 1.0 };
+    let pressed = measures.factor_of_largest(found, |element| element.contact_force);
+    // Where nothing presses, what jumps at an impact has made the motion.
+    let struck = || measures.factor_of_largest(found, |element| element.impact_velocity);
+    let factor = pressed.or_else(struck).unwrap_or(1.0);
     let mut push = |quantity, stored: f64, new: f64, measure: f64| {
         // Without a contact both are zero.
         let difference = if stored == new { 0.0 } else { (stored - new).abs() / (measures.gain * measure) };
@@ -171,9 +199,9 @@ fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Com
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
     push(Quantity::ContactForce, stored.contact_force, new.contact_force, factor * new.contact_force);
-    let touch = if new.impact_velocity > 0.0 { measures.touch_factor(found) } else { 1.0 };
+    let touch = if new.impact_velocity > 0.0 { measures.touch_factor(new.impact_velocity) } else { 1.0 };
     push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, touch * new.impact_velocity);
-    push(Quantity::Impulse, stored.impulse, new.impulse, factor * new.impulse);
+    push(Quantity::Impulse, stored.impulse, new.impulse, measures.impulse(found));
 }
 
 /// As many contacts may come or go as graze.

@@ -13,15 +13,17 @@
 //! | displacement | `|d - d'| <= max(tau, 1e-9) G max(d', L)` |
 //! | acceleration | `|a - a'| <= max(tau, 1e-7) G max(g a', w)` |
 //! | impact velocity | `|v - v'| <= tau G g_v v'` |
-//! | impulse | `|J - J'| <= tau G g J'` |
+//! | impulse | `|J - J'| <= tau G sum_j g_j J'_j` |
 //! | contact force | `|F - F'| <= max(tau, 1e-9) G g F'` |
 //! | contacts | as many differ as contacts graze, at most |
 //! | events | fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle; grazing: `|s| <= 1e-5 L_r` |
 //!
 //! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and elements by `L_r` with the
 //! velocity `V_r`; `W` bounds the acceleration with which they approach, by state, loads and other elements. `g_v = 1 + V_r / v' + W L_r / v'^2`: the instant of a weak touch, and with it its velocity, is known less
-//! well, be it one of a shallow contact or one of a deep contact that just opens. `g = 1 + min(g_v - 1, L_r / p)`, with the deepest penetration p: what a
-//! contact does depends on the velocity it begins with, which just behind grazing is `sqrt(2 W p)`, so shallow contacts are known less well. A contact grazes where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
+//! well, be it one of a shallow contact or one of a deep contact that just opens. `g_j = 1 + min(g_v - 1, L_r / p)` for each element, with its own
+//! largest impact velocity and deepest penetration p: what a
+//! contact does depends on the velocity it begins with, which just behind grazing is `sqrt(2 W p)`, so shallow contacts are known less well, however hard another stop is struck. `g` is that of the element
+//! with the largest contact force, or, where none presses, of the one struck hardest. A rigid stop that holds the structure all the time has `1 + W / (m F)`, with the mobility m. A contact grazes where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
 //!
 //! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.

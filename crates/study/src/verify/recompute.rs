@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use faer::Mat;
 use hammerbeam_motion::{
     Stretch, System,
-    general::{GeneralError, GeneralSettings, Observed, observe, sample},
+    general::{ElementMaxima, GeneralError, GeneralSettings, Observed, observe, sample},
 };
 use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution};
 
@@ -26,6 +26,8 @@ pub(super) struct Recomputed {
     pub(super) maxima: OrbitMaxima,
     /// Extrema of the penetrations of all contacts [m].
     pub(super) extrema: Vec<f64>,
+    /// What the contacts of each element do.
+    pub(super) of_elements: Vec<ElementMaxima>,
 }
 
 /// Why a stored solution could not be computed again.
@@ -139,6 +141,7 @@ pub(super) fn recompute(
             contacts: observed.contacts(),
         },
         extrema: observed.extrema,
+        of_elements: observed.of_elements,
     })
 }
 
@@ -158,6 +161,7 @@ fn join(earlier: Observed, later: Observed) -> Observed {
             .collect(),
         closed_throughout: earlier.closed_throughout & later.closed_throughout,
         extrema: [earlier.extrema, later.extrema].concat(),
+        of_elements: earlier.of_elements.iter().zip(&later.of_elements).map(|(a, b)| a.joined(*b)).collect(),
         ..later
     }
 }

@@ -55,7 +55,8 @@ impl Observer<'_> {
                 let [r, _] = self.read(field, output, step.time + place * step.length, &state);
                 let contacts = self.contacts.iter().filter(|watched| watched.element == e);
                 let penetration = |watched: &Watched| watched.contact.sign * (r - watched.contact.level);
-                self.extrema.extend(contacts.map(penetration));
+                let penetrations: Vec<f64> = contacts.map(penetration).collect();
+                penetrations.into_iter().for_each(|penetration| self.add_extremum(e, penetration));
             }
         }
     }
@@ -90,7 +91,7 @@ impl Observer<'_> {
         let values: Vec<f64> = (0..=SAMPLES).map(|k| negative(self, field, sample(k))).collect();
         let best = (0..=SAMPLES).fold(0, |best, k| if values[k] < values[best] { k } else { best });
         let spread = values.iter().copied().fold(f64::NEG_INFINITY, f64::max) - values[best];
-        if values[best] == 0.0 || -values[best] + 0.2 * spread <= self.maxima.contact_force {
+        if values[best] == 0.0 || -values[best] + 0.2 * spread <= self.of_elements[element].contact_force {
             return;
         }
         let (low, high) = (sample(best.saturating_sub(1)), sample((best + 1).min(SAMPLES)));
@@ -100,15 +101,16 @@ impl Observer<'_> {
 
     pub(super) fn add_impulse(&mut self, field: &SystemField<'_>, step: &Accepted<'_>) {
         let mut state = std::mem::take(&mut self.state);
-        let mut sum = 0.0;
+        let mut sums = vec![0.0; self.of_elements.len()];
         for (node, weight) in GAUSS.iter().flat_map(|&(node, weight)| [(-node, weight), (node, weight)]) {
             let x = 0.5 + 0.5 * node;
             step.dense.state(x, &mut state);
             let at = Place { time: step.time + x * step.length, state: &state, inside: step.inside };
-            sum += weight * self.forces(field, at).sum::<f64>();
+            sums.iter_mut().zip(self.forces(field, at)).for_each(|(sum, force)| *sum += weight * force);
         }
         self.state = state;
-        self.maxima.impulse += 0.5 * step.length * field.period * sum;
+        let duration = 0.5 * step.length * field.period;
+        self.of_elements.iter_mut().zip(sums).for_each(|(element, sum)| element.impulse += duration * sum);
     }
 }
 
