@@ -15,8 +15,8 @@ use crate::{
     ticker::Ticker,
 };
 
-/// Samples in a table at most, some 50 GB of text.
-const MOST_SAMPLES: u64 = 1_000_000_000;
+/// Samples in a table at most, some 500 GB of text.
+const MOST_SAMPLES: u64 = 10_000_000_000;
 /// Contacts that a document lists; all of them are in `contacts.csv`.
 const LISTED: usize = 1000;
 

@@ -22,8 +22,8 @@ fn options_that_make_no_sense_are_refused() {
         (&simulate, &["--samples-per-period", "0"], "0 is not in 1..="),
         (
             &simulate,
-            &["--periods", "2000", "--samples-per-period", "1000000", "--out", "out"],
-            "is 2000000000 samples, must be",
+            &["--periods", "20000", "--samples-per-period", "1000000", "--out", "out"],
+            "is 20000000000 samples, must be",
         ),
         (&simulate, &["--section-phase", "1.5"], "must be a number of cycles from 0 to 1"),
         (&simulate, &["--initial", "1,2"], "found 2 number(s); allowed: rest, linear, branch:N"),
