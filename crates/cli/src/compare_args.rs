@@ -30,7 +30,7 @@ pub struct CompareOptions {
     #[arg(long, value_name = "HZ", conflicts_with = "frequency_factor", value_parser = number, allow_negative_numbers = true)]
     pub frequency_offset: Option<f64>,
 
-    /// Fit an offset of the frequency instead of a factor
+    /// Fit an offset of the frequency instead of a factor, from -15 to 18 % of the median frequency of the points
     #[arg(long, conflicts_with_all = ["frequency_factor", "frequency_offset"])]
     pub fit_offset: bool,
 

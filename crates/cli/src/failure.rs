@@ -104,6 +104,7 @@ impl From<ObservationError> for Failure {
     fn from(error: ObservationError) -> Self {
         match error {
             ObservationError::Store(error) => error.into(),
+            ObservationError::FilteredAway { .. } => Self::BadInput(error.to_string()),
             other => Self::Other(other.into()),
         }
     }

@@ -196,6 +196,18 @@ fn points_of_another_point_are_held_against_orbits_that_are_gone_over_again() {
             &[part],
         );
     };
+    // A hundred thousandth of the excitation frequency, order 4: 1e-20 of the motion is left.
+    refused(&["--low-pass", "4e-5"], "there is nothing to compare with");
+    // The masses never meet: their force is 0, which is not that there is no branch.
+    fs::write(workshop.path("forces.csv"), "frequency [Hz],force [N],period\n5,1,1\n5,1,2\n").unwrap();
+    let forces = ["forces.csv", "--frequency-factor", "1", "--amplitude-factor", "1", "--out", "forces"];
+    let forces = [&forces[..], &["--point", "second"]].concat();
+    let force = &document(&workshop, &forces)["comparisons"][0];
+    assert_eq!((&force["no_contact"], &force["no_branch"]), (&1.into(), &1.into()), "{force}");
+    assert_eq!(force["points"][0]["nearest_stable_hz"], Value::Null);
+    let text = stdout(&workshop.hammerbeam(&[&["compare", "results"], &forces[..]].concat()));
+    assert!(text.contains("without contact there") && text.contains("force [N] of the contacts"), "{text}");
+    assert!(!text.contains("at second"), "{text}");
     refused(&["--point", "second"], "--out");
     refused(&["--point", "third", "--out", "third"], "no point third");
 }

@@ -235,6 +235,39 @@ fn the_orbit_is_found_by_its_size_where_the_factor_is_given() {
     }
 }
 
+/// A harmonic has the same form at every frequency, and its mirror image is the same one half a period later.
+#[test]
+fn what_a_harmonic_cannot_tell_is_told() {
+    let workshop = linear();
+    let write = |name: &str, of: &dyn Fn(f64) -> f64| {
+        let mut text = "time [s],x [m]\n".to_owned();
+        samples(0.0, of).iter().enumerate().for_each(|(k, x)| {
+            writeln!(text, "{},{x}", k as f64 / RATE).unwrap();
+        });
+        fs::write(workshop.path(name), text).unwrap();
+    };
+    write("mirror.csv", &|t| -recorded(t));
+    let found = overlay(&workshop, &[&["mirror.csv"], &AT[..]].concat());
+    assert_eq!((&found["notes"], &found["orbit"]["as_alike"]), (&serde_json::json!([]), &Value::Null));
+    // All stored orbits within 8 % of 4.8 Hz, at a thousandth of it.
+    let near = ["mirror.csv", "--frequency", "4.571428571428571", "--frequency-factor", "1.05"];
+    let found = overlay(&workshop, &near);
+    let alike = &found["orbit"]["as_alike"];
+    let tried = number(&found["orbit"]["tried"]);
+    assert!(tried > 100.0 && number(&alike["orbits"]) >= tried - 5.0, "{found}");
+    assert!(number(&alike["frequency_hz"][1]) > 1.07 * 4.8, "{found}");
+    assert!(found["notes"][0].as_str().unwrap().contains("which one it is, is not known"), "{found}");
+    // With the factor its size tells it, as far as others are not nearly as large.
+    let found = overlay(&workshop, &[&near[..], &["--amplitude-factor", "2"]].concat());
+    assert!((number(&found["orbit"]["frequency_hz"]) / ORBIT_HZ - 1.0).abs() < 1e-3, "{found}");
+    assert_eq!(found["orbit"]["as_alike"], Value::Null, "{found}");
+    // Twice the frequency of the orbit: nothing in common.
+    write("second.csv", &|t| (4.0 * PI * MEASURED_HZ * t).cos());
+    let output = workshop.hammerbeam(&[&["overlay", "results", "second.csv"], &AT[..]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    assert!(stderr(&output).contains("nothing is alike"), "{}", stderr(&output));
+}
+
 /// A motion with contacts: noise, a filter and another rate; its frequency is found by its waveform alone.
 #[test]
 fn the_orbit_is_found_by_its_waveform() {

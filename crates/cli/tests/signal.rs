@@ -187,8 +187,15 @@ fn exponent_of_a_map_by_all_methods() {
         assert_bad_input(&workshop.hammerbeam(&arguments), &[part]);
     };
     refused("period", "the mean period is");
+    // 25 samples of a map, 0 to 24: the last one is allowed, and the message names it.
+    refused("1:25", "and at most 24");
     refused("9:3", "two numbers of samples");
     refused("periods", "or the word period");
+    let whole = ["lyapunov", "henon.csv", "--rate", "1", "--method", "rosenstein", "--fit", "1:24"];
+    assert_eq!(document(&workshop, &whole)["rosenstein"]["fit_samples"], serde_json::json!([1, 24]));
+    // What a method does not look at is refused.
+    let ignored = ["signal", "lyapunov", "henon.csv", "--rate", "1", "--method", "wolf", "--fit", "1:5"];
+    assert_bad_input(&workshop.hammerbeam(&ignored), &["--fit", "Wolf"]);
 }
 
 /// From a study to what an instrument would have shown: simulate writes, chain reads.

@@ -137,7 +137,7 @@ impl<'a> Work<'a> {
         )?;
         match settings.fit {
             StraightPart::Given(from, to) => {
-                let allowed = format!("after the first one, {from}, and before the last step, {}", steps - 1);
+                let allowed = format!("after the first one, {from}, and at most {}", steps - 1);
                 ensure("the last step of the fit", to as f64, allowed, to > from && to < steps)?;
             }
             StraightPart::SteepestPeriod => {

@@ -87,13 +87,23 @@ pub fn follow(
     Ok(course)
 }
 
-/// Largest absolute value of a periodic series behind a filter.
+/// Part of the motion that a filter has to leave: one step of a converter of 24 bits. What rounding leaves of the mean is 1e-16 of it, and would be compared otherwise.
+pub const LEFT: f64 = 1.0 / (1 << 24) as f64;
+
+/// Largest absolute value of a periodic series behind a filter, and the part of its motion that is left.
 ///
 /// # Errors
 /// [`CourseError::Signal`].
-pub fn largest_behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<f64, CourseError> {
+pub fn largest_behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<(f64, f64), CourseError> {
     let filtered = periodic_low_pass(series, duration_s, (filter.order, filter.cut_off_hz))?;
-    Ok(largest(&filtered))
+    Ok((largest(&filtered), size(&filtered) / size(series)))
+}
+
+/// Root mean square about the mean.
+#[must_use]
+pub fn size(series: &[f64]) -> f64 {
+    let mean = series.iter().sum::<f64>() / series.len() as f64;
+    (series.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / series.len() as f64).sqrt()
 }
 
 /// Largest absolute value.

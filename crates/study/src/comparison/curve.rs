@@ -82,17 +82,8 @@ impl Curves {
     /// All places where a branch of this period (any if none is told) meets a frequency.
     #[must_use]
     pub fn at(&self, frequency_hz: f64, period_multiple: Option<u32>) -> Vec<Hit> {
-        let high_hz = self.low_hz + PARTS as f64 * self.width_hz;
-        if !(self.low_hz..=high_hz).contains(&frequency_hz) {
-            return Vec::new();
-        }
-        let segments = &self.parts[part(self.low_hz, self.width_hz, frequency_hz)];
-        let hits = segments.iter().filter_map(|&(index, first)| {
-            let branch = &self.branches[index as usize];
-            let wanted = period_multiple.is_none_or(|period| period == branch.period_multiple);
-            let [a, b] = [branch.points[first as usize], branch.points[first as usize + 1]];
-            let crosses = (a.frequency_hz <= frequency_hz) != (b.frequency_hz <= frequency_hz);
-            if !wanted || !crosses || !positive(a.value) || !positive(b.value) {
+        let hits = self.segments(frequency_hz, period_multiple).filter_map(|(branch, a, b)| {
+            if !positive(a.value) || !positive(b.value) {
                 return None;
             }
             let share = (frequency_hz - a.frequency_hz) / (b.frequency_hz - a.frequency_hz);
@@ -108,18 +99,44 @@ impl Curves {
         hits.collect()
     }
 
+    /// Whether a stable branch of this period meets a frequency with the value 0: a contact force where nothing touches.
+    #[must_use]
+    pub fn rests(&self, frequency_hz: f64, period_multiple: Option<u32>) -> bool {
+        self.segments(frequency_hz, period_multiple)
+            .any(|(_, a, b)| a.stable && b.stable && (a.value == 0.0 || b.value == 0.0))
+    }
+
+    /// Segments of branches of a period that cross a frequency, with their ends.
+    fn segments(
+        &self,
+        frequency_hz: f64,
+        period_multiple: Option<u32>,
+    ) -> impl Iterator<Item = (&BranchCurve, CurvePoint, CurvePoint)> {
+        let high_hz = self.low_hz + PARTS as f64 * self.width_hz;
+        let inside = (self.low_hz..=high_hz).contains(&frequency_hz);
+        let segments = inside.then(|| &self.parts[part(self.low_hz, self.width_hz, frequency_hz)]);
+        segments.into_iter().flatten().filter_map(move |&(index, first)| {
+            let branch = &self.branches[index as usize];
+            let wanted = period_multiple.is_none_or(|period| period == branch.period_multiple);
+            let [a, b] = [branch.points[first as usize], branch.points[first as usize + 1]];
+            let crosses = (a.frequency_hz <= frequency_hz) != (b.frequency_hz <= frequency_hz);
+            (wanted && crosses).then_some((branch, a, b))
+        })
+    }
+
     /// The stable solution of a period whose value is nearest to one, by the ratio.
     #[must_use]
     pub fn nearest_stable(&self, frequency_hz: f64, period: Option<u32>, value: f64) -> Option<Hit> {
         nearest(self.at(frequency_hz, period).into_iter().filter(|hit| hit.stable), value)
     }
 
-    /// The frequency nearest to one at which a stable solution of a period exists.
+    /// The frequency nearest to one at which a stable solution of a period exists, with a value that is not 0.
     #[must_use]
     pub fn nearest_frequency(&self, frequency_hz: f64, period: Option<u32>) -> Option<f64> {
         let wanted = |branch: &&BranchCurve| period.is_none_or(|period| period == branch.period_multiple);
         let stable = self.branches.iter().filter(wanted).flat_map(|branch| &branch.points);
-        let frequencies = stable.filter(|point| point.stable).map(|point| point.frequency_hz);
+        let frequencies =
+            stable.filter(|point| point.stable && positive(point.value)).map(|point| point.frequency_hz);
         frequencies.min_by(|a, b| (a - frequency_hz).abs().total_cmp(&(b - frequency_hz).abs()))
     }
 }

@@ -33,6 +33,11 @@ pub enum Verdict {
         /// The nearest frequency at which there is one [Hz].
         nearest_hz: Option<f64>,
     },
+    /// Stable branches of its period are without contact there, so that their force is 0.
+    NoContact {
+        /// The nearest frequency at which there is one with contact [Hz].
+        nearest_hz: Option<f64>,
+    },
     /// It does not repeat, so that no branch is compared.
     Aperiodic,
     /// The measurement does not tell what it is.
@@ -48,6 +53,7 @@ impl Verdict {
             Self::TooFar => "too-far",
             Self::OnlyUnstable { .. } => "only-unstable",
             Self::NoBranch { .. } => "no-branch",
+            Self::NoContact { .. } => "no-contact",
             Self::Aperiodic => "aperiodic",
             Self::Doubtful => "doubtful",
         }
@@ -56,14 +62,19 @@ impl Verdict {
     /// Whether the point is periodic and no branch explains it.
     #[must_use]
     pub const fn is_unexplained(self) -> bool {
-        matches!(self, Self::TooFar | Self::OnlyUnstable { .. } | Self::NoBranch { .. })
+        matches!(
+            self,
+            Self::TooFar | Self::OnlyUnstable { .. } | Self::NoBranch { .. } | Self::NoContact { .. }
+        )
     }
 
     /// Where no stable branch of the period is there: the nearest frequency that has one [Hz].
     #[must_use]
     pub const fn nearest_hz(self) -> Option<f64> {
         match self {
-            Self::OnlyUnstable { nearest_hz } | Self::NoBranch { nearest_hz } => nearest_hz,
+            Self::OnlyUnstable { nearest_hz }
+            | Self::NoBranch { nearest_hz }
+            | Self::NoContact { nearest_hz } => nearest_hz,
             _ => None,
         }
     }
@@ -105,6 +116,15 @@ pub(super) fn judge(
         hits.iter().filter(|hit| hit.stable).map(|hit| hit.period_multiple).collect();
     stable_periods.sort_unstable();
     stable_periods.dedup();
+    let outcome = |nearest, verdict| PointOutcome {
+        point: point.clone(),
+        value,
+        shifted_hz,
+        shifted_value,
+        nearest,
+        stable_periods,
+        verdict,
+    };
     let (nearest, verdict) = match period_of(point.kind) {
         None if point.kind == Kind::Doubtful => (any(), Verdict::Doubtful),
         None => (any(), Verdict::Aperiodic),
@@ -115,6 +135,9 @@ pub(super) fn judge(
                 let nearest_hz = curves.nearest_frequency(shifted_hz, period);
                 let wanted = |hit: &Hit| period.is_none_or(|period| period == hit.period_multiple);
                 let unstable = hits.iter().copied().filter(wanted);
+                if curves.rests(shifted_hz, period) {
+                    return outcome(any(), Verdict::NoContact { nearest_hz });
+                }
                 match curve::nearest(unstable, shifted_value).map(matched) {
                     Some(found) => (Some(found), Verdict::OnlyUnstable { nearest_hz }),
                     None => (any(), Verdict::NoBranch { nearest_hz }),
@@ -122,5 +145,5 @@ pub(super) fn judge(
             }
         },
     };
-    PointOutcome { point: point.clone(), value, shifted_hz, shifted_value, nearest, stable_periods, verdict }
+    outcome(nearest, verdict)
 }

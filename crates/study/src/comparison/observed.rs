@@ -7,7 +7,7 @@ use hammerbeam_signal::Quantity;
 
 use super::{
     BranchCurve, CurvePoint, Curves,
-    course::{CourseError, course, largest, largest_behind},
+    course::{CourseError, LEFT, course, largest, largest_behind},
 };
 use crate::{Model, StoreError, StoredBranch, StoredBranches, crossings::PlacedRow};
 
@@ -45,6 +45,12 @@ pub enum ObservationError {
     /// An orbit cannot be gone over.
     #[error(transparent)]
     Course(#[from] CourseError),
+    /// Nothing of the motion is left to compare.
+    #[error(
+        "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion over {duration_s:.6} s, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
+    )]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    FilteredAway { cut_off_hz: f64, left: f64, duration_s: f64 },
     /// A force behind a filter.
     #[error("contact forces are not filtered: an accelerometer's filter does not see them")]
     FilteredForce,
@@ -77,11 +83,20 @@ pub fn curves(
             _ => return Err(ObservationError::FilteredForce),
         };
         Ok(vec![match observation.filter {
-            Some(filter) => largest_behind(series, course.duration_s, filter)?,
+            Some(filter) => behind(series, course.duration_s, filter)?,
             None => largest(series),
         }])
     })?;
     Ok(all.swap_remove(0))
+}
+
+/// Largest value behind a filter that leaves something.
+fn behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<f64, ObservationError> {
+    let (largest, left) = largest_behind(series, duration_s, filter)?;
+    if left < LEFT {
+        return Err(ObservationError::FilteredAway { cut_off_hz: filter.cut_off_hz, left, duration_s });
+    }
+    Ok(largest)
 }
 
 /// Several curves at once of stored solutions that are some distance apart: `values` gives those of an orbit.

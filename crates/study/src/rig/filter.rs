@@ -166,7 +166,10 @@ fn point(
 ) -> Result<FilteredPoint, RigError> {
     let course = course(model, orbit, samples)?;
     let behind = |series: &[f64]| {
-        filters.iter().map(|filter| largest_behind(series, course.duration_s, *filter)).collect()
+        filters
+            .iter()
+            .map(|filter| largest_behind(series, course.duration_s, *filter).map(|(largest, _)| largest))
+            .collect()
     };
     let filtered_acceleration: Result<Vec<f64>, _> = behind(&course.acceleration);
     let filtered_displacement: Result<Vec<f64>, _> = behind(&course.displacement);

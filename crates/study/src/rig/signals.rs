@@ -1,7 +1,7 @@
 //! Measured and computed signals laid over one another: figures 7 to 14 of the paper.
 //!
 //! The rig is measured at a frequency, and its filtered acceleration folded onto as many excitation periods as the figure has. It is laid over the stable orbits of that period whose frequency is near
-//! (`comparison/overlay.rs`), with delays of whole excitation periods and a lag of at most a tenth of one.
+//! (`comparison/overlay/`), with delays of whole excitation periods and a lag of at most a tenth of one.
 
 use std::sync::atomic::AtomicBool;
 

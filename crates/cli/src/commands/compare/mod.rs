@@ -9,7 +9,7 @@ mod text;
 
 use std::path::PathBuf;
 
-use hammerbeam_signal::Quantity;
+use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 use hammerbeam_study::{
     Model, Store, StoredBranches, StudyFile,
     comparison::{Comparison, Curves, Filter, FitSettings, Fixed, Observation, compare, curves},
@@ -64,9 +64,10 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let filter = filter.filter(|_| quantity != Quantity::Force);
         let observation = Observation { quantity, at_response_point, filter, spacing_hz, samples: SAMPLES };
         let curves = curves(&branches, &model, &observation)?;
-        let comparison = compare(&measured.points, &curves, quantity, &settings(options))?;
+        let comparison = compare(&measured.points, &curves, quantity, &settings(options, &measured.points))?;
         let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
-        let point = (!at_response_point).then(|| point.clone());
+        let of_point = quantity != Quantity::Force && !at_response_point;
+        let point = of_point.then(|| point.clone());
         compared.push(Compared { curves, comparison, low_pass_hz, point });
     }
     let mut drawn = Drawn::into(&folder)?;
@@ -117,12 +118,12 @@ fn folder(options: &CompareOptions) -> Result<PathBuf, Failure> {
 }
 
 /// How the comparison is done.
-fn settings(options: &CompareOptions) -> FitSettings {
+fn settings(options: &CompareOptions, points: &[MeasuredPoint]) -> FitSettings {
     let usual = FitSettings::default();
     let offset = options.fit_offset || options.frequency_offset.is_some();
     let frequency = match (options.frequency_factor, options.frequency_offset) {
         (Some(given), _) | (_, Some(given)) => Fixed::Given(given),
-        (None, None) if offset => Fixed::Fitted { low: -6.0, high: 6.0 },
+        (None, None) if offset => Fixed::offsets(points),
         (None, None) => usual.frequency,
     };
     let amplitude = options.amplitude_factor.map_or(usual.amplitude, Fixed::Given);
@@ -130,10 +131,7 @@ fn settings(options: &CompareOptions) -> FitSettings {
 }
 
 /// Those asked for, else those measured.
-fn quantities(
-    options: &CompareOptions,
-    points: &[hammerbeam_signal::points::MeasuredPoint],
-) -> Result<Vec<Quantity>, Failure> {
+fn quantities(options: &CompareOptions, points: &[MeasuredPoint]) -> Result<Vec<Quantity>, Failure> {
     let all = [Quantity::Displacement, Quantity::Velocity, Quantity::Acceleration, Quantity::Force];
     let is_measured = |quantity: &Quantity| points.iter().any(|p| p.maxima.of(*quantity).is_some());
     if options.quantity.is_empty() {

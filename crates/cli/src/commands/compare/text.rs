@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hammerbeam_signal::Quantity;
 use hammerbeam_study::comparison::{Comparison, Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
@@ -17,11 +18,11 @@ pub fn text(
     (folder, files): (&Path, &[String]),
 ) -> String {
     let (count, results) = (measured.points.len(), options.results.display());
-    let mut lines = vec![format!("{count} measured point(s) over {results}, at {point}")];
+    let mut lines = vec![format!("{count} measured point(s) over {results}")];
     if let Some(cut_off) = options.low_pass {
         lines.push(format!("branches behind a low-pass filter of {cut_off} Hz, order {}", options.order));
     }
-    compared.iter().for_each(|one| lines.extend(comparison(&one.comparison)));
+    compared.iter().for_each(|one| lines.extend(comparison(&one.comparison, point)));
     lines.extend(measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
     lines.push(format!("in {}: {}", folder.display(), files.join(", ")));
     if options.out.is_none() {
@@ -31,22 +32,32 @@ pub fn text(
     lines.join("\n")
 }
 
-fn comparison(comparison: &Comparison) -> Vec<String> {
+/// * `point`: where the sensor is; a contact force is at no point of the response.
+fn comparison(comparison: &Comparison, point: &str) -> Vec<String> {
     let (fit, quantity) = (&comparison.fit, comparison.quantity);
     let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
     let frequency = if fit.offset { "frequency offset (Hz)" } else { "frequency factor" };
+    let place = match quantity {
+        Quantity::Force => " of the contacts".to_owned(),
+        _ => format!(" at {point}"),
+    };
     let mut lines = vec![
-        format!("\n{} [{}]", quantity.word(), quantity.symbol()),
+        format!("\n{} [{}]{place}", quantity.word(), quantity.symbol()),
         format!("  {frequency:<22} {}", estimate(fit.frequency, 6)),
         format!("  {:<22} {}", "amplitude factor", estimate(fit.amplitude, 6)),
         format!("  residual before         {}", residual(comparison.before)),
         format!("  residual after          {}", residual(comparison.after)),
         format!(
-            "  explained {}, too far {}, only unstable branches {}, no branch {}; aperiodic {}, doubtful {}",
+            "  explained {}, too far {}, only unstable branches {}, no branch {}{}; aperiodic {}, doubtful {}",
             count("explained"),
             count("too-far"),
             count("only-unstable"),
             count("no-branch"),
+            if quantity == Quantity::Force {
+                format!(", no contact {}", count("no-contact"))
+            } else {
+                String::new()
+            },
             count("aperiodic"),
             count("doubtful")
         ),
@@ -91,8 +102,8 @@ fn second_minimum(fit: &Fit) -> Option<String> {
     };
     let end = if second.at_end { ", at an end of what is tried" } else { "" };
     Some(format!(
-        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} times that of the best",
-        second.amplitude, second.cost_ratio
+        "{shift} with an amplitude factor of {:.4}{end} fits about as well: its sum of squares is {:.3} times that of the best, points that fit neither left out; it goes by {} point(s), the best by {}",
+        second.amplitude, second.cost_ratio, second.points, fit.points
     ))
 }
 
@@ -116,12 +127,21 @@ fn residual(residual: Residual) -> String {
 fn unexplained_text(outcome: &PointOutcome) -> String {
     let period = outcome.point.kind.period_multiple().map_or_else(String::new, |n| format!(" of period {n}"));
     let why = match (outcome.verdict, outcome.nearest) {
-        (Verdict::OnlyUnstable { .. } | Verdict::NoBranch { .. }, _) => {
+        (Verdict::OnlyUnstable { .. } | Verdict::NoBranch { .. } | Verdict::NoContact { .. }, _) => {
             let there = match outcome.verdict {
                 Verdict::OnlyUnstable { .. } => format!("branches{period} are unstable there"),
+                Verdict::NoContact { .. } => {
+                    format!("branches{period} are without contact there, their force is 0")
+                }
                 _ => format!("no branch{period} is there"),
             };
             match outcome.verdict.nearest_hz() {
+                Some(hz) if matches!(outcome.verdict, Verdict::NoContact { .. }) => {
+                    format!("{there}; the nearest stable one with contact is at {hz:.4} Hz")
+                }
+                None if matches!(outcome.verdict, Verdict::NoContact { .. }) => {
+                    format!("{there}, and none has contact anywhere")
+                }
                 Some(hz) => format!("{there}; the nearest stable one is at {hz:.4} Hz"),
                 None => format!("{there}, and none is stable anywhere"),
             }

@@ -12,6 +12,12 @@ use crate::{failure::Failure, overlay_args::OverlayOptions};
 
 /// Correlation of a course turned around beyond which it is told: half of what is left without.
 const TURNED: f64 = 0.5;
+/// Difference of correlations that is none: values between samples of a record are known to some 1e-5, and it is the square that counts.
+const ROUNDING: f64 = 1e-9;
+/// Correlation below which less than half of the measured power is that of the orbit (its square).
+const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Scatter of pieces that shows in a tenth of a per cent.
+const SHOWS: f64 = 5e-4;
 
 impl Laid {
     /// Time of a phase of the waveform within the first orbit period of the record, on its clock [s].
@@ -32,7 +38,9 @@ impl Laid {
 
     /// Whether the sensor seems to be turned around.
     fn seems_turned(&self) -> bool {
-        1.0 - self.overlay.turned_correlation < TURNED * (1.0 - self.overlay.alignment.correlation)
+        let [turned, as_it_is] =
+            [self.overlay.turned_correlation, self.overlay.alignment.correlation].map(|r| 1.0 - r);
+        turned < TURNED * as_it_is && as_it_is - turned > ROUNDING
     }
 
     /// What the reader has to know.
@@ -44,6 +52,23 @@ impl Laid {
                 self.overlay.turned_correlation
             ));
         }
+        let correlation = self.overlay.alignment.correlation;
+        if correlation < HALF {
+            notes.push(format!(
+                "no orbit is alike: {:.0} % of the measured power is that of the most alike one, less than half; shift and factor tell little",
+                100.0 * correlation.max(0.0).powi(2)
+            ));
+        }
+        notes.extend(self.overlay.alike.as_ref().map(|alike| {
+            let branches: Vec<String> = alike.branches.iter().map(u32::to_string).collect();
+            format!(
+                "{} other orbit(s) between {:.4} and {:.4} Hz, of branch {}, are as alike as the scatter of the record can tell: which one it is, is not known; give --at, --branch or --amplitude-factor",
+                alike.count,
+                alike.frequency_hz.0,
+                alike.frequency_hz.1,
+                branches.join(", ")
+            )
+        }));
         let found = match self.classification.motion {
             Motion::Periodic { period_multiple } if period_multiple as u32 == self.period_multiple => None,
             Motion::Periodic { period_multiple } => {
@@ -67,7 +92,7 @@ impl Laid {
         let mean = self.measured.samples.iter().sum::<f64>() / self.measured.samples.len() as f64;
         let size = self.overlay.alignment.sizes.0;
         let scatter = self.measured.scatter / size;
-        if scatter > self.overlay.residual_after {
+        if scatter > self.overlay.residual_after && scatter >= SHOWS {
             notes.push(format!(
                 "pieces of the record differ from their mean by {:.1} % of it, more than the mean from the orbit",
                 100.0 * scatter
@@ -133,6 +158,11 @@ pub fn document(laid: &Laid, options: &OverlayOptions, table: Option<&str>) -> V
         "row": overlay.row,
         "tried": overlay.tried,
         "skipped": overlay.skipped,
+        "as_alike": overlay.alike.as_ref().map(|alike| json!({
+            "orbits": alike.count,
+            "branches": alike.branches,
+            "frequency_hz": [alike.frequency_hz.0, alike.frequency_hz.1],
+        })),
         "max_abs": overlay.largest.0,
         "max_abs_filtered": overlay.largest.1,
     });

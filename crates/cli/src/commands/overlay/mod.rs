@@ -61,12 +61,26 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let work = (threads(None), interrupt.flag());
     let found = overlay((&model, &branches), (&measured, period_multiple), &settings, work)?;
     let overlay = found.ok_or_else(|| nothing(&branches, period_multiple, &settings))?;
+    alike(&overlay)?;
     let laid = Laid { input, quantity, point, classification, period_multiple, measured, overlay };
     let table = options.out.as_deref().map(|folder| give::write(folder, &laid)).transpose()?;
     output.give(&give::document(&laid, options, table.as_deref()), || {
         give::text(&laid, options, table.as_deref())
     });
     Ok(())
+}
+
+/// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed freely.
+const NOTHING: f64 = 0.1;
+
+fn alike(overlay: &Overlay) -> Result<(), Failure> {
+    let (correlation, tried) = (overlay.alignment.correlation, overlay.tried);
+    if correlation >= NOTHING {
+        return Ok(());
+    }
+    Err(Failure::NoResult(format!(
+        "nothing is alike: the largest correlation of {tried} orbit(s) with the record is {correlation:.4}, less than {NOTHING}, so that neither shift nor factor mean anything; are frequency, sensor and filter right?"
+    )))
 }
 
 /// What the channel shows: its unit says so, or the user.

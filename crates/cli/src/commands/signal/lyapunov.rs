@@ -18,6 +18,11 @@ use crate::{
 };
 
 pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {
+    if options.method == Method::Wolf && options.fit.is_some() {
+        let message =
+            "--fit: Wolf's method has no curve and no straight part; take --method rosenstein, kantz or all";
+        return Err(Failure::BadInput(message.to_owned()));
+    }
     let input = input::open(&options.input, None)?;
     let whole = |number: Option<u32>| number.map(|number| number as usize);
     let choice = EmbeddingChoice {

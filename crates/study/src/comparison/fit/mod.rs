@@ -1,6 +1,7 @@
 //! The shift of frequencies and the factor on values that bring points onto branches.
 
 mod problem;
+mod search;
 
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 
@@ -34,11 +35,14 @@ pub struct FitSettings {
     pub reach: f64,
 }
 
+/// Factors on frequencies that are tried usually.
+const FACTORS: (f64, f64) = (0.85, 1.18);
+
 impl Default for FitSettings {
     fn default() -> Self {
         Self {
             offset: false,
-            frequency: Fixed::Fitted { low: 0.85, high: 1.18 },
+            frequency: Fixed::Fitted { low: FACTORS.0, high: FACTORS.1 },
             amplitude: Fixed::Fitted { low: 0.05, high: 20.0 },
             reach: 1.5,
         }
@@ -117,8 +121,10 @@ pub struct SecondMinimum {
     pub frequency: f64,
     /// Factor on values.
     pub amplitude: f64,
-    /// Its sum of squares over that of the best one, 1 at least.
+    /// Sum of squares of the points that the best one goes by, and what this one has more, over the former: 1 at least. Points that fit neither do not count.
     pub cost_ratio: f64,
+    /// Points that it goes by.
+    pub points: usize,
     /// Whether one of both numbers is at an end of what is tried.
     pub at_end: bool,
 }
@@ -160,6 +166,13 @@ impl FitSettings {
 }
 
 impl Fixed {
+    /// Offsets that are tried usually: what the usual factors are at the median frequency of the points, -15 to 18 % of it [Hz].
+    #[must_use]
+    pub fn offsets(points: &[MeasuredPoint]) -> Self {
+        let middle = median(points.iter().map(|point| point.frequency_hz));
+        Self::Fitted { low: (FACTORS.0 - 1.0) * middle, high: (FACTORS.1 - 1.0) * middle }
+    }
+
     fn logarithm(self) -> Self {
         match self {
             Self::Given(value) => Self::Given(value.ln()),
@@ -173,6 +186,13 @@ fn ends(fixed: Fixed) -> [f64; 2] {
         Fixed::Given(value) => [value; 2],
         Fixed::Fitted { low, high } => [low, high],
     }
+}
+
+/// The middle of some numbers, 1 if there is none.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = numbers.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// A point that takes part.
@@ -196,7 +216,9 @@ const PULL: f64 = 2.0;
 
 pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
     let tried = [settings.frequency, settings.amplitude.logarithm()].map(ends);
-    let problem = Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln(), tried };
+    let unit = if settings.offset { median(used.iter().map(|point| point.frequency_hz)) } else { 1.0 };
+    let problem =
+        Problem { used, curves, offset: settings.offset, reach: PULL * settings.reach.ln(), unit, tried };
     let minima = problem.minima();
     let best = problem.best(&minima);
     let rows = problem.rows(best.place);

@@ -1,21 +1,13 @@
-//! The sum of squares, its valleys, and how its minima are refined.
+//! The sum of squares, and how it is made smaller from a place on.
 
-use super::{SecondMinimum, Used, difference, shift};
+use super::{Used, difference, shift};
 use crate::comparison::{Curves, Shift, curve};
 
-/// Trials of the shift of frequencies, and steps of the logarithm of the factor.
-const FREQUENCY_TRIALS: usize = 660;
-const AMPLITUDE_STEP: f64 = 0.02;
-/// Trials to each side than which a valley is lower, and distance beyond which refined minima are two, as a factor (an offset counts at 30 Hz).
-const BESIDE: usize = 8;
-const APART: f64 = 0.005;
-/// Chi-squared of one freedom that is exceeded with 5 %.
-const CHI_SQUARED: f64 = 3.84;
 /// Part of the frequency over which a slope is taken, to each side.
 const SECANT: f64 = 0.0025;
 const ITERATIONS: usize = 40;
-/// Difference of sums of squares that is none.
-const SAME: f64 = 1e-12;
+/// Most steps to the best factor at a shift.
+const FACTOR_STEPS: usize = 20;
 
 /// Shift of the frequency and logarithm of the factor.
 pub(super) type Place = [f64; 2];
@@ -29,7 +21,7 @@ pub(super) struct Trial {
 
 /// A point within the reach: its difference and the derivatives of it.
 pub(super) struct Row {
-    difference: f64,
+    pub difference: f64,
     slopes: [f64; 2],
 }
 
@@ -38,6 +30,8 @@ pub(super) struct Problem<'a> {
     pub curves: &'a Curves,
     pub offset: bool,
     pub reach: f64,
+    /// What a relative shift of 1 is: 1 for factors, the median frequency of the points for offsets [Hz].
+    pub unit: f64,
     /// Lower and upper end of each number; the same for one that is given.
     pub tried: [[f64; 2]; 2],
 }
@@ -53,11 +47,11 @@ impl Problem<'_> {
         std::array::from_fn(|k| self.free()[k] && self.tried[k].contains(&place[k]))
     }
 
-    fn trial(&self, place: Place) -> Trial {
+    pub fn trial(&self, place: Place) -> Trial {
         Trial { place, cost: self.cost(place) }
     }
 
-    fn shift(&self, at: Place) -> Shift {
+    pub fn shift(&self, at: Place) -> Shift {
         shift(self.offset, at[0], at[1])
     }
 
@@ -68,80 +62,49 @@ impl Problem<'_> {
         self.used.iter().map(of).sum()
     }
 
-    /// Minima of all valleys of the shift of frequencies: the best of a grid in each, refined.
-    pub fn minima(&self) -> Vec<Trial> {
-        let [[low, high], [least, most]] = self.tried;
-        let steps = ((most - least) / AMPLITUDE_STEP).ceil().max(1.0) as usize;
-        let factors = trials(least, most, steps);
-        let profile: Vec<Trial> = trials(low, high, FREQUENCY_TRIALS)
-            .into_iter()
-            .map(|shift| self.best_factor(shift, &factors))
-            .collect();
-        let lowest = |k: &usize| {
-            let near = k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(profile.len());
-            profile[near].iter().all(|other| profile[*k].cost <= other.cost)
-        };
-        (0..profile.len()).filter(lowest).map(|k| self.refine(profile[k].place)).collect()
-    }
-
-    /// The lowest of some minima; of equal ones the nearest to no shift and no factor.
-    pub fn best(&self, minima: &[Trial]) -> Trial {
-        let none = if self.offset { 0.0 } else { 1.0 };
-        let far = |trial: &Trial| (trial.place[0] - none).abs() + 1e-3 * trial.place[1].abs();
-        let better = |one: &Trial, other: &Trial| {
-            one.cost < other.cost - SAME || (one.cost <= other.cost + SAME && far(one) < far(other))
-        };
-        *minima.iter().fold(&minima[0], |best, one| if better(one, best) { one } else { best })
-    }
-
-    /// The best factor at a shift.
-    fn best_factor(&self, frequency: f64, factors: &[f64]) -> Trial {
-        let most = self.reach * self.reach;
-        let values = self.values(frequency);
-        let cost = |factor: f64| {
-            let of = |(point, values): (&Used, &Vec<f64>)| {
-                let square = |value: &f64| (factor + point.logarithm - value).powi(2);
-                values.iter().map(square).fold(most, f64::min)
-            };
-            self.used.iter().zip(&values).map(of).sum::<f64>()
-        };
-        let mut best = Trial { cost: f64::INFINITY, place: [frequency, factors[0]] };
-        for &factor in factors {
-            let found = cost(factor);
-            let nearer = factor.abs() < best.place[1].abs();
-            if found < best.cost - SAME || (found <= best.cost + SAME && nearer) {
-                best = Trial { cost: found, place: [frequency, factor] };
-            }
-        }
-        best
-    }
-
-    /// The best minimum in another valley, if it is about as good: the data would prefer the best one to it with a probability of less than 95 %, `(n - p)(S' - S)/S < 3.84`
-    /// (chi-squared of one freedom), or by less than a tenth of its sum of squares.
-    pub fn second(&self, best: Trial, minima: &[Trial]) -> Option<SecondMinimum> {
-        let fitted = self.free().into_iter().filter(|free| *free).count();
-        let left = self.used.len().saturating_sub(fitted).max(1) as f64;
-        let good = best.cost * (1.0 + (CHI_SQUARED / left).max(0.1));
-        let distance = APART * if self.offset { 30.0 } else { 1.0 };
-        let apart = |other: &&Trial| (other.place[0] - best.place[0]).abs() > distance;
-        let found = minima.iter().filter(apart).min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-        (best.cost > 0.0 && found.cost <= good).then(|| SecondMinimum {
-            frequency: found.place[0],
-            amplitude: found.place[1].exp(),
-            // Equal ones differ by rounding.
-            cost_ratio: (found.cost / best.cost).max(1.0),
-            at_end: self.at_end(found.place).contains(&true),
-        })
-    }
-
     /// Logarithms of the values of the stable solutions that each point could belong to.
-    fn values(&self, frequency: f64) -> Vec<Vec<f64>> {
+    pub fn values(&self, frequency: f64) -> Vec<Vec<f64>> {
         let shift = self.shift([frequency, 0.0]).frequency;
         let of = |point: &Used| {
             let hits = self.curves.at(shift.apply(point.frequency_hz), point.period);
             hits.iter().filter(|hit| hit.stable).map(|hit| hit.value.ln()).collect()
         };
         self.used.iter().map(of).collect()
+    }
+
+    /// The differences nearest to zero, with what [`Problem::values`] gives and a logarithm of the factor.
+    pub fn differences<'b>(
+        &'b self,
+        values: &'b [Vec<f64>],
+        factor: f64,
+    ) -> impl Iterator<Item = Option<f64>> + 'b {
+        self.used.iter().zip(values).map(move |(point, values)| {
+            let differences = values.iter().map(|value| factor + point.logarithm - value);
+            differences.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        })
+    }
+
+    /// `sum min(r^2, R^2)` of such differences.
+    pub fn cost_of(&self, values: &[Vec<f64>], factor: f64) -> f64 {
+        let most = self.reach * self.reach;
+        self.differences(values, factor).map(|r| r.map_or(most, |r| (r * r).min(most))).sum()
+    }
+
+    /// The best factor at a shift, from one on: the mean of the differences within the reach is taken off until that is no gain.
+    pub fn at_shift(&self, values: &[Vec<f64>], begin: Place) -> Trial {
+        let [low, high] = self.tried[1];
+        let mut best = Trial { place: begin, cost: self.cost_of(values, begin[1]) };
+        for _ in 0..FACTOR_STEPS {
+            let within = self.differences(values, best.place[1]).flatten().filter(|r| r.abs() <= self.reach);
+            let (sum, count) = within.fold((0.0, 0.0), |(sum, count), r| (sum + r, count + 1.0));
+            let factor = (best.place[1] - sum / f64::max(count, 1.0)).clamp(low, high);
+            let cost = self.cost_of(values, factor);
+            if cost >= best.cost {
+                break;
+            }
+            best = Trial { place: [begin[0], factor], cost };
+        }
+        best
     }
 
     /// Differences within the reach and their slopes.
@@ -175,7 +138,7 @@ impl Problem<'_> {
     }
 
     /// Gauss-Newton steps within what is tried, halved until the cost falls.
-    fn refine(&self, begin: Place) -> Trial {
+    pub fn refine(&self, begin: Place) -> Trial {
         let mut at = self.trial(begin);
         for _ in 0..ITERATIONS {
             let Some(step) = self.step(at.place) else { break };
@@ -210,15 +173,6 @@ impl Problem<'_> {
             free[held] = false;
         }
     }
-}
-
-/// Evenly spaced numbers from one end to the other, both included; one where they are the same.
-fn trials(low: f64, high: f64, steps: usize) -> Vec<f64> {
-    if low == high {
-        return vec![low];
-    }
-    let inner = (1..steps).map(|k| low + (high - low) * k as f64 / steps as f64);
-    [low].into_iter().chain(inner).chain([high]).collect()
 }
 
 /// `J^T J`, with the identity in the rows that are not free.

@@ -6,7 +6,7 @@ use super::{OverlaySettings, Sought};
 use crate::{Model, StoreError, StoredBranches, comparison::thinned, store::BranchRecord};
 
 /// Distance of orbits that are tried, as a part of the frequency.
-const SPACING: f64 = 1e-3;
+pub(super) const SPACING: f64 = 1e-3;
 
 /// Branch, row and orbit.
 pub(super) type Candidate = (u32, Option<usize>, PeriodicSolution);

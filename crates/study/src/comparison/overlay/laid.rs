@@ -9,14 +9,11 @@ use hammerbeam_signal::{
 use super::{Overlay, OverlayError, OverlaySettings, Tried, candidates::Candidate};
 use crate::{
     Model,
-    comparison::course::{Course, course, largest},
+    comparison::course::{Course, LEFT, course, largest, size},
 };
 
 /// Samples of an orbit in an excitation period, before the filter; a multiple of those of the waveform.
 const SAMPLES: usize = 4096;
-/// Part of the motion that a filter has to leave: one step of a converter of 24 bits. What rounding leaves of the mean is 1e-16 of it, and would be compared otherwise.
-const LEFT: f64 = 1.0 / (1 << 24) as f64;
-
 pub(super) fn laid(
     model: &Model,
     (branch, row, orbit): &Candidate,
@@ -53,6 +50,7 @@ pub(super) fn laid(
         support: turned(&course.support),
         largest: (largest(unfiltered), largest(&filtered)),
         alignment: lay.alignment,
+        alike: None,
         tried: 0,
         skipped: 0,
     }))
@@ -78,12 +76,6 @@ fn behind(unfiltered: &[f64], duration_s: f64, settings: &OverlaySettings) -> Re
         return Err(OverlayError::FilteredAway { cut_off_hz: filter.cut_off_hz, left });
     }
     Ok(filtered)
-}
-
-/// Root mean square about the mean.
-fn size(series: &[f64]) -> f64 {
-    let mean = series.iter().sum::<f64>() / series.len() as f64;
-    (series.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / series.len() as f64).sqrt()
 }
 
 /// How a measured waveform lies over a computed one.

@@ -10,7 +10,9 @@
 //! |---|---|
 //! | `candidates.rs` | the orbits that are tried |
 //! | `laid.rs` | one of them laid under the measurement |
+//! | `alike.rs` | those that are as alike as the best one |
 
+mod alike;
 mod candidates;
 mod laid;
 
@@ -24,6 +26,7 @@ use hammerbeam_signal::{
 
 use super::{Filter, course::CourseError};
 use crate::{Model, StoreError, StoredBranches};
+pub use alike::Alike;
 use candidates::Candidate;
 
 /// Which orbits are tried.
@@ -86,6 +89,8 @@ pub struct Overlay {
     pub support: Vec<f64>,
     /// Largest value of the quantity before and behind the filter, of all samples of the orbit.
     pub largest: (f64, f64),
+    /// Others that are as alike, as far as the record can tell: of other branches, or farther away than neighbours on a branch.
+    pub alike: Option<Alike>,
     /// Orbits that were tried,
     pub tried: usize,
     /// and others that could not be gone over.
@@ -145,8 +150,10 @@ pub fn overlay(
         None => one.alignment.correlation,
     };
     // The first of equal ones, whatever the number of threads.
-    let best = laid.into_iter().reduce(|best, one| if worth(&one) > worth(&best) { one } else { best });
-    Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, ..best }))
+    let best = (0..tried).reduce(|best, one| if worth(&laid[one]) > worth(&laid[best]) { one } else { best });
+    let alike = best.and_then(|best| alike::alike(&laid, &laid[best], measured));
+    let best = best.and_then(|best| laid.into_iter().nth(best));
+    Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, alike, ..best }))
 }
 
 /// What came of an orbit: it was laid over, or could not be gone over.
