@@ -192,17 +192,8 @@ fn touches_of_a_deep_contact_that_just_opens_agree() {
 /// A spring that is just touched beside a rigid stop that is struck hard: what the spring pushes with is known as badly as its own shallow contact, and not as well as the other's.
 #[test]
 fn the_force_of_a_contact_is_judged_by_its_own_depth() {
-    let workshop = Workshop::with(
+    let workshop = Workshop::driven_mass(
         r#"
-        [structure]
-        kind = "lumped"
-        mass = [{ name = "m", mass_kg = 1.0 }]
-        spring = [{ between = ["m", "ground"], stiffness_n_m = 1.0 }]
-        damper = [{ between = ["m", "ground"], damping_n_s_m = 0.04 }]
-        [excitation]
-        kind = "force"
-        at = "m"
-        amplitude_n = 0.4
         frequency_hz = [0.165, 0.168]
         [[stop]]
         name = "grazed"

@@ -17,6 +17,19 @@ pub const BEAM: &str = include_str!("../../../../studies/beam-with-stop.toml");
 /// Two masses with a one-sided spring: a whole run takes a few seconds.
 pub const TWO_MASSES: &str = include_str!("../../../../studies/two-masses.toml");
 
+/// A mass on a spring, driven by a force; the frequencies and all tables that follow are still to come.
+pub const DRIVEN_MASS: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "m", mass_kg = 1.0 }]
+spring = [{ between = ["m", "ground"], stiffness_n_m = 1.0 }]
+damper = [{ between = ["m", "ground"], damping_n_s_m = 0.04 }]
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = 0.4
+"#;
+
 /// A folder with a study file in it.
 pub struct Workshop {
     folder: TempDir,
@@ -27,6 +40,11 @@ impl Workshop {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("study.toml"), study).unwrap();
         Self { folder }
+    }
+
+    /// [`DRIVEN_MASS`] with the rest of its study.
+    pub fn driven_mass(rest: &str) -> Self {
+        Self::with(&format!("{DRIVEN_MASS}{rest}"))
     }
 
     /// A study with one piece of text replaced.

@@ -33,17 +33,8 @@ fn sweep_shows_hysteresis_and_names_the_branch() {
 /// An orbit of two periods that is in contact at phase 0 of one of them, with a law that remembers its impact: whichever of the two its motion comes to, its branch is named.
 #[test]
 fn sweep_names_the_branch_of_a_subharmonic_motion_within_a_contact() {
-    let workshop = Workshop::with(
+    let workshop = Workshop::driven_mass(
         r#"
-        [structure]
-        kind = "lumped"
-        mass = [{ name = "m", mass_kg = 1.0 }]
-        spring = [{ between = ["m", "ground"], stiffness_n_m = 1.0 }]
-        damper = [{ between = ["m", "ground"], damping_n_s_m = 0.04 }]
-        [excitation]
-        kind = "force"
-        at = "m"
-        amplitude_n = 0.4
         frequency_hz = [0.136, 0.144]
         [[stop]]
         at = "m"
