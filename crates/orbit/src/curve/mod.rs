@@ -36,6 +36,7 @@ mod grazing;
 mod null;
 mod pair;
 mod problem;
+mod recut;
 mod shooting;
 mod walk;
 

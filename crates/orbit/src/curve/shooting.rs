@@ -64,10 +64,15 @@ impl Shooting {
 
     fn flow(&mut self, segment: usize, place: &Place, node: &[f64]) -> Result<Segment, MotionError> {
         let stretch = self.stretch(segment, place.frequency_hz, place.phase);
+        self.flow_over(&stretch, node)
+    }
+
+    /// Flow of a scaled node over a stretch.
+    pub fn flow_over(&mut self, stretch: &Stretch, node: &[f64]) -> Result<Segment, MotionError> {
         let scales = self.scale.values();
         let size = scales.len();
         let state: Vec<f64> = node.iter().zip(scales).map(|(x, s)| x * s).collect();
-        let flow = self.integrator.flow(&stretch, &state)?;
+        let flow = self.integrator.flow(stretch, &state)?;
         let scaled = |values: &[f64]| values.iter().zip(scales).map(|(z, s)| z / s).collect::<Vec<f64>>();
         let matrix = (0..size * size).map(|k| (k / size, k % size));
         let matrix = matrix.map(|(i, j)| flow.by_state[(i, j)] / scales[i] * scales[j]).collect();

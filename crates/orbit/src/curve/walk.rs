@@ -9,6 +9,7 @@ use super::{
     grazing::Touch,
     pair::Pair,
     problem::CurveProblem,
+    recut::cut_clear,
     shooting::{Place, Shooting},
 };
 use crate::{
@@ -132,12 +133,10 @@ pub enum CurveEnd {
 /// One side of a curve.
 #[derive(Debug)]
 pub struct CurveWalk {
-    problem: CurveProblem,
-    follower: Follower,
+    pub(super) problem: CurveProblem,
+    pub(super) follower: Follower,
     settings: CurveSettings,
     kind: CurveKind,
-    /// Phase at which its orbits begin: that of the start.
-    begin: f64,
     end: Option<CurveEnd>,
 }
 
@@ -159,6 +158,7 @@ impl CurveWalk {
         let mut integrator = integrator(system, response, orbits)?;
         integrator.differentiate_by(Some(settings.parameter))?;
         let contacts = integrator.touches().len();
+        let start = &cut_clear(&mut integrator, start)?;
         let scale = orbit_scale(&mut integrator, start)?;
         let mut shooting = Shooting {
             integrator,
@@ -174,7 +174,7 @@ impl CurveWalk {
         let (condition, place) = first_condition(&mut shooting, start, (kind, value))?.ok_or(none)?;
         let width = |(low, high): (f64, f64)| (high - low) / 100.0;
         let units = [width(settings.range_hz), width(settings.range)];
-        let mut problem = CurveProblem::new(shooting, condition, units);
+        let mut problem = CurveProblem::new(shooting, condition, start.phase, units);
         let point = problem.point(&place);
         let direction = match side {
             Side::Up => Direction::Increasing,
@@ -183,7 +183,7 @@ impl CurveWalk {
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
-        Ok(Self { problem, follower, settings: *settings, kind, begin: start.phase, end: None })
+        Ok(Self { problem, follower, settings: *settings, kind, end: None })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -205,6 +205,7 @@ impl CurveWalk {
         if let Some(end) = &self.end {
             return Ok(Err(end.clone()));
         }
+        self.keep_phase_clear();
         let reason = match self.follower.step(&mut self.problem) {
             StepOutcome::Accepted => return self.accepted().map(Ok),
             StepOutcome::Stopped(reason) => reason,
@@ -262,7 +263,7 @@ impl CurveWalk {
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
             period_multiple: self.problem.shooting.period_multiple,
-            phase: self.begin,
+            phase: self.problem.begin,
             nodes,
             floquet_multipliers,
             residual,
@@ -296,13 +297,14 @@ impl CurveWalk {
 
     /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere.
     fn nodes_from_begin(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
+        let begin = self.problem.begin;
         let shooting = &mut self.problem.shooting;
         let (f, multiple, count) = (place.frequency_hz, shooting.period_multiple, shooting.count);
         let periods = f64::from(multiple);
-        let end = self.begin + ((place.phase - self.begin) / periods).ceil() * periods;
+        let end = begin + ((place.phase - begin) / periods).ceil() * periods;
         let stretch = Stretch { frequency_hz: f, start: place.phase, end };
         let first = shooting.integrator.advance(&stretch, state)?;
-        nodes_from(&mut shooting.integrator, (self.begin, &first), f, multiple, count)
+        nodes_from(&mut shooting.integrator, (begin, &first), f, multiple, count)
     }
 }
 
