@@ -35,7 +35,7 @@ impl CurveWalk {
     fn offset(&mut self) -> Result<Option<f64>, MotionError> {
         let place = self.problem.place(&self.follower.current().point);
         let shooting = &mut self.problem.shooting;
-        shooting.integrator.set_parameter(shooting.parameter, place.value)?;
+        shooting.set_parameter(place.value)?;
         let (scales, cycles) = (shooting.scale.values(), f64::from(shooting.period_multiple));
         let state: Vec<f64> = place.nodes.iter().zip(scales).map(|(x, s)| x * s).collect();
         let phases = (place.phase, cycles, cycles / shooting.count as f64);
@@ -72,7 +72,7 @@ fn carried(
     let place = problem.place(&at.point);
     let (mut point, mut tangent) = (at.point.clone(), at.tangent.clone());
     let shooting = &mut problem.shooting;
-    shooting.integrator.set_parameter(shooting.parameter, place.value)?;
+    shooting.set_parameter(place.value)?;
     let (size, count) = (shooting.size(), shooting.count);
     let (by_hertz, by_value) = (tangent[size * count], tangent[size * count + 1]);
     let mut first = Vec::new();
@@ -80,7 +80,7 @@ fn carried(
         let begin = shooting.stretch(k, place.frequency_hz, place.phase).start;
         let stretch = Stretch { frequency_hz: place.frequency_hz, start: begin, end: begin + offset };
         let node = k * size..(k + 1) * size;
-        let flow = shooting.flow_over(&stretch, &point[node.clone()])?;
+        let flow = shooting.flow_over((stretch, false), &point[node.clone()])?;
         let slope = super::shooting::times(&flow.matrix, &tangent[node.clone()]);
         for i in 0..size {
             point[k * size + i] = flow.end[i];

@@ -8,6 +8,7 @@ use super::{
     condition::Condition,
     grazing::Touch,
     pair::Pair,
+    passing::Passing,
     problem::CurveProblem,
     recut::cut_clear,
     shooting::{Place, Shooting},
@@ -16,7 +17,7 @@ use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     eigenvalues::eigenvalues,
     size::orbit_scale,
-    solve::{integrator, nodes_from, observe},
+    solve::{integrator, nodes_from},
 };
 
 /// What is followed.
@@ -169,8 +170,13 @@ impl CurveWalk {
             segments: Vec::new(),
             products: Vec::new(),
             touches: vec![0; contacts],
+            passing: None,
         };
         let none = OrbitError::NoEvent { frequency_hz: start.frequency_hz };
+        if let CurveKind::Grazing { contact } = kind {
+            let touch = Touch::of_contact(&shooting, contact).ok_or(none.clone())?;
+            shooting.passing = Passing::new((&shooting, touch.element), response, start, orbits)?;
+        }
         let (condition, place) = first_condition(&mut shooting, start, (kind, value))?.ok_or(none)?;
         let width = |(low, high): (f64, f64)| (high - low) / 100.0;
         let units = [width(settings.range_hz), width(settings.range)];
@@ -257,8 +263,11 @@ impl CurveWalk {
             .collect();
         let stretches: Vec<Stretch> =
             (0..shooting.count).map(|k| shooting.stretch(k, place.frequency_hz, place.phase)).collect();
-        let maxima = observe(&mut shooting.integrator, &stretches, &nodes)?;
         let has_phase = self.problem.condition.has_phase();
+        if has_phase {
+            shooting.fit_passing(place.frequency_hz, place.phase, &nodes[0])?;
+        }
+        let maxima = shooting.observe(&stretches, &nodes)?;
         let nodes = if has_phase { self.nodes_from_begin(&place, &nodes[0])? } else { nodes };
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
@@ -303,7 +312,7 @@ impl CurveWalk {
         let periods = f64::from(multiple);
         let end = begin + ((place.phase - begin) / periods).ceil() * periods;
         let stretch = Stretch { frequency_hz: f, start: place.phase, end };
-        let first = shooting.integrator.advance(&stretch, state)?;
+        let first = shooting.advance(stretch, place.phase, state)?;
         nodes_from(&mut shooting.integrator, (begin, &first), f, multiple, count)
     }
 }
@@ -326,9 +335,10 @@ fn first_condition(
             return Ok(None);
         };
         let mut nodes = vec![state];
+        shooting.fit_passing(frequency_hz, phase, &nodes[0])?;
         for k in 1..shooting.count {
             let stretch = shooting.stretch(k - 1, frequency_hz, phase);
-            nodes.push(shooting.integrator.advance(&stretch, &nodes[k - 1])?);
+            nodes.push(shooting.advance(stretch, phase, &nodes[k - 1])?);
         }
         place = Place { nodes: scaled(&nodes, &scales), phase, ..place };
         return Ok(Some((Condition::Touch(touch), place)));
