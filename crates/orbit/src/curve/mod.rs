@@ -28,7 +28,7 @@
 //!
 //! # Limits
 //! All matrices are dense and the orbit keeps its segments and its units. Grazing of a stop without a single gap (preloaded, or two-sided with two gaps) is followed with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
-//! anew. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply.
+//! anew. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply, and where it hardly moves any more, as beside a place where a fold meets a grazing: such places are not marked.
 
 mod bordered;
 mod condition;
@@ -38,10 +38,13 @@ mod pair;
 mod passing;
 mod problem;
 mod recut;
+mod row;
 mod shooting;
+mod start;
 mod walk;
 
 #[cfg(test)]
 mod tests;
 
-pub use walk::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
+pub use row::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings};
+pub use walk::CurveWalk;

@@ -178,7 +178,7 @@ impl PathProblem for CurveProblem {
         self.lu.solve(right_hand_side);
     }
 
-    /// In the order of `walk.rs`.
+    /// In the order of `row.rs`.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
         let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };

@@ -1,17 +1,16 @@
 //! Walking along a curve of bifurcations, one row at a time.
 
-use hammerbeam_motion::{Parameter, Stretch, System, exact::MotionError};
-use hammerbeam_path::{Direction, Follower, ParameterRange, PathProblem, Settings, StepOutcome};
+use hammerbeam_motion::{Stretch, System, exact::MotionError};
+use hammerbeam_path::{Direction, Follower, ParameterRange, PathProblem, StepOutcome};
 
 use super::{
-    bordered::Bordered,
-    condition::Condition,
     grazing::Touch,
-    pair::Pair,
     passing::Passing,
     problem::CurveProblem,
     recut::cut_clear,
+    row::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings},
     shooting::{Place, Shooting},
+    start::{first_condition, path_settings},
 };
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
@@ -19,117 +18,6 @@ use crate::{
     size::orbit_scale,
     solve::{integrator, nodes_from},
 };
-
-/// What is followed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveKind {
-    /// A multiplier at +1.
-    Fold,
-    /// A multiplier at -1.
-    Flip,
-    /// A complex pair on the unit circle.
-    NeimarkSacker,
-    /// A contact that is touched with zero velocity.
-    Grazing {
-        /// Which one, in the order of the elements and their contacts.
-        contact: usize,
-    },
-}
-
-/// Where and how far a curve is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CurveSettings {
-    /// The second parameter.
-    pub parameter: Parameter,
-    /// Its range, in its unit; the curve is cut exactly at the ends.
-    pub range: (f64, f64),
-    /// Range of the frequency [Hz]; the curve ends with the first row beyond it.
-    pub range_hz: (f64, f64),
-    /// Longest step, in hundredths of the ranges.
-    pub max_step: f64,
-    /// Most rows.
-    pub max_rows: usize,
-}
-
-/// What happens at a row of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct CurveEvents {
-    /// First row.
-    pub start: bool,
-    /// The second parameter turns.
-    pub turn: bool,
-    /// Two folds meet.
-    pub cusp: bool,
-    /// A multiplier at +1 and one at -1.
-    pub fold_flip: bool,
-    /// Resonance 1:n.
-    pub resonance: Option<u8>,
-    /// A grazing orbit has a multiplier at +1.
-    pub grazing_fold: bool,
-    /// A grazing orbit has a multiplier at -1.
-    pub grazing_flip: bool,
-    /// A touch without curvature.
-    pub degenerate_grazing: bool,
-    /// The contacts change.
-    pub grazing: bool,
-}
-
-impl CurveEvents {
-    /// The names of the events joined by `+`, empty if there are none.
-    #[must_use]
-    pub fn label(self) -> String {
-        let resonance = ["1:1", "1:2", "1:3", "1:4"];
-        let resonance = self.resonance.map(|n| format!("resonance-{}", resonance[usize::from(n) - 1]));
-        let named = [
-            (self.start, "start"),
-            (self.turn, "turn"),
-            (self.cusp, "cusp"),
-            (self.fold_flip, "fold-flip"),
-            (self.grazing_fold, "grazing-fold"),
-            (self.grazing_flip, "grazing-flip"),
-            (self.degenerate_grazing, "degenerate-grazing"),
-            (self.grazing, "grazing"),
-        ];
-        let mut names: Vec<String> =
-            named.iter().filter(|(set, _)| *set).map(|(_, name)| (*name).to_owned()).collect();
-        names.extend(resonance);
-        names.join("+")
-    }
-}
-
-/// One row of a curve.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CurveRow {
-    /// Value of the second parameter, in its unit.
-    pub parameter: f64,
-    /// The orbit, with the frequency.
-    pub solution: PeriodicSolution,
-    /// Phase at which the contact is touched [cycles], on a curve of grazing orbits.
-    pub phase: Option<f64>,
-    /// What happens there.
-    pub events: CurveEvents,
-}
-
-/// Why a curve ended.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum CurveEnd {
-    /// End of the range of the second parameter.
-    RangeEnd,
-    /// The frequency left its range.
-    FrequencyRangeEnd,
-    /// The curve came back to its start.
-    Closed,
-    /// A Neimark-Sacker curve ends at a resonance 1:1 or 1:2.
-    Resonance,
-    /// The budget of rows is used up.
-    Budget,
-    /// It could not be followed further.
-    Stopped {
-        /// Why.
-        message: String,
-    },
-}
 
 /// One side of a curve.
 #[derive(Debug)]
@@ -139,7 +27,20 @@ pub struct CurveWalk {
     settings: CurveSettings,
     kind: CurveKind,
     end: Option<CurveEnd>,
+    crawl: Crawl,
 }
+
+/// Where a curve was last seen to move on, and the rows since.
+#[derive(Debug, Clone, Copy)]
+struct Crawl {
+    at: [f64; 2],
+    rows: usize,
+}
+
+/// A curve that in so many rows
+const CRAWLS: usize = 500;
+/// moves by less than this part of both ranges gets nowhere.
+const MOVES: f64 = 1e-4;
 
 impl CurveWalk {
     /// Begins at an orbit of `system` as it is, near the event, and walks to `side` of the second parameter.
@@ -187,9 +88,10 @@ impl CurveWalk {
             Side::Down => Direction::Decreasing,
         };
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
+        let crawl = Crawl { at: [place.frequency_hz, place.value], rows: 0 };
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
-        Ok(Self { problem, follower, settings: *settings, kind, end: None })
+        Ok(Self { problem, follower, settings: *settings, kind, end: None, crawl })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -238,7 +140,26 @@ impl CurveWalk {
         if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             self.end = Some(CurveEnd::Resonance);
         }
+        if self.end.is_none() && self.crawls(&row) {
+            let message = format!(
+                "it hardly moves any more: {CRAWLS} rows within {MOVES:e} of both ranges, as where a bifurcation meets a grazing"
+            );
+            self.end = Some(CurveEnd::Stopped { message });
+        }
         Ok(row)
+    }
+
+    fn crawls(&mut self, row: &CurveRow) -> bool {
+        let now = [row.solution.frequency_hz, row.parameter];
+        let ranges = [self.settings.range_hz, self.settings.range];
+        let moved =
+            (0..2).any(|k| (now[k] - self.crawl.at[k]).abs() > MOVES * (ranges[k].1 - ranges[k].0).abs());
+        self.crawl = if moved {
+            Crawl { at: now, rows: 0 }
+        } else {
+            Crawl { rows: self.crawl.rows + 1, ..self.crawl }
+        };
+        self.crawl.rows >= CRAWLS
     }
 
     /// The row of the present point; the condition is adapted to it.
@@ -251,7 +172,7 @@ impl CurveWalk {
             return Err(failure.map_or(none, OrbitError::Motion));
         }
         let residual = self.problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
-        let events = self.events(&current.events);
+        let events = CurveEvents::of(self.kind, current.events);
         let shooting = &mut self.problem.shooting;
         let floquet_multipliers = eigenvalues(shooting.size(), shooting.monodromy())?;
         self.problem.condition.renew(shooting);
@@ -283,27 +204,6 @@ impl CurveWalk {
         Ok(CurveRow { parameter: place.value, solution, phase, events })
     }
 
-    fn events(&self, events: &hammerbeam_path::Events) -> CurveEvents {
-        let zero = |bit: u32| events.zeros >> bit & 1 == 1;
-        let found =
-            CurveEvents { turn: events.fold, grazing: events.signature_change, ..CurveEvents::default() };
-        match self.kind {
-            CurveKind::Fold => {
-                CurveEvents { cusp: zero(0), resonance: zero(1).then_some(1), fold_flip: zero(2), ..found }
-            }
-            CurveKind::Flip => CurveEvents { resonance: zero(0).then_some(2), fold_flip: zero(1), ..found },
-            CurveKind::NeimarkSacker => {
-                CurveEvents { resonance: (0..4).find(|bit| zero(*bit)).map(|bit| bit as u8 + 1), ..found }
-            }
-            CurveKind::Grazing { .. } => CurveEvents {
-                grazing_fold: zero(0),
-                grazing_flip: zero(1),
-                degenerate_grazing: zero(2),
-                ..found
-            },
-        }
-    }
-
     /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere.
     fn nodes_from_begin(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
         let begin = self.problem.begin;
@@ -314,58 +214,5 @@ impl CurveWalk {
         let stretch = Stretch { frequency_hz: f, start: place.phase, end };
         let first = shooting.advance(stretch, place.phase, state)?;
         nodes_from(&mut shooting.integrator, (begin, &first), f, multiple, count)
-    }
-}
-
-/// The condition at the start, and where that is; `None` if the orbit has nothing to follow.
-fn first_condition(
-    shooting: &mut Shooting,
-    start: &PeriodicSolution,
-    (kind, value): (CurveKind, f64),
-) -> Result<Option<(Condition, Place)>, OrbitError> {
-    let scaled = |nodes: &[Vec<f64>], scales: &[f64]| -> Vec<f64> {
-        nodes.iter().flat_map(|node| node.iter().zip(scales).map(|(z, s)| z / s)).collect()
-    };
-    let frequency_hz = start.frequency_hz;
-    let scales = shooting.scale.values().to_vec();
-    let mut place = Place { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: start.phase, value };
-    if let CurveKind::Grazing { contact } = kind {
-        let Some(touch) = Touch::of_contact(shooting, contact) else { return Ok(None) };
-        let Some((phase, state)) = touch.find(shooting, (start.phase, &start.nodes[0]), frequency_hz)? else {
-            return Ok(None);
-        };
-        let mut nodes = vec![state];
-        shooting.fit_passing(frequency_hz, phase, &nodes[0])?;
-        for k in 1..shooting.count {
-            let stretch = shooting.stretch(k - 1, frequency_hz, phase);
-            nodes.push(shooting.advance(stretch, phase, &nodes[k - 1])?);
-        }
-        place = Place { nodes: scaled(&nodes, &scales), phase, ..place };
-        return Ok(Some((Condition::Touch(touch), place)));
-    }
-    shooting.evaluate(&place)?;
-    let condition = match kind {
-        CurveKind::Fold => Some(Condition::Multiplier(Bordered::new(1.0, shooting))),
-        CurveKind::Flip => Some(Condition::Multiplier(Bordered::new(-1.0, shooting))),
-        _ => Pair::new(shooting).map(Condition::Pair),
-    };
-    Ok(condition.map(|condition| (condition, place)))
-}
-
-/// Settings of the path. The condition is known less exactly than an orbit: rounding of the monodromy matrix is in it.
-fn path_settings(settings: &CurveSettings, units: [f64; 2]) -> Settings {
-    let default = Settings::default();
-    Settings {
-        initial_step: 0.1 * settings.max_step,
-        max_parameter_step: settings.max_step * units[1],
-        max_step_length: settings.max_step,
-        min_step: 1e-8,
-        correction_tolerance: 1e-8,
-        correction_floor: 1e-10,
-        residual_floor: 1e3 * default.residual_floor,
-        sheet_distance: 1e-4,
-        signature_step: 1e-4,
-        max_points: settings.max_rows as u64,
-        ..default
     }
 }

@@ -1,0 +1,135 @@
+//! A curve of bifurcations as it is asked for and as it comes out: kind and ranges, rows with their events, ends.
+
+use hammerbeam_motion::Parameter;
+use hammerbeam_path::Events;
+
+use crate::PeriodicSolution;
+
+/// What is followed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveKind {
+    /// A multiplier at +1.
+    Fold,
+    /// A multiplier at -1.
+    Flip,
+    /// A complex pair on the unit circle.
+    NeimarkSacker,
+    /// A contact that is touched with zero velocity.
+    Grazing {
+        /// Which one, in the order of the elements and their contacts.
+        contact: usize,
+    },
+}
+
+/// Where and how far a curve is followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveSettings {
+    /// The second parameter.
+    pub parameter: Parameter,
+    /// Its range, in its unit; the curve is cut exactly at the ends.
+    pub range: (f64, f64),
+    /// Range of the frequency [Hz]; the curve ends with the first row beyond it.
+    pub range_hz: (f64, f64),
+    /// Longest step, in hundredths of the ranges.
+    pub max_step: f64,
+    /// Most rows.
+    pub max_rows: usize,
+}
+
+/// What happens at a row of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct CurveEvents {
+    /// First row.
+    pub start: bool,
+    /// The second parameter turns.
+    pub turn: bool,
+    /// Two folds meet.
+    pub cusp: bool,
+    /// A multiplier at +1 and one at -1.
+    pub fold_flip: bool,
+    /// Resonance 1:n.
+    pub resonance: Option<u8>,
+    /// A grazing orbit has a multiplier at +1.
+    pub grazing_fold: bool,
+    /// A grazing orbit has a multiplier at -1.
+    pub grazing_flip: bool,
+    /// A touch without curvature.
+    pub degenerate_grazing: bool,
+    /// The contacts change.
+    pub grazing: bool,
+}
+
+impl CurveEvents {
+    /// Of the tests of `problem.rs`, in their order.
+    pub(super) fn of(kind: CurveKind, events: Events) -> Self {
+        let zero = |bit: u32| events.zeros >> bit & 1 == 1;
+        let found = Self { turn: events.fold, grazing: events.signature_change, ..Self::default() };
+        match kind {
+            CurveKind::Fold => {
+                Self { cusp: zero(0), resonance: zero(1).then_some(1), fold_flip: zero(2), ..found }
+            }
+            CurveKind::Flip => Self { resonance: zero(0).then_some(2), fold_flip: zero(1), ..found },
+            CurveKind::NeimarkSacker => {
+                Self { resonance: (0..4).find(|bit| zero(*bit)).map(|bit| bit as u8 + 1), ..found }
+            }
+            CurveKind::Grazing { .. } => {
+                Self { grazing_fold: zero(0), grazing_flip: zero(1), degenerate_grazing: zero(2), ..found }
+            }
+        }
+    }
+
+    /// The names of the events joined by `+`, empty if there are none.
+    #[must_use]
+    pub fn label(self) -> String {
+        let resonance = ["1:1", "1:2", "1:3", "1:4"];
+        let resonance = self.resonance.map(|n| format!("resonance-{}", resonance[usize::from(n) - 1]));
+        let named = [
+            (self.start, "start"),
+            (self.turn, "turn"),
+            (self.cusp, "cusp"),
+            (self.fold_flip, "fold-flip"),
+            (self.grazing_fold, "grazing-fold"),
+            (self.grazing_flip, "grazing-flip"),
+            (self.degenerate_grazing, "degenerate-grazing"),
+            (self.grazing, "grazing"),
+        ];
+        let mut names: Vec<String> =
+            named.iter().filter(|(set, _)| *set).map(|(_, name)| (*name).to_owned()).collect();
+        names.extend(resonance);
+        names.join("+")
+    }
+}
+
+/// One row of a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveRow {
+    /// Value of the second parameter, in its unit.
+    pub parameter: f64,
+    /// The orbit, with the frequency.
+    pub solution: PeriodicSolution,
+    /// Phase at which the contact is touched [cycles], on a curve of grazing orbits.
+    pub phase: Option<f64>,
+    /// What happens there.
+    pub events: CurveEvents,
+}
+
+/// Why a curve ended.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum CurveEnd {
+    /// End of the range of the second parameter.
+    RangeEnd,
+    /// The frequency left its range.
+    FrequencyRangeEnd,
+    /// The curve came back to its start.
+    Closed,
+    /// A Neimark-Sacker curve ends at a resonance 1:1 or 1:2.
+    Resonance,
+    /// The budget of rows is used up.
+    Budget,
+    /// It could not be followed further.
+    Stopped {
+        /// Why.
+        message: String,
+    },
+}
