@@ -109,6 +109,7 @@ pub use eigenvalues::NoEigenvalues;
 pub use error::OrbitError;
 pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
+pub use hammerbeam_path::PathError;
 pub use located::{ContactChange, EventStatus, LocatedEvent};
 pub use matching::{Matcher, states_at_phase};
 pub use neighbour::neighbouring_orbit;

@@ -8,6 +8,7 @@
 //! tangent `t` of the present branch. There the bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to
 //! anything points into that direction.
 
+use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem};
 
 use crate::shooting::ShootingProblem;
@@ -16,6 +17,8 @@ use crate::shooting::ShootingProblem;
 const SHARP_FREQUENCY: f64 = 1e-8;
 /// Distance of the critical multiplier from its place that a located flip or Neimark-Sacker point may have.
 const SHARP_MULTIPLIER: f64 = 1e-5;
+/// An orbit this close to its mirror image, relative to the orbit, is that: along the direction in which a branch crosses, an orbit is known to the root of the tolerance only.
+const MIRRORED: f64 = 1e-3;
 /// So often a matrix that cannot be inverted is shifted; what still cannot be is not finite.
 const MOST_SHIFTS: u32 = 8;
 
@@ -24,7 +27,7 @@ const MOST_SHIFTS: u32 = 8;
 pub enum EventStatus {
     /// To 1e-8 in frequency, relative, with the multiplier in its place.
     Located,
-    /// Only within [`LocatedEvent::uncertainty_hz`], or with a multiplier that jumps over its place (at a corner of the branch).
+    /// Only within [`LocatedEvent::uncertainty`], or with a multiplier that jumps over its place (at a corner of the branch).
     Bracketed,
 }
 
@@ -42,8 +45,8 @@ pub struct ContactChange {
 pub struct LocatedEvent {
     /// How well it was located.
     pub status: EventStatus,
-    /// Frequency interval within which it lies [Hz].
-    pub uncertainty_hz: f64,
+    /// Interval of the frequency within which it lies [Hz]; of the parameter that varies, in its unit, where that is not the frequency.
+    pub uncertainty: f64,
     /// The multiplier that is critical, `[re, im]`, the one with positive imaginary part of a pair; none at mere grazing.
     pub multiplier: Option<[f64; 2]>,
     /// Critical direction of the first node, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one relative to the orbit; at a
@@ -51,6 +54,8 @@ pub struct LocatedEvent {
     pub direction: Vec<f64>,
     /// The contact that changes at grazing.
     pub contact: Option<ContactChange>,
+    /// Whether an orbit that is its own mirror image after half its period, `z(t + NT/2) = -z(t)`, loses that on the crossing branch.
+    pub breaks_symmetry: bool,
 }
 
 /// What the walk knows of the points at and before the event.
@@ -58,6 +63,8 @@ pub(crate) struct Place<'a> {
     pub point: &'a ContinuationPoint,
     /// Change of the tangent's frequency component per length.
     pub bend: f64,
+    /// To this the place of a corner is known [Hz].
+    pub at_corners: f64,
     pub touches_before: &'a [u32],
 }
 
@@ -67,12 +74,6 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     if !events.any() {
         return None;
     }
-    let uncertainty = place.point.uncertainty;
-    let slope = place.point.tangent_parameter().abs();
-    let size = problem.parameter_size(&place.point.point);
-    // The frequency itself is no better than its last digit.
-    let rounding = f64::EPSILON * size;
-    let uncertainty_hz = (uncertainty * slope + 0.5 * place.bend * uncertainty * uncertainty).max(rounding);
     let multipliers = problem.multipliers().map(<[_]>::to_vec).unwrap_or_default();
     let nearest = |distance: &dyn Fn(&[f64; 2]) -> f64| {
         multipliers.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -88,7 +89,9 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     } else {
         (None, 0.0)
     };
-    let sharp = uncertainty_hz <= SHARP_FREQUENCY * size && off <= SHARP_MULTIPLIER;
+    let size = problem.parameter_size(&place.point.point);
+    let uncertainty = uncertainty(place, size, off > SHARP_MULTIPLIER);
+    let sharp = uncertainty <= SHARP_FREQUENCY * size && off <= SHARP_MULTIPLIER;
     let direction = if events.branch_point {
         crossing_direction(problem, place.point)
     } else {
@@ -96,11 +99,37 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     };
     Some(LocatedEvent {
         status: if sharp { EventStatus::Located } else { EventStatus::Bracketed },
-        uncertainty_hz,
+        uncertainty,
         multiplier,
         direction: direction.unwrap_or_default(),
         contact: contact_change(place.touches_before, problem.touches()),
+        breaks_symmetry: events.branch_point && is_symmetric(problem, place.point),
     })
+}
+
+/// Interval of the frequency, of this size, within which the event lies.
+fn uncertainty(place: &Place<'_>, size: f64, jumps: bool) -> f64 {
+    // A multiplier jumps over its place at corners only.
+    let at_corner = if jumps { place.at_corners } else { 0.0 };
+    let along = place.point.uncertainty.max(at_corner);
+    let slope = place.point.tangent_parameter().abs();
+    // The frequency itself is no better than its last digit.
+    (along * slope + 0.5 * place.bend * along * along).max(f64::EPSILON * size)
+}
+
+/// Whether an orbit of an odd number of periods is its own mirror image: after half of them the excitation has changed its sign, and the state has.
+fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> bool {
+    if problem.period_multiple() % 2 == 0 {
+        return false;
+    }
+    let (frequency_hz, start) = (problem.frequency(&point.point), problem.phase());
+    let end = start + 0.5 * f64::from(problem.period_multiple());
+    let state = problem.nodes(&point.point).swap_remove(0);
+    let Ok(half) = problem.integrator().advance(&Stretch { frequency_hz, start, end }, &state) else {
+        return false;
+    };
+    let mirrored: Vec<f64> = half.iter().map(|value| -value).collect();
+    problem.scale().distance(&mirrored, &state) < MIRRORED
 }
 
 fn contact_change(before: &[u32], after: &[u32]) -> Option<ContactChange> {

@@ -60,6 +60,7 @@ fn a_multiplier_is_plus_one_at_the_branch_points_and_the_orbit_symmetric() {
     assert_eq!(points.len(), 2, "{:?}", frequencies(&points));
     for point in &points {
         assert!(!point.events.fold);
+        assert!(point.located.as_ref().unwrap().breaks_symmetry);
         let multipliers = general_multipliers(&system, &point.solution);
         let nearest = multipliers.iter().map(|[re, im]| (re - 1.0).hypot(*im)).fold(f64::INFINITY, f64::min);
         // A branch point is known to about the root of the tolerance, and the multiplier passes +1 with slopes of 1e2 per hertz.

@@ -72,29 +72,20 @@ pub enum StopReason {
     },
 }
 
+/// In words, without the place, which has a unit that its reader knows.
 impl std::fmt::Display for StopReason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::RangeEnd => write!(f, "end of the range"),
             Self::Closed => write!(f, "closed path"),
             Self::Budget => write!(f, "largest number of points reached"),
-            Self::StepTooShort { parameter, step, residual, doubt } => {
-                write!(
-                    f,
-                    "no step from parameter {parameter}: at step {step:.1e}, residual {residual:.1e}: {doubt}"
-                )
+            Self::StepTooShort { step, residual, doubt, .. } => {
+                write!(f, "at step {step:.1e}, residual {residual:.1e}: {doubt}")
             }
-            Self::Crawls { parameter, steps } => {
-                write!(f, "{steps} steps up to parameter {parameter} led nowhere")
-            }
-            Self::EvaluationFailed { parameter, step, error } => {
-                write!(f, "no step from parameter {parameter}: at step {step:.1e}: {error}")
-            }
-            Self::RunsBack { parameter, met_arc_length } => {
-                write!(
-                    f,
-                    "from parameter {parameter} on a stretch walked before, at arc length {met_arc_length}"
-                )
+            Self::Crawls { steps, .. } => write!(f, "the last {steps} steps led nowhere"),
+            Self::EvaluationFailed { step, error, .. } => write!(f, "at step {step:.1e}: {error}"),
+            Self::RunsBack { met_arc_length, .. } => {
+                write!(f, "the path continues on a stretch walked before, at arc length {met_arc_length}")
             }
         }
     }

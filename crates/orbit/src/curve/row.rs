@@ -129,6 +129,8 @@ pub enum CurveEnd {
     Budget,
     /// It could not be followed further.
     Stopped {
+        /// Value of the second parameter at the last row, in its unit.
+        parameter: f64,
         /// Why.
         message: String,
     },

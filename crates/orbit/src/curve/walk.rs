@@ -27,20 +27,7 @@ pub struct CurveWalk {
     settings: CurveSettings,
     kind: CurveKind,
     end: Option<CurveEnd>,
-    crawl: Crawl,
 }
-
-/// Where a curve was last seen to move on, and the rows since.
-#[derive(Debug, Clone, Copy)]
-struct Crawl {
-    at: [f64; 2],
-    rows: usize,
-}
-
-/// A curve that in so many rows
-const CRAWLS: usize = 500;
-/// moves by less than this part of both ranges gets nowhere.
-const MOVES: f64 = 1e-4;
 
 impl CurveWalk {
     /// Begins at an orbit of `system` as it is, near the event, and walks to `side` of the second parameter.
@@ -88,10 +75,9 @@ impl CurveWalk {
             Side::Down => Direction::Decreasing,
         };
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
-        let crawl = Crawl { at: [place.frequency_hz, place.value], rows: 0 };
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
-        Ok(Self { problem, follower, settings: *settings, kind, end: None, crawl })
+        Ok(Self { problem, follower, settings: *settings, kind, end: None })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -123,6 +109,7 @@ impl CurveWalk {
             StopReason::Closed => CurveEnd::Closed,
             StopReason::Budget => CurveEnd::Budget,
             other => CurveEnd::Stopped {
+                parameter: self.follower.current().parameter(),
                 message: match self.problem.failure() {
                     Some(failure) => format!("{other}: {failure}"),
                     None => other.to_string(),
@@ -140,26 +127,7 @@ impl CurveWalk {
         if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             self.end = Some(CurveEnd::Resonance);
         }
-        if self.end.is_none() && self.crawls(&row) {
-            let message = format!(
-                "it hardly moves any more: {CRAWLS} rows within {MOVES:e} of both ranges, as where a bifurcation meets a grazing"
-            );
-            self.end = Some(CurveEnd::Stopped { message });
-        }
         Ok(row)
-    }
-
-    fn crawls(&mut self, row: &CurveRow) -> bool {
-        let now = [row.solution.frequency_hz, row.parameter];
-        let ranges = [self.settings.range_hz, self.settings.range];
-        let moved =
-            (0..2).any(|k| (now[k] - self.crawl.at[k]).abs() > MOVES * (ranges[k].1 - ranges[k].0).abs());
-        self.crawl = if moved {
-            Crawl { at: now, rows: 0 }
-        } else {
-            Crawl { rows: self.crawl.rows + 1, ..self.crawl }
-        };
-        self.crawl.rows >= CRAWLS
     }
 
     /// The row of the present point; the condition is adapted to it.

@@ -35,8 +35,16 @@ impl BranchWalk {
     /// The row of the point at which the problem was evaluated last.
     pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
         let current = self.follower.current().clone();
-        let place =
-            located::Place { point: &current, bend: self.frequency_bend(), touches_before: &self.touches };
+        let settings = self.follower.settings();
+        // Beside a rigid stop speeds that the tolerance leaves are no longer told from none.
+        let at_corners =
+            if self.problem.has_root_corners() { settings.correction_tolerance } else { settings.min_step };
+        let place = located::Place {
+            point: &current,
+            bend: self.frequency_bend(),
+            at_corners,
+            touches_before: &self.touches,
+        };
         let located = located::describe(&mut self.problem, &place);
         self.touches.clear();
         self.touches.extend_from_slice(self.problem.touches());

@@ -9,6 +9,9 @@ use crate::{OrbitSettings, PeriodicSolution, Segments, cut::begins_with_care};
 /// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
 const SHORTEST_AT_IMPACTS: f64 = 100.0;
 
+/// Steps that do not get anywhere, over those elsewhere, where orbits cannot be cut into more segments: there multipliers of 1e6 and more alone make steps of a millionth.
+const CRAWL_IN_ONE_SEGMENT: f64 = 1e3;
+
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
 pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
     (high - low) / 100.0
@@ -18,13 +21,14 @@ pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
     let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
+    let crawl = if begins_with_care(system) { CRAWL_IN_ONE_SEGMENT } else { 1.0 };
     let shortest = if rigid { SHORTEST_AT_IMPACTS } else { 1.0 };
     Settings {
         initial_step: 0.1 * settings.max_step_hz,
         max_parameter_step: settings.max_step_hz,
         max_step_length: 2.0 * settings.max_step_hz,
         min_step: shortest * default.min_step * length,
-        crawl_step: default.crawl_step * length,
+        crawl_step: crawl * default.crawl_step * length,
         correction_tolerance: settings.tolerance * length,
         correction_floor: default.correction_floor * length,
         // Rounding of the residual grows with the multipliers.

@@ -1,5 +1,6 @@
 //! Stored results as CSV for other programs: branches and events here, the rest in files of their own.
 
+mod events;
 mod motions;
 mod table;
 mod varied;
@@ -10,16 +11,16 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use hammerbeam_orbit::{EventStatus, Events, LocatedEvent, Side};
-
+pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
 pub use table::{Table, header, number, word};
 
+use events::write_events;
 use motions::export_motions;
 use table::WholeFile;
 use varied::export_varied;
 
-use crate::store::{BranchRecord, Row, Store, StoreError, solution_key};
+use crate::store::{BranchRecord, Row, Store, StoreError};
 
 /// Columns of `branches.csv`; the first twelve are fixed, further ones follow after them.
 pub const COLUMNS: [&str; 15] = [
@@ -38,21 +39,6 @@ pub const COLUMNS: [&str; 15] = [
     "impulse_n_s",
     "residual",
     "error_estimate",
-];
-
-/// Columns of `events.csv`.
-pub const EVENT_COLUMNS: [&str; 11] = [
-    "branch",
-    "period_multiple",
-    "row",
-    "event",
-    "frequency_hz",
-    "status",
-    "uncertainty_hz",
-    "multiplier_re",
-    "multiplier_im",
-    "contact_change",
-    "direction",
 ];
 
 /// Why results could not be exported.
@@ -77,7 +63,7 @@ pub struct Exported {
     pub rows: u64,
     /// The events.
     pub events_path: PathBuf,
-    /// `parameter_branches.csv` and `curves.csv`, where the study asks for them.
+    /// `parameter_branches.csv`, `parameter_events.csv` and `curves.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
     /// Tables of sweeps, exponents and basins, with the numbers of their requests.
     pub motion_paths: Vec<PathBuf>,
@@ -146,53 +132,5 @@ fn write_row(writer: &mut impl Write, branch: &BranchRecord, row: &Row) -> io::R
         maxima.impulse,
         row.residual,
         row.error_estimate,
-    )
-}
-
-fn write_events(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
-    writeln!(writer, "{}", EVENT_COLUMNS.join(",")).map_err(failed)?;
-    for branch in store.branches()? {
-        let (down, mut number) = (branch.down.solutions, 0);
-        store.each_row::<ExportError>(&branch, |row| {
-            let place = number;
-            number += 1;
-            let (side, of_side) =
-                if place < down { (Side::Down, down - 1 - place) } else { (Side::Up, place - down) };
-            let Some(event) = store.event(solution_key(branch.start, side, of_side as u32))? else {
-                return Ok(());
-            };
-            write_event(writer, &branch, (place, &row), &event).map_err(failed)
-        })?;
-    }
-    Ok(())
-}
-
-fn write_event(
-    writer: &mut impl Write,
-    branch: &BranchRecord,
-    (place, row): (u64, &Row),
-    event: &LocatedEvent,
-) -> io::Result<()> {
-    let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
-    let status = match event.status {
-        EventStatus::Located => "located",
-        EventStatus::Bracketed => "bracketed",
-    };
-    let change = event.contact.map_or(String::new(), |change| {
-        format!("{}{}", if change.appears { "+" } else { "-" }, change.contact + 1)
-    });
-    let direction: Vec<String> = event.direction.iter().map(|entry| format!("{entry:?}")).collect();
-    writeln!(
-        writer,
-        "{},{},{place},{},{:?},{status},{:?},{},{},{change},{}",
-        branch.id,
-        branch.period_multiple,
-        Events { start: false, end: false, ..row.events }.label(),
-        row.frequency_hz,
-        event.uncertainty_hz,
-        number(event.multiplier.map(|[re, _]| re)),
-        number(event.multiplier.map(|[_, im]| im)),
-        direction.join(" "),
     )
 }

@@ -1,11 +1,12 @@
 //! Branches in parameters and curves of bifurcations as CSV.
 
 use std::{
-    io::Write,
+    fs::File,
+    io::{BufWriter, Write},
     path::{Path, PathBuf},
 };
 
-use super::{ExportError, write_whole};
+use super::{ExportError, events::write_parameter_events, write_whole};
 use crate::store::{PieceBranchRecord, PieceRecord, Store};
 
 /// Columns of `parameter_branches.csv`.
@@ -30,36 +31,45 @@ pub const PARAMETER_COLUMNS: [&str; 18] = [
     "event",
 ];
 
-/// Writes `parameter_branches.csv` and `curves.csv` into a folder, each only if there is something in it.
+/// Writes `parameter_branches.csv` with `parameter_events.csv`, and `curves.csv`, into a folder, each only if there is something in it.
 ///
 /// `curves.csv` has a further column `of` in front, which says what the curve is of.
 pub(crate) fn export_varied(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
     let pieces = store.pieces()?;
+    let of_kind = |curves: bool| -> Vec<&PieceRecord> {
+        pieces.iter().filter(|piece| piece.is_curve == curves && !piece.branches.is_empty()).collect()
+    };
+    let (branches, curves) = (of_kind(false), of_kind(true));
+    let tables: [(&str, &[&PieceRecord], TableWriter); 3] = [
+        ("parameter_branches.csv", &branches, write_rows),
+        ("parameter_events.csv", &branches, write_parameter_events),
+        ("curves.csv", &curves, write_rows),
+    ];
     let mut files = Vec::new();
-    for (name, curves) in [("parameter_branches.csv", false), ("curves.csv", true)] {
-        let of_kind: Vec<&PieceRecord> =
-            pieces.iter().filter(|piece| piece.is_curve == curves && !piece.branches.is_empty()).collect();
+    for (name, pieces, write) in tables {
         let path = folder.join(name);
-        if of_kind.is_empty() {
+        if pieces.is_empty() {
             // A table of an earlier export would be taken for this one's.
             let _ = std::fs::remove_file(&path);
             continue;
         }
-        write_whole(&path, |writer| write(store, &of_kind, curves, writer, &path))?;
+        write_whole(&path, |writer| write(store, pieces, writer, &path))?;
         files.push(path);
     }
     Ok(files)
 }
 
-fn write(
+/// Writes the pieces, of one kind, as one table.
+type TableWriter = fn(&Store, &[&PieceRecord], &mut BufWriter<File>, &Path) -> Result<(), ExportError>;
+
+fn write_rows(
     store: &Store,
     pieces: &[&PieceRecord],
-    curves: bool,
-    writer: &mut impl Write,
+    writer: &mut BufWriter<File>,
     path: &Path,
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::Write { path: path.to_owned(), source };
-    let front = if curves { "of," } else { "" };
+    let front = if pieces.iter().any(|piece| piece.is_curve) { "of," } else { "" };
     writeln!(writer, "{front}{}", PARAMETER_COLUMNS.join(",")).map_err(failed)?;
     for piece in pieces {
         for branch in &piece.branches {
@@ -83,7 +93,8 @@ fn write(
     Ok(())
 }
 
-fn start_of_row(piece: &PieceRecord, branch: &PieceBranchRecord) -> String {
+/// Piece, branch, period multiple and name of the parameter; what a curve is of in front.
+pub(super) fn start_of_row(piece: &PieceRecord, branch: &PieceBranchRecord) -> String {
     let front = if piece.is_curve { format!("{},", branch.kind) } else { String::new() };
     // A name with a comma or a quotation mark would change the columns.
     let name = if piece.parameter.contains([',', '"']) {

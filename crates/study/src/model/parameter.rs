@@ -21,6 +21,19 @@ impl StudyParameter {
         self.factor * value + self.offset
     }
 
+    /// The same, where an end of a range, which has been to the system and back, is that end to the last bit.
+    #[must_use]
+    pub fn in_range(&self, value: f64, range: [f64; 2]) -> f64 {
+        let end = range.into_iter().find(|end| self.in_system(*end) == value);
+        end.unwrap_or_else(|| self.in_study(value))
+    }
+
+    /// Change in the study for a change of the system's value.
+    #[must_use]
+    pub fn change_in_study(&self, change: f64) -> f64 {
+        self.factor * change
+    }
+
     /// Value of the system of a value in the study.
     #[must_use]
     pub fn in_system(&self, value: f64) -> f64 {

@@ -70,7 +70,7 @@ pub(super) fn has_branch_point(
     let places = rows_of(start).filter(|(_, row)| row.branch_point).chain(ends_at_flips(start));
     let mut near = Vec::new();
     for (key, row) in places {
-        let uncertain_hz = store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty_hz);
+        let uncertain_hz = store.event(key)?.map_or(0.0, |event| DOUBTS * event.uncertainty);
         let allowed_hz = SAME_FREQUENCY * root.frequency_hz + uncertain_hz;
         if (row.frequency_hz - root.frequency_hz).abs() <= allowed_hz {
             near.push(key);

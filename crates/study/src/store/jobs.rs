@@ -4,8 +4,7 @@ use hammerbeam_orbit::{Events, LocatedEvent, PeriodicSolution, Side};
 use rusqlite::{Row as SqlRow, Transaction, params};
 
 use super::{
-    Store, StoreError, StoredReason, first_key, walk_id,
-    write::{insert_event, insert_solution},
+    Store, StoreError, StoredReason, event::insert_event, first_key, walk_id, write::insert_solution,
 };
 
 /// Most starts of one job: the numbers of starts leave no room for more.
@@ -192,7 +191,7 @@ impl Store {
             let first = first_key(walk_id(key, Side::Up));
             insert_solution(&transaction, first, start, events)?;
             if let Some(source) = &source {
-                insert_event(&transaction, first, &seen_from_new_branch(source, start))?;
+                insert_event(&transaction, ("event", &[first]), &seen_from_new_branch(source, start))?;
             }
         }
         transaction.commit()?;

@@ -11,6 +11,7 @@ mod basins;
 mod blob;
 mod class;
 mod error;
+mod event;
 mod exponents;
 mod jobs;
 mod lock;
@@ -32,6 +33,7 @@ use hammerbeam_orbit::{Side, StopReason};
 use rusqlite::{Connection, OpenFlags};
 
 pub use error::StoreError;
+pub use event::VariedEvent;
 pub use exponents::ExponentRecord;
 pub(crate) use jobs::MOST_STARTS;
 pub use jobs::{JobKind, JobRecord, StartRecord};

@@ -1,8 +1,6 @@
 //! Reading: branches, their walks, and their solutions one after the other.
 
-use hammerbeam_orbit::{
-    ContactChange, EventStatus, Events, LocatedEvent, OrbitMaxima, PeriodicSolution, Side,
-};
+use hammerbeam_orbit::{Events, OrbitMaxima, PeriodicSolution, Side};
 use rusqlite::{OptionalExtension, Row as SqlRow, params};
 
 use super::{Store, StoreError, StoredReason, blob, first_key, solution_key, walk_id, write::unpack_events};
@@ -256,32 +254,6 @@ impl Store {
 }
 
 impl Store {
-    /// What is known of the event at a solution, if there is one.
-    ///
-    /// # Errors
-    /// The database refuses, or the event is damaged.
-    pub fn event(&self, key: i64) -> Result<Option<LocatedEvent>, StoreError> {
-        let select =
-            "SELECT located, uncertainty_hz, multiplier_re, multiplier_im, direction, contact, appears
-            FROM event WHERE solution = ?1";
-        let mut statement = self.connection.prepare_cached(select)?;
-        let mut rows = statement.query([key])?;
-        let Some(row) = rows.next()? else { return Ok(None) };
-        let multiplier: (Option<f64>, Option<f64>) = (row.get(2)?, row.get(3)?);
-        let bytes: Vec<u8> = row.get(4)?;
-        let change: (Option<u32>, Option<bool>) = (row.get(5)?, row.get(6)?);
-        Ok(Some(LocatedEvent {
-            status: if row.get(0)? { EventStatus::Located } else { EventStatus::Bracketed },
-            uncertainty_hz: row.get(1)?,
-            multiplier: multiplier.0.zip(multiplier.1).map(|(re, im)| [re, im]),
-            direction: blob::unpack("direction", &bytes, bytes.len() / 8)?,
-            contact: change
-                .0
-                .zip(change.1)
-                .map(|(contact, appears)| ContactChange { contact: contact as usize, appears }),
-        }))
-    }
-
     /// The rows of a walk in the order in which they were walked.
     ///
     /// # Errors

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use rusqlite::{Connection, OptionalExtension, params};
 
-use super::StoreError;
+use super::{StoreError, event::COLUMNS};
 use crate::{
     file::StudyFile,
     identity::{DATA_VERSION, differences},
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -70,16 +70,6 @@ CREATE TABLE solution (
     multipliers BLOB NOT NULL,
     nodes BLOB NOT NULL,
     phase_cycles REAL NOT NULL
-);
-CREATE TABLE event (
-    solution INTEGER PRIMARY KEY,
-    located INTEGER NOT NULL,
-    uncertainty_hz REAL NOT NULL,
-    multiplier_re REAL,
-    multiplier_im REAL,
-    direction BLOB NOT NULL,
-    contact INTEGER,
-    appears INTEGER
 );
 ";
 
@@ -228,6 +218,8 @@ pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) ->
     if tables == 0 {
         transaction.pragma_update(None, "application_id", APPLICATION_ID)?;
         transaction.execute_batch(TABLES)?;
+        transaction
+            .execute_batch(&format!("CREATE TABLE event (solution INTEGER PRIMARY KEY, {COLUMNS});"))?;
         transaction.execute_batch(TABLES_OF_MOTIONS)?;
         let fixed = [
             ("schema_version", SCHEMA_VERSION.to_string()),

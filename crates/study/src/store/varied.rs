@@ -3,10 +3,13 @@
 //! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition. A piece is stored whole, in one transaction, so a run that is stopped
 //! computes again only the piece that it was at. Tables are made when the first piece is stored.
 
-use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_orbit::{LocatedEvent, PeriodicSolution};
 use rusqlite::params;
 
-use super::{Store, StoreError, blob};
+use super::{
+    Store, StoreError, blob,
+    event::{COLUMNS, insert_event},
+};
 
 const TABLES: &str = "
 CREATE TABLE IF NOT EXISTS piece (
@@ -47,6 +50,7 @@ CREATE TABLE IF NOT EXISTS piece_row (
     state_length INTEGER NOT NULL,
     nodes BLOB NOT NULL,
     phase_cycles REAL NOT NULL,
+    multipliers BLOB NOT NULL,
     PRIMARY KEY (piece, branch, place)
 ) WITHOUT ROWID;
 ";
@@ -75,6 +79,8 @@ pub struct VariedRow {
     pub solution: PeriodicSolution,
     /// Events joined by `+`.
     pub event: String,
+    /// What is known of them, uncertainty and direction in the unit of the name; `None` on a curve of bifurcations.
+    pub located: Option<LocatedEvent>,
 }
 
 /// What was asked for.
@@ -173,6 +179,7 @@ impl Store {
             .collect::<Result<_, _>>()?;
         for (id, _) in stored.iter().filter(|(_, text)| !wanted.iter().any(|piece| piece.definition == *text))
         {
+            transaction.execute("DELETE FROM piece_event WHERE piece = ?1", [id])?;
             transaction.execute("DELETE FROM piece_row WHERE piece = ?1", [id])?;
             transaction.execute("DELETE FROM piece_branch WHERE piece = ?1", [id])?;
             transaction.execute("DELETE FROM piece WHERE id = ?1", [id])?;
@@ -193,6 +200,10 @@ impl Store {
     ) -> Result<(), StoreError> {
         let transaction = self.connection.transaction()?;
         transaction.execute_batch(TABLES)?;
+        transaction.execute_batch(&format!(
+            "CREATE TABLE IF NOT EXISTS piece_event (piece INTEGER, branch INTEGER, place INTEGER, {COLUMNS},
+            PRIMARY KEY (piece, branch, place)) WITHOUT ROWID;"
+        ))?;
         let kind = if piece.is_curve { "curve" } else { "vary" };
         transaction.execute(
             "INSERT INTO piece (definition, kind, parameter, message) VALUES (?1, ?2, ?3, ?4)",
@@ -206,7 +217,11 @@ impl Store {
                 params![id, number, branch.period_multiple, branch.kind, branch.up, branch.down],
             )?;
             for (place, row) in branch.rows.iter().enumerate() {
-                insert_row(&transaction, (id, number, place as i64), row)?;
+                let place = place as i64;
+                insert_row(&transaction, (id, number, place), row)?;
+                if let Some(located) = &row.located {
+                    insert_event(&transaction, ("piece_event", &[id, number, place]), located)?;
+                }
             }
         }
         transaction.commit()?;
@@ -296,7 +311,7 @@ fn insert_row(
     row: &VariedRow,
 ) -> Result<(), StoreError> {
     let insert = "INSERT INTO piece_row VALUES
-        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21)";
+        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21, ?22)";
     let (solution, maxima) = (&row.solution, &row.solution.maxima);
     let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or([0.0, 0.0]);
     transaction.prepare_cached(insert)?.execute(params![
@@ -321,6 +336,7 @@ fn insert_row(
         solution.nodes.first().map_or(0, Vec::len) as i64,
         blob::pack(solution.nodes.iter().flatten()),
         solution.phase,
+        blob::pack(solution.floquet_multipliers.iter().flatten()),
     ])?;
     Ok(())
 }

@@ -1,9 +1,9 @@
 //! Writing: each call is one transaction.
 
-use hammerbeam_orbit::{BranchRow, EventStatus, Events, LocatedEvent, PeriodicSolution, Side};
+use hammerbeam_orbit::{BranchRow, Events, PeriodicSolution, Side};
 use rusqlite::{Transaction, params};
 
-use super::{Store, StoreError, StoredReason, blob, first_key, walk_id};
+use super::{Store, StoreError, StoredReason, blob, event::insert_event, first_key, walk_id};
 
 /// How a walk goes on.
 #[derive(Debug, Clone, Copy)]
@@ -44,7 +44,7 @@ impl Store {
         for (row, key) in rows.iter().zip(first_key(walk) + stored..) {
             insert_solution(&transaction, key, &row.solution, row.events)?;
             if let Some(located) = &row.located {
-                insert_event(&transaction, key, located)?;
+                insert_event(&transaction, ("event", &[key]), located)?;
             }
         }
         let (reason, memory) = match continuation {
@@ -119,25 +119,6 @@ pub(super) fn insert_solution(
         blob::pack(solution.floquet_multipliers.iter().flatten()),
         blob::pack(solution.nodes.iter().flatten()),
         solution.phase,
-    ])?;
-    Ok(())
-}
-
-pub(super) fn insert_event(
-    transaction: &Transaction<'_>,
-    key: i64,
-    event: &LocatedEvent,
-) -> Result<(), StoreError> {
-    let insert = "INSERT INTO event VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)";
-    transaction.prepare_cached(insert)?.execute(params![
-        key,
-        event.status == EventStatus::Located,
-        event.uncertainty_hz,
-        event.multiplier.map(|[re, _]| re),
-        event.multiplier.map(|[_, im]| im),
-        blob::pack(&event.direction),
-        event.contact.map(|change| change.contact as i64),
-        event.contact.map(|change| change.appears),
     ])?;
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! Branches in a parameter at a fixed frequency.
 
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, ContinuationParameter, Matcher, OrbitSettings, PeriodicSolution, Side, StopReason,
-    find_orbits,
+    BranchRow, BranchWalk, ContinuationParameter, LocatedEvent, Matcher, OrbitSettings, PeriodicSolution,
+    Side, StopReason, find_orbits,
 };
 
 use super::{
@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     Model, Study,
-    file::Vary,
+    file::{VariedParameter, Vary},
     model::StudyParameter,
     orbit_solver::settings,
     store::{VariedBranch, VariedRow, crawls, splits},
@@ -94,9 +94,9 @@ fn both_sides(
         if side == Side::Down {
             walked.reverse();
         }
-        rows.extend(walked.into_iter().map(|row| varied(row, parameter)));
+        rows.extend(walked.into_iter().map(|row| varied(row, parameter, vary.parameter.range)));
         let closed = end == StopReason::Closed;
-        ends.push(in_words(&end, &vary.parameter.name, parameter));
+        ends.push(in_words(&end, &vary.parameter, parameter));
         if closed {
             // One walk is all of it.
             ends.push(ends[0].clone());
@@ -107,9 +107,19 @@ fn both_sides(
     Ok(VariedBranch { period_multiple: start.period_multiple, kind: "branch".to_owned(), up, down, rows })
 }
 
-fn varied(row: BranchRow, parameter: &StudyParameter) -> VariedRow {
-    let value = row.parameter.map_or(f64::NAN, |value| parameter.in_study(value));
-    VariedRow { parameter: value, event: row.events.label(), solution: row.solution }
+fn varied(row: BranchRow, parameter: &StudyParameter, range: [f64; 2]) -> VariedRow {
+    let value = row.parameter.map_or(f64::NAN, |value| parameter.in_range(value, range));
+    let located = row.located.map(|event| in_unit(event, value, parameter));
+    VariedRow { parameter: value, event: row.events.label(), solution: row.solution, located }
+}
+
+/// The event with its uncertainty, and the last entry of its direction, in the unit of the parameter's name.
+fn in_unit(mut event: LocatedEvent, value: f64, parameter: &StudyParameter) -> LocatedEvent {
+    event.uncertainty = parameter.change_in_study(event.uncertainty).abs().max(f64::EPSILON * value.abs());
+    if let Some(last) = event.direction.last_mut() {
+        *last = parameter.change_in_study(*last);
+    }
+    event
 }
 
 /// Phases and states near the orbits in which a branch passes the value of the study.
@@ -134,8 +144,9 @@ fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<
     found
 }
 
-fn in_words(reason: &StopReason, name: &str, parameter: &StudyParameter) -> String {
-    let at = |value: f64| format!("{name} = {}", parameter.in_study(value));
+fn in_words(reason: &StopReason, varied: &VariedParameter, parameter: &StudyParameter) -> String {
+    let (name, range) = (&varied.name, varied.range);
+    let at = |value: f64| format!("{name} = {}", parameter.in_range(value, range));
     match reason {
         StopReason::RangeEnd { frequency_hz } => format!("end of the range at {}", at(*frequency_hz)),
         StopReason::Closed => "the branch came back to its start".to_owned(),

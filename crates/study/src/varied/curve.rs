@@ -1,7 +1,8 @@
 //! Curves of bifurcations, from the events of stored branches.
 
 use hammerbeam_orbit::{
-    CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, Events, LocatedEvent, PeriodicSolution, Side,
+    CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, Events, LocatedEvent, OrbitError, PathError,
+    PeriodicSolution, Side,
 };
 
 use super::{
@@ -80,7 +81,8 @@ fn both_sides(
     for side in [Side::Down, Side::Up] {
         let of_side = (kind, side);
         let mut walk =
-            CurveWalk::new(&model.system, &model.response, start, of_side, curve_settings, &orbits)?;
+            CurveWalk::new(&model.system, &model.response, start, of_side, curve_settings, &orbits)
+                .map_err(|error| failed(error, curve, parameter))?;
         let mut walked = if side == Side::Up { vec![walk.start_row()?] } else { Vec::new() };
         let end = loop {
             if watch.interrupted() {
@@ -98,8 +100,8 @@ fn both_sides(
         if side == Side::Down {
             walked.reverse();
         }
-        rows.extend(walked.into_iter().map(|row| varied(row, parameter)));
-        ends.push(in_words(&end));
+        rows.extend(walked.into_iter().map(|row| varied(row, parameter, curve.parameter.range)));
+        ends.push(in_words(&end, curve, parameter));
         if end == CurveEnd::Closed {
             ends.push(ends[0].clone());
             break;
@@ -110,9 +112,14 @@ fn both_sides(
     Ok(VariedBranch { period_multiple: curve.period_multiple, kind, up, down, rows })
 }
 
-fn varied(row: CurveRow, parameter: &StudyParameter) -> VariedRow {
+fn varied(row: CurveRow, parameter: &StudyParameter, range: [f64; 2]) -> VariedRow {
     let event = row.events.label();
-    VariedRow { parameter: parameter.in_study(row.parameter), solution: row.solution, event }
+    VariedRow {
+        parameter: parameter.in_range(row.parameter, range),
+        solution: row.solution,
+        event,
+        located: None,
+    }
 }
 
 /// The solution at the event of that kind nearest to the frequency, over all branches of that period.
@@ -141,14 +148,31 @@ fn nearest_event(
     store.event(key)?.map(|event| Ok((store.solution_of_key(key)?, event))).transpose()
 }
 
-fn in_words(end: &CurveEnd) -> String {
+/// Why no curve begins, in the unit of its parameter.
+fn failed(error: OrbitError, curve: &Curve, parameter: &StudyParameter) -> Failed {
+    match error {
+        OrbitError::Path(PathError::Start { parameter: value, cause }) => {
+            let start = named(value, curve, parameter);
+            Failed::Message(format!("the start at {start} was not corrected: {cause}"))
+        }
+        error => error.into(),
+    }
+}
+
+fn named(value: f64, curve: &Curve, parameter: &StudyParameter) -> String {
+    format!("{} = {}", curve.parameter.name, parameter.in_range(value, curve.parameter.range))
+}
+
+fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String {
     match end {
         CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
         CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
         CurveEnd::Closed => "the curve came back to its start".to_owned(),
         CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
         CurveEnd::Budget => "the budget of solutions is used up".to_owned(),
-        CurveEnd::Stopped { message } => message.clone(),
+        CurveEnd::Stopped { parameter: value, message } => {
+            format!("no acceptable solution beyond {}: {message}", named(*value, curve, parameter))
+        }
         other => format!("{other:?}"),
     }
 }
