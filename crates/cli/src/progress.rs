@@ -30,7 +30,7 @@ impl Terminal {
     /// A bar on standard error.
     pub fn new(interrupt: Interrupt) -> Self {
         let bar = ProgressBar::new(LENGTH);
-        let style = ProgressStyle::with_template("[{bar:24}] {percent:>3} %  {wide_msg}");
+        let style = ProgressStyle::with_template("[{bar:8}] {percent:>3} %  {wide_msg}");
         bar.set_style(style.expect("the template is constant").progress_chars("=> "));
         Self { bar, interrupt, changed: Instant::now(), first: None, after_diagram: false }
     }
@@ -50,19 +50,19 @@ impl Terminal {
             return ("? left".to_owned(), rate);
         }
         let left = elapsed.mul_f64(((1.0 - fraction) / gained).min(1e6));
-        (format!("{} left", HumanDuration(left)), rate)
+        (format!("{:#} left", HumanDuration(left)), rate)
     }
 
-    /// Solutions so far, their rate, where, and how long it still takes.
+    /// How long it still takes, branches, solutions so far and their rate, all within 80 columns, and where.
     fn message(&mut self, progress: &Progress) -> String {
         let (left, rate) = self.pace(progress.fraction, progress.new_solutions);
         format!(
-            "{left}  {:.2} Hz  {} solutions, {}/s  {} branches done, {} walks open",
-            progress.frequency_hz,
-            HumanCount(progress.solutions),
-            HumanCount(rate as u64),
+            "{left}  {} branches done, {} open  {} solutions, {}/s  {:.2} Hz",
             progress.branches_done,
             progress.walks_open,
+            HumanCount(progress.solutions),
+            HumanCount(rate as u64),
+            progress.frequency_hz,
         )
     }
 

@@ -90,3 +90,43 @@ fn every_event_of_a_solution_stands_in_the_table_of_events_with_what_is_known_of
         assert!(nearest < 1e-8 * frequency, "no flip of period 1 at {frequency} Hz: {nearest} Hz off");
     }
 }
+
+/// The motion from the state at an end of a branch comes back to it after its periods.
+#[test]
+fn the_states_at_ends_of_branches_repeat() {
+    let workshop = Workshop::with(BILINEAR);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    workshop.csv("results");
+    let text = fs::read_to_string(workshop.path("exported/ends.csv")).unwrap();
+    let mut repeated = 0;
+    for line in text.lines().skip(1) {
+        // The message may have commas, what stands before and behind it has none.
+        let (fields, (rest, state)) = (line.split(',').collect::<Vec<_>>(), line.rsplit_once(',').unwrap());
+        let (multiple, frequency, phase) = (fields[1], fields[4], rest.rsplit_once(',').unwrap().1);
+        assert!(["range-end", "closed", "shorter-period", "crossing"].contains(&fields[3]), "{line}");
+        assert_eq!(phase, "0.0");
+        let initial = format!("--initial={}", state.replace(' ', ","));
+        let periods = format!("--transient-periods={multiple}");
+        let at = format!("--frequency={frequency}");
+        let run = workshop.hammerbeam(&[
+            "simulate",
+            "study.toml",
+            &at,
+            &initial,
+            &periods,
+            "--periods=1",
+            "--out=motion",
+        ]);
+        assert_success(&run);
+        let sections = fs::read_to_string(workshop.path("motion/stroboscopic.csv")).unwrap();
+        let section: Vec<f64> =
+            sections.lines().nth(1).unwrap().split(',').map(|entry| entry.parse().unwrap()).collect();
+        let expected: Vec<f64> = state.split(' ').map(|entry| entry.parse().unwrap()).collect();
+        let size = expected.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
+        let came_back = &section[section.len() - expected.len()..];
+        let off = came_back.iter().zip(&expected).fold(0.0_f64, |off, (a, b)| off.max((a - b).abs()));
+        assert!(off < 1e-6 * size, "{line}: off by {off}");
+        repeated += 1;
+    }
+    assert!(repeated >= 4, "{text}");
+}

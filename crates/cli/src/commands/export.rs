@@ -17,17 +17,20 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
     };
     let path = exported.path.display().to_string();
     let events_path = exported.events_path.display().to_string();
+    let ends_path = exported.ends_path.display().to_string();
     let varied: Vec<String> = exported
         .varied_paths
         .iter()
         .chain(&exported.motion_paths)
         .map(|path| path.display().to_string())
         .collect();
-    let mut files = vec![path.clone(), events_path.clone()];
+    let mut files = vec![path.clone(), events_path.clone(), ends_path.clone()];
     files.extend(varied.iter().cloned());
     output.give(&json!({ "files": files, "rows": exported.rows }), || {
-        let first =
-            format!("{path}: {} solutions\n{events_path}: what happens at which of them", exported.rows);
+        let first = format!(
+            "{path}: {} solutions\n{events_path}: what happens at which of them\n{ends_path}: how branches ended, and the states there",
+            exported.rows
+        );
         std::iter::once(first).chain(varied).collect::<Vec<_>>().join("\n")
     });
     Ok(())

@@ -1,5 +1,6 @@
 //! Stored results as CSV for other programs: branches and events here, the rest in files of their own.
 
+mod ends;
 mod events;
 mod motions;
 mod table;
@@ -11,10 +12,12 @@ use std::{
     path::{Path, PathBuf},
 };
 
+pub use ends::END_COLUMNS;
 pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
 pub use table::{Table, header, number, word};
 
+use ends::write_ends;
 use events::write_events;
 use motions::export_motions;
 use table::WholeFile;
@@ -63,13 +66,15 @@ pub struct Exported {
     pub rows: u64,
     /// The events.
     pub events_path: PathBuf,
+    /// How branches ended.
+    pub ends_path: PathBuf,
     /// `parameter_branches.csv`, `parameter_events.csv` and `curves.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
     /// Tables of sweeps, exponents and basins, with the numbers of their requests.
     pub motion_paths: Vec<PathBuf>,
 }
 
-/// Writes `branches.csv`, one row per solution, end to end along each branch, and `events.csv`, one row per event, into a folder.
+/// Writes `branches.csv`, one row per solution, end to end along each branch, `events.csv`, one row per event, and `ends.csv`, one row per end of a branch, into a folder.
 ///
 /// Numbers are the shortest that read back to the same double. The files appear complete or not at all.
 ///
@@ -81,10 +86,12 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     let rows = write_whole(&path, |writer| write_csv(store, writer, &path))?;
     let events_path = folder.join("events.csv");
     write_whole(&events_path, |writer| write_events(store, writer, &events_path))?;
+    let ends_path = folder.join("ends.csv");
+    write_whole(&ends_path, |writer| write_ends(store, writer, &ends_path))?;
     let varied_paths = export_varied(store, folder)?;
     let motion_paths = export_motions(store, folder)?;
     drop(snapshot);
-    Ok(Exported { path, rows, events_path, varied_paths, motion_paths })
+    Ok(Exported { path, rows, events_path, ends_path, varied_paths, motion_paths })
 }
 
 /// Writes a file that appears complete or not at all.

@@ -88,6 +88,15 @@ pub(super) fn optional(value: Option<impl ToString>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
+/// A text in which a comma, a quotation mark or an end of line would change the columns, in quotation marks.
+pub(super) fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
 /// A header from plain words.
 #[must_use]
 pub fn header(words: &[&str]) -> Vec<String> {

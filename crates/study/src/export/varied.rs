@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{ExportError, events::write_parameter_events, write_whole};
+use super::{ExportError, events::write_parameter_events, table::quoted, write_whole};
 use crate::store::{PieceBranchRecord, PieceRecord, Store};
 
 /// Columns of `parameter_branches.csv`.
@@ -96,11 +96,6 @@ fn write_rows(
 /// Piece, branch, period multiple and name of the parameter; what a curve is of in front.
 pub(super) fn start_of_row(piece: &PieceRecord, branch: &PieceBranchRecord) -> String {
     let front = if piece.is_curve { format!("{},", branch.kind) } else { String::new() };
-    // A name with a comma or a quotation mark would change the columns.
-    let name = if piece.parameter.contains([',', '"']) {
-        format!("\"{}\"", piece.parameter.replace('"', "\"\""))
-    } else {
-        piece.parameter.clone()
-    };
+    let name = quoted(&piece.parameter);
     format!("{front}{},{},{},{name}", piece.id, branch.branch, branch.period_multiple)
 }
