@@ -15,7 +15,7 @@ use crate::shooting::ShootingProblem;
 
 /// Relative frequency to which an event counts as located.
 const SHARP_FREQUENCY: f64 = 1e-8;
-/// Distance of the critical multiplier from its place that a located flip or Neimark-Sacker point may have.
+/// Distance of the critical multiplier from its place that a located fold, flip or Neimark-Sacker point may have.
 const SHARP_MULTIPLIER: f64 = 1e-5;
 /// An orbit this close to its mirror image, relative to the orbit, is that: along the direction in which a branch crosses, an orbit is known to the root of the tolerance only.
 const MIRRORED: f64 = 1e-3;
@@ -74,21 +74,7 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     if !events.any() {
         return None;
     }
-    let multipliers = problem.multipliers().map(<[_]>::to_vec).unwrap_or_default();
-    let nearest = |distance: &dyn Fn(&[f64; 2]) -> f64| {
-        multipliers.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
-    };
-    let (multiplier, off) = if events.zeros & 1 != 0 {
-        let place = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im);
-        (nearest(&place), nearest(&place).map_or(f64::INFINITY, |m| place(&m)))
-    } else if events.zeros & 2 != 0 {
-        let place = |[re, im]: &[f64; 2]| if *im > 0.0 { (1.0 - re.hypot(*im)).abs() } else { f64::INFINITY };
-        (nearest(&place), nearest(&place).map_or(f64::INFINITY, |m| place(&m)))
-    } else if events.fold || events.branch_point {
-        (nearest(&|[re, im]| (1.0 - re).hypot(*im)), 0.0)
-    } else {
-        (None, 0.0)
-    };
+    let (multiplier, off) = critical(events, problem.multipliers().unwrap_or_default());
     let size = problem.parameter_size(&place.point.point);
     let uncertainty = uncertainty(place, size, off > SHARP_MULTIPLIER);
     let sharp = uncertainty <= SHARP_FREQUENCY * size && off <= SHARP_MULTIPLIER;
@@ -105,6 +91,24 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
         contact: contact_change(place.touches_before, problem.touches()),
         breaks_symmetry: events.branch_point && is_symmetric(problem, place.point),
     })
+}
+
+/// The multiplier that makes an event, and its distance from its place; none at mere grazing.
+fn critical(events: hammerbeam_path::Events, multipliers: &[[f64; 2]]) -> (Option<[f64; 2]>, f64) {
+    let distance: fn(&[f64; 2]) -> f64 = if events.zeros & 1 != 0 {
+        |[re, im]| (1.0 + re).hypot(*im)
+    } else if events.zeros & 2 != 0 {
+        |[re, im]| if *im > 0.0 { (1.0 - re.hypot(*im)).abs() } else { f64::INFINITY }
+    } else if events.fold || events.branch_point {
+        |[re, im]| (1.0 - re).hypot(*im)
+    } else {
+        return (None, 0.0);
+    };
+    let nearest = multipliers.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    // A branch point is known to the root of the tolerance, and its multiplier no better.
+    let off =
+        if events.zeros == 0 && events.branch_point { 0.0 } else { nearest.map_or(f64::INFINITY, distance) };
+    (nearest.copied(), off)
 }
 
 /// Interval of the frequency, of this size, within which the event lies.

@@ -6,11 +6,13 @@
 //!
 //! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
 
-use hammerbeam_motion::{Parameter, Stretch, exact::MotionError};
+use hammerbeam_motion::{
+    Parameter, Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
 
 use super::shooting::Shooting;
 use crate::{OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, solve};
-use hammerbeam_motion::exact::ExactIntegrator;
 
 /// Longest time for which the element is left out [cycles].
 const WIDEST: f64 = 1.0 / 32.0;

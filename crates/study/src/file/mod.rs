@@ -14,6 +14,7 @@ mod load;
 mod lumped;
 mod names;
 mod parameter;
+mod read_stop_law;
 mod reduction;
 mod response;
 mod rig;

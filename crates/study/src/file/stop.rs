@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Reading, Table};
 
-use super::{Excitation, StopLaw, names::Names, stop_law};
+use super::{Excitation, StopLaw, names::Names, read_stop_law};
 
 /// A local non-linear element.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -83,8 +83,8 @@ fn read_name(table: &Table<'_>, index: usize, others: &[Stop]) -> Option<String>
 fn read_stop(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<(Place, StopLaw)> {
     let place = read_place(&table, names, excitation);
     // Which keys a stop may have, its law says.
-    let kind = stop_law::read_kind(&table)?;
-    let law = stop_law::read(&table, kind);
+    let kind = read_stop_law::read_kind(&table)?;
+    let law = read_stop_law::read(&table, kind);
     table.finish();
     Some((place?, law?))
 }
