@@ -123,7 +123,7 @@ fn uncertainty(place: &Place<'_>, size: f64, jumps: bool) -> f64 {
 
 /// Whether an orbit of an odd number of periods is its own mirror image: after half of them the excitation has changed its sign, and the state has.
 fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> bool {
-    if problem.period_multiple() % 2 == 0 {
+    if problem.period_multiple().is_multiple_of(2) {
         return false;
     }
     let (frequency_hz, start) = (problem.frequency(&point.point), problem.phase());
