@@ -104,7 +104,9 @@ impl From<ObservationError> for Failure {
     fn from(error: ObservationError) -> Self {
         match error {
             ObservationError::Store(error) => error.into(),
+            ObservationError::Signal(error) => error.into(),
             ObservationError::FilteredAway { .. } => Self::BadInput(error.to_string()),
+            ObservationError::NoneSampled { .. } => Self::NoResult(error.to_string()),
             other => Self::Other(other.into()),
         }
     }

@@ -160,6 +160,42 @@ fn factor_at_an_end_of_what_is_tried_is_told_in_words_and_in_the_document() {
     );
 }
 
+/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are told in words, in the document and in the figure.
+#[test]
+fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
+    let workshop = measured();
+    let table = |name: &str, frequencies: &[f64], factor: f64| {
+        let mut table = "frequency [Hz],tip [m],kind,period\n".to_owned();
+        for f in frequencies {
+            writeln!(table, "{f},{},periodic,1", factor * answer(*f)).unwrap();
+        }
+        fs::write(workshop.path(name), table).unwrap();
+    };
+    let given = |name: &'static str| [name, "--frequency-factor", "1", "--amplitude-factor", "1"];
+    table("ends.csv", &[0.3, 0.5, 0.8], 1.0);
+    let one = &document(&workshop, &given("ends.csv"))["comparisons"][0];
+    assert_eq!((&one["explained"], &one["beyond_the_range"]), (&3.into(), &0.into()), "{one}");
+    table("beyond.csv", &[0.3, 0.5, 0.8, 0.81, 0.9], 1.0);
+    let one = &document(&workshop, &given("beyond.csv"))["comparisons"][0];
+    assert_eq!(
+        (&one["explained"], &one["no_branch"], &one["beyond_the_range"]),
+        (&3.into(), &2.into(), &2.into())
+    );
+    let text = stdout(&workshop.hammerbeam(&[&["compare", "results"], &given("beyond.csv")[..]].concat()));
+    assert!(
+        text.contains("note: 2 point(s) are shifted beyond the range of the study, 0.3 to 0.8 Hz"),
+        "{text}"
+    );
+    let figure = fs::read_to_string(workshop.path("results/compare/compare_displacement.svg")).unwrap();
+    assert!(figure.contains("measured, periodic (2 beyond the axes)"), "{figure}");
+    // Metres that are millimetres: each point meets the branch, none is near.
+    table("units.csv", &[0.4, 0.45, 0.5, 0.55], 1e3);
+    let far = workshop.hammerbeam(&["compare", "results", "units.csv", "--frequency-factor", "1"]);
+    assert_eq!(far.status.code(), Some(1));
+    let told = "1 number(s) are to be fitted to displacement, but of 4 periodic point(s), at the best shift and factor that were tried, 4 meet a stable branch of their period and only 0 of them lie within a factor of 2.25 of it";
+    assert!(stderr(&far).contains(told), "{}", stderr(&far));
+}
+
 /// Two masses on their own springs that never meet: displacement over displacement of the support, in closed form.
 #[test]
 fn points_of_another_point_are_held_against_orbits_that_are_gone_over_again() {
@@ -277,7 +313,7 @@ low_pass_hz = 4.0
 other_low_pass_hz = [8.0]
 noise_m_s2 = 1e-4
 noise_m = 1e-5
-signals = [[0.46, 1]]
+signals = [[0.46, 1], [0.46, 2]]
 [rig.changes.excitation]
 amplitude_n = [[0.3, 0.1], [0.5, 0.09], [0.8, 0.08]]
 "#;
@@ -306,6 +342,18 @@ fn a_virtual_rig_goes_through_the_whole_comparison() {
     let signal = &found["signals"][0];
     assert_eq!(signal["measured_as"], "periodic, 1");
     assert!(number(&signal["computed"]["correlation"]) > 0.99, "{signal}");
+    // What `overlay` tells is told here, too: a harmonic is the same at every frequency, and there is no branch of period 2.
+    let report = fs::read_to_string(workshop.path("one/report.md")).unwrap();
+    for (index, file, part) in [
+        (0, "figure_07.csv", "are as alike as the scatter"),
+        (1, "figure_08.csv", "no stable orbit of this period"),
+    ] {
+        let notes = found["signals"][index]["notes"].as_array().unwrap();
+        let note = notes.iter().filter_map(Value::as_str).find(|note| note.contains(part));
+        let note = note.unwrap_or_else(|| panic!("{notes:?}"));
+        assert!(report.contains(&format!("\nNote, {file}: {note}.\n")), "{report}");
+    }
+    assert_eq!(found["signals"][1]["computed"], Value::Null);
     // A harmonic of 0.5 Hz loses next to nothing at 4 Hz: 1 + (f/f_c)^8/2.
     assert!((number(&found["filters"][0]["acceleration_all"]["median"]) - 1.0).abs() < 1e-4);
     let mode = &found["eigenfrequencies"][0];

@@ -104,6 +104,33 @@ fn a_branch_whose_contact_passes_phase_0_is_followed_and_verified() {
     let document: Value = serde_json::from_str(&stdout(&verify)).unwrap();
     assert_eq!(document["agree"], true, "{document}");
     assert!(document["sampled"].as_u64().unwrap() > 100, "{document}");
+    held_behind_a_filter(&workshop);
+}
+
+/// Orbits that are in contact at phase 0 cannot be gone over from there: behind a filter they are gaps, and the others are compared. A filter of forty times the frequency leaves a displacement as it is, within 1 %.
+fn held_behind_a_filter(workshop: &Workshop) {
+    let mut table = "frequency [Hz],tip [m],kind,period\n".to_owned();
+    for row in workshop.csv("results").lines().skip(1).filter(|row| row.contains(",true,")).step_by(10) {
+        let fields: Vec<&str> = row.split(',').collect();
+        table.push_str(&format!("{},{},periodic,1\n", fields[2], fields[3]));
+    }
+    std::fs::write(workshop.path("points.csv"), table).unwrap();
+    let given = ["--frequency-factor", "1", "--amplitude-factor", "1", "--reach", "1.01", "--json"];
+    let of = |arguments: &[&str]| {
+        let compared =
+            workshop.hammerbeam(&[&["compare", "results", "points.csv"], arguments, &given].concat());
+        assert_success(&compared);
+        serde_json::from_str::<Value>(&stdout(&compared)).unwrap()["comparisons"][0].clone()
+    };
+    let (stored, filtered) = (of(&[]), of(&["--low-pass", "240"]));
+    let number = |of: &Value, name: &str| of[name].as_u64().unwrap();
+    assert_eq!((number(&stored, "gaps"), number(&stored, "no_branch")), (0, 0));
+    assert!(number(&filtered, "gaps") > 0, "{filtered}");
+    // A point in a gap meets nothing, or the stretch above or below it, which has another size.
+    let [explained, none, too_far] =
+        ["explained", "no_branch", "too_far"].map(|name| number(&filtered, name));
+    assert!(explained > 10 && none > 0, "{filtered}");
+    assert_eq!(explained + none + too_far, number(&stored, "explained"), "{filtered}");
 }
 
 /// A weight that presses the mass through its gap, and a force that throws it off at every turn if it is strong enough.

@@ -61,11 +61,19 @@ fn the_virtual_rig_goes_through_section_4_of_the_paper() {
 /// The rig is built for 17.2, 128.9 and 378.9 Hz and a damping of 0.003; its table falls 23 % behind at 70 Hz. The decay shows it, within its intervals of 95 % (widened by a half: three of them at once).
 fn eigenfrequencies_and_table(workshop: &Workshop, found: &Value) {
     let modes = found["eigenfrequencies"].as_array().unwrap();
-    for (mode, hz) in modes.iter().zip([17.2, 128.9, 378.9]) {
-        let half = 1.5 * number(&mode["measured_half_width_hz"]) + 1e-3;
-        assert!((number(&mode["measured_hz"]) - hz).abs() < half, "{mode}");
+    // Up to 0.6 of 850 Hz; a mode that fades too fast is told as not measured.
+    assert_eq!(modes.len(), 3, "{modes:?}");
+    let mut shown = 0;
+    for (index, (mode, hz)) in modes.iter().zip([17.2, 128.9, 378.9]).enumerate() {
+        assert_eq!(mode["mode"], index + 1);
+        assert!((number(&mode["rig_hz"]) / hz - 1.0).abs() < 1e-3, "{mode}");
+        if !mode["measured_hz"].is_null() {
+            let half = 1.5 * number(&mode["measured_half_width_hz"]) + 1e-3;
+            assert!((number(&mode["measured_hz"]) - hz).abs() < half, "{mode}");
+            shown += 1;
+        }
     }
-    assert!(modes.len() >= 2, "{modes:?}");
+    assert!(shown >= 2, "{modes:?}");
     assert!((number(&modes[0]["measured_damping_ratio"]) - 0.003).abs() < 1e-4, "{}", modes[0]);
     let (hz, ratio) = (
         column(workshop, "figure_02.csv", "frequency_hz"),

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 
 use hammerbeam_figure::{
-    Figure, FigureError, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
-    ScaleChoice, Style,
+    Figure, FigureError, MeasuredMark, MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram,
+    ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
 
 fn point(frequency_hz: f64, displacement_mm: f64) -> ResponsePoint {
@@ -81,6 +81,35 @@ fn the_legend_explains_what_is_drawn_and_nothing_else() {
     let svg = displacement(&diagram(&[(1, &[point(20.0, 1.0)]), (3, &[point(30.0, 1.0)])])).svg();
     assert!(svg.contains(">harmonic</text>") && svg.contains(">1/3 subharmonic</text>"));
     assert!(!svg.contains(">unstable</text>") && !svg.contains(">1/2 subharmonic</text>"));
+}
+
+#[test]
+fn measured_points_beyond_the_axes_are_counted() {
+    let mark = |frequency_hz: f64, motion: MeasuredMotion| MeasuredMark {
+        frequency_hz,
+        displacement_m: Some(1e-3),
+        acceleration_m_s2: None,
+        motion,
+    };
+    let periodic = [20.0, 30.0, 60.0, 61.0, 19.0].map(|f| mark(f, MeasuredMotion::Periodic));
+    let aperiodic = [mark(70.0, MeasuredMotion::Aperiodic)];
+    let mut over = diagram(&[(1, &folded_branch())]);
+    over.frequency_range_hz = Some((20.0, 60.0));
+    over.measured = [&periodic[..3], &[mark(40.0, MeasuredMotion::Unknown)]].concat();
+    let all = displacement(&over).svg().to_owned();
+    assert!(all.contains(">measured, periodic<") && !all.contains("beyond"));
+    over.measured.extend(periodic[3..].iter().chain(&aperiodic));
+    let figure = displacement(&over);
+    for told in
+        ["periodic (2 beyond the axes)<", "aperiodic (1 beyond the axes)<", ">measured, kind unknown<"]
+    {
+        assert!(figure.svg().contains(told), "{told}");
+    }
+    let words = "measured, periodic: 3 of maximum displacement, 2 more beyond the axes; measured, aperiodic: 0 of maximum displacement, 1 more";
+    assert!(figure.svg().contains(words), "{}", figure.svg());
+    // What was not measured is not beyond anything.
+    let acceleration = over.draw(Quantity::Acceleration).unwrap();
+    assert!(!acceleration.svg().contains("beyond"));
 }
 
 #[test]

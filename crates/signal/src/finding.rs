@@ -1,5 +1,7 @@
 //! What is suspicious in a record, and what was repaired on the user's word.
 
+use crate::judge::difference;
+
 /// Something to know about a record that does not make it unusable.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -56,7 +58,7 @@ pub enum Finding {
     #[error("channel \"{channel}\": {count} missing samples were interpolated, the first is sample {first}")]
     MissingInterpolated { channel: String, count: usize, first: usize },
     /// Repaired: gaps in time were filled.
-    #[error("{count} gaps were filled by interpolation, the longest is {longest_s} s")]
+    #[error("{count} gaps were filled by interpolation, the longest is {} s", difference(*longest_s))]
     GapsFilled { count: usize, longest_s: f64 },
     /// Repaired: samples with the time of another were dropped.
     #[error("{count} samples with a time that had been there were dropped")]

@@ -292,7 +292,28 @@ fn what_cannot_be_compared_is_refused() {
     let none = compare(&points, &curves(), Quantity::Force, &FitSettings::default());
     assert_eq!(none, Err(ComparisonError::NothingMeasured { quantity: "force" }));
     let few = compare(&points[..2], &curves(), Quantity::Acceleration, &FitSettings::default());
-    assert!(matches!(few, Err(ComparisonError::TooFewPoints { fitted: 2, .. })), "{few:?}");
+    assert!(
+        matches!(few, Err(ComparisonError::TooFewPoints { fitted: 2, measured: 2, met: 2, near: 2, .. })),
+        "{few:?}"
+    );
+    // Every point meets its branch, but the factor of 1000 is not among those that are tried: millimetres that were read as metres.
+    let far: Vec<_> = measured(1.0, 1e-3, 0.0, 1);
+    let given = FitSettings { frequency: Fixed::Given(1.0), ..FitSettings::default() };
+    let found = compare(&far, &curves(), Quantity::Acceleration, &given).unwrap_err();
+    let all = far.len();
+    assert!(
+        matches!(found, ComparisonError::TooFewPoints { quantity: "acceleration", measured, met, near: 0, .. } if (measured, met) == (all, all)),
+        "{found}"
+    );
+    let message = found.to_string();
+    let parts = [
+        "to acceleration",
+        &format!("of {all} periodic"),
+        &format!("{all} meet"),
+        "only 0",
+        "a factor of 2.25",
+    ];
+    assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     for settings in [
         FitSettings { reach: 1.0, ..FitSettings::default() },
         FitSettings { amplitude: Fixed::Given(0.0), ..FitSettings::default() },

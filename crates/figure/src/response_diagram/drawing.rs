@@ -147,8 +147,12 @@ impl<'a> Page<'a> {
             description.push_str(&format!("; chaotic motion found at {}", ranges.join(", ")));
         }
         for panel in self.panels {
-            for (motion, count) in panel.measured() {
-                description.push_str(&format!("; {}: {count} of {}", motion.name(), panel.quantity.name()));
+            for of in panel.measured() {
+                let (name, count) = (of.motion.name(), of.places.len());
+                description.push_str(&format!("; {name}: {count} of {}", panel.quantity.name()));
+                if of.beyond > 0 {
+                    description.push_str(&format!(", {} more beyond the axes", of.beyond));
+                }
             }
         }
         for (panel, plot) in self.panels.iter().zip(&self.plots) {
@@ -199,13 +203,15 @@ fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
     let is_shaded = !diagram.chaotic_ranges_hz.is_empty();
     let shade =
         is_shaded.then(|| Entry { sample: Sample::Cell(SHADE), name: "chaotic motion found".to_owned() });
-    let is_measured = |motion: &MeasuredMotion| {
-        panels.iter().any(|panel| panel.measured().any(|(drawn, _)| drawn == *motion))
-    };
-    let measured = MeasuredMotion::ALL
-        .into_iter()
-        .filter(is_measured)
-        .map(|motion| Entry { sample: Sample::Dot(motion.dot(0.0)), name: motion.name().to_owned() });
+    let measured = MeasuredMotion::ALL.into_iter().filter_map(|motion| {
+        let there = panels.iter().flat_map(Panel::measured).filter(|of| of.motion == motion);
+        let beyond = there.map(|of| of.beyond).max()?;
+        let name = match beyond {
+            0 => motion.name().to_owned(),
+            beyond => format!("{} ({beyond} beyond the axes)", motion.name()),
+        };
+        Some(Entry { sample: Sample::Dot(motion.dot(0.0)), name })
+    });
     vec![colours.chain(lines).collect(), marks.chain(shade).collect(), measured.collect()]
 }
 

@@ -20,7 +20,14 @@ pub(super) struct Panel {
     pub(super) scale: Scale,
     lines: Vec<Line>,
     events: Vec<(Mark, Vec<(f64, f64)>)>,
-    measured: Vec<(MeasuredMotion, Vec<(f64, f64)>)>,
+    measured: Vec<Measured>,
+}
+
+/// The measured points of a kind: places of those that are drawn, and how many are not, since they lie beyond the axes.
+pub(super) struct Measured {
+    pub(super) motion: MeasuredMotion,
+    pub(super) places: Vec<(f64, f64)>,
+    pub(super) beyond: usize,
 }
 
 /// The stretches of a branch.
@@ -41,10 +48,10 @@ impl Panel {
         let lines: Vec<Line> =
             diagram.curves.iter().map(|curve| line(curve, quantity, kind, range_hz)).collect();
         let vertices = lines.iter().flat_map(|line| &line.stretches).flat_map(|stretch| &stretch.vertices);
-        let measured =
-            MeasuredMotion::ALL.map(|motion| (motion, measured(diagram, quantity, kind, range_hz, motion)));
-        let measured: Vec<_> = measured.into_iter().filter(|(_, places)| !places.is_empty()).collect();
-        let over = measured.iter().flat_map(|(_, places)| places).map(|&(_, value)| value);
+        let measured = MeasuredMotion::ALL.map(|motion| measured(diagram, quantity, kind, range_hz, motion));
+        let measured: Vec<_> =
+            measured.into_iter().filter(|of| of.beyond > 0 || !of.places.is_empty()).collect();
+        let over = measured.iter().flat_map(|of| &of.places).map(|&(_, value)| value);
         let values = vertices.map(|vertex| vertex.y).chain(over);
         let ends = extent(values).ok_or_else(|| empty(diagram, quantity))?;
         let events = Mark::ALL.map(|mark| (mark, events(diagram, quantity, kind, range_hz, mark)));
@@ -95,15 +102,15 @@ impl Panel {
         for (mark, places) in marks.iter().filter(|(mark, _)| !mark.is_behind()) {
             mark.draw(svg, places, style.mark_radius);
         }
-        for (motion, places) in &self.measured {
-            let places: Vec<Point> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
-            motion.dot(1.1 * style.mark_radius).draw(svg, &places);
+        for of in &self.measured {
+            let places: Vec<Point> = of.places.iter().map(|&(x, y)| plot.place(x, y)).collect();
+            of.motion.dot(1.1 * style.mark_radius).draw(svg, &places);
         }
     }
 
-    /// Kinds of measured points that are drawn, each with their number.
-    pub(super) fn measured(&self) -> impl Iterator<Item = (MeasuredMotion, usize)> {
-        self.measured.iter().map(|(motion, places)| (*motion, places.len()))
+    /// Measured points of each kind that there is.
+    pub(super) fn measured(&self) -> &[Measured] {
+        &self.measured
     }
 
     fn draw_lines(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style, stable: bool) {
@@ -189,17 +196,19 @@ fn events(
     diagram.curves.iter().flat_map(|curve| of_curve(&curve.points)).collect()
 }
 
-/// Places of the measured points of a kind.
+/// The measured points of a kind.
 fn measured(
     diagram: &ResponseDiagram,
     quantity: Quantity,
     kind: ScaleKind,
     (from, to): (f64, f64),
     motion: MeasuredMotion,
-) -> Vec<(f64, f64)> {
+) -> Measured {
     let marks = diagram.measured.iter().filter(|mark| mark.motion == motion);
-    let places = marks.map(|mark| (mark.frequency_hz, quantity.measured(mark)));
-    places.filter(|&(x, y)| (from..=to).contains(&x) && kind.shows(y)).collect()
+    let all = marks.map(|mark| (mark.frequency_hz, quantity.measured(mark))).filter(|(_, y)| !y.is_nan());
+    let (places, beyond): (Vec<_>, Vec<_>) =
+        all.partition(|&(x, y)| (from..=to).contains(&x) && kind.shows(y));
+    Measured { motion, places, beyond: beyond.len() }
 }
 
 /// Whether the point with this index has that mark. Flips and Neimark-Sacker points between unstable solutions change nothing that can be

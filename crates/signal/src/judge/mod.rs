@@ -57,12 +57,17 @@ pub enum RecordError {
     DuplicateTimes { count: usize, first: usize, time_s: f64 },
     /// Samples are left out.
     #[error(
-        "there are {count} gaps, the first after {time_s} s, the longest {longest_s} s at a step of {step_s} s"
+        "there are {count} gaps, the first after {time_s} s, the longest {} s at a step of {} s", difference(*longest_s), difference(*step_s)
     )]
     Gaps { count: usize, time_s: f64, longest_s: f64, step_s: f64 },
     /// The step changes.
-    #[error("sampling is uneven: times stray by up to {percent:.0} % of a step of {step_s} s")]
+    #[error("sampling is uneven: times stray by up to {percent:.0} % of a step of {} s", difference(*step_s))]
     Uneven { percent: f64, step_s: f64 },
+}
+
+/// A difference of times to six digits: the others are rounding of the times.
+pub(crate) fn difference(seconds: f64) -> f64 {
+    format!("{seconds:.5e}").parse().unwrap_or(seconds)
 }
 
 /// What the user says about a record beside what is in it.

@@ -95,6 +95,10 @@ fn gaps_are_refused_or_filled() {
     samples.drain(20..24);
     let refused = raw(times.clone(), samples.clone()).judge(&Terms::default()).unwrap_err();
     assert!(matches!(refused, RecordError::Gaps { count: 1, .. }), "{refused}");
+    let step_s = times[1] - times[0];
+    let told = format!("the longest {} s at a step of {} s", difference(5.0 * step_s), difference(step_s));
+    assert!(refused.to_string().contains(&told), "{refused}");
+    assert_eq!([0.7 - 0.679, 0.3 - 0.299, 1e-7 / 3.0].map(difference), [0.021, 0.001, 3.33333e-8]);
     let terms = allowing(Repairs { gaps: true, ..Repairs::default() });
     let record = raw(times, samples).judge(&terms).unwrap();
     assert_eq!(record.len(), 50);

@@ -18,9 +18,6 @@ pub enum CourseError {
     /// Its motion cannot be followed.
     #[error(transparent)]
     Attractor(#[from] AttractorError),
-    /// The filter refuses.
-    #[error(transparent)]
-    Signal(#[from] SignalError),
     /// A state is missing.
     #[error("the orbit has no state at phase 0")]
     NoState,
@@ -93,8 +90,8 @@ pub const LEFT: f64 = 1.0 / (1 << 24) as f64;
 /// Largest absolute value of a periodic series behind a filter, and the part of its motion that is left.
 ///
 /// # Errors
-/// [`CourseError::Signal`].
-pub fn largest_behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<(f64, f64), CourseError> {
+/// [`SignalError`].
+pub fn largest_behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<(f64, f64), SignalError> {
     let filtered = periodic_low_pass(series, duration_s, (filter.order, filter.cut_off_hz))?;
     Ok((largest(&filtered), size(&filtered) / size(series)))
 }

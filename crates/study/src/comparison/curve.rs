@@ -79,6 +79,12 @@ impl Curves {
         &self.branches
     }
 
+    /// Solutions that are no number: gaps in their branches.
+    #[must_use]
+    pub fn gaps(&self) -> usize {
+        self.branches.iter().flat_map(|branch| &branch.points).filter(|point| point.value.is_nan()).count()
+    }
+
     /// All places where a branch of this period (any if none is told) meets a frequency.
     #[must_use]
     pub fn at(&self, frequency_hz: f64, period_multiple: Option<u32>) -> Vec<Hit> {
@@ -86,7 +92,8 @@ impl Curves {
             if !positive(a.value) || !positive(b.value) {
                 return None;
             }
-            let share = (frequency_hz - a.frequency_hz) / (b.frequency_hz - a.frequency_hz);
+            let width_hz = b.frequency_hz - a.frequency_hz;
+            let share = if width_hz == 0.0 { 0.0 } else { (frequency_hz - a.frequency_hz) / width_hz };
             let nearer = if share < 0.5 { a } else { b };
             Some(Hit {
                 branch: branch.branch,
@@ -106,21 +113,18 @@ impl Curves {
             .any(|(_, a, b)| a.stable && b.stable && (a.value == 0.0 || b.value == 0.0))
     }
 
-    /// Segments of branches of a period that cross a frequency, with their ends.
+    /// Where branches of a period meet a frequency: the ends of the segment that crosses it, or the same node twice where it lies there exactly.
     fn segments(
         &self,
         frequency_hz: f64,
         period_multiple: Option<u32>,
     ) -> impl Iterator<Item = (&BranchCurve, CurvePoint, CurvePoint)> {
-        let high_hz = self.low_hz + PARTS as f64 * self.width_hz;
-        let inside = (self.low_hz..=high_hz).contains(&frequency_hz);
-        let segments = inside.then(|| &self.parts[part(self.low_hz, self.width_hz, frequency_hz)]);
-        segments.into_iter().flatten().filter_map(move |&(index, first)| {
+        let segments = &self.parts[part(self.low_hz, self.width_hz, frequency_hz)];
+        segments.iter().filter_map(move |&(index, first)| {
             let branch = &self.branches[index as usize];
             let wanted = period_multiple.is_none_or(|period| period == branch.period_multiple);
-            let [a, b] = [branch.points[first as usize], branch.points[first as usize + 1]];
-            let crosses = (a.frequency_hz <= frequency_hz) != (b.frequency_hz <= frequency_hz);
-            (wanted && crosses).then_some((branch, a, b))
+            let ends = meets(&branch.points[first as usize..], frequency_hz).filter(|_| wanted);
+            ends.map(|[a, b]| (branch, a, b))
         })
     }
 
@@ -141,6 +145,18 @@ impl Curves {
     }
 }
 
+/// How the first segment of a part of a branch meets a frequency. The node between two segments belongs to the second one, so that it is met once; the last node of a branch belongs to the last segment.
+fn meets(points: &[CurvePoint], frequency_hz: f64) -> Option<[CurvePoint; 2]> {
+    let [a, b] = [points[0], points[1]];
+    if a.frequency_hz == frequency_hz {
+        return Some([a, a]);
+    }
+    if b.frequency_hz == frequency_hz {
+        return (points.len() == 2).then_some([b, b]);
+    }
+    ((a.frequency_hz < frequency_hz) != (b.frequency_hz < frequency_hz)).then_some([a, b])
+}
+
 /// The hit whose value is nearest to one, by the ratio.
 pub(super) fn nearest(hits: impl Iterator<Item = Hit>, value: f64) -> Option<Hit> {
     let off = |hit: &Hit| (hit.value / value).ln().abs();
@@ -153,4 +169,57 @@ fn positive(value: f64) -> bool {
 
 fn part(low_hz: f64, width_hz: f64, frequency_hz: f64) -> usize {
     (((frequency_hz - low_hz) / width_hz) as usize).min(PARTS - 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A branch of these frequencies and values, whose rows are stable.
+    fn branch(points: &[(f64, f64)]) -> BranchCurve {
+        let point = |(k, &(frequency_hz, value)): (usize, &(f64, f64))| CurvePoint {
+            frequency_hz,
+            value,
+            stable: true,
+            row: k + 1,
+        };
+        BranchCurve { branch: 1, period_multiple: 1, points: points.iter().enumerate().map(point).collect() }
+    }
+
+    fn values(curves: &Curves, frequency_hz: f64) -> Vec<f64> {
+        curves.at(frequency_hz, None).iter().map(|hit| hit.value).collect()
+    }
+
+    /// Up to a fold at 14 Hz and back to one at 3 Hz, so that all nodes are at the ends of the range or shared.
+    #[test]
+    fn branch_is_met_at_both_ends_and_each_node_once() {
+        for (low, high) in [(3.0, 14.0), (19.0, 110.0), (0.1, 0.7), (20.3, 69.9)] {
+            let middle = 0.5 * (low + high);
+            let there = [(low, 1.0), (middle, 2.0), (high, 4.0), (middle, 8.0), (low, 16.0), (middle, 32.0)];
+            let curves = Curves::new(vec![branch(&there)]);
+            assert_eq!(values(&curves, low), [1.0, 16.0]);
+            assert_eq!(values(&curves, high), [4.0]);
+            assert_eq!(values(&curves, middle), [2.0, 8.0, 32.0]);
+            // Beside the nodes each segment is met once.
+            assert_eq!(curves.at(0.5 * (low + middle), None).len(), 3);
+            assert_eq!(curves.at(0.5 * (middle + high), None).len(), 2);
+            assert!(curves.at(low * (1.0 - 1e-15), None).is_empty());
+            assert!(curves.at(high * (1.0 + 1e-15), None).is_empty());
+        }
+    }
+
+    /// Beside a value that is none the node itself is there, and the segment is not.
+    #[test]
+    fn node_beside_a_gap_is_met() {
+        let curves = Curves::new(vec![branch(&[(1.0, 5.0), (2.0, f64::NAN), (3.0, 7.0)])]);
+        assert_eq!((values(&curves, 1.0), values(&curves, 3.0)), (vec![5.0], vec![7.0]));
+        assert!(values(&curves, 1.5).is_empty() && values(&curves, 2.0).is_empty());
+    }
+
+    #[test]
+    fn force_at_rest_is_told_at_both_ends() {
+        let curves = Curves::new(vec![branch(&[(1.0, 0.0), (2.0, 3.0), (3.0, 0.0)])]);
+        assert!([1.0, 1.5, 2.5, 3.0].iter().all(|f| curves.rests(*f, None)));
+        assert!(!curves.rests(2.0, None) && values(&curves, 2.0) == [3.0]);
+    }
 }

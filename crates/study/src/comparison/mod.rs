@@ -52,7 +52,7 @@ pub use curve::{BranchCurve, CurvePoint, Curves, Hit};
 pub use fit::{Estimate, Fit, FitSettings, Fixed, Origin, SecondMinimum};
 pub use judge::{Match, PointOutcome, Verdict};
 pub(crate) use observed::thinned;
-pub use observed::{Filter, Observation, ObservationError, curves, curves_of};
+pub use observed::{Filter, Observation, ObservationError, curves};
 pub use overlay::{Alike, Overlay, OverlayError, OverlaySettings, Sought, overlay};
 
 /// Why there is no comparison.
@@ -65,9 +65,16 @@ pub enum ComparisonError {
     NothingMeasured { quantity: &'static str },
     /// Too few points for what is to be fitted.
     #[error(
-        "{fitted} number(s) are to be fitted, but only {points} periodic point(s) meet a branch of their period; give --frequency-factor or --frequency-offset and --amplitude-factor, or measure more"
+        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the best shift and factor that were tried, {met} meet a stable branch of their period and only {near} of them lie within a factor of {ratio} of it; are frequency and unit right? Give --frequency-factor or --frequency-offset and --amplitude-factor, or measure more"
     )]
-    TooFewPoints { fitted: usize, points: usize },
+    TooFewPoints {
+        quantity: &'static str,
+        fitted: usize,
+        measured: usize,
+        met: usize,
+        near: usize,
+        ratio: f64,
+    },
     /// A number that makes no sense.
     #[error("{what} is {found}, must be {allowed}")]
     Input { what: &'static str, found: f64, allowed: &'static str },
@@ -149,7 +156,7 @@ pub fn compare(
         return Err(ComparisonError::NothingMeasured { quantity: quantity.word() });
     }
     let used: Vec<fit::Used> = measured.iter().filter_map(|point| fit::Used::of(point, quantity)).collect();
-    let fit = fit::fit(&used, curves, settings)?;
+    let fit = fit::fit(&used, curves, quantity, settings)?;
     let identity = Shift { frequency: FrequencyShift::Factor(1.0), amplitude_factor: 1.0 };
     let reach = settings.reach.ln();
     let outcomes = measured.iter().map(|point| judge::judge(point, curves, quantity, fit.shift(), reach));

@@ -3,11 +3,11 @@
 //! Largest displacements and accelerations of the response point, and contact forces, are stored with each solution, exact on the continuous motion. Velocities, other points, and everything behind a filter, are
 //! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no feature narrower than the branch itself.
 
-use hammerbeam_signal::Quantity;
+use hammerbeam_signal::{Quantity, SignalError};
 
 use super::{
     BranchCurve, CurvePoint, Curves,
-    course::{CourseError, LEFT, course, largest, largest_behind},
+    course::{Course, CourseError, LEFT, course, largest, largest_behind},
 };
 use crate::{Model, StoreError, StoredBranch, StoredBranches, crossings::PlacedRow};
 
@@ -42,9 +42,13 @@ pub enum ObservationError {
     /// The store refuses.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// An orbit cannot be gone over.
+    /// No orbit can be gone over.
+    #[error("none of the {count} orbit(s) can be gone over; the first: {first}")]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    NoneSampled { count: usize, first: CourseError },
+    /// The filter refuses.
     #[error(transparent)]
-    Course(#[from] CourseError),
+    Signal(#[from] SignalError),
     /// Nothing of the motion is left to compare.
     #[error(
         "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion over {duration_s:.6} s, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
@@ -75,19 +79,18 @@ pub fn curves(
     if observation.filter.is_none() && is_stored {
         return Ok(stored(branches, observation.quantity));
     }
-    let mut all = curves_of(branches, model, observation.spacing_hz, observation.samples, |course| {
+    gone_over(branches, model, observation, |course| {
         let series = match observation.quantity {
             Quantity::Displacement => &course.displacement,
             Quantity::Velocity => &course.velocity,
             Quantity::Acceleration => &course.acceleration,
             _ => return Err(ObservationError::FilteredForce),
         };
-        Ok(vec![match observation.filter {
-            Some(filter) => behind(series, course.duration_s, filter)?,
-            None => largest(series),
-        }])
-    })?;
-    Ok(all.swap_remove(0))
+        match observation.filter {
+            Some(filter) => behind(series, course.duration_s, filter),
+            None => Ok(largest(series)),
+        }
+    })
 }
 
 /// Largest value behind a filter that leaves something.
@@ -99,41 +102,37 @@ fn behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<f64, Observ
     Ok(largest)
 }
 
-/// Several curves at once of stored solutions that are some distance apart: `values` gives those of an orbit.
-///
-/// # Errors
-/// [`ObservationError`].
-pub fn curves_of(
+/// Curves of stored solutions that are some distance apart and gone over again: `value` gives that of an orbit. One whose motion cannot be gone over leaves a gap; it is an error only if none can.
+fn gone_over(
     branches: &StoredBranches,
     model: &Model,
-    spacing_hz: f64,
-    samples: usize,
-    mut values: impl FnMut(&super::course::Course) -> Result<Vec<f64>, ObservationError>,
-) -> Result<Vec<Curves>, ObservationError> {
-    let mut found: Vec<Vec<BranchCurve>> = Vec::new();
+    observation: &Observation,
+    value: impl Fn(&Course) -> Result<f64, ObservationError>,
+) -> Result<Curves, ObservationError> {
+    let (mut curves, mut orbits, mut lost) = (Vec::new(), 0, Vec::new());
     for branch in branches.branches() {
-        for (index, placed) in thinned(branch, spacing_hz) {
+        let mut points = Vec::new();
+        for (index, placed) in thinned(branch, observation.spacing_hz) {
             let orbit = branches.solution(branch, placed)?;
-            let of_orbit = values(&course(model, &orbit, samples)?)?;
-            found.resize_with(of_orbit.len().max(found.len()), Vec::new);
-            for (curves, value) in found.iter_mut().zip(of_orbit) {
-                if curves.last().is_none_or(|last| last.branch != branch.record.id) {
-                    curves.push(empty(branch));
+            let value = match course(model, &orbit, observation.samples) {
+                Ok(course) => value(&course)?,
+                Err(reason) => {
+                    lost.push(reason);
+                    f64::NAN
                 }
-                let point = CurvePoint {
-                    frequency_hz: placed.row.frequency_hz,
-                    value,
-                    stable: placed.row.stable,
-                    row: index + 1,
-                };
-                curves.last_mut().into_iter().for_each(|curve| curve.points.push(point));
-            }
+            };
+            let row = placed.row;
+            let (frequency_hz, stable) = (row.frequency_hz, row.stable);
+            points.push(CurvePoint { frequency_hz, value, stable, row: index + 1 });
         }
+        orbits += points.len();
+        curves.push(BranchCurve { points, ..empty(branch) });
     }
-    if found.is_empty() {
-        found.push(Vec::new());
+    let count = lost.len();
+    match lost.into_iter().next() {
+        Some(first) if count == orbits => Err(ObservationError::NoneSampled { count, first }),
+        _ => Ok(Curves::new(curves)),
     }
-    Ok(found.into_iter().map(Curves::new).collect())
 }
 
 fn stored(branches: &StoredBranches, quantity: Quantity) -> Curves {

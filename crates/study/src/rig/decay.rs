@@ -12,7 +12,7 @@ use hammerbeam_signal::{
     filter::{Band, butterworth},
 };
 
-use super::RigError;
+use super::{MeasuredMode, RigError};
 use crate::{Model, file::Rig};
 
 /// Displacement of the response point from which it is let go [m].
@@ -23,22 +23,21 @@ const LEAD_IN: f64 = 15.0;
 /// Rate of the motion before the chain, as a multiple of the sampling rate.
 const FINER: usize = 4;
 
-/// A measured eigenfrequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeasuredMode {
-    /// Eigenfrequency and half of its interval of 95 % [Hz].
-    pub frequency_hz: (f64, f64),
-    /// Damping ratio and half of its interval.
-    pub damping_ratio: (f64, f64),
+/// Highest frequency that is looked at, as a part of the filter's cut-off.
+const LOOKED_AT: f64 = 0.6;
+
+/// Highest frequency at which a decay is looked at for modes [Hz].
+pub(super) fn highest_hz(rig: &Rig) -> f64 {
+    LOOKED_AT * rig.low_pass_hz
 }
 
-/// Eigenfrequencies and damping as a decay shows them, below half of the filter's cut-off.
+/// Eigenfrequencies and damping as a decay shows them, below 0.6 of the filter's cut-off.
 ///
 /// # Returns
 /// Nothing where dampers couple the modes, the structure has a rigid mode, or the decay drowns in noise.
 /// # Errors
 /// [`RigError::Signal`].
-pub fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, RigError> {
+pub(super) fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, RigError> {
     let lead_in_s = LEAD_IN / rig.low_pass_hz;
     let Some(acceleration) = decay(model, rig.sampling_hz * FINER as f64, lead_in_s) else {
         return Ok(Vec::new());
@@ -58,8 +57,7 @@ pub fn measured_modes(rig: &Rig, model: &Model) -> Result<Vec<MeasuredMode>, Rig
     let record =
         Record { sampling_rate_hz: fine_hz, start_s: 0.0, channels: vec![channel], findings: Vec::new() };
     let measured = chain.measure(&record, Motion::Stretch)?.part(lead_in_s, f64::INFINITY)?;
-    let settings =
-        DecaySettings { band_hz: (0.0, 0.6 * rig.low_pass_hz), most: 4, ..DecaySettings::default() };
+    let settings = DecaySettings { band_hz: (0.0, highest_hz(rig)), most: 4, ..DecaySettings::default() };
     let found = match free_decay(&measured.channels[0].samples, rig.sampling_hz, &settings) {
         // A structure whose decay drowns in the noise shows nothing; that is no fault.
         Err(SignalError::NoDecay) => return Ok(Vec::new()),

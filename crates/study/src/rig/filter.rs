@@ -7,13 +7,14 @@ use std::sync::atomic::AtomicBool;
 
 use hammerbeam_attractor::in_order;
 use hammerbeam_orbit::PeriodicSolution;
+use hammerbeam_signal::SignalError;
 
 use super::RigError;
 use crate::{
     Model, StoredBranches,
     comparison::{
         BranchCurve, CurvePoint, Curves, Filter,
-        course::{course, largest_behind},
+        course::{Course, course, largest_behind},
         thinned,
     },
 };
@@ -164,23 +165,23 @@ fn point(
     samples: usize,
     (_, row, stable, orbit): &Item,
 ) -> Result<FilteredPoint, RigError> {
-    let course = course(model, orbit, samples)?;
-    let behind = |series: &[f64]| {
-        filters
-            .iter()
-            .map(|filter| largest_behind(series, course.duration_s, *filter).map(|(largest, _)| largest))
-            .collect()
+    // A motion that cannot be gone over leaves a gap.
+    let course = course(model, orbit, samples).ok();
+    let behind = |of: fn(&Course) -> &Vec<f64>| -> Result<Vec<f64>, SignalError> {
+        let largest = |filter: &Filter| match &course {
+            Some(course) => Ok(largest_behind(of(course), course.duration_s, *filter)?.0),
+            None => Ok(f64::NAN),
+        };
+        filters.iter().map(largest).collect()
     };
-    let filtered_acceleration: Result<Vec<f64>, _> = behind(&course.acceleration);
-    let filtered_displacement: Result<Vec<f64>, _> = behind(&course.displacement);
     Ok(FilteredPoint {
         row: *row,
         frequency_hz: orbit.frequency_hz,
         stable: *stable,
         acceleration: orbit.maxima.acceleration,
-        filtered_acceleration: filtered_acceleration?,
+        filtered_acceleration: behind(|course| &course.acceleration)?,
         displacement: orbit.maxima.displacement,
-        filtered_displacement: filtered_displacement?,
+        filtered_displacement: behind(|course| &course.displacement)?,
     })
 }
 

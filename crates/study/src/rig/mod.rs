@@ -10,6 +10,7 @@
 //! | `sweep.rs` | stepped sweeps; a record at each frequency, and its point |
 //! | `chaos.rs` | largest exponents of aperiodic motions, from record and motion |
 //! | `decay.rs` | a free decay of the structure without its stops: eigenfrequencies and damping as they are measured |
+//! | `modes.rs` | which modes these are |
 //! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
 //! | `signals.rs` | measured and computed signals laid over one another |
 //!
@@ -19,6 +20,7 @@ mod build;
 mod chaos;
 mod decay;
 mod filter;
+mod modes;
 mod signals;
 mod sweep;
 
@@ -28,8 +30,8 @@ use hammerbeam_signal::SignalError;
 
 pub use build::changed_study;
 pub use chaos::MotionExponents;
-pub use decay::{MeasuredMode, measured_modes};
 pub use filter::{FilteredBranch, FilteredPoint, FilteredRatio, acceleration_curves, filtered_branches};
+pub use modes::{MeasuredMode, RigMode, rig_modes};
 pub use signals::{SignalPair, compare_signal};
 pub use sweep::{Direction, RigPoint, sweep};
 

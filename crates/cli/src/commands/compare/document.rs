@@ -25,10 +25,18 @@ pub fn document(
         "order": options.low_pass.map(|_| options.order),
         "reach": options.reach,
         "findings": findings.collect::<Vec<_>>(),
-        "comparisons": compared.iter().map(|one| comparison_document(&one.comparison)).collect::<Vec<_>>(),
+        "comparisons": compared.iter().map(of_study).collect::<Vec<_>>(),
         "folder": folder,
         "files": files,
     })
+}
+
+/// A comparison of one quantity, how many points the range of the study leaves out, and how many solutions could not be gone over.
+fn of_study(compared: &Compared) -> Value {
+    let mut document = comparison_document(&compared.comparison);
+    document["beyond_the_range"] = json!(compared.beyond());
+    document["gaps"] = json!(compared.curves.gaps());
+    document
 }
 
 /// A comparison of one quantity.

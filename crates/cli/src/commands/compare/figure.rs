@@ -21,7 +21,6 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
         Quantity::Acceleration => Drawing::Acceleration,
         _ => return,
     };
-    let [low, high] = file.study.excitation.frequency_hz;
     let diagram = ResponseDiagram {
         title: compared
             .point
@@ -29,7 +28,7 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
             .map_or_else(|| file.study.title.clone(), |point| format!("{}, at {point}", file.study.title)),
         parameter: String::new(),
         curves: compared.curves.branches().iter().map(|branch| curve(branch, quantity)).collect(),
-        frequency_range_hz: Some((low, high)),
+        frequency_range_hz: Some(compared.range_hz.into()),
         chaotic_ranges_hz: Vec::new(),
         measured: compared.comparison.points.iter().map(|point| mark(point, quantity)).collect(),
     };

@@ -19,7 +19,7 @@ pub use document::comparison_document;
 pub use figure::draw;
 pub use records::frequency_in_name;
 pub use table::write_points;
-pub use text::{estimate, fit_notes};
+pub use text::{estimate, fit_notes, gaps};
 
 use crate::{
     compare_args::{CompareOptions, QuantityName},
@@ -40,6 +40,16 @@ pub struct Compared {
     pub low_pass_hz: Option<f64>,
     /// The point that was measured, if it is not the response point of the study.
     pub point: Option<String>,
+    /// Range of the frequency of the study (Hz).
+    pub range_hz: [f64; 2],
+}
+
+impl Compared {
+    /// How many points are shifted beyond the range of the study, where nothing is computed or drawn.
+    fn beyond(&self) -> usize {
+        let [low, high] = self.range_hz;
+        self.comparison.points.iter().filter(|point| !(low..=high).contains(&point.shifted_hz)).count()
+    }
 }
 
 pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
@@ -57,7 +67,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
     }
     let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
-    let [low, high] = file.study.excitation.frequency_hz;
+    let range_hz @ [low, high] = file.study.excitation.frequency_hz;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let mut compared = Vec::new();
     for quantity in quantities {
@@ -68,7 +78,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let low_pass_hz = filter.map(|filter| filter.cut_off_hz);
         let of_point = quantity != Quantity::Force && !at_response_point;
         let point = of_point.then(|| point.clone());
-        compared.push(Compared { curves, comparison, low_pass_hz, point });
+        compared.push(Compared { curves, comparison, low_pass_hz, point, range_hz });
     }
     let mut drawn = Drawn::into(&folder)?;
     for one in &compared {

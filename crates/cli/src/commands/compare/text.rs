@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_signal::Quantity;
-use hammerbeam_study::comparison::{Comparison, Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
+use hammerbeam_study::comparison::{Curves, Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
 use crate::compare_args::CompareOptions;
@@ -22,7 +22,7 @@ pub fn text(
     if let Some(cut_off) = options.low_pass {
         lines.push(format!("branches behind a low-pass filter of {cut_off} Hz, order {}", options.order));
     }
-    compared.iter().for_each(|one| lines.extend(comparison(&one.comparison, point)));
+    compared.iter().for_each(|one| lines.extend(comparison(one, point)));
     lines.extend(measured.findings.iter().map(|(file, finding)| format!("note: {file}: {finding}")));
     lines.push(format!("in {}: {}", folder.display(), files.join(", ")));
     if options.out.is_none() {
@@ -33,7 +33,8 @@ pub fn text(
 }
 
 /// * `point`: where the sensor is; a contact force is at no point of the response.
-fn comparison(comparison: &Comparison, point: &str) -> Vec<String> {
+fn comparison(compared: &Compared, point: &str) -> Vec<String> {
+    let comparison = &compared.comparison;
     let (fit, quantity) = (&comparison.fit, comparison.quantity);
     let count = |wanted: &str| comparison.points.iter().filter(|p| p.verdict.word() == wanted).count();
     let frequency = if fit.offset { "frequency offset (Hz)" } else { "frequency factor" };
@@ -62,7 +63,8 @@ fn comparison(comparison: &Comparison, point: &str) -> Vec<String> {
             count("doubtful")
         ),
     ];
-    lines.extend(fit_notes(fit).into_iter().map(|told| format!("  note: {told}")));
+    let notes = fit_notes(fit).into_iter().chain(gaps(&compared.curves)).chain(beyond(compared));
+    lines.extend(notes.map(|told| format!("  note: {told}")));
     let unexplained: Vec<&PointOutcome> =
         comparison.points.iter().filter(|point| point.verdict.is_unexplained()).collect();
     lines.extend(unexplained.iter().take(LISTED).map(|point| unexplained_text(point)));
@@ -90,6 +92,22 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
     }
     notes.extend(second_minimum(fit));
     notes
+}
+
+/// That branches have gaps.
+pub fn gaps(curves: &Curves) -> Option<String> {
+    let gaps = curves.gaps();
+    (gaps > 0)
+        .then(|| format!("{gaps} solution(s) of the branches could not be gone over: there are gaps there"))
+}
+
+/// That points are shifted beyond the range of the study.
+fn beyond(compared: &Compared) -> Option<String> {
+    let [low, high] = compared.range_hz;
+    let beyond = compared.beyond();
+    (beyond > 0).then(|| {
+        format!("{beyond} point(s) are shifted beyond the range of the study, {low} to {high} Hz, where nothing is computed or drawn")
+    })
 }
 
 /// That another shift fits about as well.

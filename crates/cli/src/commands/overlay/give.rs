@@ -3,21 +3,14 @@
 use std::path::Path;
 
 use hammerbeam_figure::plain_number;
-use hammerbeam_signal::classify::Motion;
 use hammerbeam_study::export::{Table, header, number};
 use serde_json::{Value, json};
 
-use super::Laid;
+use super::{
+    Laid,
+    notes::{Laying, Note},
+};
 use crate::{failure::Failure, overlay_args::OverlayOptions};
-
-/// Correlation of a course turned around beyond which it is told: half of what is left without.
-const TURNED: f64 = 0.5;
-/// Difference of correlations that is none: values between samples of a record are known to some 1e-5, and it is the square that counts.
-const ROUNDING: f64 = 1e-9;
-/// Correlation below which less than half of the measured power is that of the orbit (its square).
-const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
-/// Scatter of pieces that shows in a tenth of a per cent.
-const SHOWS: f64 = 5e-4;
 
 impl Laid {
     /// Time of a phase of the waveform within the first orbit period of the record, on its clock [s].
@@ -36,74 +29,19 @@ impl Laid {
         self.measured.lines as f64 / f64::from(self.period_multiple) * self.classification.frequency_hz
     }
 
-    /// Whether the sensor seems to be turned around.
-    fn seems_turned(&self) -> bool {
-        let [turned, as_it_is] =
-            [self.overlay.turned_correlation, self.overlay.alignment.correlation].map(|r| 1.0 - r);
-        turned < TURNED * as_it_is && as_it_is - turned > ROUNDING
-    }
-
-    /// What the reader has to know.
+    /// What the reader has to know, and can do.
     fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
-        if self.seems_turned() {
-            notes.push(format!(
-                "turned around the measured signal would be more alike, with a correlation of {:.4}: is the sensor's sign right? --amplitude-factor takes a negative factor",
-                self.overlay.turned_correlation
-            ));
-        }
-        let correlation = self.overlay.alignment.correlation;
-        if correlation < HALF {
-            notes.push(format!(
-                "no orbit is alike: {:.0} % of the measured power is that of the most alike one, less than half; shift and factor tell little",
-                100.0 * correlation.max(0.0).powi(2)
-            ));
-        }
-        notes.extend(self.overlay.alike.as_ref().map(|alike| {
-            let branches: Vec<String> = alike.branches.iter().map(u32::to_string).collect();
-            format!(
-                "{} other orbit(s) between {:.4} and {:.4} Hz, of branch {}, are as alike as the scatter of the record can tell: which one it is, is not known; give --at, --branch or --amplitude-factor",
-                alike.count,
-                alike.frequency_hz.0,
-                alike.frequency_hz.1,
-                branches.join(", ")
-            )
-        }));
-        let found = match self.classification.motion {
-            Motion::Periodic { period_multiple } if period_multiple as u32 == self.period_multiple => None,
-            Motion::Periodic { period_multiple } => {
-                Some(format!("of {period_multiple} excitation period(s)"))
-            }
-            Motion::Aperiodic => Some("aperiodic".to_owned()),
-            Motion::Doubtful { reason } => Some(format!("doubtful: {reason}")),
+        let laying = Laying {
+            overlay: &self.overlay,
+            measured: &self.measured,
+            classification: &self.classification,
+            period_multiple: self.period_multiple,
         };
-        notes.extend(found.map(|found| {
-            format!(
-                "the measured motion is {found}; its mean over {} period(s) is compared",
-                self.period_multiple
-            )
-        }));
-        if self.overlay.skipped > 0 {
-            notes.push(format!(
-                "{} more orbit(s) could not be gone over and are left out",
-                self.overlay.skipped
-            ));
-        }
-        let mean = self.measured.samples.iter().sum::<f64>() / self.measured.samples.len() as f64;
-        let size = self.overlay.alignment.sizes.0;
-        let scatter = self.measured.scatter / size;
-        if scatter > self.overlay.residual_after && scatter >= SHOWS {
-            notes.push(format!(
-                "pieces of the record differ from their mean by {:.1} % of it, more than the mean from the orbit",
-                100.0 * scatter
-            ));
-        }
-        if mean.abs() > size {
-            notes.push(format!(
-                "the signals are compared about their means; that of the record is {mean:.4e}"
-            ));
-        }
-        notes
+        let text = |note: Note| match note.advice {
+            Some(advice) => format!("{}; {advice}", note.told),
+            None => note.told,
+        };
+        laying.notes().into_iter().map(text).collect()
     }
 }
 

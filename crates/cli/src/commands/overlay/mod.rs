@@ -1,6 +1,7 @@
 //! `hammerbeam overlay`: a recorded motion laid over the computed orbit that is most alike.
 
 mod give;
+mod notes;
 
 use std::path::Path;
 
@@ -13,6 +14,8 @@ use hammerbeam_study::{
     Store, StoredBranches, StudyFile,
     comparison::{Filter, Overlay, OverlaySettings, Sought, overlay},
 };
+
+pub use notes::{Laying, nothing_alike};
 
 use super::{
     compare::{frequency_in_name, observed},
@@ -61,26 +64,15 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let work = (threads(None), interrupt.flag());
     let found = overlay((&model, &branches), (&measured, period_multiple), &settings, work)?;
     let overlay = found.ok_or_else(|| nothing(&branches, period_multiple, &settings))?;
-    alike(&overlay)?;
+    if let Some(told) = nothing_alike(&overlay) {
+        return Err(Failure::NoResult(format!("{told}; are frequency, sensor and filter right?")));
+    }
     let laid = Laid { input, quantity, point, classification, period_multiple, measured, overlay };
     let table = options.out.as_deref().map(|folder| give::write(folder, &laid)).transpose()?;
     output.give(&give::document(&laid, options, table.as_deref()), || {
         give::text(&laid, options, table.as_deref())
     });
     Ok(())
-}
-
-/// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed freely.
-const NOTHING: f64 = 0.1;
-
-fn alike(overlay: &Overlay) -> Result<(), Failure> {
-    let (correlation, tried) = (overlay.alignment.correlation, overlay.tried);
-    if correlation >= NOTHING {
-        return Ok(());
-    }
-    Err(Failure::NoResult(format!(
-        "nothing is alike: the largest correlation of {tried} orbit(s) with the record is {correlation:.4}, less than {NOTHING}, so that neither shift nor factor mean anything; are frequency, sensor and filter right?"
-    )))
 }
 
 /// What the channel shows: its unit says so, or the user.

@@ -1,9 +1,9 @@
 //! A rig as a document.
 
-use hammerbeam_study::rig::{FilteredBranch, FilteredRatio};
+use hammerbeam_study::rig::{FilteredBranch, FilteredRatio, RigMode};
 use serde_json::{Value, json};
 
-use super::{Found, tables};
+use super::{Found, signals, tables};
 use crate::commands::compare::comparison_document;
 
 pub fn document(found: &Found) -> Value {
@@ -22,7 +22,7 @@ pub fn document(found: &Found) -> Value {
         "study": found.file.name,
         "title": found.file.study.title,
         "solutions": found.solutions,
-        "eigenfrequencies": modes(found),
+        "eigenfrequencies": found.modes.iter().map(mode).collect::<Vec<_>>(),
         "sweep": {
             "from_hz": found.rig.sweep_hz[0],
             "to_hz": found.rig.sweep_hz[1],
@@ -46,53 +46,22 @@ pub fn document(found: &Found) -> Value {
             "median_record_over_motion": chaos.median_ratio,
         },
         "comparisons": comparisons,
-        "signals": found.signals.iter().enumerate().map(signal).collect::<Vec<_>>(),
+        "signals": found.signals.iter().enumerate().map(signals::document).collect::<Vec<_>>(),
         "filters": filters(found),
     })
 }
 
-fn modes(found: &Found) -> Vec<Value> {
-    let rates = &found.model.system.model().natural_frequencies;
-    let of_rig = &found.rig_model.system.model().natural_frequencies;
-    let hertz = |rate: Option<&f64>| rate.map(|rate| rate / std::f64::consts::TAU);
-    let mode = |(index, mode): (usize, &hammerbeam_study::rig::MeasuredMode)| {
-        json!({
-            "measured_hz": mode.frequency_hz.0,
-            "measured_half_width_hz": mode.frequency_hz.1,
-            "measured_damping_ratio": mode.damping_ratio.0,
-            "measured_damping_ratio_half_width": mode.damping_ratio.1,
-            "model_hz": hertz(rates.get(index)),
-            "rig_hz": hertz(of_rig.get(index)),
-        })
-    };
-    found.modes.iter().enumerate().map(mode).collect()
-}
-
-fn signal((index, signal): (usize, &hammerbeam_study::rig::SignalPair)) -> Value {
-    let computed = signal.computed.as_ref().map(|orbit| {
-        json!({
-            "frequency_hz": orbit.frequency_hz,
-            "over_measured": orbit.frequency_hz / signal.measured_hz,
-            "branch": orbit.branch,
-            "row": orbit.row,
-            "tried": orbit.tried,
-            "skipped": orbit.skipped,
-            "correlation": orbit.alignment.correlation,
-            "lag_cycles": hammerbeam_study::rig::SignalPair::lag(orbit),
-            "amplitude_factor": orbit.factor,
-            "residual_before": orbit.residual_before,
-            "residual_after": orbit.residual_after,
-            "max_acceleration_m_s2": orbit.largest.0,
-            "max_filtered_acceleration_m_s2": orbit.largest.1,
-        })
-    });
+/// What is not measured, or no mode, is null.
+fn mode(mode: &RigMode) -> Value {
+    let measured = mode.measured;
     json!({
-        "table": tables::figure_name(index),
-        "measured_hz": signal.measured_hz,
-        "period_multiple": signal.period_multiple,
-        "measured_as": super::report::classified(&signal.classification),
-        "max_measured_acceleration_m_s2": signal.largest_measured,
-        "computed": computed,
+        "mode": mode.number,
+        "measured_hz": measured.map(|of| of.frequency_hz.0),
+        "measured_half_width_hz": measured.map(|of| of.frequency_hz.1),
+        "measured_damping_ratio": measured.map(|of| of.damping_ratio.0),
+        "measured_damping_ratio_half_width": measured.map(|of| of.damping_ratio.1),
+        "model_hz": mode.model_hz,
+        "rig_hz": mode.rig_hz,
     })
 }
 

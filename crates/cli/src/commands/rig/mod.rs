@@ -2,6 +2,7 @@
 
 mod document;
 mod report;
+mod signals;
 mod tables;
 
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
@@ -10,8 +11,8 @@ use hammerbeam_study::{
     comparison::{Comparison, Curves, Filter, FitSettings, Observation, compare, curves},
     file::Rig,
     rig::{
-        FilteredBranch, MeasuredMode, RigError, RigPoint, SignalPair, acceleration_curves, changed_study,
-        compare_signal, filtered_branches, measured_modes, sweep,
+        FilteredBranch, RigError, RigMode, RigPoint, SignalPair, acceleration_curves, changed_study,
+        compare_signal, filtered_branches, rig_modes, sweep,
     },
     run::{Plan, RunOutcome},
 };
@@ -33,9 +34,7 @@ const SAMPLES: usize = 4096;
 struct Found {
     file: StudyFile,
     rig: Rig,
-    rig_model: Model,
-    model: Model,
-    modes: Vec<MeasuredMode>,
+    modes: Vec<RigMode>,
     points: Vec<RigPoint>,
     filters: Vec<Filter>,
     filtered: Vec<FilteredBranch>,
@@ -67,7 +66,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let stop = interrupt.flag();
     anstream::eprintln!("sweeping the rig");
     let points = sweep(&rig, &rig_model, threads, stop)?;
-    let modes = measured_modes(&rig, &rig_model)?;
+    let modes = rig_modes(&rig, &rig_model, &model)?;
     let [low, high] = file.study.excitation.frequency_hz;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let cut_offs = std::iter::once(rig.low_pass_hz).chain(rig.other_low_pass_hz.iter().copied());
@@ -83,19 +82,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     };
     anstream::eprintln!("comparing signals");
     let signals = rig.signals.iter().map(signal).collect::<Result<Vec<_>, _>>()?;
-    let found = Found {
-        file,
-        rig,
-        rig_model,
-        model,
-        modes,
-        points,
-        filters,
-        filtered,
-        comparisons,
-        signals,
-        solutions,
-    };
+    let found = Found { file, rig, modes, points, filters, filtered, comparisons, signals, solutions };
     let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
     tables::write(&options.out, &found, &mut drawn.files)?;
     for (name, curves, comparison) in &found.comparisons {
@@ -104,6 +91,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
             comparison: comparison.clone(),
             low_pass_hz: found.low_pass_hz(name),
             point: None,
+            range_hz: [low, high],
         };
         draw(&found.file, &compared, name, &mut drawn);
     }

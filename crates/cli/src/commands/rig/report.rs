@@ -2,16 +2,15 @@
 
 use std::{fmt::Write, path::Path};
 
-use hammerbeam_signal::classify::{Classification, Motion};
 use hammerbeam_study::{
     comparison::PointOutcome,
-    rig::{FilteredBranch, FilteredRatio, SignalPair},
+    rig::{FilteredBranch, FilteredRatio},
 };
 use serde_json::Value;
 
-use super::{Found, tables};
+use super::{Found, signals, tables};
 use crate::{
-    commands::compare::{estimate, fit_notes},
+    commands::compare::{estimate, fit_notes, gaps},
     failure::Failure,
     figures::replace,
 };
@@ -27,15 +26,6 @@ pub fn write(folder: &Path, found: &Found, document: &Value, files: &mut Vec<Str
         files.push(name.to_owned());
     }
     Ok(())
-}
-
-/// The kind of a motion in a word.
-pub fn classified(classification: &Classification) -> String {
-    match classification.motion {
-        Motion::Periodic { period_multiple } => format!("periodic, {period_multiple}"),
-        Motion::Aperiodic => "aperiodic".to_owned(),
-        Motion::Doubtful { .. } => "doubtful".to_owned(),
-    }
 }
 
 /// What the terminal shows.
@@ -97,7 +87,7 @@ fn markdown(found: &Found) -> String {
     excitation(&mut text, found);
     comparisons(&mut text, found);
     chaos(&mut text, found);
-    signals(&mut text, found);
+    signals::report(&mut text, &found.signals);
     filters(&mut text, found);
     points(&mut text, found);
     text
@@ -107,16 +97,19 @@ fn modes(text: &mut String, found: &Found) {
     if found.modes.is_empty() {
         return;
     }
-    text.push_str("## Eigenfrequencies and damping, from a free decay without the stop\n\n| measured (Hz) | model (Hz) | model over measured | damping ratio |\n|---|---|---|---|\n");
-    let rates = &found.model.system.model().natural_frequencies;
-    for (mode, rate) in found.modes.iter().zip(rates) {
-        let (hz, half) = mode.frequency_hz;
-        let (ratio, ratio_half) = mode.damping_ratio;
-        let model = rate / std::f64::consts::TAU;
+    text.push_str("## Eigenfrequencies and damping, from a free decay without the stop\n\n| mode | measured (Hz) | model (Hz) | model over measured | damping ratio |\n|---|---|---|---|---|\n");
+    for mode in &found.modes {
+        let number = mode.number.map_or_else(|| "none".to_owned(), |number| number.to_string());
+        let model = mode.model_hz.map_or_else(|| "-".to_owned(), |hz| format!("{hz:.3}"));
+        let Some(measured) = mode.measured else {
+            let _ = writeln!(text, "| {number} | not measured | {model} | - | - |");
+            continue;
+        };
+        let ((hz, half), (ratio, ratio_half)) = (measured.frequency_hz, measured.damping_ratio);
+        let over = mode.model_hz.map_or_else(|| "-".to_owned(), |model_hz| format!("{:.4}", model_hz / hz));
         let _ = writeln!(
             text,
-            "| {hz:.3} ± {half:.3} | {model:.3} | {:.4} | {ratio:.5} ± {ratio_half:.5} |",
-            model / hz
+            "| {number} | {hz:.3} ± {half:.3} | {model} | {over} | {ratio:.5} ± {ratio_half:.5} |"
         );
     }
     text.push('\n');
@@ -163,8 +156,8 @@ fn comparisons(text: &mut String, found: &Found) {
             count("doubtful"),
         );
     }
-    for (name, _, comparison) in &found.comparisons {
-        for told in fit_notes(&comparison.fit) {
+    for (name, curves, comparison) in &found.comparisons {
+        for told in fit_notes(&comparison.fit).into_iter().chain(gaps(curves)) {
             let _ = writeln!(text, "\nNote, {}: {told}.", what(name));
         }
     }
@@ -200,48 +193,6 @@ fn what(name: &str) -> &str {
         "filtered_acceleration" => "filtered accelerations over computed ones behind the same filter",
         other => other,
     }
-}
-
-fn signals(text: &mut String, found: &Found) {
-    text.push_str("## Figures 7 to 14: signals\n\nFor each measured signal the computed orbit whose acceleration, behind the same filter, is most alike. Residuals: root mean square of the difference over that of the computed signal.\n\n| table | measured (Hz) | period | measured as | computed (Hz) | computed over measured | correlation | lag (cycles) | factor | residual, factor 1 | with the factor | max measured (m/s²) | computed | computed behind the filter |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-    for (index, signal) in found.signals.iter().enumerate() {
-        let classified = classified(&signal.classification);
-        let name = tables::figure_name(index);
-        let _ = match &signal.computed {
-            Some(orbit) => writeln!(
-                text,
-                "| {name} | {} | {} | {classified} | {:.3} | {:.4} | {:.4} | {:+.3} | {:.2} | {:.2} | {:.2} | {:.0} | {:.0} | {:.0} |",
-                signal.measured_hz,
-                signal.period_multiple,
-                orbit.frequency_hz,
-                orbit.frequency_hz / signal.measured_hz,
-                orbit.alignment.correlation,
-                SignalPair::lag(orbit),
-                orbit.factor,
-                orbit.residual_before,
-                orbit.residual_after,
-                signal.largest_measured,
-                orbit.largest.0,
-                orbit.largest.1,
-            ),
-            None => writeln!(
-                text,
-                "| {name} | {} | {} | {classified} | no stable orbit of this period is near | | | | | | | {:.0} | | |",
-                signal.measured_hz, signal.period_multiple, signal.largest_measured,
-            ),
-        };
-    }
-    for (index, signal) in found.signals.iter().enumerate() {
-        if let Some(orbit) = signal.computed.as_ref().filter(|orbit| orbit.skipped > 0) {
-            let name = tables::figure_name(index);
-            let _ = writeln!(
-                text,
-                "\nNote, {name}: {} orbit(s) could not be gone over and are left out.",
-                orbit.skipped
-            );
-        }
-    }
-    text.push('\n');
 }
 
 fn filters(text: &mut String, found: &Found) {

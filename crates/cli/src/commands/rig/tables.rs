@@ -8,7 +8,7 @@ use hammerbeam_study::{
     rig::{FilteredBranch, SignalPair},
 };
 
-use super::Found;
+use super::{Found, signals::laid};
 use crate::{commands::compare::write_points, failure::Failure};
 
 pub fn write(folder: &Path, found: &Found, files: &mut Vec<String>) -> Result<(), Failure> {
@@ -161,8 +161,8 @@ fn write_signal(folder: &Path, name: &str, signal: &SignalPair) -> Result<(), Fa
         "support_displacement_m",
     ];
     let mut table = Table::begin(folder, name, &header(&titles))?;
+    let computed = laid(signal).ok();
     for (k, measured) in signal.measured.samples.iter().enumerate() {
-        let computed = signal.computed.as_ref();
         table.row(&[
             number(k as f64 / signal.measured.per_period as f64),
             number(*measured),

@@ -216,7 +216,12 @@ impl Used {
 /// Logarithm of the ratio up to which a point pulls, over that up to which it is explained.
 const PULL: f64 = 2.0;
 
-pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Result<Fit, ComparisonError> {
+pub(super) fn fit(
+    used: &[Used],
+    curves: &Curves,
+    quantity: Quantity,
+    settings: &FitSettings,
+) -> Result<Fit, ComparisonError> {
     let tried = [settings.frequency, settings.amplitude.logarithm()].map(ends);
     let unit = if settings.offset { median(used.iter().map(|point| point.frequency_hz)) } else { 1.0 };
     let problem =
@@ -226,7 +231,14 @@ pub(super) fn fit(used: &[Used], curves: &Curves, settings: &FitSettings) -> Res
     let rows = problem.rows(best.place);
     let asked = problem.free().into_iter().filter(|free| *free).count();
     if asked > 0 && rows.len() <= asked {
-        return Err(ComparisonError::TooFewPoints { fitted: asked, points: rows.len() });
+        return Err(ComparisonError::TooFewPoints {
+            quantity: quantity.word(),
+            fitted: asked,
+            measured: used.len(),
+            met: residual(used, curves, problem.shift(best.place), problem.reach).met,
+            near: rows.len(),
+            ratio: settings.reach.powf(PULL),
+        });
     }
     let at_end = problem.at_end(best.place);
     let free: [bool; 2] = std::array::from_fn(|k| problem.free()[k] && !at_end[k]);

@@ -151,7 +151,7 @@ pub fn overlay(
     };
     // The first of equal ones, whatever the number of threads.
     let best = (0..tried).reduce(|best, one| if worth(&laid[one]) > worth(&laid[best]) { one } else { best });
-    let alike = best.and_then(|best| alike::alike(&laid, &laid[best], measured));
+    let alike = best.and_then(|best| alike::alike(&laid, &laid[best], measured, settings.factor));
     let best = best.and_then(|best| laid.into_iter().nth(best));
     Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, alike, ..best }))
 }
