@@ -14,8 +14,8 @@ use hammerbeam_structure::{PointOutput, ReducedModel};
 
 type Case = (System, Response);
 
-/// One degree of freedom: `x'' + c x' + x + f = F cos(2 pi f t)` with a local law.
-fn oscillator(damping: f64, force: f64, law: Law) -> Case {
+/// One degree of freedom: `x'' + c x' + x + f = F cos(2 pi f t)` with local laws of `x` or, of the shape -1, of `-x`.
+fn oscillator(damping: f64, force: f64, laws: &[(f64, Law)]) -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| damping),
@@ -25,8 +25,14 @@ fn oscillator(damping: f64, force: f64, law: Law) -> Case {
     };
     let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let element = LocalElement { name: "local".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    (System::new(model, &load, vec![element]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
+    let local = |(k, &(shape, law)): (usize, &(f64, Law))| LocalElement {
+        name: format!("local {k}"),
+        shape: vec![shape],
+        support_ratio: 0.0,
+        law,
+    };
+    let elements = laws.iter().enumerate().map(local).collect();
+    (System::new(model, &load, elements).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
 }
 
 /// Rows of a branch in the frequency with an event, sharply located.
@@ -122,7 +128,7 @@ fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
             let force = (32.0 * (damping * w).powi(3) / (9.0 * root)).sqrt();
             // Twice the force of the cusp, so that there are folds to begin at.
             let cubic = Law::Cubic(law::CubicSpring::new(1.0).unwrap());
-            let case = oscillator(*damping, 2.0 * force, cubic);
+            let case = oscillator(*damping, 2.0 * force, &[(1.0, cubic)]);
             let range_hz = (0.12, 0.3);
             let folds = events(&case, 0.12, range_hz, |events| events.fold);
             let settings = settings(Parameter::ExcitationScale, (0.3, 1.5), range_hz);
@@ -186,7 +192,7 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
         Law::Rigid(law::RigidStop::with_gap(0.8, gap).unwrap()),
     ];
     for law in laws {
-        let case = oscillator(0.2, 1.0, law);
+        let case = oscillator(0.2, 1.0, &[(1.0, law)]);
         let range_hz = (0.05, 0.4);
         // At that of a rigid stop the multipliers jump: it counts as bracketed.
         let rows = branch(&case, 0.06, range_hz);
@@ -223,6 +229,28 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
                 }
             }
         }
+    }
+}
+
+/// An orbit that strikes a stop whose law remembers the impact, and grazes another one on the other side.
+#[test]
+fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches() {
+    let elastic = law::HertzStop::with_gap(20.0, 0.5).unwrap();
+    let struck = law::RestitutionStop::new(elastic, law::RestitutionModel::Flores, 0.7).unwrap();
+    let grazed = law::LinearStop::with_gap(5.0, 1.0).unwrap();
+    let case = oscillator(0.2, 1.0, &[(1.0, Law::Restitution(struck)), (-1.0, Law::Linear(grazed))]);
+    let range_hz = (0.1, 0.3);
+    let rows = branch(&case, 0.1, range_hz);
+    let grazes =
+        |row: &&BranchRow| row.located.as_ref().and_then(|l| l.contact).is_some_and(|c| c.contact == 1);
+    let start = rows.iter().find(grazes).unwrap();
+    let gap = Parameter::Gap { element: 1 };
+    for (side, range) in [(Side::Up, (0.9, 1.1)), (Side::Down, (0.9, 1.1))] {
+        let (rows, end) =
+            curve(&case, start, (CurveKind::Grazing { contact: 1 }, side), &settings(gap, range, range_hz));
+        assert_eq!(end, CurveEnd::RangeEnd);
+        assert!(rows.iter().all(|row| row.solution.maxima.contacts >= 1));
+        assert_meets_branch(&case, rows.last().unwrap(), gap, (0.1, range_hz), |events| events.grazing);
     }
 }
 

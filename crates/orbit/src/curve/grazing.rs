@@ -84,29 +84,30 @@ impl Touch {
     ) -> Result<Option<(f64, Vec<f64>)>, OrbitError> {
         let periods = f64::from(shooting.period_multiple);
         let looks = LOOKS * shooting.period_multiple as usize;
-        let phase = |k: usize| begin + periods * k as f64 / looks as f64;
-        let (mut state, mut best) = (state.to_vec(), None::<(f64, f64, Vec<f64>)>);
-        let mut before = self.clearance(shooting, frequency_hz, begin, &state);
-        for k in 1..=looks {
-            let stretch = Stretch { frequency_hz, start: phase(k - 1), end: phase(k) };
-            let next = shooting.integrator.advance(&stretch, &state)?;
-            let after = self.clearance(shooting, frequency_hz, phase(k), &next);
-            if before[1] <= 0.0 && after[1] > 0.0 {
+        let phases: Vec<f64> = (0..=looks).map(|k| begin + periods * k as f64 / looks as f64).collect();
+        let orbit = Stretch { frequency_hz, start: begin, end: begin + periods };
+        let samples = shooting.integrator.trace(&orbit, state, &phases)?.samples;
+        let clearances: Vec<[f64; 2]> = phases
+            .iter()
+            .zip(&samples)
+            .map(|(phase, state)| self.clearance(shooting, frequency_hz, *phase, state))
+            .collect();
+        let mut turns = Vec::new();
+        for (phases, rates) in phases.windows(2).zip(clearances.windows(2)) {
+            let [before, after] = [rates[0][1], rates[1][1]];
+            if before <= 0.0 && after > 0.0 {
                 // Clearance turns: a step of the secant method on its rate.
-                let share = before[1] / (before[1] - after[1]);
-                let turn = phase(k - 1) + share * (phase(k) - phase(k - 1));
-                let at = Stretch { frequency_hz, start: phase(k - 1), end: turn };
-                let place = shooting.integrator.advance(&at, &state)?;
-                // At an impact the rate jumps: it does not vanish near the turn.
-                let [clearance, rate] = self.clearance(shooting, frequency_hz, turn, &place);
-                let distance = clearance.abs() + rate.abs() / (std::f64::consts::TAU * frequency_hz);
-                if best.as_ref().is_none_or(|(nearest, ..)| distance < *nearest) {
-                    best = Some((distance, turn, place));
-                }
+                turns.push(phases[0] + before / (before - after) * (phases[1] - phases[0]));
             }
-            (state, before) = (next, after);
         }
-        Ok(best.map(|(_, turn, place)| (turn, place)))
+        let places = shooting.integrator.trace(&orbit, state, &turns)?.samples;
+        // At an impact the rate jumps: it does not vanish near the turn.
+        let distance = |(turn, place): &(f64, Vec<f64>)| {
+            let [clearance, rate] = self.clearance(shooting, frequency_hz, *turn, place);
+            clearance.abs() + rate.abs() / (std::f64::consts::TAU * frequency_hz)
+        };
+        let found = turns.into_iter().zip(places);
+        Ok(found.min_by(|a, b| distance(a).total_cmp(&distance(b))))
     }
 
     /// Clearance and its rate.
