@@ -9,6 +9,7 @@ use hammerbeam_motion::{
     Stretch, System,
     exact::{ContactMemory, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, VectorField, integrate},
+    law::RigidStop,
 };
 
 use crate::{AttractorError, Part};
@@ -152,20 +153,17 @@ impl SystemMap {
     pub fn check_in_front_of_stops(&self, state: &[f64]) -> Result<(), AttractorError> {
         let system = self.integrator.system();
         for (number, element) in system.elements().iter().enumerate() {
-            let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
-            if element.law.remembers_impact() {
-                let depths = element.law.contacts().iter().map(|contact| contact.sign * (r - contact.level));
-                let depth = depths.fold(f64::NEG_INFINITY, f64::max);
-                if depth > 0.0 {
-                    return Err(AttractorError::WithinContact { stop: element.name.clone(), depth });
-                }
+            let Some(depth) = system.depth_in_contact(number, self.frequency_hz, 0.0, state) else {
+                continue;
+            };
+            let stop = || element.name.clone();
+            if element.law.remembers_impact() && depth > 0.0 {
+                return Err(AttractorError::WithinContact { stop: stop(), depth });
             }
-            let Some(stop) = element.law.rigid() else { continue };
-            let level = stop.level();
+            let Some(level) = element.law.rigid().map(RigidStop::level) else { continue };
             // A state on the stop may have come from a motion, with its rounding.
-            let depth = r - level;
-            if depth > ON_THE_STOP * r.abs().max(level.abs()) {
-                return Err(AttractorError::BehindRigidStop { stop: element.name.clone(), depth });
+            if depth > ON_THE_STOP * (depth + level).abs().max(level.abs()) {
+                return Err(AttractorError::BehindRigidStop { stop: stop(), depth });
             }
         }
         Ok(())

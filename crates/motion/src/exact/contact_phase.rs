@@ -2,6 +2,9 @@
 //!
 //! A contact that is struck and left takes two steps: one from the touch to about its middle, one from there to the release, each
 //! graded towards its end. Where that is too coarse, steps between them go as far as their error allows.
+//!
+//! **Two ends at once.** Where contacts open in the same instant, as two stops of one level on one mass do, the polynomials of a step that ends with one of them may find the other a moment
+//! earlier, and the other way round. Each is then located by the motion itself, and the earlier one is taken; the other follows within the slack of the next step.
 
 use std::sync::Arc;
 
@@ -19,6 +22,9 @@ use crate::Contact;
 /// Tries of one step before it is given up.
 const MAX_TRIES: usize = 60;
 
+/// Part of a step within which two ends are one.
+const SAME: f64 = 1e-9;
+
 /// A step about to be tried.
 #[derive(Debug, Clone, Copy)]
 struct Aim {
@@ -26,6 +32,24 @@ struct Aim {
     event: Option<Event>,
     /// Length to fall back to if the event does not come [s].
     otherwise: f64,
+    /// The end of another contact that was located before, and when [s]: the polynomials of that step had this event come earlier.
+    rival: Option<(Event, f64)>,
+}
+
+impl Aim {
+    /// As far as the length, whatever comes.
+    fn free(length: f64) -> Self {
+        Self { length, event: None, otherwise: 0.0, rival: None }
+    }
+
+    fn to(event: Event, length: f64) -> Self {
+        Self { length, event: Some(event), otherwise: 0.5 * length, rival: None }
+    }
+
+    /// Whether the end of a contact that the polynomials of a step find before its own end, at `length`, was located not to come before that.
+    fn was_later(self, end: Event, length: f64) -> bool {
+        self.rival.is_some_and(|(rival, located)| rival == end && located >= length * (1.0 - SAME))
+    }
 }
 
 /// What became of a try.
@@ -146,16 +170,16 @@ impl ExactIntegrator {
         };
         let proposal = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };
         let Some((ending, time)) = forecast else {
-            return Aim { length: proposal.min(remaining), event: None, otherwise: 0.0 };
+            return Aim::free(proposal.min(remaining));
         };
         let proposal = if run.proposal > 0.0 { proposal } else { 0.5 * time };
         let event = Some(ending);
         let whole = self.grading(run, touched, event).is_some();
         if whole && (time <= 1.4 * proposal || run.proposal == 0.0) && time <= 1.2 * remaining {
-            return Aim { length: time.min(remaining), event, otherwise: proposal.min(remaining) };
+            return Aim { otherwise: proposal.min(remaining), ..Aim::to(ending, time.min(remaining)) };
         }
         let shorter = if time < 2.0 * proposal { 0.5 * time } else { proposal };
-        Aim { length: shorter.min(remaining), event: None, otherwise: 0.0 }
+        Aim::free(shorter.min(remaining))
     }
 
     /// A first guess of the step length: a part of the period of the loaded contact.
@@ -169,10 +193,8 @@ impl ExactIntegrator {
     }
 
     fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: Aim, remaining: f64) -> Tried {
-        let free = |length: f64| Tried::Again(Aim { length, event: None, otherwise: 0.0 });
-        let to = |event: Event, length: f64| {
-            Tried::Again(Aim { length, event: Some(event), otherwise: 0.5 * length })
-        };
+        let free = |length: f64| Tried::Again(Aim::free(length));
+        let to = |event: Event, length: f64| Tried::Again(Aim::to(event, length));
         let Some(grading) = self.grading(run, touched, aim.event) else { return free(aim.otherwise) };
         let solved = match aim.event {
             Some(event) => self.locate(run, event, grading, aim.length, remaining),
@@ -208,7 +230,7 @@ impl ExactIntegrator {
             return free(0.5 * length);
         };
         if let Some((touch, time)) = touching
-            && time < length * (1.0 - 1e-9)
+            && time < length * (1.0 - SAME)
         {
             if time <= 1e-12 * length {
                 return Tried::ClosesNow(touch);
@@ -216,9 +238,11 @@ impl ExactIntegrator {
             return to(Event::Touch(touch), time);
         }
         if let Some((end, time)) = self.first_release(run, event)
-            && time < length * (1.0 - 1e-9)
+            && time < length * (1.0 - SAME)
+            && !aim.was_later(end, length)
         {
-            return to(end, time);
+            let rival = event.map(|event| (event, length));
+            return Tried::Again(Aim { rival, ..Aim::to(end, time) });
         }
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
         if error > 1.0 {

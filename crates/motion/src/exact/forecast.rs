@@ -72,6 +72,10 @@ impl ExactIntegrator {
         let contact = self.closed_contact(run, element)?;
         let clearance = clearance_of(run.start[element].jet, contact.level, contact.sign);
         let (penetration, speed) = (if touched { 0.0 } else { -clearance.value }, -clearance.slope);
+        // Struck without speed it may stay or leave: the other forces decide, and its own does not turn it.
+        if touched && speed.abs() <= 8.0 * f64::EPSILON * run.start[element].velocity {
+            return None;
+        }
         let mobility = self.mobility[element][element];
         let power = contact.onset_exponent + 1.0;
         // The coefficient K of the law, read off it where it is loaded.
