@@ -10,6 +10,63 @@ use common::{Workshop, assert_bad_input, assert_success, stdout};
 const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
+/// Two masses, three stops of different laws.
+const THREE_STOPS: &str = r#"
+title = "Two masses, two stops of different gap"
+[structure]
+kind = "lumped"
+[[structure.mass]]
+name = "a"
+mass_kg = 1.0
+[[structure.mass]]
+name = "b"
+mass_kg = 0.7
+[[structure.spring]]
+between = ["a","ground"]
+stiffness_n_m = 900.0
+[[structure.spring]]
+between = ["a","b"]
+stiffness_n_m = 700.0
+[damping]
+modal_ratio = 0.03
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 1.0
+frequency_hz = [3.5, 4.5]
+[[stop]]
+name = "left stop"
+at = "b"
+law = "linear"
+stiffness_n_m = 1.0e4
+gap_m = 2.0e-3
+side = "below"
+[[stop]]
+name = "right stop"
+at = "b"
+law = "hertz"
+stiffness_n_m15 = 3.0e5
+gap_m = 3.0e-3
+side = "above"
+[[stop]]
+name = "middle"
+at = "a"
+law = "linear"
+stiffness_n_m = 5000.0
+damping_n_s_m = 3.0
+gap_m = 1.5e-3
+side = "above"
+[response]
+point = "b"
+period_multiples = [1]
+period_doubling_depth = 0
+[continuation]
+max_step_hz = 0.02
+[search]
+frequencies = 2
+trials = 0
+"#;
+
 /// Rows of an exported file by the names of its columns.
 fn table(workshop: &Workshop, name: &str) -> Vec<BTreeMap<String, String>> {
     let text = fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap();
@@ -88,6 +145,31 @@ fn a_grazing_curve_is_that_of_the_linear_amplitude() {
         assert!((amplitude / gap - 1.0).abs() < 1e-8, "{gap} m at {w} rad/s: {amplitude}");
     }
     assert!(!workshop.path("results/export/parameter_branches.csv").exists());
+}
+
+/// Two masses between three stops, one of them with a damper, whose contact closes at phase 0 at one amplitude on the way: the curve of Neimark-Sacker points goes on, and ends at that of the diagram at twice the force.
+#[test]
+fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
+    let curve = "[[curve]]\nof = \"neimark-sacker\"\nnear_hz = 4.0167\nparameter = \"excitation.amplitude_n\"\nrange = [0.9, 2.0]\n";
+    let last = |study: &str, name: &str| {
+        let workshop = Workshop::with(study);
+        assert_success(&workshop.hammerbeam(&RUN));
+        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+        table(&workshop, name)
+    };
+    let rows = last(&format!("{THREE_STOPS}{curve}"), "curves.csv");
+    assert!((100..400).contains(&rows.len()), "{} rows", rows.len());
+    let ends = [rows.first().unwrap(), rows.last().unwrap()].map(|row| number(row, "parameter"));
+    assert_eq!(ends, [0.9, 2.0]);
+    let hz = number(rows.last().unwrap(), "frequency_hz");
+    let twice = THREE_STOPS.replace("amplitude_n = 1.0", "amplitude_n = 2.0");
+    let events = last(&twice, "events.csv");
+    let off = events
+        .iter()
+        .filter(|row| row["event"].contains("neimark-sacker"))
+        .map(|row| (number(row, "frequency_hz") / hz - 1.0).abs())
+        .fold(f64::INFINITY, f64::min);
+    assert!(off < 1e-8, "{hz} Hz, off by {off:e}");
 }
 
 /// What is stored is not computed again; a piece more goes into the same folder, and the branches stay as they are.

@@ -63,6 +63,59 @@ fn keeps_away(law: &Law) -> bool {
     law.remembers_impact() || law.rigid().is_some()
 }
 
+/// Whether the fundamental matrix over a segment jumps where a contact of this law passes over its end.
+fn jumps(law: &Law) -> bool {
+    keeps_away(law) || law.onset_damping() > 0.0
+}
+
+/// How much later the segments of an orbit of `cycles` should begin, which are `length` cycles long and of which the first one begins at `phase` with `state`, to keep their ends away from contacts at which fundamental
+/// matrices jump; `None` where they are clear of them, or cannot be. Contacts that only jump at their ends may be closed there.
+///
+/// # Errors
+/// [`MotionError`] where the orbit cannot be followed.
+pub(crate) fn offset_to_clear(
+    integrator: &mut ExactIntegrator,
+    (phase, cycles, length): (f64, f64, f64),
+    state: &[f64],
+    frequency_hz: f64,
+) -> Result<Option<f64>, MotionError> {
+    if !integrator.system().elements().iter().any(|element| jumps(&element.law)) {
+        return Ok(None);
+    }
+    let stretch = Stretch { frequency_hz, start: phase, end: phase + cycles };
+    let trace = integrator.trace(&stretch, state, &[])?;
+    let elements = integrator.system().elements();
+    let mut times = Vec::new();
+    for contact in trace.contacts.iter().filter(|contact| jumps(&elements[contact.element].law)) {
+        let begin = contact.begin.as_ref().map(|begin| begin.time * frequency_hz);
+        let end = contact.end.map(|end| end * frequency_hz);
+        if keeps_away(&elements[contact.element].law) {
+            times.push(Gap { begin: begin.unwrap_or(0.0), end: end.unwrap_or(cycles) });
+        } else {
+            times.extend([begin, end].into_iter().flatten().map(|at| Gap { begin: at, end: at }));
+        }
+    }
+    let folded = folded(&times, length);
+    let Some((gap, nearest)) = longest_of_orbit(&folded, length, false) else { return Ok(None) };
+    let offset = gap.middle(phase).rem_euclid(length);
+    Ok((gap.asks_to_move(nearest) && offset > 0.0).then_some(offset))
+}
+
+/// Times since the begin of the segment in which they begin, in their order; what goes on beyond its end is that of the next one, too.
+fn folded(times: &[Gap], length: f64) -> Vec<Gap> {
+    let mut folded = Vec::new();
+    for time in times {
+        let begin = time.begin.rem_euclid(length);
+        let end = begin + time.length();
+        folded.push(Gap { begin, end: end.min(length) });
+        if end > length {
+            folded.push(Gap { begin: 0.0, end: (end - length).min(length) });
+        }
+    }
+    folded.sort_by(|a, b| a.begin.total_cmp(&b.begin));
+    folded
+}
+
 /// Whether orbits of a system have to begin away from its contacts.
 pub(crate) fn begins_with_care(system: &System) -> bool {
     system.elements().iter().any(|element| keeps_away(&element.law))
@@ -175,6 +228,14 @@ mod tests {
         let before = Gap { begin: 0.0, end: 0.25 };
         assert_eq!(longest_of_orbit(&CONTACTS, 1.0, true), Some((before, 0.25)));
         assert_eq!(longest_of_orbit(&[], 1.0, false), None);
+    }
+
+    #[test]
+    fn times_of_all_segments_are_folded_onto_one() {
+        let times = [Gap { begin: 0.25, end: 0.375 }, Gap { begin: 0.875, end: 1.25 }];
+        let expected =
+            [Gap { begin: 0.0, end: 0.25 }, Gap { begin: 0.25, end: 0.375 }, Gap { begin: 0.375, end: 0.5 }];
+        assert_eq!(folded(&times, 0.5), expected);
     }
 
     /// Overlapping contacts of two stops leave only what both leave.

@@ -1,7 +1,7 @@
 //! What is known of an event: how closely it was located, which multiplier it belongs to, and in which direction the motion changes there.
 //!
 //! With the uncertainty `s` of the place along the path, the tangent's frequency component `t_f` and its change `k` per length, the
-//! frequency is uncertain by `s |t_f| + k s^2 / 2`.
+//! frequency is uncertain by `s |t_f| + k s^2 / 2`, and by no less than its last digit.
 //!
 //! The direction is the null vector of `A - mu I` (`A` the monodromy matrix, `mu` the multiplier at +1, -1 or on the unit circle), found by
 //! inverse iteration. At a branch point it is the tangent of the crossing branch: the vector that `[R_x R_f]` maps to zero besides the
@@ -61,15 +61,18 @@ pub(crate) struct Place<'a> {
     pub touches_before: &'a [u32],
 }
 
-/// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened there.
+/// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened there. A corner of the path alone is none: the equations have a kink there, the motion has nothing.
 pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Option<LocatedEvent> {
-    let events = place.point.events;
+    let events = hammerbeam_path::Events { corner: false, ..place.point.events };
     if !events.any() {
         return None;
     }
     let uncertainty = place.point.uncertainty;
     let slope = place.point.tangent_parameter().abs();
-    let uncertainty_hz = uncertainty * slope + 0.5 * place.bend * uncertainty * uncertainty;
+    let size = problem.parameter_size(&place.point.point);
+    // The frequency itself is no better than its last digit.
+    let rounding = f64::EPSILON * size;
+    let uncertainty_hz = (uncertainty * slope + 0.5 * place.bend * uncertainty * uncertainty).max(rounding);
     let multipliers = problem.multipliers().map(<[_]>::to_vec).unwrap_or_default();
     let nearest = |distance: &dyn Fn(&[f64; 2]) -> f64| {
         multipliers.iter().copied().min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -85,8 +88,7 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     } else {
         (None, 0.0)
     };
-    let sharp = uncertainty_hz <= SHARP_FREQUENCY * problem.parameter_size(&place.point.point)
-        && off <= SHARP_MULTIPLIER;
+    let sharp = uncertainty_hz <= SHARP_FREQUENCY * size && off <= SHARP_MULTIPLIER;
     let direction = if events.branch_point {
         crossing_direction(problem, place.point)
     } else {

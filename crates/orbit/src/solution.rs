@@ -56,6 +56,20 @@ pub struct OrbitMaxima {
     pub contacts: u32,
 }
 
+impl OrbitMaxima {
+    /// Those of one stretch of a motion and of the next one.
+    pub(crate) fn and(&self, next: &Self) -> Self {
+        Self {
+            displacement: self.displacement.max(next.displacement),
+            acceleration: self.acceleration.max(next.acceleration),
+            contact_force: self.contact_force.max(next.contact_force),
+            impact_velocity: self.impact_velocity.max(next.impact_velocity),
+            impulse: self.impulse + next.impulse,
+            contacts: self.contacts + next.contacts,
+        }
+    }
+}
+
 /// The two directions in which a branch leaves its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {

@@ -31,6 +31,12 @@ fn oscillator(damping: f64, force: f64, law: Law) -> Case {
 
 /// Rows of a branch in the frequency with an event, sharply located.
 fn events(case: &Case, start_hz: f64, range_hz: (f64, f64), wanted: fn(&Events) -> bool) -> Vec<BranchRow> {
+    let sharp = |row: &BranchRow| row.located.as_ref().is_some_and(|l| l.status == EventStatus::Located);
+    branch(case, start_hz, range_hz).into_iter().filter(|row| wanted(&row.events) && sharp(row)).collect()
+}
+
+/// Rows of a branch in the frequency.
+fn branch(case: &Case, start_hz: f64, range_hz: (f64, f64)) -> Vec<BranchRow> {
     let settings = OrbitSettings::for_range(range_hz);
     let orbit = (start_hz, 1);
     let start = find_start(&case.0, &case.1, start_hz, 1, &settings)
@@ -41,8 +47,7 @@ fn events(case: &Case, start_hz: f64, range_hz: (f64, f64), wanted: fn(&Events) 
         let mut walk = BranchWalk::new(&case.0, &case.1, &start, side, range_hz, &settings).unwrap();
         while walk.step(&mut rows).unwrap().is_none() {}
     }
-    let sharp = |row: &BranchRow| row.located.as_ref().is_some_and(|l| l.status == EventStatus::Located);
-    rows.into_iter().filter(|row| wanted(&row.events) && sharp(row)).collect()
+    rows
 }
 
 fn settings(parameter: Parameter, range: (f64, f64), range_hz: (f64, f64)) -> CurveSettings {
@@ -162,7 +167,8 @@ fn flip_curves_of_the_beam_meet_its_branches() {
     }
 }
 
-/// Grazing of the linear oscillator: the linear amplitude equals the gap, `a F / |1 - w^2 + i c w| = g`.
+/// Grazing of the linear oscillator: the linear amplitude equals the gap, `a F / |1 - w^2 + i c w| = g`, whatever the contact does once it is reached; the multipliers are those of the linear oscillator, of the modulus
+/// `exp(-c/(2 f))`.
 #[test]
 fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
     let amplitude = |hz: f64| {
@@ -170,25 +176,51 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
         1.0 / (1.0 - w * w).hypot(0.2 * w)
     };
     let gap = 2.0;
-    let case = oscillator(0.2, 1.0, Law::Linear(law::LinearStop::with_gap(3.0, gap).unwrap()));
-    let range_hz = (0.05, 0.4);
-    let grazings = events(&case, 0.06, range_hz, |events| events.grazing);
-    let first = &grazings[0];
-    for (parameter, range) in
-        [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::Gap { element: 0 }, (0.5, 6.0))]
-    {
-        for side in [Side::Up, Side::Down] {
-            let settings = settings(parameter, range, range_hz);
-            let (rows, end) = curve(&case, first, (CurveKind::Grazing { contact: 0 }, side), &settings);
-            assert!(rows.len() > 20 && end != CurveEnd::Budget);
-            for row in &rows {
-                let linear = amplitude(row.solution.frequency_hz);
-                let ratio = match parameter {
-                    Parameter::ExcitationScale => row.parameter * linear / gap,
-                    _ => linear / row.parameter,
-                };
-                assert!((ratio - 1.0).abs() < 1e-8, "{parameter:?} at {}: {ratio}", row.parameter);
-                assert!((row.solution.nodes[0][0].abs()) <= linear * row.parameter.max(1.0) * 1.001);
+    let linear = law::LinearStop::with_gap(3.0, gap).unwrap();
+    let hertz = law::HertzStop::with_gap(30.0, gap).unwrap();
+    let laws = [
+        Law::Linear(linear),
+        Law::Linear(linear.with_damping(0.5).unwrap()),
+        Law::Hertz(hertz),
+        Law::HuntCrossley(law::HuntCrossleyStop::new(hertz, 0.4).unwrap()),
+        Law::Rigid(law::RigidStop::with_gap(0.8, gap).unwrap()),
+    ];
+    for law in laws {
+        let case = oscillator(0.2, 1.0, law);
+        let range_hz = (0.05, 0.4);
+        // At that of a rigid stop the multipliers jump: it counts as bracketed.
+        let rows = branch(&case, 0.06, range_hz);
+        let first = rows.iter().find(|row| row.events.grazing).unwrap();
+        for (parameter, range) in
+            [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::Gap { element: 0 }, (0.5, 6.0))]
+        {
+            for side in [Side::Up, Side::Down] {
+                let settings = settings(parameter, range, range_hz);
+                let (rows, end) = curve(&case, first, (CurveKind::Grazing { contact: 0 }, side), &settings);
+                assert!(rows.len() > 20, "{law:?}");
+                assert!(matches!(end, CurveEnd::RangeEnd | CurveEnd::FrequencyRangeEnd), "{law:?}: {end:?}");
+                for row in &rows {
+                    let hz = row.solution.frequency_hz;
+                    let linear = amplitude(hz);
+                    let (ratio, force) = match parameter {
+                        Parameter::ExcitationScale => (row.parameter * linear / gap, row.parameter),
+                        _ => (linear / row.parameter, 1.0),
+                    };
+                    assert!(
+                        (ratio - 1.0).abs() < 1e-8,
+                        "{law:?} {parameter:?} at {}: {ratio}",
+                        row.parameter
+                    );
+                    let reached = row.solution.maxima.displacement / (linear * force);
+                    assert!((reached - 1.0).abs() < 1e-8, "{law:?}: {reached}");
+                    let modulus = (-0.1 / hz).exp();
+                    for [re, im] in &row.solution.floquet_multipliers {
+                        assert!(
+                            (re.hypot(*im) / modulus - 1.0).abs() < 1e-8,
+                            "{law:?} at {hz} Hz: {re} {im}"
+                        );
+                    }
+                }
             }
         }
     }

@@ -130,3 +130,39 @@ fn both_flanks_of_a_narrow_peak_are_told() {
         assert!(second.cost_ratio < 1.01 && second.points == 4, "{second:?}");
     }
 }
+
+/// Three branches of one period lie over one another, a factor of 1.3 apart, so that the nearest one of a point changes with the factor, and some points are strays: no other factor may have a smaller sum at the shift that was found,
+/// and no other shift with the factor that was.
+#[test]
+fn no_factor_and_no_shift_of_a_fine_grid_has_a_smaller_sum() {
+    let value = |f: f64| 1.0 + 4.0 * (-((f - 30.0) / 2.0).powi(2)).exp();
+    let layer =
+        |k: i32| branch(k as u32 + 1, (20.0, 40.0), move |f| 1.3_f64.powi(k) * value(f + 0.3 * f64::from(k)));
+    let curves = Curves::new((0..3).map(layer).collect());
+    for seed in 0..3 {
+        let mut random = Random::new(seed);
+        let points: Vec<MeasuredPoint> = (0..30)
+            .map(|k| {
+                let f = 24.0 + 0.4 * f64::from(k);
+                let off = if k % 7 == 3 { 1.0 } else { 0.1 };
+                point(f / 1.03, value(f) / 1.7 * (off * random.normal()).exp(), 1)
+            })
+            .collect();
+        let found = held(&points, &curves, &FitSettings::default());
+        let least = sum(&found);
+        let [frequency, amplitude] = [found.fit.frequency.value, found.fit.amplitude.value];
+        let at = |frequency: f64, amplitude: f64| {
+            let given = [frequency, amplitude].map(Fixed::Given);
+            let settings = FitSettings { frequency: given[0], amplitude: given[1], ..FitSettings::default() };
+            sum(&held(&points, &curves, &settings))
+        };
+        assert!((at(frequency, amplitude) - least).abs() < 1e-12);
+        for k in 0..=1000 {
+            let share = f64::from(k) / 1000.0;
+            let factor = 0.05 * 400.0_f64.powf(share);
+            assert!(at(frequency, factor) > least - 1e-12, "seed {seed}, factor {factor}");
+            let shift = 0.85 + 0.33 * share;
+            assert!(at(shift, amplitude) > least - 1e-12, "seed {seed}, shift {shift}");
+        }
+    }
+}

@@ -9,7 +9,7 @@ use hammerbeam_path::DenseLu;
 use super::{
     condition::Linear,
     null::{null_space, transposed},
-    shooting::{Place, Shooting, dot},
+    shooting::{Place, Shooting, dot, times},
 };
 
 /// The borders.
@@ -56,6 +56,19 @@ impl Bordered {
             vector.into_iter().map(|x| x / length).collect()
         };
         (self.left, self.right) = (unit(left), unit(right));
+    }
+
+    /// The borders of orbits that are cut elsewhere, at the last evaluated place: null vectors there, with the signs of `P^-T w` and `P v`.
+    ///
+    /// * `matrix`: `P`, the fundamental matrix from the old first node to the new one, by rows.
+    pub fn carry(&mut self, shooting: &Shooting, matrix: &[f64]) {
+        let new = Self::new(self.multiplier, shooting);
+        let toward = |new: Vec<f64>, old: &[f64]| -> Vec<f64> {
+            let sign = dot(&new, &times(matrix, old)).signum();
+            new.into_iter().map(|x| sign * x).collect()
+        };
+        // (P^-T w) . (P w) = w . w.
+        (self.left, self.right) = (toward(new.left, &self.left), toward(new.right, &self.right));
     }
 
     /// `g` and its gradient, and the tests `w^T v` and `w^T D^2 Z (v, v)`, for vectors of length one.

@@ -44,6 +44,14 @@ impl Condition {
         }
     }
 
+    /// Adapts the condition to orbits that are cut elsewhere, at the last evaluated place (`recut.rs`).
+    pub fn carry(&mut self, shooting: &Shooting, matrix: &[f64]) {
+        match self {
+            Self::Multiplier(bordered) => bordered.carry(shooting, matrix),
+            Self::Pair(_) | Self::Touch(_) => {}
+        }
+    }
+
     /// Whether the phase at which the orbit is cut is unknown.
     pub fn has_phase(&self) -> bool {
         matches!(self, Self::Touch(_))

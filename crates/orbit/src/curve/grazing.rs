@@ -97,7 +97,9 @@ impl Touch {
                 let turn = phase(k - 1) + share * (phase(k) - phase(k - 1));
                 let at = Stretch { frequency_hz, start: phase(k - 1), end: turn };
                 let place = shooting.integrator.advance(&at, &state)?;
-                let distance = self.clearance(shooting, frequency_hz, turn, &place)[0].abs();
+                // At an impact the rate jumps: it does not vanish near the turn.
+                let [clearance, rate] = self.clearance(shooting, frequency_hz, turn, &place);
+                let distance = clearance.abs() + rate.abs() / (std::f64::consts::TAU * frequency_hz);
                 if best.as_ref().is_none_or(|(nearest, ..)| distance < *nearest) {
                     best = Some((distance, turn, place));
                 }

@@ -13,8 +13,8 @@
 //! `w^T (dA/dz_j) v` for all `j` at once is the derivative of `w^T A` along `v`: a central difference of exact fundamental matrices, two evaluations for each
 //! vector, whatever the number of unknowns. The residual is exact; only the convergence depends on the difference, of relative accuracy 1e-6 or so.
 //!
-//! The grazing orbit is cut at its touch, so no force acts at its ends, and both conditions are linear in the unknowns: no step of Newton's method makes
-//! the touch an impact, beside which `A` is like a square root.
+//! The grazing orbit is cut at its touch, so no force acts at its ends, and both conditions are linear in the unknowns. Beside its ends the touched element is left out, so that its equations are smooth (`passing.rs`): it is the end of the
+//! orbits that pass the contact, and its multipliers are theirs.
 //!
 //! # Points of codimension two
 //! They are zeros of test functions, located by the path: on a fold curve the *cusp* (`w^T D^2 Z (v, v) = 0`), the *1:1 resonance* (`w^T v = 0`: a second multiplier
@@ -27,7 +27,7 @@
 //! chapter 10.
 //!
 //! # Limits
-//! All matrices are dense and the orbit keeps its segments and its units. In the damping, each point builds its integrator
+//! All matrices are dense and the orbit keeps its segments and its units. Grazing of a stop without a single gap (preloaded, or two-sided with two gaps) is followed with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
 //! anew. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply.
 
 mod bordered;
@@ -35,7 +35,9 @@ mod condition;
 mod grazing;
 mod null;
 mod pair;
+mod passing;
 mod problem;
+mod recut;
 mod shooting;
 mod walk;
 

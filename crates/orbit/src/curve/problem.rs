@@ -14,6 +14,8 @@ use crate::{eigenvalues::eigenvalues, stability};
 pub(super) struct CurveProblem {
     pub shooting: Shooting,
     pub condition: Condition,
+    /// Phase at which orbits are cut, unless it is an unknown [cycles].
+    pub begin: f64,
     weights: Vec<f64>,
     residual: Vec<f64>,
     /// `[R_x R_p]` by rows.
@@ -24,8 +26,9 @@ pub(super) struct CurveProblem {
 }
 
 impl CurveProblem {
+    /// * `begin`: phase at which orbits are cut, unless it is an unknown [cycles].
     /// * `units`: what counts like a change of the orbit by its own size, of frequency and parameter.
-    pub fn new(shooting: Shooting, condition: Condition, units: [f64; 2]) -> Self {
+    pub fn new(shooting: Shooting, condition: Condition, begin: f64, units: [f64; 2]) -> Self {
         let nodes = shooting.size() * shooting.count;
         let mut weights = vec![1.0 / shooting.count as f64; nodes];
         weights.push(units[0].powi(-2));
@@ -37,6 +40,7 @@ impl CurveProblem {
         Self {
             shooting,
             condition,
+            begin,
             residual: vec![0.0; unknowns],
             jacobian: vec![0.0; unknowns * (unknowns + 1)],
             weights,
@@ -53,7 +57,7 @@ impl CurveProblem {
     /// Place of a point.
     pub fn place(&self, point: &[f64]) -> Place {
         let nodes = self.shooting.size() * self.shooting.count;
-        let phase = if self.condition.has_phase() { point[nodes + 1] } else { 0.0 };
+        let phase = if self.condition.has_phase() { point[nodes + 1] } else { self.begin };
         Place {
             nodes: point[..nodes].to_vec(),
             frequency_hz: point[nodes],

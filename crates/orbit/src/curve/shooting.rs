@@ -8,6 +8,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError, complete_touches},
 };
 
+use super::passing::Passing;
 use crate::state_scale::StateScale;
 
 /// Step of central differences along a vector, relative to the orbit.
@@ -29,6 +30,24 @@ pub(super) struct Segment {
     pub matrix: Vec<f64>,
     pub by_frequency: Vec<f64>,
     pub by_parameter: Vec<f64>,
+    /// Touches of each contact.
+    pub touches: Vec<u32>,
+}
+
+impl Segment {
+    /// This one and then another one.
+    fn then(&self, next: &Self) -> Self {
+        let sum = |first: &[f64], second: &[f64]| -> Vec<f64> {
+            times(&next.matrix, first).iter().zip(second).map(|(a, b)| a + b).collect()
+        };
+        Self {
+            end: next.end.clone(),
+            matrix: multiply(self.end.len(), &next.matrix, &self.matrix),
+            by_frequency: sum(&self.by_frequency, &next.by_frequency),
+            by_parameter: sum(&self.by_parameter, &next.by_parameter),
+            touches: self.touches.iter().zip(&next.touches).map(|(a, b)| a + b).collect(),
+        }
+    }
 }
 
 /// The shooting equations.
@@ -44,6 +63,8 @@ pub(super) struct Shooting {
     /// `A_k`, the products of the first k matrices, `k = 0..=m`.
     pub products: Vec<Vec<f64>>,
     pub touches: Vec<u32>,
+    /// Where the orbit touches a contact at its ends.
+    pub passing: Option<Passing>,
 }
 
 impl Shooting {
@@ -64,24 +85,49 @@ impl Shooting {
 
     fn flow(&mut self, segment: usize, place: &Place, node: &[f64]) -> Result<Segment, MotionError> {
         let stretch = self.stretch(segment, place.frequency_hz, place.phase);
-        let scales = self.scale.values();
+        let mut parts = self.parts(stretch, place.phase).into_iter();
+        let whole = parts.next().unwrap_or((stretch, false));
+        let mut flow = self.flow_over(whole, node)?;
+        for part in parts {
+            flow = flow.then(&self.flow_over(part, &flow.end)?);
+        }
+        Ok(flow)
+    }
+
+    /// Flow of a scaled node over a part of the orbit.
+    pub fn flow_over(
+        &mut self,
+        (stretch, passes): (Stretch, bool),
+        node: &[f64],
+    ) -> Result<Segment, MotionError> {
+        let scales = self.scale.values().to_vec();
         let size = scales.len();
-        let state: Vec<f64> = node.iter().zip(scales).map(|(x, s)| x * s).collect();
-        let flow = self.integrator.flow(&stretch, &state)?;
-        let scaled = |values: &[f64]| values.iter().zip(scales).map(|(z, s)| z / s).collect::<Vec<f64>>();
+        let state: Vec<f64> = node.iter().zip(&scales).map(|(x, s)| x * s).collect();
+        let integrator = self.integrator_of(passes);
+        let flow = integrator.flow(&stretch, &state)?;
+        let scaled = |values: &[f64]| values.iter().zip(&scales).map(|(z, s)| z / s).collect::<Vec<f64>>();
         let matrix = (0..size * size).map(|k| (k / size, k % size));
-        let matrix = matrix.map(|(i, j)| flow.by_state[(i, j)] / scales[i] * scales[j]).collect();
+        let mut by_parameter = scaled(&flow.by_parameter);
+        // An element that is left out depends on nothing.
+        by_parameter.resize(size, 0.0);
         Ok(Segment {
             end: scaled(&flow.state),
-            matrix,
+            matrix: matrix.map(|(i, j)| flow.by_state[(i, j)] / scales[i] * scales[j]).collect(),
             by_frequency: scaled(&flow.by_frequency),
-            by_parameter: scaled(&flow.by_parameter),
+            by_parameter,
+            touches: integrator.touches().to_vec(),
         })
+    }
+
+    /// Gives the parameter that is followed another value.
+    pub fn set_parameter(&mut self, value: f64) -> Result<(), MotionError> {
+        self.integrator.set_parameter(self.parameter, value)?;
+        self.passing.as_mut().map_or(Ok(()), |passing| passing.set_parameter(self.parameter, value))
     }
 
     /// Evaluates all segments at a place.
     pub fn evaluate(&mut self, place: &Place) -> Result<(), MotionError> {
-        self.integrator.set_parameter(self.parameter, place.value)?;
+        self.set_parameter(place.value)?;
         let size = self.size();
         self.touches.fill(0);
         self.segments.clear();
@@ -90,7 +136,7 @@ impl Shooting {
         self.products = vec![identity];
         for k in 0..self.count {
             let segment = self.flow(k, place, &place.nodes[k * size..(k + 1) * size])?;
-            let touches = self.touches.iter_mut().zip(self.integrator.touches());
+            let touches = self.touches.iter_mut().zip(&segment.touches);
             touches.for_each(|(sum, touches)| *sum += touches);
             let product = multiply(size, &segment.matrix, &self.products[k]);
             self.products.push(product);
@@ -121,6 +167,7 @@ impl Shooting {
             };
             found.push(Segment {
                 end: Vec::new(),
+                touches: Vec::new(),
                 matrix: quotient(&above.matrix, &below.matrix),
                 by_frequency: quotient(&above.by_frequency, &below.by_frequency),
                 by_parameter: quotient(&above.by_parameter, &below.by_parameter),

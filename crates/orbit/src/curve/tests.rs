@@ -56,6 +56,7 @@ fn shooting(parameter: Parameter) -> Shooting {
         segments: Vec::new(),
         products: Vec::new(),
         touches: vec![0; 1],
+        passing: None,
     }
 }
 
@@ -82,7 +83,7 @@ fn jacobians_agree_with_differences_of_the_residual() {
             let place = if kind == 3 { place } else { Place { phase: 0.0, ..place } };
             shooting.evaluate(&place).unwrap();
             let condition = make(&shooting);
-            let mut problem = CurveProblem::new(shooting, condition, [1.0, 1.0]);
+            let mut problem = CurveProblem::new(shooting, condition, place.phase, [1.0, 1.0]);
             let point = problem.point(&place);
             problem.evaluate(&point).unwrap();
             let (jacobian, width) = (problem.jacobian().to_vec(), point.len());

@@ -8,14 +8,16 @@ use super::{
     condition::Condition,
     grazing::Touch,
     pair::Pair,
+    passing::Passing,
     problem::CurveProblem,
+    recut::cut_clear,
     shooting::{Place, Shooting},
 };
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     eigenvalues::eigenvalues,
     size::orbit_scale,
-    solve::{integrator, nodes_from, observe},
+    solve::{integrator, nodes_from},
 };
 
 /// What is followed.
@@ -132,12 +134,10 @@ pub enum CurveEnd {
 /// One side of a curve.
 #[derive(Debug)]
 pub struct CurveWalk {
-    problem: CurveProblem,
-    follower: Follower,
+    pub(super) problem: CurveProblem,
+    pub(super) follower: Follower,
     settings: CurveSettings,
     kind: CurveKind,
-    /// Phase at which its orbits begin: that of the start.
-    begin: f64,
     end: Option<CurveEnd>,
 }
 
@@ -159,6 +159,7 @@ impl CurveWalk {
         let mut integrator = integrator(system, response, orbits)?;
         integrator.differentiate_by(Some(settings.parameter))?;
         let contacts = integrator.touches().len();
+        let start = &cut_clear(&mut integrator, start)?;
         let scale = orbit_scale(&mut integrator, start)?;
         let mut shooting = Shooting {
             integrator,
@@ -169,12 +170,17 @@ impl CurveWalk {
             segments: Vec::new(),
             products: Vec::new(),
             touches: vec![0; contacts],
+            passing: None,
         };
         let none = OrbitError::NoEvent { frequency_hz: start.frequency_hz };
+        if let CurveKind::Grazing { contact } = kind {
+            let touch = Touch::of_contact(&shooting, contact).ok_or(none.clone())?;
+            shooting.passing = Passing::new((&shooting, touch.element), response, start, orbits)?;
+        }
         let (condition, place) = first_condition(&mut shooting, start, (kind, value))?.ok_or(none)?;
         let width = |(low, high): (f64, f64)| (high - low) / 100.0;
         let units = [width(settings.range_hz), width(settings.range)];
-        let mut problem = CurveProblem::new(shooting, condition, units);
+        let mut problem = CurveProblem::new(shooting, condition, start.phase, units);
         let point = problem.point(&place);
         let direction = match side {
             Side::Up => Direction::Increasing,
@@ -183,7 +189,7 @@ impl CurveWalk {
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
-        Ok(Self { problem, follower, settings: *settings, kind, begin: start.phase, end: None })
+        Ok(Self { problem, follower, settings: *settings, kind, end: None })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -205,6 +211,7 @@ impl CurveWalk {
         if let Some(end) = &self.end {
             return Ok(Err(end.clone()));
         }
+        self.keep_phase_clear();
         let reason = match self.follower.step(&mut self.problem) {
             StepOutcome::Accepted => return self.accepted().map(Ok),
             StepOutcome::Stopped(reason) => reason,
@@ -256,13 +263,16 @@ impl CurveWalk {
             .collect();
         let stretches: Vec<Stretch> =
             (0..shooting.count).map(|k| shooting.stretch(k, place.frequency_hz, place.phase)).collect();
-        let maxima = observe(&mut shooting.integrator, &stretches, &nodes)?;
         let has_phase = self.problem.condition.has_phase();
+        if has_phase {
+            shooting.fit_passing(place.frequency_hz, place.phase, &nodes[0])?;
+        }
+        let maxima = shooting.observe(&stretches, &nodes)?;
         let nodes = if has_phase { self.nodes_from_begin(&place, &nodes[0])? } else { nodes };
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
             period_multiple: self.problem.shooting.period_multiple,
-            phase: self.begin,
+            phase: self.problem.begin,
             nodes,
             floquet_multipliers,
             residual,
@@ -296,13 +306,14 @@ impl CurveWalk {
 
     /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere.
     fn nodes_from_begin(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
+        let begin = self.problem.begin;
         let shooting = &mut self.problem.shooting;
         let (f, multiple, count) = (place.frequency_hz, shooting.period_multiple, shooting.count);
         let periods = f64::from(multiple);
-        let end = self.begin + ((place.phase - self.begin) / periods).ceil() * periods;
+        let end = begin + ((place.phase - begin) / periods).ceil() * periods;
         let stretch = Stretch { frequency_hz: f, start: place.phase, end };
-        let first = shooting.integrator.advance(&stretch, state)?;
-        nodes_from(&mut shooting.integrator, (self.begin, &first), f, multiple, count)
+        let first = shooting.advance(stretch, place.phase, state)?;
+        nodes_from(&mut shooting.integrator, (begin, &first), f, multiple, count)
     }
 }
 
@@ -324,9 +335,10 @@ fn first_condition(
             return Ok(None);
         };
         let mut nodes = vec![state];
+        shooting.fit_passing(frequency_hz, phase, &nodes[0])?;
         for k in 1..shooting.count {
             let stretch = shooting.stretch(k - 1, frequency_hz, phase);
-            nodes.push(shooting.integrator.advance(&stretch, &nodes[k - 1])?);
+            nodes.push(shooting.advance(stretch, phase, &nodes[k - 1])?);
         }
         place = Place { nodes: scaled(&nodes, &scales), phase, ..place };
         return Ok(Some((Condition::Touch(touch), place)));

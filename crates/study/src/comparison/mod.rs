@@ -13,11 +13,14 @@
 //!
 //! **The fit** minimises `sum min(r_i^2, R^2)` over what is not given, where a point that no stable branch of its period meets counts `R^2` too: points farther off than the factor
 //! `exp(R)` pull at nothing, and no shift is rewarded for losing points. `R` is twice the logarithm of the reach within which a branch explains a point: with the reach itself, a shift that happens to fit
-//! half of the points closely may win over one that fits all of them fairly. It has many minima, since branches have many peaks; so all shifts of a grid are tried first,
-//! the best of each valley is refined by Gauss and Newton with the branches as they are matched there, and by finer grids about it (`fit/search.rs`), and the lowest is taken. Steps do not leave what is tried: a number that stays at an end of it is no minimum and has no standard error, and
-//! those of the other one are for that end. With `n` points nearer than `R`, `p` fitted numbers and `J = dr/dp`, standard errors are the
+//! half of the points closely may win over one that fits all of them fairly. At a shift the best factor follows from going over all of them in their order (`fit/problem.rs`); over the shift the sum has many minima, since branches have many peaks, so all shifts of a grid are tried,
+//! the lowest valleys are gone over with finer and finer grids, and the lowest place is taken (`fit/search.rs`). Nothing leaves what is tried: a number that stays at an end of it is no minimum and has no standard error, and
+//! those of the other one are for that end. With `n` points nearer than `R`, `p` fitted numbers and `J = dr/dp`, standard errors (`fit/errors.rs`) are the
 //! roots of the diagonal of `(J^T J)^-1 sum r_i^2 / (n - p)`. Slopes of branches in `J` are secants over 0.5 % of the frequency: at a fold the tangent says nothing of
 //! where points will lie. The errors hold for the matching that was found, and for differences that are independent; a model that is wrong makes them too small.
+//!
+//! **The residual** is told of the points within the reach, and of all that meet a branch. The latter is not what the fit makes small: a shift at which more points meet a branch, one of them far off, has a smaller sum and
+//! a larger residual of all that meet one.
 //!
 //! **Another minimum** that is about as good is told, the lowest of those that worse shifts part from the best one; with sums `F` and `F'` over all points, and `S` over the `n` points nearer than `R` to the best one, it counts if
 //! `(n - p)(F' - F)/S` is below 3.84 (chi-squared of one freedom, 95 %), or `(F' - F)/S` below 0.1. What points that never fit add to `F` and `F'` drops out.

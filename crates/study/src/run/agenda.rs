@@ -240,9 +240,13 @@ impl Agenda {
             let walk = start.walk_mut(side);
             walk.rows.extend(rows.iter().map(Sketch::of_branch_row));
             walk.reason = reason.cloned();
-            if reason.is_some() {
-                walk.running = None;
-            }
+        }
+    }
+
+    /// Notes that no thread is at a walk any more.
+    pub fn rest(&mut self, key: u32, side: Side) {
+        if let Some(start) = self.start_mut(key) {
+            start.walk_mut(side).running = None;
         }
     }
 

@@ -1,5 +1,7 @@
 //! A solver without mechanics: branches that are plain curves, for tests of running and storing.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use hammerbeam_orbit::{BranchRow, Crossing, Events, OrbitMaxima, PeriodicSolution, Side, StopReason};
 
 use super::{Match, Origin, Solver, Surveyed, Walk};
@@ -14,11 +16,23 @@ pub(crate) struct FakeSolver {
     pub segments: usize,
     /// Whether walks of two periods panic.
     pub panics: bool,
+    /// Steps of a harmonic branch from one flip to the next, if it has any.
+    pub flips: Option<i64>,
+    /// Walks that were taken up again.
+    pub resumed: AtomicUsize,
 }
 
 impl Default for FakeSolver {
     fn default() -> Self {
-        Self { range_hz: [10.0, 20.0], step: 0.01, state_length: 4, segments: 2, panics: false }
+        Self {
+            range_hz: [10.0, 20.0],
+            step: 0.01,
+            state_length: 4,
+            segments: 2,
+            panics: false,
+            flips: None,
+            resumed: AtomicUsize::new(0),
+        }
     }
 }
 
@@ -67,20 +81,28 @@ impl Solver for FakeSolver {
         }
     }
 
-    fn root(&self, _crossing: &Crossing) -> Result<PeriodicSolution, String> {
-        Err("nothing leaves".to_owned())
+    fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {
+        Ok(PeriodicSolution {
+            period_multiple: crossing.factor * crossing.orbit.period_multiple,
+            ..crossing.orbit.clone()
+        })
     }
 
     fn begin<'a>(&'a self, origin: &Origin, side: Side) -> Result<Box<dyn Walk + 'a>, String> {
-        let Origin::Found(start) = origin else { return Err("nothing leaves".to_owned()) };
-        let at = if start.period_multiple == 1 { 0.0 } else { start.frequency_hz - 15.0 };
+        let (multiple, frequency_hz) = match origin {
+            Origin::Found(start) => (start.period_multiple, start.frequency_hz),
+            Origin::Crossing(crossing) => {
+                (crossing.factor * crossing.orbit.period_multiple, crossing.orbit.frequency_hz)
+            }
+        };
+        let at = if multiple == 1 { 0.0 } else { frequency_hz - 15.0 };
         let steps = (at / self.step).round() as i64;
         let direction = if side == Side::Up { 1 } else { -1 };
-        let multiple = start.period_multiple;
         Ok(Box::new(FakeWalk { solver: self, multiple, steps, direction, journal: Vec::new(), walked: 0 }))
     }
 
     fn resume<'a>(&'a self, checkpoint: &[u8], journal: &[u8]) -> Result<Box<dyn Walk + 'a>, String> {
+        self.resumed.fetch_add(1, Ordering::Relaxed);
         let number = |index: usize| {
             let bytes = checkpoint.get(8 * index..8 * index + 8).ok_or("the checkpoint is too short")?;
             Ok::<i64, String>(i64::from_le_bytes(bytes.try_into().expect("eight bytes")))
@@ -128,10 +150,11 @@ impl Walk for FakeWalk<'_> {
         let solution = self.solver.solution(self.multiple, self.steps as f64 * self.solver.step);
         let frequency_hz = solution.frequency_hz;
         let fold = self.multiple == 1 && self.steps % 209 == 0;
+        let flip = self.multiple == 1 && self.solver.flips.is_some_and(|steps| self.steps % steps == 0);
         rows.push(BranchRow {
             solution,
             parameter: None,
-            events: Events { fold, ..Events::default() },
+            events: Events { fold, flip, ..Events::default() },
             located: None,
         });
         let [low, high] = self.solver.range_hz;

@@ -26,7 +26,12 @@ pub struct Plan {
     pub budget: u64,
     /// Time after which no new piece of work is begun.
     pub time: Option<Duration>,
+    /// Solutions after which a walk that takes turns makes room for another one; what is computed does not depend on it.
+    pub turn: u64,
 }
+
+/// Some seconds of the paper's beam: long beside what it costs to take a walk up again.
+const TURN: u64 = 4096;
 
 /// Frequencies, as parts of the range from its upper end, at which harmonic starts are sought one after the other
 /// where no harmonic branch passes yet.
@@ -50,6 +55,7 @@ impl Plan {
             unstable: study.search.unstable_starts,
             budget: study.continuation.budget_solutions as u64,
             time: study.continuation.budget_time_s.map(Duration::from_secs_f64),
+            turn: TURN,
         }
     }
 

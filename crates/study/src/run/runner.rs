@@ -209,6 +209,9 @@ impl Run<'_> {
         };
         self.store.append(stretch.key, stretch.side, &stretch.rows, continuation)?;
         self.agenda.add_rows(stretch.key, stretch.side, &stretch.rows, stretch.reason.as_ref());
+        if stretch.last {
+            self.agenda.rest(stretch.key, stretch.side);
+        }
         self.new_solutions += stretch.rows.len() as u64;
         if let (Some(branch), Some(reason)) = (branch, &stretch.reason) {
             self.observer.walk_ended(branch, stretch.side, reason);

@@ -3,6 +3,9 @@
 //! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was walked so far, and first for period multiples
 //! that nobody is walking, then far from the starts of the walks under way: the other end of a branch is often near. The second side of a branch waits for the first one,
 //! which may close the branch, as long as there is anything else to do.
+//!
+//! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So walks of branches that leave another one, awaited or not, go on in turns: always the one that has the fewest
+//! turns behind it. Walks from searches take no turns: many searches find the same branch, and the first walk of it, once at its end, spares the others.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -25,25 +28,35 @@ pub(super) fn next_task(
 ) -> Result<Option<Task>, StoreError> {
     let Some(first) = agenda.jobs.iter().position(is_open) else { return Ok(None) };
     if let Some(walk) = awaited_walk(&agenda.jobs[first], plan) {
-        return Ok(Some(begin_walk(agenda, store, plan, walk)?));
+        return Ok(Some(begin_walk(agenda, store, plan, walk, None)?));
     }
     if let Some(job) = job_to_evaluate(agenda, first) {
         return Ok(Some(begin_evaluation(agenda, store, plan, job)?));
     }
-    let ahead = match walk_ahead(agenda, store, solver, plan)? {
-        Some(walk) => Some(walk),
-        None => second_side(agenda, plan),
-    };
-    ahead.map(|walk| begin_walk(agenda, store, plan, walk)).transpose()
+    for kind in [Ahead::NewMultiple, Ahead::Leaving, Ahead::Search] {
+        if let Some(walk) = walk_ahead(agenda, store, solver, plan, kind)? {
+            let share = (kind == Ahead::Leaving).then_some(plan.turn);
+            return Ok(Some(begin_walk(agenda, store, plan, walk, share)?));
+        }
+    }
+    second_side(agenda, plan).map(|walk| begin_walk(agenda, store, plan, walk, None)).transpose()
 }
 
 fn is_open(job: &Job) -> bool {
     job.record.outcome.is_none()
 }
 
-/// A walk of a new branch for which the next decision waits.
+/// A walk of a new branch for which the next decision waits, and which takes no turns.
 fn awaited_walk(job: &Job, plan: &Plan) -> Option<(u32, Side)> {
+    if takes_turns(job) {
+        return None;
+    }
     job.starts.iter().filter(|start| start.branch.is_some()).find_map(|start| open_side(start, plan))
+}
+
+/// Whether a job's branch leaves another one.
+const fn takes_turns(job: &Job) -> bool {
+    job.record.source.is_some()
 }
 
 /// A side of a start that nobody walks and that need not wait for the other one.
@@ -77,38 +90,62 @@ fn job_to_evaluate(agenda: &Agenda, first: usize) -> Option<usize> {
     })
 }
 
-/// A walk from a start on which no decision was taken yet.
+/// What is walked before it is known to be wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ahead {
+    /// From a search, where nobody walks a branch of that period multiple.
+    NewMultiple,
+    /// A branch that leaves another one, in turns; the one that the next decision waits for, too.
+    Leaving,
+    /// From a search.
+    Search,
+}
+
+/// A walk from a start that lies on nothing that was walked so far.
 fn walk_ahead(
     agenda: &mut Agenda,
     store: &Store,
     solver: &dyn Solver,
     plan: &Plan,
+    kind: Ahead,
 ) -> Result<Option<(u32, Side)>, StoreError> {
-    loop {
-        let walked: Vec<(u32, f64)> = agenda
-            .starts()
-            .filter(|start| start.up.running.is_some() || start.down.running.is_some())
-            .map(|start| (start.period_multiple, begins_at(start)))
-            .collect();
-        let candidates = || {
-            let open = agenda.jobs.iter().filter(|job| is_open(job)).flat_map(|job| &job.starts);
-            open.filter(|start| start.branch.is_none() && !start.doubtful)
-                .filter_map(|start| Some((start, open_side(start, plan)?)))
-        };
-        let fresh = candidates().find(|(start, _)| walked.iter().all(|(n, _)| *n != start.period_multiple));
-        let apart = |start: &Start| {
-            walked.iter().map(|(_, at)| (at - begins_at(start)).abs()).fold(f64::INFINITY, f64::min)
-        };
-        let farthest = || candidates().max_by(|a, b| apart(a.0).total_cmp(&apart(b.0)));
-        let Some((start, walk)) = fresh.or_else(farthest) else { return Ok(None) };
-        let begun = start.up.rows.len() + start.down.rows.len() > 1;
-        if begun || !seems_known(agenda, store, solver, start)? {
+    while let Some((start, walk)) = candidate(agenda, plan, kind) {
+        if start.branch.is_some() || !seems_known(agenda, store, solver, start)? {
             return Ok(Some(walk));
         }
         let key = walk.0;
         if let Some(start) = agenda.start_mut(key) {
             start.doubtful = true;
         }
+    }
+    Ok(None)
+}
+
+/// The start to go on from next, and on which side.
+fn candidate<'a>(agenda: &'a Agenda, plan: &Plan, kind: Ahead) -> Option<(&'a Start, (u32, Side))> {
+    let walked: Vec<(u32, f64)> = agenda
+        .starts()
+        .filter(|start| start.up.running.is_some() || start.down.running.is_some())
+        .map(|start| (start.period_multiple, begins_at(start)))
+        .collect();
+    let leaving = kind == Ahead::Leaving;
+    let jobs = agenda.jobs.iter().filter(|job| is_open(job) && takes_turns(job) == leaving);
+    let mut open = jobs
+        .flat_map(|job| &job.starts)
+        .filter(|start| if start.branch.is_some() { leaving } else { !start.doubtful })
+        .filter_map(|start| Some((start, open_side(start, plan)?)));
+    let apart = |start: &Start| {
+        walked.iter().map(|(_, at)| (at - begins_at(start)).abs()).fold(f64::INFINITY, f64::min)
+    };
+    let farther = |a: &Start, b: &Start| apart(a).total_cmp(&apart(b));
+    let turns = |start: &Start| (start.up.rows.len() + start.down.rows.len()) as u64 / plan.turn.max(1);
+    match kind {
+        Ahead::NewMultiple => {
+            let is_new = |start: &Start| walked.iter().all(|(n, _)| *n != start.period_multiple);
+            open.find(|(start, _)| is_new(start))
+        }
+        Ahead::Leaving => open.min_by(|(a, _), (b, _)| turns(a).cmp(&turns(b)).then(farther(b, a))),
+        Ahead::Search => open.max_by(|(a, _), (b, _)| farther(a, b)),
     }
 }
 
@@ -173,6 +210,7 @@ fn begin_walk(
     store: &Store,
     plan: &Plan,
     (key, side): (u32, Side),
+    share: Option<u64>,
 ) -> Result<Task, StoreError> {
     let from = match store.checkpoint(key, side)? {
         Some(memory) => From::Memory(memory),
@@ -185,7 +223,7 @@ fn begin_walk(
         walk.running = Some(Arc::clone(&cancelled));
         stored = walk.rows.len() as u64;
     }
-    Ok(Task::Walk(WalkTask { key, side, from, stored, budget: plan.budget, cancelled }))
+    Ok(Task::Walk(WalkTask { key, side, from, stored, budget: plan.budget, share, cancelled }))
 }
 
 fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<Origin, StoreError> {

@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::{path::Path, sync::atomic::Ordering};
 
 use tempfile::{TempDir, tempdir};
 
@@ -93,6 +93,29 @@ fn a_run_interrupted_anywhere_and_resumed_ends_with_the_same_bytes() {
         }
         assert!(interruptions > 0);
         assert_eq!(csv(folder.path()), expected, "interrupted after every {first} questions");
+    }
+}
+
+#[test]
+fn walks_that_take_turns_end_with_the_same_bytes() {
+    let study = study_with("[response]\nperiod_multiples = [1]\nperiod_doubling_depth = 1\n");
+    let of_turns = |turn: u64, threads: usize| {
+        let folder = tempdir().unwrap();
+        let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+        let solver = FakeSolver { flips: Some(100), ..FakeSolver::default() };
+        let plan = Plan { turn, ..Plan::of(&study.study) };
+        let outcome = run(&mut store, &solver, &plan, threads, &mut Quiet).unwrap();
+        assert_eq!(outcome, RunOutcome::Done);
+        assert!(store.branches().unwrap().len() > 6);
+        store.finish().unwrap();
+        (csv(folder.path()), solver.resumed.load(Ordering::Relaxed))
+    };
+    let (expected, resumed) = of_turns(u64::MAX, 1);
+    assert_eq!(resumed, 0);
+    for (turn, threads) in [(1, 1), (7, 1), (100, 1), (7, 2), (100, 3)] {
+        let (bytes, resumed) = of_turns(turn, threads);
+        assert_eq!(bytes, expected, "turns of {turn}, {threads} threads");
+        assert!(resumed > 10, "{resumed} walks taken up again");
     }
 }
 

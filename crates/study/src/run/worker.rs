@@ -18,7 +18,7 @@ use crate::store::{StoredMemory, StoredReason};
 /// Solutions are sent together after this time,
 const SEND_AFTER: Duration = Duration::from_millis(200);
 /// or when there are so many of them.
-const SEND_AT: usize = 2000;
+const SEND_AT: u64 = 2000;
 
 /// A piece of work.
 #[derive(Debug)]
@@ -50,6 +50,8 @@ pub(super) struct WalkTask {
     /// Solutions that the store has of it.
     pub stored: u64,
     pub budget: u64,
+    /// Solutions after which the thread leaves it for others, if it is to.
+    pub share: Option<u64>,
     /// Tells it to leave.
     pub cancelled: Arc<AtomicBool>,
 }
@@ -151,7 +153,7 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
     }
 }
 
-/// Walks until the walk ends or is told to leave; false if nobody listens any more.
+/// Walks until the walk ends, its share is walked or it is told to leave; false if nobody listens any more.
 fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop: &AtomicBool) -> bool {
     let opened = match &task.from {
         From::Origin(origin) => solver.begin(origin, task.side),
@@ -165,14 +167,15 @@ fn walk(solver: &dyn Solver, task: &WalkTask, reports: &SyncSender<Report>, stop
     let mut stored = task.stored;
     loop {
         let mut rows = Vec::new();
+        let left = task.share.map_or(u64::MAX, |share| share.saturating_sub(stored - task.stored));
         // What cannot be computed ends its side and nothing else.
-        let reason = stretch(walk.as_mut(), &mut rows, (stored, task.budget), &leave)
+        let reason = stretch(walk.as_mut(), &mut rows, (stored, task.budget), left.min(SEND_AT), &leave)
             .unwrap_or_else(|message| Some(StoredReason::failed(&message)));
         if task.cancelled.load(Ordering::Relaxed) {
             return reports.send(Report::Left).is_ok();
         }
         stored += rows.len() as u64;
-        let last = reason.is_some() || leave();
+        let last = reason.is_some() || leave() || rows.len() as u64 >= left;
         let stretch = Stretch {
             key: task.key,
             side: task.side,
@@ -209,11 +212,12 @@ fn not_opened(task: &WalkTask, message: String) -> Report {
     }
 }
 
-/// Appends solutions that are sent together; why the walk ended with them if it did.
+/// Appends solutions that are sent together, so many or a few more; why the walk ended with them if it did.
 fn stretch(
     walk: &mut dyn Walk,
     rows: &mut Vec<BranchRow>,
     (stored, budget): (u64, u64),
+    most: u64,
     leave: &dyn Fn() -> bool,
 ) -> Result<Option<StoredReason>, String> {
     let begun = Instant::now();
@@ -225,7 +229,7 @@ fn stretch(
         if let Some(reason) = walk.step(rows)? {
             return Ok(Some(StoredReason::of(&reason)));
         }
-        if rows.len() >= SEND_AT || begun.elapsed() >= SEND_AFTER || leave() {
+        if rows.len() as u64 >= most || begun.elapsed() >= SEND_AFTER || leave() {
             return Ok(None);
         }
     }

@@ -1,12 +1,14 @@
 //! The shift of frequencies and the factor on values that bring points onto branches.
 
+mod errors;
 mod problem;
 mod search;
 
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 
 use super::{ComparisonError, Curves, FrequencyShift, Residual, Shift, period_of};
-use problem::{Problem, covariance};
+use errors::covariance;
+use problem::Problem;
 
 /// What is given and need not be fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]

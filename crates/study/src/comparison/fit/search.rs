@@ -1,46 +1,41 @@
 //! The grid of shifts, its valleys, and the minima in them.
 //!
-//! **The step** of the grid goes by the branches: over a step the logarithm of a branch changes by no more than a tenth, but for the steepest parts, which make up a twentieth of all its rise and fall (at a fold the slope has no
-//! bound).
+//! With the best factor at each shift (`problem.rs`), what is left is a function of the shift alone. It is tried on a grid, and the lowest valleys of that are gone over with finer and finer grids: a valley can lie beside
+//! the end of a branch, where the sum jumps since a point more or less meets it, and slopes say nothing of that.
 //!
-//! **A minimum beside the end of a branch** lies at a cliff: a point more or less is met there. Steps by slopes do not see that, so that each is followed by a grid of its own about the place, twelve trials to each side, four times finer
-//! each time. What is found is the lowest place of these grids. A valley that is narrower than the grid is missed.
+//! **The step** of the grid goes by the branches: over a step the logarithm of a branch changes by no more than a tenth, but for the steepest parts, which make up a twentieth of all its rise and fall (at a fold the slope has no
+//! bound). A valley that is narrower than the grid is missed.
 
 use super::{
     SecondMinimum,
-    problem::{Place, Problem, Trial},
+    problem::{Place, Problem, SAME, Trial},
 };
 
 /// Fewest and most trials of the shift of frequencies, change of the logarithm of a branch over a step, and part of the variation that may be steeper.
 const TRIALS: (usize, usize) = (660, 4000);
 const CHANGE: f64 = 0.1;
 const STEEPER: f64 = 0.05;
-/// Step of the logarithm of the factor.
-const AMPLITUDE_STEP: f64 = 0.04;
-/// Valleys that are refined, the lowest first.
+/// Valleys that are gone over, the lowest first.
 const VALLEYS: usize = 60;
-/// Trials to each side of a refined place, how much finer each time, and how often.
-const ABOUT: i32 = 12;
-const FINER: f64 = 4.0;
-const LEVELS: i32 = 7;
+/// Trials to each side of the lowest place so far, how much finer each time, and how often: a third more than the last step to each side, down to 8e-9 of the first one.
+const ABOUT: i32 = 4;
+const FINER: f64 = 3.0;
+const LEVELS: i32 = 17;
 /// Trials between two minima, to see what parts them.
 const BETWEEN: usize = 40;
 /// Chi-squared of one freedom that is exceeded with 5 %.
 const CHI_SQUARED: f64 = 3.84;
 /// Part of the sum of squares by which another minimum may always be worse.
 const WORSE: f64 = 0.1;
-/// Difference of sums of squares that is none.
-const SAME: f64 = 1e-12;
 /// Square of a difference of a point that is none: 1e-6, what tables of points are written to.
 const WRITTEN: f64 = 1e-12;
 
 impl Problem<'_> {
     /// The lowest places of all valleys of the shift of frequencies.
     pub fn minima(&self) -> Vec<Trial> {
-        let [[low, high], [least, most]] = self.tried;
-        let steps = ((most - least) / AMPLITUDE_STEP).ceil().max(1.0) as usize;
-        let (shifts, factors) = (trials(low, high, self.steps()), trials(least, most, steps));
-        let profile: Vec<Trial> = shifts.iter().map(|shift| self.best_factor(*shift, &factors)).collect();
+        let [low, high] = self.tried[0];
+        let shifts = trials(low, high, self.steps());
+        let profile: Vec<Trial> = shifts.iter().map(|shift| self.best_at(*shift)).collect();
         let cost = |k: usize| profile.get(k).map_or(f64::INFINITY, |trial| trial.cost);
         // Of a level stretch the first one.
         let lowest = |k: &usize| (*k == 0 || cost(*k) < cost(k - 1)) && cost(*k) <= cost(k + 1);
@@ -48,16 +43,15 @@ impl Problem<'_> {
         valleys.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
         valleys.truncate(VALLEYS);
         let step = (high - low) / (shifts.len().max(2) - 1) as f64;
-        let lowest_about = |k: usize| {
-            let found = self.refine(profile[k].place);
-            self.refine(self.about(found, step).place)
-        };
-        valleys.into_iter().map(lowest_about).collect()
+        valleys.into_iter().map(|k| self.about(profile[k], step)).collect()
     }
 
     /// Steps of the grid of shifts.
     fn steps(&self) -> usize {
         let [low, high] = self.tried[0];
+        if low == high {
+            return 1;
+        }
         let wanted = (high - low) / self.unit * self.steepness() / CHANGE;
         (wanted.ceil() as usize).clamp(TRIALS.0, TRIALS.1)
     }
@@ -94,10 +88,9 @@ impl Problem<'_> {
             return begin;
         }
         (1..=LEVELS).fold(begin, |at, level| {
-            let finer = step / FINER.powi(level - 1) / 2.0;
-            (-ABOUT..=ABOUT).fold(at, |best, k| {
-                let place = [(at.place[0] + f64::from(k) * finer).clamp(low, high), at.place[1]];
-                let found = self.at_shift(&self.values(place[0]), place);
+            let finer = step / FINER.powi(level);
+            (-ABOUT..=ABOUT).filter(|k| *k != 0).fold(at, |best, k| {
+                let found = self.best_at((at.place[0] + f64::from(k) * finer).clamp(low, high));
                 if found.cost < best.cost { found } else { best }
             })
         })
@@ -111,20 +104,6 @@ impl Problem<'_> {
             one.cost < other.cost - SAME || (one.cost <= other.cost + SAME && far(one) < far(other))
         };
         *minima.iter().fold(&minima[0], |best, one| if better(one, best) { one } else { best })
-    }
-
-    /// The best factor at a shift.
-    fn best_factor(&self, frequency: f64, factors: &[f64]) -> Trial {
-        let values = self.values(frequency);
-        let mut best = Trial { cost: f64::INFINITY, place: [frequency, factors[0]] };
-        for &factor in factors {
-            let found = self.cost_of(&values, factor);
-            let nearer = factor.abs() < best.place[1].abs();
-            if found < best.cost - SAME || (found <= best.cost + SAME && nearer) {
-                best = Trial { cost: found, place: [frequency, factor] };
-            }
-        }
-        self.at_shift(&values, best.place)
     }
 
     /// The best minimum beyond shifts that fit worse, if it is about as good: with the `n` points within the reach of the best one, their sum of squares `S`, and sums of all points `F` and `F'`, the data would prefer the best one to it with a
@@ -148,15 +127,13 @@ impl Problem<'_> {
         })
     }
 
-    /// Whether somewhere between two places no factor between theirs, nor the best one near it, keeps the sum of squares below a limit.
+    /// Whether somewhere between the shifts of two places no factor near theirs or between them keeps the sum of squares below a limit.
     fn parted(&self, one: Place, other: Place, limit: f64) -> bool {
+        let [low, high] = self.tried[1];
+        let near = [one[1].min(other[1]) - self.reach, one[1].max(other[1]) + self.reach];
         (1..BETWEEN).any(|k| {
-            let share = k as f64 / BETWEEN as f64;
-            let between: Place = std::array::from_fn(|j| one[j] + share * (other[j] - one[j]));
-            let values = self.values(between[0]);
-            [between[1], one[1], other[1]]
-                .iter()
-                .all(|factor| self.at_shift(&values, [between[0], *factor]).cost > limit)
+            let shift = one[0] + k as f64 / BETWEEN as f64 * (other[0] - one[0]);
+            self.best_between(shift, near.map(|x| x.clamp(low, high))).cost > limit
         })
     }
 }

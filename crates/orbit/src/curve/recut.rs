@@ -1,0 +1,113 @@
+//! Moving the phase at which the orbits of a curve are cut into segments, before a contact comes to lie over an end of one at which fundamental matrices jump.
+//!
+//! The gradient of a condition is made of differences of fundamental matrices. Where a stop with a damper closes, its force jumps, and with it the rate of the motion: the matrix of a segment jumps where that instant passes
+//! over the segment's end, and a difference over it is meaningless. So before each step the contacts of the present orbit are looked at (`cut.rs`), and where one is near an end, all nodes are carried by the flow to the middle of
+//! the longest time that is clear of them in every segment: `t_k' = G_k t_k + dZ_k/df t_f + dZ_k/dp t_p`.
+//!
+//! Multipliers do not depend on the phase: with the fundamental matrix `P` from the first node to where it is carried, `A' = P A P^-1`, so that the right null vector becomes `P v` and the left one `P^-T w`. The borders are
+//! taken at the new phase with the signs that this gives, so that the curve keeps its orientation.
+//!
+//! The start of the curve is carried along, so that a closed curve is seen to close; where it cannot be followed there, it is out of reach. Grazing curves are cut where the contact is touched, wherever that is.
+
+use hammerbeam_motion::{
+    Stretch,
+    exact::{ExactIntegrator, MotionError},
+};
+use hammerbeam_path::{ContinuationPoint, Node};
+
+use super::{problem::CurveProblem, walk::CurveWalk};
+use crate::{OrbitError, PeriodicSolution, cut::offset_to_clear, solve::nodes_from};
+
+impl CurveWalk {
+    /// Keeps the ends of segments away from contacts; where that does not go, the curve stays as it was.
+    pub(super) fn keep_phase_clear(&mut self) {
+        if self.problem.condition.has_phase() || self.follower.stop_reason().is_some() {
+            return;
+        }
+        if let Ok(Some(offset)) = self.offset() {
+            let before = (self.problem.begin, self.problem.condition.clone());
+            if self.move_phase(offset).is_err() {
+                (self.problem.begin, self.problem.condition) = before;
+            }
+        }
+    }
+
+    fn offset(&mut self) -> Result<Option<f64>, MotionError> {
+        let place = self.problem.place(&self.follower.current().point);
+        let shooting = &mut self.problem.shooting;
+        shooting.set_parameter(place.value)?;
+        let (scales, cycles) = (shooting.scale.values(), f64::from(shooting.period_multiple));
+        let state: Vec<f64> = place.nodes.iter().zip(scales).map(|(x, s)| x * s).collect();
+        let phases = (place.phase, cycles, cycles / shooting.count as f64);
+        offset_to_clear(&mut shooting.integrator, phases, &state, place.frequency_hz)
+    }
+
+    fn move_phase(&mut self, offset: f64) -> Result<(), OrbitError> {
+        let current = self.follower.current().clone();
+        let begun = self.follower.has_start().then(|| self.follower.checkpoint().start.clone());
+        let start = begun.and_then(|begun| Some((carried(&mut self.problem, &begun, offset).ok()?.0, begun)));
+        let (node, matrix) = carried(&mut self.problem, &current, offset)?;
+        let cycles = f64::from(self.problem.shooting.period_multiple);
+        self.problem.begin = (self.problem.begin + offset).rem_euclid(cycles);
+        let place = self.problem.place(&node.point);
+        self.problem.shooting.evaluate(&place)?;
+        self.problem.condition.carry(&self.problem.shooting, &matrix);
+        let with_start = start.as_ref().map(|(start, begun)| (start, begun));
+        let moved = self.follower.transfer_afresh(&mut self.problem, &node, with_start);
+        if moved.is_err() && with_start.is_some() {
+            self.follower.transfer_afresh(&mut self.problem, &node, None)?;
+        } else {
+            moved?;
+        }
+        Ok(())
+    }
+}
+
+/// Point and tangent of an orbit whose segments begin this much later, and the fundamental matrix from its first node to the new one, by rows.
+fn carried(
+    problem: &mut CurveProblem,
+    at: &ContinuationPoint,
+    offset: f64,
+) -> Result<(Node, Vec<f64>), MotionError> {
+    let place = problem.place(&at.point);
+    let (mut point, mut tangent) = (at.point.clone(), at.tangent.clone());
+    let shooting = &mut problem.shooting;
+    shooting.set_parameter(place.value)?;
+    let (size, count) = (shooting.size(), shooting.count);
+    let (by_hertz, by_value) = (tangent[size * count], tangent[size * count + 1]);
+    let mut first = Vec::new();
+    for k in 0..count {
+        let begin = shooting.stretch(k, place.frequency_hz, place.phase).start;
+        let stretch = Stretch { frequency_hz: place.frequency_hz, start: begin, end: begin + offset };
+        let node = k * size..(k + 1) * size;
+        let flow = shooting.flow_over((stretch, false), &point[node.clone()])?;
+        let slope = super::shooting::times(&flow.matrix, &tangent[node.clone()]);
+        for i in 0..size {
+            point[k * size + i] = flow.end[i];
+            tangent[k * size + i] =
+                slope[i] + flow.by_frequency[i] * by_hertz + flow.by_parameter[i] * by_value;
+        }
+        if k == 0 {
+            first = flow.matrix;
+        }
+    }
+    Ok((Node { point, tangent }, first))
+}
+
+/// An orbit whose segments end away from contacts at which fundamental matrices jump, as far as there is room.
+pub(super) fn cut_clear(
+    integrator: &mut ExactIntegrator,
+    orbit: &PeriodicSolution,
+) -> Result<PeriodicSolution, OrbitError> {
+    let (count, multiple, frequency_hz) = (orbit.nodes.len(), orbit.period_multiple, orbit.frequency_hz);
+    let cycles = f64::from(multiple);
+    let phases = (orbit.phase, cycles, cycles / count as f64);
+    let mut cut = orbit.clone();
+    if let Some(offset) = offset_to_clear(integrator, phases, &orbit.nodes[0], frequency_hz)? {
+        let stretch = Stretch { frequency_hz, start: orbit.phase, end: orbit.phase + offset };
+        let state = integrator.advance(&stretch, &orbit.nodes[0])?;
+        cut.phase = (orbit.phase + offset).rem_euclid(cycles);
+        cut.nodes = nodes_from(integrator, (cut.phase, &state), frequency_hz, multiple, count)?;
+    }
+    Ok(cut)
+}
