@@ -169,6 +169,39 @@ impl SystemMap {
         Ok(())
     }
 
+    /// The first element whose contact remembers its impact and stays closed over these periods: the state lies within it after each of them, and nothing has touched it.
+    fn stays_closed(&mut self, state: &[f64], periods: usize) -> Result<Option<usize>, AttractorError> {
+        let period = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
+        let mut closed = self.remembered_contacts(state);
+        let mut state = state.to_vec();
+        for _ in 0..periods {
+            if closed.is_empty() {
+                return Ok(None);
+            }
+            state = self.integrator.advance(&period, &state)?;
+            let inside = self.remembered_contacts(&state);
+            let touches = self.integrator.touches();
+            closed.retain(|(element, contact)| {
+                inside.contains(&(*element, *contact)) && touches[*contact] == 0
+            });
+        }
+        Ok(closed.first().map(|(element, _)| *element))
+    }
+
+    /// Elements within a contact that remembers its impact, and the numbers of these contacts among those of all elements.
+    fn remembered_contacts(&self, state: &[f64]) -> Vec<(usize, usize)> {
+        let (system, mut first) = (self.integrator.system(), 0);
+        let mut within = Vec::new();
+        for (number, element) in system.elements().iter().enumerate() {
+            let depth = || system.depth_in_contact(number, self.frequency_hz, 0.0, state);
+            if element.law.remembers_impact() && depth().is_some_and(|depth| depth > 0.0) {
+                within.push((number, first));
+            }
+            first += element.law.contacts().len();
+        }
+        within
+    }
+
     fn stretch(&self, part: Part) -> Stretch {
         let ((start, end), parts) = (part.ends(self.parts), self.parts as f64);
         Stretch { frequency_hz: self.frequency_hz, start: start / parts, end: end / parts }
@@ -222,23 +255,16 @@ impl SectionMap for SystemMap {
             return Ok(());
         }
         let memory = self.integrator.memory();
-        let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: periods as f64 };
-        let trace = self.integrator.trace(&stretch, state, &[]);
+        let stays = self.stays_closed(state, periods);
         self.integrator.set_memory(memory);
-        let elements = self.integrator.system().elements();
-        let stays = trace?.contacts.into_iter().find(|contact| {
-            contact.begin.is_none()
-                && contact.end.is_none()
-                && elements[contact.element].law.remembers_impact()
-        });
-        stays.map_or(Ok(()), |contact| {
-            Err(AttractorError::NeverOpens { element: elements[contact.element].name.clone() })
+        stays?.map_or(Ok(()), |element| {
+            let element = self.integrator.system().elements()[element].name.clone();
+            Err(AttractorError::NeverOpens { element })
         })
     }
 
-    /// Two with each rigid stop that held the structure.
     fn directions_lost(&self) -> usize {
-        2 * self.integrator.held_at_once()
+        self.integrator.directions_lost()
     }
 
     /// `-tr(M^-1 C)` times the duration, and what contacts contribute. Of laws that remember their impacts it is not known.

@@ -1,4 +1,4 @@
-//! Contacts that begin or end in one instant while another force acts: stops of the same level on one mass, and a mass at rest on the level of a stop.
+//! Contacts that begin or end in one instant while another force acts: stops of the same level on one mass, a mass at rest on the level of a stop, and impacts on a rigid stop within a damped contact.
 //!
 //! Held against the general integrator, which ends its steps on one boundary after the other.
 #![allow(clippy::unwrap_used, reason = "tests")]
@@ -11,7 +11,9 @@ use common::{assert_agreement, diagonal, element, force, hertz, model};
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{HertzStop, HuntCrossleyStop, LinearStop},
+    law::{
+        HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop, TwoSidedStop,
+    },
 };
 
 /// Natural circular frequency [rad/s].
@@ -39,8 +41,13 @@ fn agree_over_periods(system: &System, bound: f64) -> u32 {
         let mut state = vec![0.0; 2];
         for period in 0..4 {
             let what = format!("{frequency_hz} Hz, period {period}");
-            touches += assert_agreement(system, &stretch, &state, bound, &what);
-            state = exact.advance(&stretch, &state).unwrap();
+            let next = exact.advance(&stretch, &state).unwrap();
+            // No flow with sensitivities begins in a contact that remembers its impact, and where a rigid stop has held the mass they vanish.
+            let can_begin = !system.is_in_remembered_contact(frequency_hz, 0.0, &state);
+            if can_begin && exact.directions_lost() == 0 {
+                touches += assert_agreement(system, &stretch, &state, bound, &what);
+            }
+            state = next;
         }
     }
     touches
@@ -80,4 +87,36 @@ fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
             assert_agreement(&system, &stretch, &[0.0, 0.0], 1e-8, &format!("{load} {law:?}"));
         }
     }
+}
+
+/// The mass leaves a damped contact that has parted at the level at which another one closes on the other side.
+#[test]
+fn a_contact_is_left_where_another_one_closes() {
+    let damped = LinearStop::with_gap(300.0 * W * W, 0.0).unwrap().with_damping(20.0 * W).unwrap();
+    let elastic = HertzStop::with_gap(300.0 * W * W / STATIC.sqrt(), 0.0).unwrap();
+    let hunt_crossley = HuntCrossleyStop::new(elastic, 20.0).unwrap();
+    let two_sided = Law::TwoSided(TwoSidedStop::new(200.0 * W * W, 0.0, STATIC).unwrap());
+    for law in [Law::Linear(damped), Law::HuntCrossley(hunt_crossley)] {
+        let system = mass(&[(0.8, law), (-0.5, two_sided)], 2.0);
+        assert!(agree_over_periods(&system, 1e-7) > 50);
+    }
+}
+
+/// A rigid stop behind a damped contact: the impact turns the speed round, with which the contact would have to pull, so its force ends with the impact.
+#[test]
+fn an_impact_takes_the_force_off_a_damped_contact() {
+    let [gap, behind] = [0.1 * STATIC, 0.3 * STATIC];
+    let damped = LinearStop::with_gap(30.0 * W * W, gap).unwrap().with_damping(10.0 * W).unwrap();
+    let elastic = HertzStop::with_gap(30.0 * W * W / STATIC.sqrt(), gap).unwrap();
+    let hunt_crossley = HuntCrossleyStop::new(elastic, 40.0).unwrap();
+    let remembers = RestitutionStop::new(elastic, RestitutionModel::HuGuo, 0.3).unwrap();
+    let mut touches = 0;
+    for law in [Law::Linear(damped), Law::HuntCrossley(hunt_crossley), Law::Restitution(remembers)] {
+        for restitution in [0.8, 0.3] {
+            let rigid = Law::Rigid(RigidStop::with_gap(restitution, behind).unwrap());
+            let system = mass(&[(1.0, law), (1.0, rigid)], 3.0);
+            touches += agree_over_periods(&system, 1e-7);
+        }
+    }
+    assert!(touches > 100, "{touches}");
 }
