@@ -213,6 +213,7 @@ pub fn examine(
     state: &[f64],
     effort: &Effort,
 ) -> Result<Classified, AttractorError> {
+    map.check_opens(state, WATCHED_PERIODS)?;
     let settings = LyapunovSettings { aligning: effort.aligning * parts, averaged: effort.averaged * parts };
     let mut average = Lyapunov::new(map, 0, state, settings)?;
     let mut states = Vec::new();

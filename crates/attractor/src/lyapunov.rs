@@ -7,7 +7,7 @@
 //! **Their sum** is the mean of `ln |det P|/h`. The flow of `z' = g(t, z)` changes volumes at the rate `tr dg/dz`, so for a structure with contacts whose
 //! force depends on the displacement alone it is `-tr(M^-1 C)`, whatever the motion: an invariant, which says how good the fundamental matrices are. A contact whose force depends on the velocity adds the mean
 //! of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e` (the determinant of its jump is `e^2`). A law that remembers the speed of its impact has no such rule. Where a rigid stop sticks, what the motion was relative to it is forgotten: two
-//! exponents are minus infinity for each stop that is held at once, and so is the sum. The others are those of the motion that is left.
+//! exponents are minus infinity for each stop that is held at once, and so is the sum; one is where an impact without restitution does not stick. The others are those of the motion that is left.
 //!
 //! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the motion their means are
 //! independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean with 95 per cent, with the standard deviation `s` of the block means and Student's

@@ -9,6 +9,7 @@ use hammerbeam_motion::{
     Stretch, System,
     exact::{ContactMemory, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, VectorField, integrate},
+    law::RigidStop,
 };
 
 use crate::{AttractorError, Part};
@@ -152,23 +153,53 @@ impl SystemMap {
     pub fn check_in_front_of_stops(&self, state: &[f64]) -> Result<(), AttractorError> {
         let system = self.integrator.system();
         for (number, element) in system.elements().iter().enumerate() {
-            let [r, ..] = system.relative_motion(number, self.frequency_hz, 0.0, state);
-            if element.law.remembers_impact() {
-                let depths = element.law.contacts().iter().map(|contact| contact.sign * (r - contact.level));
-                let depth = depths.fold(f64::NEG_INFINITY, f64::max);
-                if depth > 0.0 {
-                    return Err(AttractorError::WithinContact { stop: element.name.clone(), depth });
-                }
+            let Some(depth) = system.depth_in_contact(number, self.frequency_hz, 0.0, state) else {
+                continue;
+            };
+            let stop = || element.name.clone();
+            if element.law.remembers_impact() && depth > 0.0 {
+                return Err(AttractorError::WithinContact { stop: stop(), depth });
             }
-            let Some(stop) = element.law.rigid() else { continue };
-            let level = stop.level();
+            let Some(level) = element.law.rigid().map(RigidStop::level) else { continue };
             // A state on the stop may have come from a motion, with its rounding.
-            let depth = r - level;
-            if depth > ON_THE_STOP * r.abs().max(level.abs()) {
-                return Err(AttractorError::BehindRigidStop { stop: element.name.clone(), depth });
+            if depth > ON_THE_STOP * (depth + level).abs().max(level.abs()) {
+                return Err(AttractorError::BehindRigidStop { stop: stop(), depth });
             }
         }
         Ok(())
+    }
+
+    /// The first element whose contact remembers its impact and stays closed over these periods: the state lies within it after each of them, and nothing has touched it.
+    fn stays_closed(&mut self, state: &[f64], periods: usize) -> Result<Option<usize>, AttractorError> {
+        let period = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
+        let mut closed = self.remembered_contacts(state);
+        let mut state = state.to_vec();
+        for _ in 0..periods {
+            if closed.is_empty() {
+                return Ok(None);
+            }
+            state = self.integrator.advance(&period, &state)?;
+            let inside = self.remembered_contacts(&state);
+            let touches = self.integrator.touches();
+            closed.retain(|(element, contact)| {
+                inside.contains(&(*element, *contact)) && touches[*contact] == 0
+            });
+        }
+        Ok(closed.first().map(|(element, _)| *element))
+    }
+
+    /// Elements within a contact that remembers its impact, and the numbers of these contacts among those of all elements.
+    fn remembered_contacts(&self, state: &[f64]) -> Vec<(usize, usize)> {
+        let (system, mut first) = (self.integrator.system(), 0);
+        let mut within = Vec::new();
+        for (number, element) in system.elements().iter().enumerate() {
+            let depth = || system.depth_in_contact(number, self.frequency_hz, 0.0, state);
+            if element.law.remembers_impact() && depth().is_some_and(|depth| depth > 0.0) {
+                within.push((number, first));
+            }
+            first += element.law.contacts().len();
+        }
+        within
     }
 
     fn stretch(&self, part: Part) -> Stretch {
@@ -224,23 +255,16 @@ impl SectionMap for SystemMap {
             return Ok(());
         }
         let memory = self.integrator.memory();
-        let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: periods as f64 };
-        let trace = self.integrator.trace(&stretch, state, &[]);
+        let stays = self.stays_closed(state, periods);
         self.integrator.set_memory(memory);
-        let elements = self.integrator.system().elements();
-        let stays = trace?.contacts.into_iter().find(|contact| {
-            contact.begin.is_none()
-                && contact.end.is_none()
-                && elements[contact.element].law.remembers_impact()
-        });
-        stays.map_or(Ok(()), |contact| {
-            Err(AttractorError::NeverOpens { element: elements[contact.element].name.clone() })
+        stays?.map_or(Ok(()), |element| {
+            let element = self.integrator.system().elements()[element].name.clone();
+            Err(AttractorError::NeverOpens { element })
         })
     }
 
-    /// Two with each rigid stop that held the structure.
     fn directions_lost(&self) -> usize {
-        2 * self.integrator.held_at_once()
+        self.integrator.directions_lost()
     }
 
     /// `-tr(M^-1 C)` times the duration, and what contacts contribute. Of laws that remember their impacts it is not known.

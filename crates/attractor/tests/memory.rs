@@ -114,6 +114,24 @@ fn a_contact_that_stays_closed_is_refused_by_name() {
     assert_eq!((cells, basins.attractors().len()), (vec![0; 4], 0));
 }
 
+/// A contact that lies over phase 0 and opens in every period is none that stays closed; nor is one that is open at phase 0.
+#[test]
+fn a_contact_over_phase_0_is_told_from_one_that_stays_closed() {
+    let (_, over) = orbit();
+    for (system, stays) in [(oscillator(over), false), (oscillator(PLAIN), false), (pressed(0.0, 8.0), true)]
+    {
+        let mut map = SystemMap::new(system, FREQUENCY_HZ, 1, ExactSettings::default()).unwrap();
+        let mut state = vec![0.0; 2];
+        for period in 0..300 {
+            state = map.advance(period, &state).unwrap();
+        }
+        let found = map.check_opens(&state, 64);
+        assert_eq!(matches!(found, Err(AttractorError::NeverOpens { .. })), stays, "{found:?}");
+        // The motion goes on from where it was.
+        map.advance(300, &state).unwrap();
+    }
+}
+
 /// The rest and the linear motion lie within the contact of a weight; the other states of a diagram do not, whatever the law.
 #[test]
 fn a_diagram_begins_in_front_of_contacts() {

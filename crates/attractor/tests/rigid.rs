@@ -138,3 +138,34 @@ fn exponents_are_minus_infinity_where_a_stop_sticks() {
     );
     assert_eq!(found.kaplan_yorke_dimension, 0.0);
 }
+
+/// A mass without damping comes to rest in an impact without restitution, at an instant t at which the load pulls it away; nothing but t is left of how it came there. With the load `F cos(W t)`
+/// it flies from rest at t until it comes back after the time T with the speed v, where a neighbour that left dt later is `-F cos(W t) sin(w T)/w dt` away and so comes
+/// `F cos(W t) sin(w T)/(w v) dt` later: the mean logarithm of that over time is the exponent that is left.
+#[test]
+fn an_impact_without_restitution_that_does_not_stick_loses_one_direction() {
+    for frequency in [2.2, 2.4, 2.8, 4.4] {
+        let frequency_hz = frequency / TAU;
+        let system = oscillator(1.0, 0.0, 1.0, vec![element(&[1.0], 0.0, rigid(0.0, 0.0))]);
+        let (mut map, state) = settled(system, frequency_hz, 200);
+        let stretch = hammerbeam_motion::Stretch { frequency_hz, start: 0.0, end: 40.5 };
+        let contacts = map.integrator().trace(&stretch, &state, &[]).unwrap().contacts;
+        let touches: Vec<_> = contacts.into_iter().filter_map(|contact| contact.begin).collect();
+        // Whole cycles: of two flights at 2.8 1/s.
+        let last = (touches.len() - 1) / 2 * 2;
+        let growth = |pair: &[hammerbeam_motion::exact::Touchdown]| {
+            let (from, to) = (&pair[0], &pair[1]);
+            let pulled = (frequency * from.time).cos();
+            assert!(pulled < 0.0);
+            (pulled * (to.time - from.time).sin() / to.velocity).abs().ln()
+        };
+        let sum: f64 = touches[..=last].windows(2).map(growth).sum();
+        let expected = sum / (touches[last].time - touches[0].time);
+        let settings = LyapunovSettings { aligning: 20, averaged: 40 };
+        let found = lyapunov(&mut map, &state, settings).unwrap();
+        let value = found.exponents[0].value;
+        assert!((value / expected - 1.0).abs() < 1e-6, "{frequency}: {value} against {expected}");
+        assert_eq!(found.exponents[1].value, f64::NEG_INFINITY);
+        assert_eq!([Some(found.sum), found.expected_sum], [Some(f64::NEG_INFINITY); 2]);
+    }
+}

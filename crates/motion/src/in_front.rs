@@ -7,7 +7,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::{Law, System};
+use crate::{Law, LocalElement, System};
 
 /// Reflections for each element: at one stop a state may come to lie behind another.
 const REFLECTIONS: usize = 8;
@@ -31,25 +31,25 @@ impl System {
         None
     }
 
-    /// The element, of those in whose contacts no motion begins, behind whose level a state lies most deeply, and how deeply along `r`, signed as that.
+    /// The element, of those in whose contacts no motion begins, behind whose level a state lies most deeply, and how deeply.
     fn deepest(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> Option<(usize, f64)> {
         let keeps_out = |law: &Law| law.remembers_impact() || law.rigid().is_some();
         let elements = self.elements().iter().enumerate().filter(|(_, element)| keeps_out(&element.law));
-        let depths = elements.flat_map(|(number, element)| {
-            let [r, ..] = self.relative_motion(number, frequency_hz, phase, state);
-            let behind = move |contact: &&crate::Contact| contact.sign * (r - contact.level) > 0.0;
-            element.law.contacts().iter().filter(behind).map(move |contact| (number, r - contact.level))
+        let depths = elements.filter_map(|(number, _)| {
+            self.depth_in_contact(number, frequency_hz, phase, state).map(|depth| (number, depth))
         });
-        depths.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+        depths.filter(|(_, depth)| *depth > 0.0).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
+    /// Reflects a state at the only contact of an element.
     fn reflect(&self, frequency_hz: f64, (element, depth): (usize, f64), state: &mut [f64]) {
-        let shape = &self.elements()[element].shape;
+        let LocalElement { shape, law, .. } = &self.elements()[element];
+        let beyond = depth * law.contacts()[0].sign;
         let modes = shape.iter().zip(&self.model().natural_frequencies);
         let along: Vec<f64> = modes.map(|(phi, w)| phi / (w * w + (TAU * frequency_hz).powi(2))).collect();
         let yielding: f64 = shape.iter().zip(&along).map(|(phi, w)| phi * w).sum();
         if yielding > 0.0 {
-            state.iter_mut().zip(&along).for_each(|(q, w)| *q -= 2.0 * depth * w / yielding);
+            state.iter_mut().zip(&along).for_each(|(q, w)| *q -= 2.0 * beyond * w / yielding);
         }
     }
 }

@@ -90,13 +90,32 @@ impl System {
         std::array::from_fn(|k| dot(&element.shape, parts[k]) + element.support_ratio * u[k])
     }
 
+    /// How deeply a state lies behind the level of an element's contact, `sign (r - level)` [m]: of the deepest of its contacts, negative in front of all of them.
+    ///
+    /// * `element`: its number; `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    ///
+    /// # Returns
+    /// `None` of a law without a contact.
+    #[must_use]
+    pub fn depth_in_contact(
+        &self,
+        element: usize,
+        frequency_hz: f64,
+        phase: f64,
+        state: &[f64],
+    ) -> Option<f64> {
+        let [r, ..] = self.relative_motion(element, frequency_hz, phase, state);
+        let contacts = self.elements()[element].law.contacts().iter();
+        contacts.map(|contact| contact.sign * (r - contact.level)).reduce(f64::max)
+    }
+
     /// Whether a state lies within a contact whose law remembers its impact: how that contact began is not in the state.
     #[must_use]
     pub fn is_in_remembered_contact(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> bool {
-        let of_law = self.elements().iter().enumerate().filter(|(_, element)| element.law.remembers_impact());
-        of_law.into_iter().any(|(number, element)| {
-            let [r, ..] = self.relative_motion(number, frequency_hz, phase, state);
-            element.law.contacts().iter().any(|contact| contact.sign * (r - contact.level) > 0.0)
+        let depth = |element| self.depth_in_contact(element, frequency_hz, phase, state);
+        let mut elements = self.elements().iter().enumerate();
+        elements.any(|(number, element)| {
+            element.law.remembers_impact() && depth(number).is_some_and(|depth| depth > 0.0)
         })
     }
 }

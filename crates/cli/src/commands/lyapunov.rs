@@ -134,6 +134,7 @@ impl<'a> Motion<'a> {
             state = map.advance(period, &state)?;
             tell(period);
         }
+        map.check_opens(&state, WATCHED_PERIODS)?;
         let parts = self.options.sections_per_period;
         map.set_parts(parts);
         let settings = LyapunovSettings {

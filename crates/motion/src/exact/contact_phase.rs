@@ -2,6 +2,9 @@
 //!
 //! A contact that is struck and left takes two steps: one from the touch to about its middle, one from there to the release, each
 //! graded towards its end. Where that is too coarse, steps between them go as far as their error allows.
+//!
+//! **Two events at once.** Where contacts open or close in the same instant, as those of two stops of one level on one mass do, the polynomials of a step that ends with one of them may find the other a moment
+//! earlier, and the other way round. Each is then located by the motion itself, and the earlier one is taken; the other follows at once or within the slack of the next step.
 
 use std::sync::Arc;
 
@@ -19,6 +22,12 @@ use crate::Contact;
 /// Tries of one step before it is given up.
 const MAX_TRIES: usize = 60;
 
+/// Part of the largest velocity of an element below which its own is rounding.
+pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
+
+/// Part of a step within which two ends are one.
+const SAME: f64 = 1e-9;
+
 /// A step about to be tried.
 #[derive(Debug, Clone, Copy)]
 struct Aim {
@@ -26,6 +35,29 @@ struct Aim {
     event: Option<Event>,
     /// Length to fall back to if the event does not come [s].
     otherwise: f64,
+    /// The event that was located before, and when [s]: the polynomials of that step had this one come earlier.
+    rival: Option<(Event, f64)>,
+}
+
+impl Aim {
+    /// As far as the length, whatever comes.
+    fn free(length: f64) -> Self {
+        Self { length, event: None, otherwise: 0.0, rival: None }
+    }
+
+    fn to(event: Event, length: f64) -> Self {
+        Self { length, event: Some(event), otherwise: 0.5 * length, rival: None }
+    }
+
+    /// Whether an event that the polynomials of a step find before its own end, at `length`, was located not to come before that.
+    fn was_later(self, event: Event, length: f64) -> bool {
+        self.rival.is_some_and(|(rival, located)| rival == event && located >= length * (1.0 - SAME))
+    }
+
+    /// To an event that comes before `located`, with which the step ends at `length`.
+    fn rather(event: Event, time: f64, located: Option<Event>, length: f64) -> Tried {
+        Tried::Again(Self { rival: located.map(|located| (located, length)), ..Self::to(event, time) })
+    }
 }
 
 /// What became of a try.
@@ -85,14 +117,24 @@ impl ExactIntegrator {
             let jet = clearance_of(start.jet, contact.level, contact.sign);
             if self.laws[element].depends_on_velocity() && self.has_parted(run, element) {
                 run.parted[element] = run.closed[element].take();
-            } else if jet.slope > 0.0 && jet.value >= -run.slack * jet.slope - start.margin {
+            } else if jet.value >= -run.slack * jet.slope - start.margin && self.rises(run, element, contact)
+            {
                 run.closed[element] = None;
             }
         }
         !self.forces_act(run)
     }
 
-    /// Whether the pressure of a closed contact has vanished within rounding, and falls.
+    /// Whether the clearance of a closed contact grows; of a speed that is rounding the acceleration tells.
+    fn rises(&self, run: &Run, element: usize, contact: Contact) -> bool {
+        let start = run.start[element];
+        let clearance = |jet| clearance_of(jet, contact.level, contact.sign);
+        let speed = clearance(start.jet).slope;
+        let is_rounding = speed <= AT_REST * start.velocity;
+        speed > 0.0 && (!is_rounding || clearance(self.jet_with_forces(run, element)).curvature > 0.0)
+    }
+
+    /// Whether the pressure of a closed contact has vanished within rounding, and falls; or is missing, as after an impact elsewhere.
     fn has_parted(&self, run: &Run, element: usize) -> bool {
         let Some(contact) = run.closed[element] else { return false };
         let touch = Touch { element, contact, boundary: Boundary::Presses };
@@ -105,7 +147,7 @@ impl ExactIntegrator {
         let missing = self.distance(jet, touch);
         let elastic = ClearanceBounds { second: 0.0, third: 0.0, margin: run.start[element].margin };
         let margin = self.boundary_bounds(elastic, &run.state, touch).margin;
-        missing.slope > 0.0 && missing.value >= -run.slack * missing.slope - margin
+        missing.value > margin || missing.slope > 0.0 && missing.value >= -run.slack * missing.slope - margin
     }
 
     pub(super) fn closed_contact(&self, run: &Run, element: usize) -> Option<Contact> {
@@ -146,16 +188,16 @@ impl ExactIntegrator {
         };
         let proposal = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };
         let Some((ending, time)) = forecast else {
-            return Aim { length: proposal.min(remaining), event: None, otherwise: 0.0 };
+            return Aim::free(proposal.min(remaining));
         };
         let proposal = if run.proposal > 0.0 { proposal } else { 0.5 * time };
         let event = Some(ending);
         let whole = self.grading(run, touched, event).is_some();
         if whole && (time <= 1.4 * proposal || run.proposal == 0.0) && time <= 1.2 * remaining {
-            return Aim { length: time.min(remaining), event, otherwise: proposal.min(remaining) };
+            return Aim { otherwise: proposal.min(remaining), ..Aim::to(ending, time.min(remaining)) };
         }
         let shorter = if time < 2.0 * proposal { 0.5 * time } else { proposal };
-        Aim { length: shorter.min(remaining), event: None, otherwise: 0.0 }
+        Aim::free(shorter.min(remaining))
     }
 
     /// A first guess of the step length: a part of the period of the loaded contact.
@@ -169,10 +211,8 @@ impl ExactIntegrator {
     }
 
     fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: Aim, remaining: f64) -> Tried {
-        let free = |length: f64| Tried::Again(Aim { length, event: None, otherwise: 0.0 });
-        let to = |event: Event, length: f64| {
-            Tried::Again(Aim { length, event: Some(event), otherwise: 0.5 * length })
-        };
+        let free = |length: f64| Tried::Again(Aim::free(length));
+        let to = |event: Event, length: f64| Tried::Again(Aim::to(event, length));
         let Some(grading) = self.grading(run, touched, aim.event) else { return free(aim.otherwise) };
         let solved = match aim.event {
             Some(event) => self.locate(run, event, grading, aim.length, remaining),
@@ -208,17 +248,19 @@ impl ExactIntegrator {
             return free(0.5 * length);
         };
         if let Some((touch, time)) = touching
-            && time < length * (1.0 - 1e-9)
+            && time < length * (1.0 - SAME)
+            && !aim.was_later(Event::Touch(touch), length)
         {
             if time <= 1e-12 * length {
                 return Tried::ClosesNow(touch);
             }
-            return to(Event::Touch(touch), time);
+            return Aim::rather(Event::Touch(touch), time, event, length);
         }
         if let Some((end, time)) = self.first_release(run, event)
-            && time < length * (1.0 - 1e-9)
+            && time < length * (1.0 - SAME)
+            && !aim.was_later(end, length)
         {
-            return to(end, time);
+            return Aim::rather(end, time, event, length);
         }
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
         if error > 1.0 {

@@ -8,7 +8,7 @@ use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
     drive::Jet,
-    flight::{Boundary, Touch},
+    flight::{Boundary, Touch, clearance_of},
     polynomial::first_below,
     run::Run,
 };
@@ -263,9 +263,12 @@ impl ExactIntegrator {
             }
         });
         let deepest = distance.iter().fold(0.0_f64, |deepest, d| deepest.max(d.abs()));
+        let start = run.start[event.element()];
+        // A touch is located up to an accuracy: what that has left in front of the level is no release.
+        let in_front = clearance_of(start.jet, contact.level, contact.sign).value.max(0.0);
         let rounding = match event {
             Event::Part(_) => self.pressure_rounding(run, event),
-            _ => run.start[event.element()].margin,
+            _ => start.margin + 2.0 * in_front,
         };
         let s = first_below(&rule.bernstein(&distance), rule.s[0], 1e-9 * deepest + rounding)?;
         Some(self.step.grading().map(s).0 * self.step.length)

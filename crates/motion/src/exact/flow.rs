@@ -71,7 +71,7 @@ impl ExactIntegrator {
         self.let_go();
         self.stretch = *stretch;
         self.contraction = 0.0;
-        self.held_at_once = 0;
+        self.directions_lost = 0;
         let n = self.blocks.count();
         self.drive_over(stretch);
         let mut run = std::mem::take(&mut self.run);
@@ -146,8 +146,11 @@ impl ExactIntegrator {
         self.closed_throughout = closed_bits(run);
         let steps = MOST_STEPS * (1 + (stretch.end - stretch.start) as u64);
         let most = self.counts.steps + steps;
+        // Besides those there are flights and touches, and contacts that close and open without a step would go on for ever.
+        let mut further = steps + 2 * MOST_IMPACTS * (1 + (stretch.end - stretch.start) as u64);
         while run.time < end {
-            if self.counts.steps > most {
+            further -= 1;
+            if self.counts.steps > most || further == 0 {
                 return Err(MotionError::TooManySteps { time: run.time, steps });
             }
             if run.impacts > MOST_IMPACTS * (1 + (stretch.end - stretch.start) as u64) {

@@ -5,7 +5,7 @@
 //! from `w^2/2 = c (P - p) + G K/(e+1) (P^(e+1) - p^(e+1))`, and the time between P and p is the integral of `dx/v(x)`. Good to some percent
 //! (less where the contact loses energy, which is left out): a start for Newton's method, and a first length.
 
-use super::{ExactIntegrator, flight::clearance_of, run::Run};
+use super::{ExactIntegrator, contact_phase::AT_REST, flight::clearance_of, run::Run};
 
 /// Nodes and weights of Gauss-Legendre with four nodes on [0, 1].
 const GAUSS_4: [(f64, f64); 4] = [
@@ -72,6 +72,10 @@ impl ExactIntegrator {
         let contact = self.closed_contact(run, element)?;
         let clearance = clearance_of(run.start[element].jet, contact.level, contact.sign);
         let (penetration, speed) = (if touched { 0.0 } else { -clearance.value }, -clearance.slope);
+        // Struck without speed it may stay or leave: the other forces decide, and its own does not turn it.
+        if touched && speed.abs() <= AT_REST * run.start[element].velocity {
+            return None;
+        }
         let mobility = self.mobility[element][element];
         let power = contact.onset_exponent + 1.0;
         // The coefficient K of the law, read off it where it is loaded.

@@ -91,7 +91,7 @@ impl ExactIntegrator {
         self.drive.add_state(run.time, -1.0, &mut run.state);
         project(&mut run.state, elements.len());
         run.stuck = elements;
-        self.held_at_once = self.held_at_once.max(run.stuck.len());
+        self.directions_lost = self.directions_lost.max(2 * run.stuck.len());
         let Some(mut sensitivity) = run.sensitivity.take() else { return Ok(()) };
         let mut block = vec![0.0; modal.len()];
         for (j, column) in columns.iter().enumerate() {

@@ -136,7 +136,9 @@ pub enum MotionError {
     #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
     TooManySteps { time: f64, steps: u64 },
     /// A rigid stop is hit again and again in ever shorter distance, and the bounces do not end.
-    #[error("more than {impacts} impacts up to {time:.6e} s after the start of the stretch")]
+    #[error(
+        "more than {impacts} impacts up to {time:.6e} s after the start of the stretch: a structure that is pressed on a rigid stop bounces the longer the nearer its restitution is to 1, and with 1 for ever"
+    )]
     TooManyImpacts { time: f64, impacts: u64 },
     /// Rigid stops that are held at once do not act independently of one another.
     #[error("{elements} stick to their rigid stops at once, but the structure cannot move them apart")]
@@ -224,8 +226,8 @@ pub struct ExactIntegrator {
     holding: Option<Box<hold::Holding>>,
     known_held: Vec<held::Held>,
     contraction: f64,
-    /// Rigid stops that held the structure at once in the last stretch, at most.
-    held_at_once: usize,
+    /// Directions that neighbours lost in the last stretch, at one instant at most.
+    directions_lost: usize,
 }
 
 impl ExactIntegrator {
@@ -291,7 +293,7 @@ impl ExactIntegrator {
             holding: None,
             known_held: Vec::new(),
             contraction: 0.0,
-            held_at_once: 0,
+            directions_lost: 0,
         })
     }
 
@@ -322,10 +324,11 @@ impl ExactIntegrator {
         self.contraction
     }
 
-    /// Rigid stops that held the structure at once in the last stretch, at most: the rank of its sensitivities is that of the state less two for each.
+    /// By how much the rank of the sensitivities of the last stretch is less than that of the state: two for each rigid stop that held the structure, and one for an impact without restitution that
+    /// does not stick, at the instant at which they are most.
     #[must_use]
-    pub fn held_at_once(&self) -> usize {
-        self.held_at_once
+    pub fn directions_lost(&self) -> usize {
+        self.directions_lost
     }
 
     /// Elements that were closed all through the last stretch, one bit each (the first 64).

@@ -10,6 +10,7 @@
 
 use super::{
     ExactIntegrator, MotionError,
+    clearance::ClearanceBounds,
     flight::{Boundary, Touch},
     impact::Impact,
     run::Run,
@@ -89,12 +90,15 @@ impl ExactIntegrator {
     /// Whether a touch is the end of a chatter.
     pub(super) fn sticks(&self, run: &Run, impact: &Impact) -> bool {
         let (speed, press) = (impact.before.slope.max(0.0), impact.before.curvature);
-        if press <= 0.0 {
-            return false;
-        }
         let e = impact.restitution;
         let element = impact.touch.element;
-        let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
+        let ClearanceBounds { second, margin, .. } =
+            self.bounds(&run.state, element, self.stretch.duration());
+        if press <= 0.0 {
+            // At rest on the stop with a force that is rounding, it is held: what it presses with then decides.
+            let rounding = 8.0 * f64::EPSILON;
+            return speed <= rounding * self.speed_bound(&run.state, element) && press >= -rounding * second;
+        }
         let height = (e * speed).powi(2) / (2.0 * press);
         if height > CHATTER * margin {
             return false;

@@ -186,7 +186,13 @@ impl<'a, F: VectorField> March<'a, F> {
         }
         self.stepper.densify(self.field, self.time, step, &self.region.inside, false);
         self.dense.load(&self.stepper, step);
-        self.region.inspect(self.field, &self.dense, self.time, step)
+        let evaluations = self.stepper.evaluations;
+        let verdict = self.region.inspect(self.field, (&mut self.stepper, &self.dense), (self.time, step));
+        if verdict == Verdict::Clear && self.stepper.evaluations > evaluations {
+            // The search has gone to a lowest place within the step.
+            self.stepper.attempt(self.field, self.time, step, &self.region.inside);
+        }
+        verdict
     }
 
     /// Length of the step that ends on the zero itself, from that which ends on the zero of the dense output.

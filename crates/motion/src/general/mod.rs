@@ -24,11 +24,13 @@
 //! differs: the norm, the limit of shortening, and the restart at switching points.
 
 mod dense;
+mod dip;
 mod error;
 mod field;
 mod march;
 mod observe;
 mod rigid;
+mod search;
 mod stepper;
 mod switching;
 mod system_field;

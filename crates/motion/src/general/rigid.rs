@@ -4,6 +4,7 @@
 //!
 //! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi` where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r' T)`,
 //!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
+//!   The jump of a velocity may begin or end the pressure of contacts that depend on it: those of the motion after it are in `h_after`.
 //! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
 //!   switching function is `lambda_j` itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
 //! - A stop whose `lambda_j` falls below zero by a jump is let go then (`thrown_off.rs`).
@@ -250,6 +251,7 @@ impl SystemField<'_> {
         let shape = self.system.elements()[e].shape.clone();
         let factor = -(1.0 + restitution) / dot(&shape, &direction);
         add_scaled(&mut state[n..], factor * speed, &direction);
+        self.turn_pressures(time, state, inside);
         self.evaluate(Point { time, state, inside }, &mut after);
         let depth = if press < 0.0 { -0.5 * speed * speed / press } else { f64::INFINITY };
         self.rigid.impacts.push(Impact { element: e, speed, impulse: -factor * speed, sticks: false, depth });
@@ -269,6 +271,19 @@ impl SystemField<'_> {
         while let Some((pulled, force)) = self.weakest_that_pulls(time, state, inside) {
             self.release(pulled, inside);
             self.throw_off((pulled, force), columns, &delays);
+        }
+    }
+
+    /// After a jump of velocities: which contacts press whose force depends on them.
+    fn turn_pressures(&self, time: f64, state: &[f64], inside: &mut [bool]) {
+        let mut values = vec![0.0; inside.len()];
+        self.switching(time, state, &mut values);
+        let mut end = 0;
+        for element in self.system.elements() {
+            end += switches_of(element);
+            if element.law.depends_on_velocity() {
+                inside[end - 1] = values[end - 1] > 0.0;
+            }
         }
     }
 

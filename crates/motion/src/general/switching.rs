@@ -1,12 +1,13 @@
 //! Where a step leaves the smooth region in which it began.
 //!
-//! Between the ends of a step a switching function is followed on the dense output: at equidistant samples, in the
-//! dips between them and at the ends of the step, and by bracketing of its first zero. A touch is missed only where the seventh-order polynomial
-//! has two zeros between neighbouring samples without a lowest sample at one of them.
+//! Between the ends of a step a switching function is followed on the dense output: with its slope at equidistant samples, in the
+//! dips between them, and by bracketing of its first zero (`search.rs`). A touch is missed only where the seventh-order polynomial
+//! has two more extrema between neighbouring samples than the cubic of their values and slopes.
 
-use super::{VectorField, dense::Dense, stepper::Stepper};
+use super::{VectorField, dense::Dense, search::Search, stepper::Stepper};
 
-const SAMPLES: usize = 16;
+/// Parts of a step between samples.
+pub(super) const SAMPLES: usize = 16;
 
 /// What a step does about the boundaries of its region.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +20,17 @@ pub(super) enum Verdict {
     TooLong { switch: usize },
 }
 
+impl Verdict {
+    /// Of two switching functions.
+    fn or_earlier(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::TooLong { .. }, _) | (_, Self::Clear) => self,
+            (Self::Crossing { fraction: a, .. }, Self::Crossing { fraction: b, .. }) if a <= b => self,
+            _ => other,
+        }
+    }
+}
+
 /// The region in which the motion is, and how it got there.
 pub(super) struct Region {
     /// For each switching function whether it is positive.
@@ -26,9 +38,10 @@ pub(super) struct Region {
     /// For each switching function whether its zero is the start of the step.
     fresh: Vec<bool>,
     first_steps: Vec<Option<f64>>,
-    samples: Vec<f64>,
     state: Vec<f64>,
     values: Vec<f64>,
+    samples: Vec<f64>,
+    slopes: Vec<f64>,
 }
 
 impl Region {
@@ -37,9 +50,10 @@ impl Region {
             inside: vec![false; switches],
             fresh: vec![false; switches],
             first_steps: vec![None; 2 * switches],
-            samples: vec![0.0; (SAMPLES + 1) * switches],
             state: vec![0.0; dimension],
             values: vec![0.0; switches],
+            samples: Vec::new(),
+            slopes: Vec::new(),
         }
     }
 
@@ -150,98 +164,38 @@ impl Region {
         (after - before) / (2.0 * NEARBY * step)
     }
 
-    /// Finds the first crossing of a boundary on the dense output of a step.
-    pub(super) fn inspect(
+    /// Finds the first crossing of a boundary in a step.
+    pub(super) fn inspect<F: VectorField>(
         &mut self,
-        field: &impl VectorField,
-        dense: &Dense,
-        time: f64,
-        step: f64,
+        field: &mut F,
+        (stepper, dense): (&mut Stepper, &Dense),
+        (time, step): (f64, f64),
     ) -> Verdict {
-        let switches = self.inside.len();
-        for k in 0..=SAMPLES {
-            let x = fraction(k);
-            dense.state(x, &mut self.state);
-            field.switching(time + x * step, &self.state, &mut self.samples[k * switches..][..switches]);
-        }
+        let mut search = Search {
+            field,
+            stepper,
+            dense,
+            inside: &self.inside,
+            time,
+            step,
+            state: std::mem::take(&mut self.state),
+            values: std::mem::take(&mut self.values),
+            samples: std::mem::take(&mut self.samples),
+            slopes: std::mem::take(&mut self.slopes),
+        };
+        search.read();
         let mut first = Verdict::Clear;
-        for switch in 0..switches {
-            let found = self.first_crossing(field, dense, time, step, switch);
-            first = match (first, found) {
-                (_, Verdict::TooLong { .. }) => return found,
-                (Verdict::Crossing { fraction: a, .. }, Verdict::Crossing { fraction: b, .. }) if b < a => {
-                    found
-                }
-                (Verdict::Clear, _) => found,
-                _ => first,
-            };
+        for (switch, &fresh) in self.fresh.iter().enumerate() {
+            let found = search.first_crossing(switch, fresh);
+            first = first.or_earlier(found);
         }
+        let Search { state, values, samples, slopes, .. } = search;
+        (self.state, self.values, self.samples, self.slopes) = (state, values, samples, slopes);
         first
     }
-
-    fn first_crossing(
-        &mut self,
-        field: &impl VectorField,
-        dense: &Dense,
-        time: f64,
-        step: f64,
-        switch: usize,
-    ) -> Verdict {
-        let (sign, switches) = (self.sign(switch), self.inside.len());
-        let samples = &self.samples;
-        let sample = |k: usize| sign * samples[k * switches + switch];
-        let clear_start = sample(0) > 0.0 && !self.fresh[switch];
-        let (state, values) = (&mut self.state, &mut self.values);
-        let mut distance = |x: f64| {
-            dense.state(x, state);
-            field.switching(time + x * step, state, values);
-            sign * values[switch]
-        };
-        if clear_start && dips_at_border([0, 1, 2].map(sample)) {
-            let lowest = minimum(&mut distance, 0.0, fraction(1));
-            if distance(lowest) < 0.0 {
-                return Verdict::Crossing { fraction: zero(&mut distance, 0.0, lowest), switch };
-            }
-        }
-        for k in 1..=SAMPLES {
-            if sample(k) < 0.0 {
-                if k == 1 && !clear_start {
-                    return Verdict::TooLong { switch };
-                }
-                return Verdict::Crossing {
-                    fraction: zero(&mut distance, fraction(k - 1), fraction(k)),
-                    switch,
-                };
-            }
-            let dips = k < SAMPLES && sample(k - 1) > sample(k) && sample(k + 1) >= sample(k);
-            if dips && sample(k) < sample(k - 1) + sample(k + 1) - 2.0 * sample(k) {
-                let lowest = minimum(&mut distance, fraction(k - 1), fraction(k + 1));
-                if distance(lowest) < 0.0 {
-                    let fraction = zero(&mut distance, fraction(k - 1), lowest);
-                    return Verdict::Crossing { fraction, switch };
-                }
-            }
-        }
-        if dips_at_border([0, 1, 2].map(|k| sample(SAMPLES - k))) {
-            let lowest = minimum(&mut distance, fraction(SAMPLES - 1), 1.0);
-            if distance(lowest) < 0.0 {
-                let fraction = zero(&mut distance, fraction(SAMPLES - 1), lowest);
-                return Verdict::Crossing { fraction, switch };
-            }
-        }
-        Verdict::Clear
-    }
 }
 
-/// Whether there may be a dip between the border of a step and the next sample: the parabola through three samples from the border on has
-/// its lowest place there, or as little beyond the border as it may be wrong.
-fn dips_at_border([border, next, last]: [f64; 3]) -> bool {
-    let curvature = border - 2.0 * next + last;
-    let lowest = 0.5 * (3.0 * border - 4.0 * next + last) / curvature;
-    curvature > 0.0 && border <= next && lowest > -0.2
-}
-
-fn fraction(sample: usize) -> f64 {
+pub(super) fn fraction(sample: usize) -> f64 {
     sample as f64 / SAMPLES as f64
 }
 

@@ -1,0 +1,122 @@
+//! Contacts that begin or end in one instant while another force acts: stops of the same level on one mass, a mass at rest on the level of a stop, and impacts on a rigid stop within a damped contact.
+//!
+//! Held against the general integrator, which ends its steps on one boundary after the other.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use common::{assert_agreement, diagonal, element, force, hertz, model};
+use hammerbeam_motion::{
+    Law, Load, LocalElement, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    law::{
+        HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop, TwoSidedStop,
+    },
+};
+
+/// Natural circular frequency [rad/s].
+const W: f64 = TAU * 10.0;
+/// Displacement of the mass under its load at rest [m].
+const STATIC: f64 = 1e-3;
+
+/// Unit mass on a spring with a harmonic load and these stops; one with a preload pushes it towards the others.
+fn mass(stops: &[(f64, Law)], load: f64) -> System {
+    let pushing =
+        Law::Hertz(HertzStop::with_preload(5.0 * W * W / STATIC.sqrt(), 1.5 * STATIC * W * W).unwrap());
+    let stops = stops.iter().map(|&(shape, law)| element(&[shape], 0.0, law));
+    let elements: Vec<LocalElement> = std::iter::once(element(&[-0.6], 0.0, pushing)).chain(stops).collect();
+    let load = Load { support: vec![], forces: vec![force(&[1.0], 1, load * STATIC * W * W, 0.0)] };
+    System::new(model(&[W], diagonal(&[0.1 * W])), &load, elements).unwrap()
+}
+
+/// Follows motions from rest period by period; the number of contacts.
+fn agree_over_periods(system: &System, bound: f64) -> u32 {
+    let mut touches = 0;
+    for k in 0..12 {
+        let frequency_hz = 3.0 + 0.37 * f64::from(k);
+        let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+        let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-12 }).unwrap();
+        let mut state = vec![0.0; 2];
+        for period in 0..4 {
+            let what = format!("{frequency_hz} Hz, period {period}");
+            let next = exact.advance(&stretch, &state).unwrap();
+            // No flow with sensitivities begins in a contact that remembers its impact, and where a rigid stop has held the mass they vanish.
+            let can_begin = !system.is_in_remembered_contact(frequency_hz, 0.0, &state);
+            if can_begin && exact.directions_lost() == 0 {
+                touches += assert_agreement(system, &stretch, &state, bound, &what);
+            }
+            state = next;
+        }
+    }
+    touches
+}
+
+fn linear(stiffness: f64) -> Law {
+    Law::Linear(LinearStop::with_gap(stiffness * W * W, 0.0).unwrap())
+}
+
+/// Their forces end in the same instant.
+#[test]
+fn linear_stops_of_one_level_open_at_once() {
+    for (first, second) in [(280.0, 480.0), (30.0, 30.0), (1000.0, 20.0)] {
+        let system = mass(&[(0.8, linear(first)), (0.3, linear(second))], 2.0);
+        assert!(agree_over_periods(&system, 1e-8) > 50);
+    }
+}
+
+/// Their forces begin in the same instant, each located with the accuracy of its law.
+#[test]
+fn stops_of_different_laws_close_at_once() {
+    let stiffness = 300.0 * W * W / STATIC.sqrt();
+    let damped = HuntCrossleyStop::new(HertzStop::with_gap(stiffness, 0.0).unwrap(), 20.0).unwrap();
+    for other in [linear(300.0), hertz(stiffness, 0.0), Law::HuntCrossley(damped)] {
+        let system = mass(&[(0.8, hertz(0.3 * stiffness, 0.0)), (0.5, other)], 2.0);
+        assert!(agree_over_periods(&system, 1e-8) > 50);
+    }
+}
+
+/// At rest on the level: the load pulls away, and the preload pushes more, or less, than that.
+#[test]
+fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
+    for load in [-0.5, -1.2, 0.5] {
+        for law in [hertz(300.0 * W * W / STATIC.sqrt(), 0.0), linear(300.0)] {
+            let system = mass(&[(0.8, law)], load);
+            let stretch = Stretch { frequency_hz: 4.0, start: 0.0, end: 0.2 };
+            assert_agreement(&system, &stretch, &[0.0, 0.0], 1e-8, &format!("{load} {law:?}"));
+        }
+    }
+}
+
+/// The mass leaves a damped contact that has parted at the level at which another one closes on the other side.
+#[test]
+fn a_contact_is_left_where_another_one_closes() {
+    let damped = LinearStop::with_gap(300.0 * W * W, 0.0).unwrap().with_damping(20.0 * W).unwrap();
+    let elastic = HertzStop::with_gap(300.0 * W * W / STATIC.sqrt(), 0.0).unwrap();
+    let hunt_crossley = HuntCrossleyStop::new(elastic, 20.0).unwrap();
+    let two_sided = Law::TwoSided(TwoSidedStop::new(200.0 * W * W, 0.0, STATIC).unwrap());
+    for law in [Law::Linear(damped), Law::HuntCrossley(hunt_crossley)] {
+        let system = mass(&[(0.8, law), (-0.5, two_sided)], 2.0);
+        assert!(agree_over_periods(&system, 1e-7) > 50);
+    }
+}
+
+/// A rigid stop behind a damped contact: the impact turns the speed round, with which the contact would have to pull, so its force ends with the impact.
+#[test]
+fn an_impact_takes_the_force_off_a_damped_contact() {
+    let [gap, behind] = [0.1 * STATIC, 0.3 * STATIC];
+    let damped = LinearStop::with_gap(30.0 * W * W, gap).unwrap().with_damping(10.0 * W).unwrap();
+    let elastic = HertzStop::with_gap(30.0 * W * W / STATIC.sqrt(), gap).unwrap();
+    let hunt_crossley = HuntCrossleyStop::new(elastic, 40.0).unwrap();
+    let remembers = RestitutionStop::new(elastic, RestitutionModel::HuGuo, 0.3).unwrap();
+    let mut touches = 0;
+    for law in [Law::Linear(damped), Law::HuntCrossley(hunt_crossley), Law::Restitution(remembers)] {
+        for restitution in [0.8, 0.3] {
+            let rigid = Law::Rigid(RigidStop::with_gap(restitution, behind).unwrap());
+            let system = mass(&[(1.0, law), (1.0, rigid)], 3.0);
+            touches += agree_over_periods(&system, 1e-7);
+        }
+    }
+    assert!(touches > 100, "{touches}");
+}
