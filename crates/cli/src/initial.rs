@@ -60,12 +60,13 @@ fn meant(
 fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
     let refused = |found: &str| {
         let allowed = format!(
-            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas or blanks, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
         );
         Failure::BadInput(format!("--initial: {found}; allowed: {allowed}"))
     };
     let mut state = Vec::new();
-    for part in text.split(',') {
+    let separator = if text.contains(',') { "," } else { " " };
+    for part in text.trim().split(separator) {
         match part.trim().parse::<f64>() {
             Ok(number) if number.abs() <= MOST_OF_A_STATE => state.push(number),
             _ => return Err(refused(&format!("found {:?}", part.trim()))),

@@ -105,7 +105,7 @@ fn the_states_at_ends_of_branches_repeat() {
         let (multiple, frequency, phase) = (fields[1], fields[4], rest.rsplit_once(',').unwrap().1);
         assert!(["range-end", "closed", "shorter-period", "crossing"].contains(&fields[3]), "{line}");
         assert_eq!(phase, "0.0");
-        let initial = format!("--initial={}", state.replace(' ', ","));
+        let initial = format!("--initial={state}");
         let periods = format!("--transient-periods={multiple}");
         let at = format!("--frequency={frequency}");
         let run = workshop.hammerbeam(&[

@@ -216,7 +216,8 @@ fn pieces_are_the_same_for_any_number_of_threads() {
             .map(|name| fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap())
     };
     let one = exported("1");
-    assert!(one.iter().all(|text| text.lines().count() > 2));
+    let lines = one.each_ref().map(|text| text.lines().count());
+    assert!(lines[0] > 50 && lines[1] > 2 && lines[2] > 50, "{lines:?}");
     assert!(one == exported("3"), "three threads give other rows");
 }
 

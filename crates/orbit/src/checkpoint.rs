@@ -174,6 +174,29 @@ fn read(
         Ok(integrator) => integrator,
         Err(error) => return Some(Err(error)),
     };
+    let state = read_follower(reader, point_length)?;
+    let evaluations_between = reader.word()?;
+    let state = Checkpoint { stop: end_of_word(reader.word()?)?, ..state };
+    let mut last_rows = LastRows::default();
+    for _ in 0..reader.word()? {
+        last_rows.0.push(Place {
+            arc_length: reader.float()?,
+            frequency_hz: reader.float()?,
+            displacement: reader.float()?,
+        });
+    }
+    let mut problem =
+        ShootingProblem::new(integrator, (period_multiple, segments), scale, length).beginning_at(phase);
+    if let Err(error) = problem.vary(varied) {
+        return Some(Err(error.into()));
+    }
+    Some(Ok(Stored { problem, state, evaluations_between, last_rows }))
+}
+
+/// The period and what varies: a word with the period below and the kind of parameter and its element above, and the fixed frequency, if there is
+/// one.
+/// The follower, but for why it stopped; `None` if its points do not have this length.
+fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpoint> {
     let (current, start) = (reader.point()?, reader.point()?);
     let used = usize::try_from(reader.word()?).ok()?;
     let mut nodes = Vec::new();
@@ -190,7 +213,7 @@ fn read(
     {
         return None;
     }
-    let state = Checkpoint {
+    Some(Checkpoint {
         current,
         start,
         history,
@@ -214,27 +237,9 @@ fn read(
             short_in_a_row: reader.word()?,
         },
         stop: None,
-    };
-    let evaluations_between = reader.word()?;
-    let state = Checkpoint { stop: end_of_word(reader.word()?)?, ..state };
-    let mut last_rows = LastRows::default();
-    for _ in 0..reader.word()? {
-        last_rows.0.push(Place {
-            arc_length: reader.float()?,
-            frequency_hz: reader.float()?,
-            displacement: reader.float()?,
-        });
-    }
-    let mut problem =
-        ShootingProblem::new(integrator, (period_multiple, segments), scale, length).beginning_at(phase);
-    if let Err(error) = problem.vary(varied) {
-        return Some(Err(error.into()));
-    }
-    Some(Ok(Stored { problem, state, evaluations_between, last_rows }))
+    })
 }
 
-/// The period and what varies: a word with the period below and the kind of parameter and its element above, and the fixed frequency, if there is
-/// one.
 fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationParameter) {
     let (kind, element) = match varied.parameter() {
         None => (0, 0),

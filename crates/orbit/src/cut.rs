@@ -97,7 +97,7 @@ pub(crate) fn offset_to_clear(
     }
     let folded = folded(&times, length);
     let Some((gap, nearest)) = longest_of_orbit(&folded, length, false) else { return Ok(None) };
-    let offset = gap.middle(phase).rem_euclid(length);
+    let offset = (0.5 * (gap.begin + gap.end)).rem_euclid(length);
     Ok((gap.asks_to_move(nearest) && offset > 0.0).then_some(offset))
 }
 

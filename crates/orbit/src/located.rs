@@ -63,7 +63,7 @@ pub(crate) struct Place<'a> {
     pub point: &'a ContinuationPoint,
     /// Change of the tangent's frequency component per length.
     pub bend: f64,
-    /// To this the place of a corner is known [Hz].
+    /// To this length along the path the place of a corner is known.
     pub at_corners: f64,
     pub touches_before: &'a [u32],
 }

@@ -1,5 +1,7 @@
 //! What a computed periodic solution and a row of a branch hold.
 
+use hammerbeam_motion::exact::Maxima;
+
 use crate::LocatedEvent;
 
 /// A converged periodic solution.
@@ -56,16 +58,15 @@ pub struct OrbitMaxima {
     pub contacts: u32,
 }
 
-impl OrbitMaxima {
-    /// Those of one stretch of a motion and of the next one.
-    pub(crate) fn and(&self, next: &Self) -> Self {
+impl From<Maxima> for OrbitMaxima {
+    fn from(maxima: Maxima) -> Self {
         Self {
-            displacement: self.displacement.max(next.displacement),
-            acceleration: self.acceleration.max(next.acceleration),
-            contact_force: self.contact_force.max(next.contact_force),
-            impact_velocity: self.impact_velocity.max(next.impact_velocity),
-            impulse: self.impulse + next.impulse,
-            contacts: self.contacts + next.contacts,
+            displacement: maxima.displacement,
+            acceleration: maxima.acceleration,
+            contact_force: maxima.contact_force,
+            impact_velocity: maxima.impact_velocity,
+            impulse: maxima.impulse,
+            contacts: maxima.contacts(),
         }
     }
 }

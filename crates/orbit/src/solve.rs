@@ -188,15 +188,7 @@ pub(crate) fn observe(
 ) -> Result<OrbitMaxima, OrbitError> {
     let motion: Vec<(Stretch, &[f64])> =
         stretches.iter().copied().zip(nodes.iter().map(Vec::as_slice)).collect();
-    let maxima = integrator.observe(&motion)?;
-    Ok(OrbitMaxima {
-        displacement: maxima.displacement,
-        acceleration: maxima.acceleration,
-        contact_force: maxima.contact_force,
-        impact_velocity: maxima.impact_velocity,
-        impulse: maxima.impulse,
-        contacts: maxima.contacts(),
-    })
+    Ok(integrator.observe(&motion)?.into())
 }
 
 /// Nodes at equal phases of the motion from `state` at the phase `begin`.

@@ -8,7 +8,7 @@ use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, Events,
-    OrbitSettings, Response, Side, find_start, reach_orbit,
+    OrbitSettings, Response, Segments, Side, find_start, reach_orbit,
 };
 use hammerbeam_structure::{PointOutput, ReducedModel};
 
@@ -43,7 +43,11 @@ fn events(case: &Case, start_hz: f64, range_hz: (f64, f64), wanted: fn(&Events) 
 
 /// Rows of a branch in the frequency.
 fn branch(case: &Case, start_hz: f64, range_hz: (f64, f64)) -> Vec<BranchRow> {
-    let settings = OrbitSettings::for_range(range_hz);
+    branch_in(Segments::Automatic, case, start_hz, range_hz)
+}
+
+fn branch_in(segments: Segments, case: &Case, start_hz: f64, range_hz: (f64, f64)) -> Vec<BranchRow> {
+    let settings = OrbitSettings { segments, ..OrbitSettings::for_range(range_hz) };
     let orbit = (start_hz, 1);
     let start = find_start(&case.0, &case.1, start_hz, 1, &settings)
         .or_else(|_| reach_orbit(&case.0, &case.1, orbit, &OrbitSettings::default(), &mut || false))
@@ -195,14 +199,15 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
         let case = oscillator(0.2, 1.0, &[(1.0, law)]);
         let range_hz = (0.05, 0.4);
         // At that of a rigid stop the multipliers jump: it counts as bracketed.
-        let rows = branch(&case, 0.06, range_hz);
+        let rows = branch_in(Segments::Fixed(4), &case, 0.06, range_hz);
         let first = rows.iter().find(|row| row.events.grazing).unwrap();
         for (parameter, range) in
             [(Parameter::ExcitationScale, (0.3, 3.0)), (Parameter::Gap { element: 0 }, (0.5, 6.0))]
         {
             for side in [Side::Up, Side::Down] {
                 let settings = settings(parameter, range, range_hz);
-                let (rows, end) = curve(&case, first, (CurveKind::Grazing { contact: 0 }, side), &settings);
+                let (rows, end) =
+                    curve(&case, first, (CurveKind::Grazing { contact: None }, side), &settings);
                 assert!(rows.len() > 20, "{law:?}");
                 assert!(matches!(end, CurveEnd::RangeEnd | CurveEnd::FrequencyRangeEnd), "{law:?}: {end:?}");
                 for row in &rows {
@@ -217,6 +222,12 @@ fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
                         "{law:?} {parameter:?} at {}: {ratio}",
                         row.parameter
                     );
+                    let w = std::f64::consts::TAU * hz;
+                    assert_eq!(row.solution.nodes.len(), 4);
+                    for node in &row.solution.nodes {
+                        let off = node[0].hypot(node[1] / w) / (linear * force) - 1.0;
+                        assert!(off.abs() < 1e-8, "{law:?} at {hz} Hz: {off}");
+                    }
                     let reached = row.solution.maxima.displacement / (linear * force);
                     assert!((reached - 1.0).abs() < 1e-8, "{law:?}: {reached}");
                     let modulus = (-0.1 / hz).exp();
@@ -238,7 +249,9 @@ fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches()
     let elastic = law::HertzStop::with_gap(20.0, 0.5).unwrap();
     let struck = law::RestitutionStop::new(elastic, law::RestitutionModel::Flores, 0.7).unwrap();
     let grazed = law::LinearStop::with_gap(5.0, 1.0).unwrap();
-    let case = oscillator(0.2, 1.0, &[(1.0, Law::Restitution(struck)), (-1.0, Law::Linear(grazed))]);
+    let never_open = law::LinearStop::with_preload(1e-3, 5e-3).unwrap();
+    let laws = [Law::Restitution(struck), Law::Linear(grazed), Law::Linear(never_open)];
+    let case = oscillator(0.2, 1.0, &[(1.0, laws[0]), (-1.0, laws[1]), (1.0, laws[2])]);
     let range_hz = (0.1, 0.3);
     let rows = branch(&case, 0.1, range_hz);
     let grazes =
@@ -246,10 +259,15 @@ fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches()
     let start = rows.iter().find(grazes).unwrap();
     let gap = Parameter::Gap { element: 1 };
     for (side, range) in [(Side::Up, (0.9, 1.1)), (Side::Down, (0.9, 1.1))] {
-        let (rows, end) =
-            curve(&case, start, (CurveKind::Grazing { contact: 1 }, side), &settings(gap, range, range_hz));
+        let (rows, end) = curve(
+            &case,
+            start,
+            (CurveKind::Grazing { contact: Some(1) }, side),
+            &settings(gap, range, range_hz),
+        );
         assert_eq!(end, CurveEnd::RangeEnd);
-        assert!(rows.iter().all(|row| row.solution.maxima.contacts >= 1));
+        // The one that is struck and the one that never opens.
+        assert!(rows.iter().all(|row| row.solution.maxima.contacts == 2));
         assert_meets_branch(&case, rows.last().unwrap(), gap, (0.1, range_hz), |events| events.grazing);
     }
 }

@@ -84,9 +84,7 @@ impl std::fmt::Display for StopReason {
             }
             Self::Crawls { steps, .. } => write!(f, "the last {steps} steps led nowhere"),
             Self::EvaluationFailed { step, error, .. } => write!(f, "at step {step:.1e}: {error}"),
-            Self::RunsBack { met_arc_length, .. } => {
-                write!(f, "the path continues on a stretch walked before, at arc length {met_arc_length}")
-            }
+            Self::RunsBack { .. } => write!(f, "the path continues on a stretch walked before"),
         }
     }
 }

@@ -36,6 +36,21 @@ pub struct Maxima {
 }
 
 impl Maxima {
+    /// Those of this stretch of a motion and of the next one together.
+    #[must_use]
+    pub fn and(&self, next: &Self) -> Self {
+        Self {
+            displacement: self.displacement.max(next.displacement),
+            acceleration: self.acceleration.max(next.acceleration),
+            contact_force: self.contact_force.max(next.contact_force),
+            impact_velocity: self.impact_velocity.max(next.impact_velocity),
+            impulse: self.impulse + next.impulse,
+            energy_lost: self.energy_lost + next.energy_lost,
+            touches: self.touches + next.touches,
+            closed_throughout: self.closed_throughout & next.closed_throughout,
+        }
+    }
+
     /// Number of contacts: those that closed, and those that were closed throughout.
     #[must_use]
     pub fn contacts(&self) -> u32 {

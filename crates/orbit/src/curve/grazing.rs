@@ -21,6 +21,15 @@ pub(super) struct Touch {
     pub contact: usize,
 }
 
+/// Where the clearance of a contact turns.
+#[derive(Debug, Clone)]
+pub(super) struct Turn {
+    pub phase: f64,
+    pub state: Vec<f64>,
+    /// How far that is from grazing [m].
+    pub distance: f64,
+}
+
 impl Touch {
     /// The contact of that number, in the order of the elements and their contacts.
     pub fn of_contact(shooting: &Shooting, number: usize) -> Option<Self> {
@@ -75,13 +84,34 @@ impl Touch {
         Linear { values, rows, tests: vec![sign * acceleration / (unit * std::f64::consts::TAU * f)] }
     }
 
-    /// Phase and state of the orbit from `state` at the phase `begin` where the contact is reached with the least clearance and turns.
+    /// The contact of that number, or the one that comes nearest to grazing.
+    pub fn choose(
+        shooting: &mut Shooting,
+        number: Option<usize>,
+        (begin, state): (f64, &[f64]),
+        frequency_hz: f64,
+    ) -> Result<Option<Self>, OrbitError> {
+        if let Some(number) = number {
+            return Ok(Self::of_contact(shooting, number));
+        }
+        let mut nearest: Option<(f64, Self)> = None;
+        for touch in (0..).map_while(|number| Self::of_contact(shooting, number)).collect::<Vec<_>>() {
+            if let Some(turn) = touch.find(shooting, (begin, state), frequency_hz)?
+                && nearest.is_none_or(|(least, _)| turn.distance < least)
+            {
+                nearest = Some((turn.distance, touch));
+            }
+        }
+        Ok(nearest.map(|(_, touch)| touch))
+    }
+
+    /// Where the contact of the orbit from `state` at the phase `begin` is reached with the least clearance and turns.
     pub fn find(
         self,
         shooting: &mut Shooting,
         (begin, state): (f64, &[f64]),
         frequency_hz: f64,
-    ) -> Result<Option<(f64, Vec<f64>)>, OrbitError> {
+    ) -> Result<Option<Turn>, OrbitError> {
         let periods = f64::from(shooting.period_multiple);
         let looks = LOOKS * shooting.period_multiple as usize;
         let phases: Vec<f64> = (0..=looks).map(|k| begin + periods * k as f64 / looks as f64).collect();
@@ -101,13 +131,14 @@ impl Touch {
             }
         }
         let places = shooting.integrator.trace(&orbit, state, &turns)?.samples;
-        // At an impact the rate jumps: it does not vanish near the turn.
-        let distance = |(turn, place): &(f64, Vec<f64>)| {
-            let [clearance, rate] = self.clearance(shooting, frequency_hz, *turn, place);
-            clearance.abs() + rate.abs() / (std::f64::consts::TAU * frequency_hz)
+        let turn = |(phase, state): (f64, Vec<f64>)| {
+            // At an impact the rate jumps: it does not vanish near the turn.
+            let [clearance, rate] = self.clearance(shooting, frequency_hz, phase, &state);
+            let distance = clearance.abs() + rate.abs() / (std::f64::consts::TAU * frequency_hz);
+            Turn { phase, state, distance }
         };
-        let found = turns.into_iter().zip(places);
-        Ok(found.min_by(|a, b| distance(a).total_cmp(&distance(b))))
+        let found = turns.into_iter().zip(places).map(turn);
+        Ok(found.min_by(|a, b| a.distance.total_cmp(&b.distance)))
     }
 
     /// Clearance and its rate.

@@ -8,7 +8,7 @@
 
 use hammerbeam_motion::{
     Parameter, Stretch,
-    exact::{ExactIntegrator, MotionError},
+    exact::{ExactIntegrator, Maxima, MotionError},
 };
 
 use super::shooting::Shooting;
@@ -18,7 +18,7 @@ use crate::{OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, 
 const WIDEST: f64 = 1.0 / 32.0;
 /// Times this near the touch are the touch [cycles].
 const TOUCH: f64 = 1e-3;
-/// The gap is opened to so many times the orbit.
+/// The gap is opened to so many times the largest gap and the orbit.
 const WIDE: f64 = 1e3;
 
 /// What is left out, and how long.
@@ -33,16 +33,19 @@ pub(super) struct Passing {
 
 impl Passing {
     /// Leaves out an element beside the ends of an orbit; `None` if it has no gap.
+    ///
+    /// * `range`: of the parameter that is followed.
     pub fn new(
         (shooting, element): (&Shooting, usize),
         response: &Response,
-        start: &PeriodicSolution,
+        (start, range): (&PeriodicSolution, (f64, f64)),
         orbits: &OrbitSettings,
     ) -> Result<Option<Self>, OrbitError> {
         let system = shooting.integrator.system();
         let gap = Parameter::Gap { element };
         let Some(level) = system.elements()[element].law.gap() else { return Ok(None) };
-        let wide = WIDE * (level + start.maxima.displacement);
+        let largest = if shooting.parameter == gap { range.1.abs().max(range.0.abs()) } else { level };
+        let wide = WIDE * (largest + start.maxima.displacement);
         let system = system.clone().with_parameter(gap, wide).map_err(MotionError::from)?;
         let mut integrator = solve::integrator(&system, response, orbits)?;
         if shooting.parameter != gap {
@@ -126,16 +129,16 @@ impl Shooting {
             return solve::observe(&mut self.integrator, stretches, nodes);
         }
         let begin = stretches[0].start;
-        let mut all = OrbitMaxima::default();
+        let mut all: Option<Maxima> = None;
         for (stretch, node) in stretches.iter().zip(nodes) {
             let mut state = node.clone();
             for (part, passes) in self.parts(*stretch, begin) {
                 let integrator = self.integrator_of(passes);
-                let maxima = solve::observe(integrator, &[part], std::slice::from_ref(&state))?;
+                let maxima = integrator.observe(&[(part, &state)])?;
                 state = integrator.advance(&part, &state)?;
-                all = all.and(&maxima);
+                all = Some(all.map_or(maxima, |all| all.and(&maxima)));
             }
         }
-        Ok(all)
+        Ok(all.unwrap_or_default().into())
     }
 }

@@ -16,7 +16,7 @@ use hammerbeam_motion::{
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use super::{problem::CurveProblem, walk::CurveWalk};
-use crate::{OrbitError, PeriodicSolution, cut::offset_to_clear, solve::nodes_from};
+use crate::{OrbitError, PeriodicSolution, cut::offset_to_clear};
 
 impl CurveWalk {
     /// Keeps the ends of segments away from contacts; where that does not go, the curve stays as it was.
@@ -99,15 +99,16 @@ pub(super) fn cut_clear(
     integrator: &mut ExactIntegrator,
     orbit: &PeriodicSolution,
 ) -> Result<PeriodicSolution, OrbitError> {
-    let (count, multiple, frequency_hz) = (orbit.nodes.len(), orbit.period_multiple, orbit.frequency_hz);
-    let cycles = f64::from(multiple);
-    let phases = (orbit.phase, cycles, cycles / count as f64);
+    let (cycles, frequency_hz) = (f64::from(orbit.period_multiple), orbit.frequency_hz);
+    let length = cycles / orbit.nodes.len() as f64;
+    let phases = (orbit.phase, cycles, length);
     let mut cut = orbit.clone();
     if let Some(offset) = offset_to_clear(integrator, phases, &orbit.nodes[0], frequency_hz)? {
-        let stretch = Stretch { frequency_hz, start: orbit.phase, end: orbit.phase + offset };
-        let state = integrator.advance(&stretch, &orbit.nodes[0])?;
         cut.phase = (orbit.phase + offset).rem_euclid(cycles);
-        cut.nodes = nodes_from(integrator, (cut.phase, &state), frequency_hz, multiple, count)?;
+        for (k, node) in cut.nodes.iter_mut().enumerate() {
+            let start = orbit.phase + k as f64 * length;
+            *node = integrator.advance(&Stretch { frequency_hz, start, end: start + offset }, node)?;
+        }
     }
     Ok(cut)
 }

@@ -16,8 +16,8 @@ pub enum CurveKind {
     NeimarkSacker,
     /// A contact that is touched with zero velocity.
     Grazing {
-        /// Which one, in the order of the elements and their contacts.
-        contact: usize,
+        /// Which one, in the order of the elements and their contacts; `None` for the one that comes nearest to grazing.
+        contact: Option<usize>,
     },
 }
 

@@ -5,7 +5,7 @@ use hammerbeam_path::Settings;
 use super::{
     bordered::Bordered,
     condition::Condition,
-    grazing::Touch,
+    grazing::{Touch, Turn},
     pair::Pair,
     row::{CurveKind, CurveSettings},
     shooting::{Place, Shooting},
@@ -25,8 +25,11 @@ pub(super) fn first_condition(
     let scales = shooting.scale.values().to_vec();
     let mut place = Place { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: start.phase, value };
     if let CurveKind::Grazing { contact } = kind {
-        let Some(touch) = Touch::of_contact(shooting, contact) else { return Ok(None) };
-        let Some((phase, state)) = touch.find(shooting, (start.phase, &start.nodes[0]), frequency_hz)? else {
+        let orbit = (start.phase, &start.nodes[0][..]);
+        let Some(touch) = contact.and_then(|number| Touch::of_contact(shooting, number)) else {
+            return Ok(None);
+        };
+        let Some(Turn { phase, state, .. }) = touch.find(shooting, orbit, frequency_hz)? else {
             return Ok(None);
         };
         let mut nodes = vec![state];

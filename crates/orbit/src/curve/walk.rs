@@ -13,10 +13,8 @@ use super::{
     start::{first_condition, path_settings},
 };
 use crate::{
-    OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
-    eigenvalues::eigenvalues,
-    size::orbit_scale,
-    solve::{integrator, nodes_from},
+    OrbitError, OrbitSettings, PeriodicSolution, Response, Side, eigenvalues::eigenvalues, size::orbit_scale,
+    solve::integrator,
 };
 
 /// One side of a curve.
@@ -39,7 +37,7 @@ impl CurveWalk {
         system: &System,
         response: &Response,
         start: &PeriodicSolution,
-        (kind, side): (CurveKind, Side),
+        (mut kind, side): (CurveKind, Side),
         settings: &CurveSettings,
         orbits: &OrbitSettings,
     ) -> Result<Self, OrbitError> {
@@ -62,8 +60,12 @@ impl CurveWalk {
         };
         let none = OrbitError::NoEvent { frequency_hz: start.frequency_hz };
         if let CurveKind::Grazing { contact } = kind {
-            let touch = Touch::of_contact(&shooting, contact).ok_or(none.clone())?;
-            shooting.passing = Passing::new((&shooting, touch.element), response, start, orbits)?;
+            let orbit = (start.phase, &start.nodes[0][..]);
+            let touch =
+                Touch::choose(&mut shooting, contact, orbit, start.frequency_hz)?.ok_or(none.clone())?;
+            kind = CurveKind::Grazing { contact: Some(touch.number(&shooting)) };
+            let range = (start, settings.range);
+            shooting.passing = Passing::new((&shooting, touch.element), response, range, orbits)?;
         }
         let (condition, place) = first_condition(&mut shooting, start, (kind, value))?.ok_or(none)?;
         let width = |(low, high): (f64, f64)| (high - low) / 100.0;
@@ -157,7 +159,7 @@ impl CurveWalk {
             shooting.fit_passing(place.frequency_hz, place.phase, &nodes[0])?;
         }
         let maxima = shooting.observe(&stretches, &nodes)?;
-        let nodes = if has_phase { self.nodes_from_begin(&place, &nodes[0])? } else { nodes };
+        let nodes = if has_phase { self.nodes_from_begin(&place, &nodes)? } else { nodes };
         let solution = PeriodicSolution {
             frequency_hz: place.frequency_hz,
             period_multiple: self.problem.shooting.period_multiple,
@@ -172,15 +174,19 @@ impl CurveWalk {
         Ok(CurveRow { parameter: place.value, solution, phase, events })
     }
 
-    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere.
-    fn nodes_from_begin(&mut self, place: &Place, state: &[f64]) -> Result<Vec<Vec<f64>>, OrbitError> {
+    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere: each from the node before it.
+    fn nodes_from_begin(&mut self, place: &Place, nodes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, OrbitError> {
         let begin = self.problem.begin;
         let shooting = &mut self.problem.shooting;
-        let (f, multiple, count) = (place.frequency_hz, shooting.period_multiple, shooting.count);
-        let periods = f64::from(multiple);
-        let end = begin + ((place.phase - begin) / periods).ceil() * periods;
-        let stretch = Stretch { frequency_hz: f, start: place.phase, end };
-        let first = shooting.advance(stretch, place.phase, state)?;
-        nodes_from(&mut shooting.integrator, (begin, &first), f, multiple, count)
+        let cycles = f64::from(shooting.period_multiple);
+        let length = cycles / nodes.len() as f64;
+        let node = |k: usize| {
+            let behind = (begin + k as f64 * length - place.phase).rem_euclid(cycles);
+            let from = ((behind / length) as usize).min(nodes.len() - 1);
+            let [start, end] = [from as f64 * length, behind].map(|offset| place.phase + offset);
+            let stretch = Stretch { frequency_hz: place.frequency_hz, start, end };
+            Ok(shooting.advance(stretch, place.phase, &nodes[from])?)
+        };
+        (0..nodes.len()).map(node).collect()
     }
 }

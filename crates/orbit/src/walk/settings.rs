@@ -9,8 +9,9 @@ use crate::{OrbitSettings, PeriodicSolution, Segments, cut::begins_with_care};
 /// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
 const SHORTEST_AT_IMPACTS: f64 = 100.0;
 
-/// Steps that do not get anywhere, over those elsewhere, where orbits cannot be cut into more segments: there multipliers of 1e6 and more alone make steps of a millionth.
-const CRAWL_IN_ONE_SEGMENT: f64 = 1e3;
+/// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be cut into more segments. Towards the border at which a contact splits, whose law remembers its impact, multipliers grow
+/// beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz, and not to the border.
+const CRAWL_BESIDE_IMPACTS: f64 = 1e3;
 
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
 pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
@@ -21,7 +22,7 @@ pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
     let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
-    let crawl = if begins_with_care(system) { CRAWL_IN_ONE_SEGMENT } else { 1.0 };
+    let crawl = if begins_with_care(system) { CRAWL_BESIDE_IMPACTS } else { 1.0 };
     let shortest = if rigid { SHORTEST_AT_IMPACTS } else { 1.0 };
     Settings {
         initial_step: 0.1 * settings.max_step_hz,

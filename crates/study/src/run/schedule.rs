@@ -39,7 +39,8 @@ pub(super) fn next_task(
             return Ok(Some(begin_walk(agenda, store, plan, walk, share)?));
         }
     }
-    second_side(agenda, plan).map(|walk| begin_walk(agenda, store, plan, walk, None)).transpose()
+    let Some((walk, share)) = second_side(agenda, plan) else { return Ok(None) };
+    begin_walk(agenda, store, plan, walk, share).map(Some)
 }
 
 fn is_open(job: &Job) -> bool {
@@ -72,13 +73,15 @@ fn open_side(start: &Start, plan: &Plan) -> Option<(u32, Side)> {
     (up_is_done && open(Side::Down)).then_some((start.key, Side::Down))
 }
 
-/// The second side of a start whose first one is under way.
-fn second_side(agenda: &Agenda, plan: &Plan) -> Option<(u32, Side)> {
+/// The second side of a start whose first one is under way, and its share if it takes turns.
+fn second_side(agenda: &Agenda, plan: &Plan) -> Option<((u32, Side), Option<u64>)> {
     let waits = |start: &&Start| {
         start.up.running.is_some() && start.down.running.is_none() && !start.down.is_finished(plan)
     };
-    let open = agenda.jobs.iter().filter(|job| is_open(job)).flat_map(|job| &job.starts);
-    open.filter(|start| !start.doubtful).find(waits).map(|start| (start.key, Side::Down))
+    agenda.jobs.iter().filter(|job| is_open(job)).find_map(|job| {
+        let start = job.starts.iter().filter(|start| !start.doubtful).find(waits)?;
+        Some(((start.key, Side::Down), takes_turns(job).then_some(plan.turn)))
+    })
 }
 
 /// The first open job that is not evaluated. Whether a harmonic start is needed at all is known only when its turn comes.

@@ -40,7 +40,7 @@ pub(super) fn follow(
     watch: &Watch<'_>,
 ) -> Result<Found, Failed> {
     let parameter = model.parameter(study, &curve.parameter).map_err(Failed::Message)?;
-    let kind = kind_of(curve.of, start, event)?;
+    let kind = kind_of(curve.of, event);
     let [low, high] = study.excitation.frequency_hz;
     let [from, to] = curve.parameter.range;
     let curve_settings = CurveSettings {
@@ -54,16 +54,12 @@ pub(super) fn follow(
     Ok(Found { branches: vec![branch], message: None })
 }
 
-fn kind_of(of: CurveOf, start: &PeriodicSolution, event: &LocatedEvent) -> Result<CurveKind, Failed> {
+fn kind_of(of: CurveOf, event: &LocatedEvent) -> CurveKind {
     match (of, event.contact) {
-        (CurveOf::Fold, _) => Ok(CurveKind::Fold),
-        (CurveOf::Flip, _) => Ok(CurveKind::Flip),
-        (CurveOf::NeimarkSacker, _) => Ok(CurveKind::NeimarkSacker),
-        (CurveOf::Grazing, Some(change)) => Ok(CurveKind::Grazing { contact: change.contact }),
-        (CurveOf::Grazing, None) => {
-            let message = format!("the contact that grazes at {} Hz is not known", start.frequency_hz);
-            Err(Failed::Message(message))
-        }
+        (CurveOf::Fold, _) => CurveKind::Fold,
+        (CurveOf::Flip, _) => CurveKind::Flip,
+        (CurveOf::NeimarkSacker, _) => CurveKind::NeimarkSacker,
+        (CurveOf::Grazing, change) => CurveKind::Grazing { contact: change.map(|change| change.contact) },
     }
 }
 
@@ -171,7 +167,7 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
         CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
         CurveEnd::Budget => "the budget of solutions is used up".to_owned(),
         CurveEnd::Stopped { parameter: value, message } => {
-            format!("no acceptable solution beyond {}: {message}", named(*value, curve, parameter))
+            format!("ended early at {}: {message}", named(*value, curve, parameter))
         }
         other => format!("{other:?}"),
     }
