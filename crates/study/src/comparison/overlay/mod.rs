@@ -2,7 +2,7 @@
 //!
 //! The measurement is a waveform over `n` excitation periods ([`hammerbeam_signal::waveform`]). Of the stable orbits of that period in a range of frequencies each goes through the
 //! same sensor and filter (line by line of its spectrum, so that there is no transient), is cut to the lines that the record holds, is delayed until it is most alike, and the most alike of all is taken: the
-//! largest correlation, or, where the factor on measured values is given, the smallest residual. The paper does the same by eye (figures 7 to 14).
+//! one that leaves least of the record (`alike.rs`), with the factor on measured values if that is given. The paper does the same by eye (figures 7 to 14).
 //!
 //! An orbit whose motion cannot be gone over again is left out and counted; it is an error only if none is left.
 //!
@@ -10,7 +10,7 @@
 //! |---|---|
 //! | `candidates.rs` | the orbits that are tried |
 //! | `laid.rs` | one of them laid under the measurement |
-//! | `alike.rs` | those that are as alike as the best one |
+//! | `alike.rs` | the most alike one, and those that are as alike |
 
 mod alike;
 mod candidates;
@@ -145,12 +145,7 @@ pub fn overlay(
     let (laid, skipped) = sampled(tried)?;
     let tried = laid.len();
     let turned_correlation = laid.iter().map(|one| one.turned_correlation).fold(f64::NEG_INFINITY, f64::max);
-    let worth = |one: &Overlay| match settings.factor {
-        Some(_) => -one.residual_after,
-        None => one.alignment.correlation,
-    };
-    // The first of equal ones, whatever the number of threads.
-    let best = (0..tried).reduce(|best, one| if worth(&laid[one]) > worth(&laid[best]) { one } else { best });
+    let best = alike::most_alike(&laid, settings.factor);
     let alike = best.and_then(|best| alike::alike(&laid, &laid[best], measured, settings.factor));
     let best = best.and_then(|best| laid.into_iter().nth(best));
     Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, alike, ..best }))
