@@ -30,7 +30,7 @@
 //! | file | what |
 //! |---|---|
 //! | `curve.rs` | branches as curves of one quantity, by frequency |
-//! | `course.rs` | an orbit in samples, also behind a filter |
+//! | `course.rs` | an orbit in samples, also behind a filter; orbits that cannot be gone over |
 //! | `observed.rs` | from stored branches to such curves |
 //! | `fit/` | shift and factor |
 //! | `judge.rs` | what becomes of each point |
