@@ -314,6 +314,12 @@ fn what_cannot_be_compared_is_refused() {
         "a factor of 2.25",
     ];
     assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    // The square of the reach, without what rounding makes of it: 1.1^2 = 1.2100000000000002.
+    for (reach, told) in [(1.1, "a factor of 1.21 of"), (1.0001, "a factor of 1.0002 of")] {
+        let found =
+            compare(&far, &curves(), Quantity::Acceleration, &FitSettings { reach, ..given }).unwrap_err();
+        assert!(found.to_string().contains(told), "{found}");
+    }
     for settings in [
         FitSettings { reach: 1.0, ..FitSettings::default() },
         FitSettings { amplitude: Fixed::Given(0.0), ..FitSettings::default() },

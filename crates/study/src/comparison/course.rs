@@ -23,6 +23,42 @@ pub enum CourseError {
     NoState,
 }
 
+/// No orbit can be gone over.
+#[derive(Debug, thiserror::Error)]
+#[error("none of the {count} orbit(s) can be gone over; the first: {first}")]
+#[expect(missing_docs, reason = "the message names its fields")]
+pub struct NoneSampled {
+    pub count: usize,
+    pub first: CourseError,
+}
+
+/// What came of an orbit: something was made of its course, or it could not be gone over.
+pub type Sampled<T, E> = Result<Result<T, CourseError>, E>;
+
+/// What was made of each orbit, `None` for one that could not be gone over, and how many of these there are.
+///
+/// # Errors
+/// [`NoneSampled`] if there are orbits and none could be gone over; the first error that is of something else.
+pub fn sampled<T, E: From<NoneSampled>>(
+    tried: impl IntoIterator<Item = Sampled<T, E>>,
+) -> Result<(Vec<Option<T>>, usize), E> {
+    let (mut kept, mut skipped) = (Vec::new(), Vec::new());
+    for one in tried {
+        match one? {
+            Ok(one) => kept.push(Some(one)),
+            Err(reason) => {
+                kept.push(None);
+                skipped.push(reason);
+            }
+        }
+    }
+    let count = skipped.len();
+    match skipped.into_iter().next() {
+        Some(first) if count == kept.len() => Err(NoneSampled { count, first }.into()),
+        _ => Ok((kept, count)),
+    }
+}
+
 /// Samples at equal steps over an orbit period, the first at phase 0 of the excitation.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Course {
@@ -107,4 +143,34 @@ pub fn size(series: &[f64]) -> f64 {
 #[must_use]
 pub fn largest(series: &[f64]) -> f64 {
     series.iter().fold(0.0, |largest, value| largest.max(value.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, thiserror::Error)]
+    enum Refused {
+        #[error(transparent)]
+        None(#[from] NoneSampled),
+        #[error(transparent)]
+        Signal(#[from] SignalError),
+    }
+
+    #[test]
+    fn orbit_that_cannot_be_gone_over_leaves_a_gap_and_is_counted() {
+        let skipped = || Ok(Err(CourseError::NoState));
+        let of = |tried: Vec<Sampled<u32, Refused>>| sampled(tried);
+        let (kept, count) = of(vec![skipped(), Ok(Ok(3)), skipped(), Ok(Ok(5))]).unwrap();
+        assert_eq!((kept, count), (vec![None, Some(3), None, Some(5)], 2));
+        assert_eq!(of(Vec::new()).unwrap(), (Vec::new(), 0));
+        let none = of(vec![skipped(), skipped()]).unwrap_err();
+        assert!(
+            matches!(none, Refused::None(NoneSampled { count: 2, first: CourseError::NoState })),
+            "{none}"
+        );
+        // What is wrong with the measurement is wrong for all.
+        let wrong = of(vec![Ok(Ok(3)), Err(Refused::Signal(SignalError::Constant))]).unwrap_err();
+        assert!(matches!(wrong, Refused::Signal(SignalError::Constant)), "{wrong}");
+    }
 }

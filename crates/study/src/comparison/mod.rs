@@ -30,7 +30,7 @@
 //! | file | what |
 //! |---|---|
 //! | `curve.rs` | branches as curves of one quantity, by frequency |
-//! | `course.rs` | an orbit in samples, also behind a filter |
+//! | `course.rs` | an orbit in samples, also behind a filter; orbits that cannot be gone over |
 //! | `observed.rs` | from stored branches to such curves |
 //! | `fit/` | shift and factor |
 //! | `judge.rs` | what becomes of each point |
@@ -65,7 +65,8 @@ pub enum ComparisonError {
     NothingMeasured { quantity: &'static str },
     /// Too few points for what is to be fitted.
     #[error(
-        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the best shift and factor that were tried, {met} meet a stable branch of their period and only {near} of them lie within a factor of {ratio} of it; are frequency and unit right? Give --frequency-factor or --frequency-offset and --amplitude-factor, or measure more"
+        "{fitted} number(s) are to be fitted to {quantity}, but of {measured} periodic point(s), at the best shift and factor that were tried, {met} meet a stable branch of their period and only {near} of them lie within a factor of {} of it; are frequency and unit right? Give --frequency-factor or --frequency-offset and --amplitude-factor, or measure more",
+        to_digits(*ratio)
     )]
     TooFewPoints {
         quantity: &'static str,
@@ -78,6 +79,11 @@ pub enum ComparisonError {
     /// A number that makes no sense.
     #[error("{what} is {found}, must be {allowed}")]
     Input { what: &'static str, found: f64, allowed: &'static str },
+}
+
+/// A number rounded to six significant digits.
+fn to_digits(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }
 
 /// How measured frequencies become those of the model.

@@ -7,7 +7,7 @@ use hammerbeam_signal::{Quantity, SignalError};
 
 use super::{
     BranchCurve, CurvePoint, Curves,
-    course::{Course, CourseError, LEFT, course, largest, largest_behind},
+    course::{Course, LEFT, NoneSampled, course, largest, largest_behind, sampled},
 };
 use crate::{Model, StoreError, StoredBranch, StoredBranches, crossings::PlacedRow};
 
@@ -43,9 +43,8 @@ pub enum ObservationError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// No orbit can be gone over.
-    #[error("none of the {count} orbit(s) can be gone over; the first: {first}")]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    NoneSampled { count: usize, first: CourseError },
+    #[error(transparent)]
+    NoneSampled(#[from] NoneSampled),
     /// The filter refuses.
     #[error(transparent)]
     Signal(#[from] SignalError),
@@ -109,30 +108,23 @@ fn gone_over(
     observation: &Observation,
     value: impl Fn(&Course) -> Result<f64, ObservationError>,
 ) -> Result<Curves, ObservationError> {
-    let (mut curves, mut orbits, mut lost) = (Vec::new(), 0, Vec::new());
-    for branch in branches.branches() {
-        let mut points = Vec::new();
-        for (index, placed) in thinned(branch, observation.spacing_hz) {
-            let orbit = branches.solution(branch, placed)?;
-            let value = match course(model, &orbit, observation.samples) {
-                Ok(course) => value(&course)?,
-                Err(reason) => {
-                    lost.push(reason);
-                    f64::NAN
-                }
-            };
-            let row = placed.row;
-            let (frequency_hz, stable) = (row.frequency_hz, row.stable);
-            points.push(CurvePoint { frequency_hz, value, stable, row: index + 1 });
-        }
-        orbits += points.len();
-        curves.push(BranchCurve { points, ..empty(branch) });
+    let all = branches.branches();
+    let places = all.iter().enumerate().flat_map(|(index, branch)| {
+        thinned(branch, observation.spacing_hz).into_iter().map(move |(row, placed)| (index, row, placed))
+    });
+    let places: Vec<(usize, usize, &PlacedRow)> = places.collect();
+    let (values, _) = sampled(places.iter().map(|(index, _, placed)| {
+        let orbit = branches.solution(&all[*index], placed)?;
+        let course = course(model, &orbit, observation.samples);
+        course.map_or_else(|reason| Ok(Err(reason)), |course| value(&course).map(Ok))
+    }))?;
+    let mut curves: Vec<BranchCurve> = all.iter().map(empty).collect();
+    for ((index, row, placed), value) in places.into_iter().zip(values) {
+        let (frequency_hz, stable) = (placed.row.frequency_hz, placed.row.stable);
+        let value = value.unwrap_or(f64::NAN);
+        curves[index].points.push(CurvePoint { frequency_hz, value, stable, row: row + 1 });
     }
-    let count = lost.len();
-    match lost.into_iter().next() {
-        Some(first) if count == orbits => Err(ObservationError::NoneSampled { count, first }),
-        _ => Ok(Curves::new(curves)),
-    }
+    Ok(Curves::new(curves))
 }
 
 fn stored(branches: &StoredBranches, quantity: Quantity) -> Curves {

@@ -30,14 +30,19 @@ use hammerbeam_signal::SignalError;
 
 pub use build::changed_study;
 pub use chaos::MotionExponents;
-pub use filter::{FilteredBranch, FilteredPoint, FilteredRatio, acceleration_curves, filtered_branches};
+pub use filter::{
+    Filtered, FilteredBranch, FilteredPoint, FilteredRatio, acceleration_curves, filtered_branches,
+};
 pub use modes::{MeasuredMode, RigMode, rig_modes};
 pub use signals::{SignalPair, compare_signal};
 pub use sweep::{Direction, RigPoint, sweep};
 
 use crate::{
     StoreError,
-    comparison::{ObservationError, OverlayError, course::CourseError},
+    comparison::{
+        ObservationError, OverlayError,
+        course::{CourseError, NoneSampled},
+    },
     file::StudyError,
 };
 
@@ -68,6 +73,9 @@ pub enum RigError {
     /// An orbit cannot be gone over.
     #[error(transparent)]
     Course(#[from] CourseError),
+    /// No orbit of the branches can be gone over.
+    #[error(transparent)]
+    NoneSampled(#[from] NoneSampled),
     /// Curves of branches.
     #[error(transparent)]
     Observation(#[from] ObservationError),

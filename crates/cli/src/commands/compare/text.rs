@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hammerbeam_signal::Quantity;
-use hammerbeam_study::comparison::{Curves, Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
+use hammerbeam_study::comparison::{Estimate, Fit, Origin, PointOutcome, Residual, Verdict};
 
 use super::{Compared, measured::Measured};
 use crate::compare_args::CompareOptions;
@@ -63,7 +63,7 @@ fn comparison(compared: &Compared, point: &str) -> Vec<String> {
             count("doubtful")
         ),
     ];
-    let notes = fit_notes(fit).into_iter().chain(gaps(&compared.curves)).chain(beyond(compared));
+    let notes = fit_notes(fit).into_iter().chain(gaps(compared.curves.gaps())).chain(beyond(compared));
     lines.extend(notes.map(|told| format!("  note: {told}")));
     let unexplained: Vec<&PointOutcome> =
         comparison.points.iter().filter(|point| point.verdict.is_unexplained()).collect();
@@ -95,8 +95,7 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
 }
 
 /// That branches have gaps.
-pub fn gaps(curves: &Curves) -> Option<String> {
-    let gaps = curves.gaps();
+pub fn gaps(gaps: usize) -> Option<String> {
     (gaps > 0)
         .then(|| format!("{gaps} solution(s) of the branches could not be gone over: there are gaps there"))
 }

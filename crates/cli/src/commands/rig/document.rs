@@ -10,9 +10,10 @@ pub fn document(found: &Found) -> Value {
     let comparisons: Vec<Value> = found
         .comparisons
         .iter()
-        .map(|(name, _, comparison)| {
+        .map(|(name, curves, comparison)| {
             let mut document = comparison_document(comparison);
             document["name"] = json!(name);
+            document["gaps"] = json!(curves.gaps());
             document
         })
         .collect();
@@ -67,7 +68,7 @@ fn mode(mode: &RigMode) -> Value {
 
 fn filters(found: &Found) -> Vec<Value> {
     let one = |(index, filter): (usize, &hammerbeam_study::comparison::Filter)| {
-        let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
+        let all: Vec<&FilteredBranch> = found.filtered.branches.iter().collect();
         let branch = |branch: &&FilteredBranch| {
             json!({
                 "branch": branch.branch,
@@ -79,6 +80,7 @@ fn filters(found: &Found) -> Vec<Value> {
         json!({
             "cut_off_hz": filter.cut_off_hz,
             "order": filter.order,
+            "gaps": found.filtered.gaps,
             "acceleration_stable": ratio(FilteredBranch::ratio(&all, index, false, true)),
             "acceleration_all": ratio(FilteredBranch::ratio(&all, index, false, false)),
             "displacement_stable": ratio(FilteredBranch::ratio(&all, index, true, true)),

@@ -11,7 +11,7 @@ use hammerbeam_study::{
     comparison::{Comparison, Curves, Filter, FitSettings, Observation, compare, curves},
     file::Rig,
     rig::{
-        FilteredBranch, RigError, RigMode, RigPoint, SignalPair, acceleration_curves, changed_study,
+        Filtered, RigError, RigMode, RigPoint, SignalPair, acceleration_curves, changed_study,
         compare_signal, filtered_branches, rig_modes, sweep,
     },
     run::{Plan, RunOutcome},
@@ -37,7 +37,7 @@ struct Found {
     modes: Vec<RigMode>,
     points: Vec<RigPoint>,
     filters: Vec<Filter>,
-    filtered: Vec<FilteredBranch>,
+    filtered: Filtered,
     /// Name, what it compares, and what came of it.
     comparisons: Vec<(&'static str, Curves, Comparison)>,
     signals: Vec<SignalPair>,
@@ -137,7 +137,7 @@ fn comparisons(
     stored: &StoredBranches,
     model: &Model,
     points: &[RigPoint],
-    filtered: &[FilteredBranch],
+    filtered: &Filtered,
 ) -> Result<Vec<(&'static str, Curves, Comparison)>, Failure> {
     let measured: Vec<MeasuredPoint> = points.iter().map(|point| point.point.clone()).collect();
     let stored_curves = |quantity: Quantity| {
@@ -153,7 +153,7 @@ fn comparisons(
     };
     let all = [
         ("acceleration", Quantity::Acceleration, stored_curves(Quantity::Acceleration)?),
-        ("filtered_acceleration", Quantity::Acceleration, acceleration_curves(filtered, 0)),
+        ("filtered_acceleration", Quantity::Acceleration, acceleration_curves(&filtered.branches, 0)),
         ("displacement", Quantity::Displacement, stored_curves(Quantity::Displacement)?),
     ];
     let settings = FitSettings::default();

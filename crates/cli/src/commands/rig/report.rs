@@ -3,8 +3,8 @@
 use std::{fmt::Write, path::Path};
 
 use hammerbeam_study::{
-    comparison::PointOutcome,
-    rig::{FilteredBranch, FilteredRatio},
+    comparison::{Filter, PointOutcome},
+    rig::{Filtered, FilteredBranch, FilteredRatio},
 };
 use serde_json::Value;
 
@@ -36,7 +36,7 @@ pub fn text(found: &Found, folder: &Path, files: &[String]) -> String {
         found.solutions,
         found.file.name
     )];
-    for (name, _, comparison) in &found.comparisons {
+    for (name, curves, comparison) in &found.comparisons {
         lines.push(format!(
             "  {name:<22} frequency factor {}, amplitude factor {}, residual {:.3} -> {:.3}",
             estimate(comparison.fit.frequency, 4),
@@ -44,10 +44,11 @@ pub fn text(found: &Found, folder: &Path, files: &[String]) -> String {
             comparison.before.rms,
             comparison.after.rms
         ));
-        lines.extend(fit_notes(&comparison.fit).into_iter().map(|told| format!("    note: {told}")));
+        let notes = fit_notes(&comparison.fit).into_iter().chain(gaps(curves.gaps()));
+        lines.extend(notes.map(|told| format!("    note: {told}")));
     }
     for (index, filter) in found.filters.iter().enumerate() {
-        let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
+        let all: Vec<&FilteredBranch> = found.filtered.branches.iter().collect();
         let ratio = FilteredBranch::ratio(&all, index, false, true);
         lines.push(format!(
             "  {} Hz lowers maximum accelerations of stable solutions by the factor {:.2} (median), at most {:.2}",
@@ -88,7 +89,7 @@ fn markdown(found: &Found) -> String {
     comparisons(&mut text, found);
     chaos(&mut text, found);
     signals::report(&mut text, &found.signals);
-    filters(&mut text, found);
+    filters(&mut text, &found.filters, &found.filtered);
     points(&mut text, found);
     text
 }
@@ -157,7 +158,7 @@ fn comparisons(text: &mut String, found: &Found) {
         );
     }
     for (name, curves, comparison) in &found.comparisons {
-        for told in fit_notes(&comparison.fit).into_iter().chain(gaps(curves)) {
+        for told in fit_notes(&comparison.fit).into_iter().chain(gaps(curves.gaps())) {
             let _ = writeln!(text, "\nNote, {}: {told}.", what(name));
         }
     }
@@ -195,10 +196,10 @@ fn what(name: &str) -> &str {
     }
 }
 
-fn filters(text: &mut String, found: &Found) {
+fn filters(text: &mut String, filters: &[Filter], filtered: &Filtered) {
     text.push_str("## What filters leave of the computed maxima\n\nRatio of the maximum without the filter to that behind it. Every solution is in `figure_06_branches.csv`.\n\n| cut-off (Hz) | solutions | accelerations: median | largest | smallest | displacements: median | largest |\n|---|---|---|---|---|---|---|\n");
-    let all: Vec<&FilteredBranch> = found.filtered.iter().collect();
-    for (index, filter) in found.filters.iter().enumerate() {
+    let all: Vec<&FilteredBranch> = filtered.branches.iter().collect();
+    for (index, filter) in filters.iter().enumerate() {
         for (stable, name) in [(true, "stable"), (false, "all")] {
             let acceleration = FilteredBranch::ratio(&all, index, false, stable);
             let displacement = FilteredBranch::ratio(&all, index, true, stable);
@@ -213,12 +214,15 @@ fn filters(text: &mut String, found: &Found) {
             );
         }
     }
+    if let Some(told) = gaps(filtered.gaps) {
+        let _ = writeln!(text, "\nNote: {told}; they are in no ratio.");
+    }
     let _ = writeln!(
         text,
         "\nBy branches, {} Hz, stable and unstable solutions:\n\n| branch | period | solutions | accelerations: median | largest | smallest | displacements: median |\n|---|---|---|---|---|---|---|",
-        found.rig.low_pass_hz
+        filters[0].cut_off_hz
     );
-    for branch in found.filtered.iter().filter(|branch| branch.points.len() >= SHOWN) {
+    for branch in filtered.branches.iter().filter(|branch| branch.points.len() >= SHOWN) {
         let acceleration = FilteredBranch::ratio(&[branch], 0, false, false);
         let displacement = FilteredBranch::ratio(&[branch], 0, true, false);
         let _ = writeln!(
@@ -270,5 +274,23 @@ fn verdict(outcome: &PointOutcome) -> String {
     match outcome.verdict.nearest_hz() {
         Some(hz) => format!("{word}, a stable one at {hz:.2} Hz | {nearest}"),
         None => format!("{word} | {nearest}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solutions_that_cannot_be_gone_over_are_told_beside_the_ratios() {
+        let filter = Filter { order: 4, cut_off_hz: 850.0 };
+        let of = |gaps: usize| {
+            let mut text = String::new();
+            filters(&mut text, &[filter], &Filtered { branches: Vec::new(), gaps });
+            text
+        };
+        let told = "Note: 3 solution(s) of the branches could not be gone over: there are gaps there; they are in no ratio.";
+        assert!(of(3).contains(told), "{}", of(3));
+        assert!(!of(0).contains("gone over"), "{}", of(0));
     }
 }

@@ -122,7 +122,7 @@ fn branches(folder: &Path, found: &Found) -> Result<(), Failure> {
             .extend([format!("acceleration_behind_{hz}_hz_m_s2"), format!("displacement_behind_{hz}_hz_m")]);
     }
     let mut table = Table::begin(folder, "figure_06_branches.csv", &titles)?;
-    for branch in &found.filtered {
+    for branch in &found.filtered.branches {
         for row in branch_rows(branch) {
             table.row(&row)?;
         }

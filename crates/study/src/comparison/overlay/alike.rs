@@ -1,10 +1,10 @@
-//! Orbits that the record cannot tell from the most alike one.
+//! The orbit that is most alike, and those that the record cannot tell from it.
 //!
 //! The noise is in the record: its waveform is `a = h b + e`, with the orbit `b` as it is delayed, so that an orbit leaves `u = |a - h b|^2/aa`. With the correlation `c` and `x = h sqrt(bb/aa)` that is
 //!
 //! `u = 1 - 2 x c + x^2`
 //!
-//! A given factor `g` on the record is `h = 1/|g|`. Without it `h` is whatever leaves least, `x = c` and `u = 1 - c^2`; where `c` is negative, nothing of the orbit leaves less than its mirror image, `x = 0`. (The fitted factor
+//! The most alike orbit leaves least. A given factor `g` on the record is `h = 1/|g|`: `u = |g a - b|^2/(g^2 aa)`, where `|g a - b|^2/bb` would be small for whatever orbit is large. Without it `h` is whatever leaves least, `x = c` and `u = 1 - c^2`; where `c` is negative, nothing of the orbit leaves less than its mirror image, `x = 0`. (The fitted factor
 //! is not `1/h`: it brings `a` closest to `b`, and `g^2` takes a part `c^2` of the orbit for the record. `|g a - b|^2/(g^2 aa) = (1 - c^2)/c^2` would blow differences up by `1/c^4`.)
 //!
 //! Let the record be of an orbit of a branch. If `e` is small and white, the frequency that leaves least is off by what one degree of freedom of `e`, along the change of `h b` with the frequency, makes of it; there `u` is less than
@@ -29,6 +29,12 @@ pub struct Alike {
     pub branches: Vec<u32>,
     /// Their lowest and highest frequency [Hz].
     pub frequency_hz: (f64, f64),
+}
+
+/// The place of the orbit that leaves least of the measured waveform; of equal ones that with the largest correlation, and the first of those, whatever the number of threads.
+pub(super) fn most_alike(laid: &[Overlay], given: Option<f64>) -> Option<usize> {
+    let order = |one: &Overlay| (left(one.alignment, given), -one.alignment.correlation);
+    (0..laid.len()).reduce(|best, one| if order(&laid[one]) < order(&laid[best]) { one } else { best })
 }
 
 pub(super) fn alike(
@@ -94,8 +100,12 @@ mod tests {
     /// An orbit laid under a record.
     fn laid(p: f64, record: &[f64]) -> Overlay {
         let alignment = align(record, &orbit(p), Shifts::Any).unwrap();
+        aligned(1.0 + p, alignment)
+    }
+
+    fn aligned(frequency_hz: f64, alignment: Alignment) -> Overlay {
         Overlay {
-            frequency_hz: 1.0 + p,
+            frequency_hz,
             branch: 1,
             row: None,
             alignment,
@@ -137,9 +147,7 @@ mod tests {
             let measured = record(noise, &mut random);
             let tried: Vec<Overlay> =
                 (0..=100).map(|k| laid(f64::from(k) / 100.0, &measured.samples)).collect();
-            let least =
-                |a: &&Overlay, b: &&Overlay| left(a.alignment, given).total_cmp(&left(b.alignment, given));
-            let best = tried.iter().min_by(least).unwrap();
+            let best = &tried[most_alike(&tried, given).unwrap()];
             let alike = alike(&tried, best, &measured, given);
             let (low, high) = alike.map_or((f64::INFINITY, f64::NEG_INFINITY), |alike| alike.frequency_hz);
             covered += i32::from(best.frequency_hz == 1.5 || (low..=high).contains(&1.5));
@@ -155,6 +163,29 @@ mod tests {
             assert_covered(noise, None, correlations.clone());
             assert_covered(noise, Some(2.0), correlations);
         }
+    }
+
+    /// Cosines of one form, 0.2 to 4.2 times as large as the one of the record. With noise of its own size the residual over the orbit is least at the size 2, since `|a - s b|^2 = 2 bb - 2 s bb + s^2 bb`.
+    #[test]
+    fn given_factor_finds_the_size_of_the_orbit_through_noise() {
+        let cosine: Vec<f64> = (0..LENGTH).map(|k| (TAU * k as f64 / LENGTH as f64).cos()).collect();
+        // Noise in other lines, as large as the cosine.
+        let noisy = |k: usize| cosine[k] + (5.0 * TAU * k as f64 / LENGTH as f64).sin();
+        for factor in [1.0, 0.5] {
+            let record: Vec<f64> = (0..LENGTH).map(|k| noisy(k) / factor).collect();
+            let sized = |size: f64| {
+                let orbit: Vec<f64> = cosine.iter().map(|value| size * value).collect();
+                let alignment = align(&record, &orbit, Shifts::Any).unwrap();
+                Overlay { residual_after: alignment.residual(factor), ..aligned(size, alignment) }
+            };
+            let tried: Vec<Overlay> = (0..=400).map(|k| sized(0.2 + 0.01 * f64::from(k))).collect();
+            let best = &tried[most_alike(&tried, Some(factor)).unwrap()];
+            assert!((best.frequency_hz - 1.0).abs() < 1e-9, "{}", best.frequency_hz);
+            assert!((best.alignment.correlation - 0.5_f64.sqrt()).abs() < 1e-6);
+            // Not the least of the residuals that are told.
+            assert!(tried.iter().any(|one| one.residual_after < 0.8 * best.residual_after));
+        }
+        assert_eq!(most_alike(&[], None), None);
     }
 
     /// An orbit whose mirror image is alike is not.

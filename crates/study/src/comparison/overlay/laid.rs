@@ -19,7 +19,7 @@ pub(super) fn laid(
     (branch, row, orbit): &Candidate,
     measured: &Waveform,
     settings: &OverlaySettings,
-) -> Tried<Overlay> {
+) -> Tried {
     let finer = SAMPLES.div_ceil(measured.per_period);
     let course = match course(model, orbit, finer * measured.per_period) {
         Ok(course) => course,

@@ -2,7 +2,7 @@
 //!
 //! The measurement is a waveform over `n` excitation periods ([`hammerbeam_signal::waveform`]). Of the stable orbits of that period in a range of frequencies each goes through the
 //! same sensor and filter (line by line of its spectrum, so that there is no transient), is cut to the lines that the record holds, is delayed until it is most alike, and the most alike of all is taken: the
-//! largest correlation, or, where the factor on measured values is given, the smallest residual. The paper does the same by eye (figures 7 to 14).
+//! one that leaves least of the record (`alike.rs`), with the factor on measured values if that is given. The paper does the same by eye (figures 7 to 14).
 //!
 //! An orbit whose motion cannot be gone over again is left out and counted; it is an error only if none is left.
 //!
@@ -10,7 +10,7 @@
 //! |---|---|
 //! | `candidates.rs` | the orbits that are tried |
 //! | `laid.rs` | one of them laid under the measurement |
-//! | `alike.rs` | those that are as alike as the best one |
+//! | `alike.rs` | the most alike one, and those that are as alike |
 
 mod alike;
 mod candidates;
@@ -24,7 +24,10 @@ use hammerbeam_signal::{
     waveform::{Alignment, Shifts, Waveform},
 };
 
-use super::{Filter, course::CourseError};
+use super::{
+    Filter,
+    course::{NoneSampled, Sampled, sampled},
+};
 use crate::{Model, StoreError, StoredBranches};
 pub use alike::Alike;
 use candidates::Candidate;
@@ -106,8 +109,8 @@ pub enum OverlayError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// No orbit can be gone over.
-    #[error("none of the {count} orbit(s) can be gone over; the first: {first}")]
-    NoneSampled { count: usize, first: CourseError },
+    #[error(transparent)]
+    NoneSampled(#[from] NoneSampled),
     /// Nothing of the motion is left to compare.
     #[error(
         "the low-pass filter of {cut_off_hz} Hz leaves {left:.1e} of the computed motion, less than one step of 24 bits: there is nothing to compare with; is the cut-off that of the measurement?"
@@ -143,55 +146,14 @@ pub fn overlay(
     let look = |(): &mut (), candidate: &Candidate| laid::laid(model, candidate, measured, settings);
     let tried = in_order(&orbits, threads, stop, || (), look).ok_or(OverlayError::Interrupted)?;
     let (laid, skipped) = sampled(tried)?;
+    let laid: Vec<Overlay> = laid.into_iter().flatten().collect();
     let tried = laid.len();
     let turned_correlation = laid.iter().map(|one| one.turned_correlation).fold(f64::NEG_INFINITY, f64::max);
-    let worth = |one: &Overlay| match settings.factor {
-        Some(_) => -one.residual_after,
-        None => one.alignment.correlation,
-    };
-    // The first of equal ones, whatever the number of threads.
-    let best = (0..tried).reduce(|best, one| if worth(&laid[one]) > worth(&laid[best]) { one } else { best });
+    let best = alike::most_alike(&laid, settings.factor);
     let alike = best.and_then(|best| alike::alike(&laid, &laid[best], measured, settings.factor));
     let best = best.and_then(|best| laid.into_iter().nth(best));
     Ok(best.map(|best| Overlay { tried, skipped, turned_correlation, alike, ..best }))
 }
 
-/// What came of an orbit: it was laid over, or could not be gone over.
-type Tried<T> = Result<Result<T, CourseError>, OverlayError>;
-
-/// Those that were laid over, and how many could not be gone over.
-fn sampled<T>(tried: Vec<Tried<T>>) -> Result<(Vec<T>, usize), OverlayError> {
-    let (mut laid, mut skipped) = (Vec::new(), Vec::new());
-    for one in tried {
-        match one? {
-            Ok(one) => laid.push(one),
-            Err(reason) => skipped.push(reason),
-        }
-    }
-    let count = skipped.len();
-    match skipped.into_iter().next() {
-        Some(first) if laid.is_empty() => Err(OverlayError::NoneSampled { count, first }),
-        _ => Ok((laid, count)),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn orbit_that_cannot_be_gone_over_is_left_out_and_counted() {
-        let skipped = || Ok(Err(CourseError::NoState));
-        let (laid, count) = sampled(vec![skipped(), Ok(Ok(3)), skipped(), Ok(Ok(5))]).unwrap();
-        assert_eq!((laid, count), (vec![3, 5], 2));
-        assert_eq!(sampled::<u32>(Vec::new()).unwrap(), (Vec::new(), 0));
-        let none = sampled::<u32>(vec![skipped(), skipped()]).unwrap_err();
-        assert!(
-            matches!(none, OverlayError::NoneSampled { count: 2, first: CourseError::NoState }),
-            "{none}"
-        );
-        // What is wrong with the measurement is wrong for all.
-        let wrong = sampled(vec![Ok(Ok(3)), Err(OverlayError::Signal(SignalError::Constant))]).unwrap_err();
-        assert!(matches!(wrong, OverlayError::Signal(SignalError::Constant)), "{wrong}");
-    }
-}
+/// What came of an orbit.
+type Tried = Sampled<Overlay, OverlayError>;
