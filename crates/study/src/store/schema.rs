@@ -160,18 +160,16 @@ pub(super) fn check_study(
 
 /// Refuses a database that this program does not understand.
 pub(super) fn check_version(connection: &Connection, folder: &Path) -> Result<(), StoreError> {
-    let id: i64 = connection
-        .query_row("PRAGMA application_id", [], |row| row.get(0))
+    // A run makes the file and fills it in its first moment: both are read at one instant.
+    let select = "SELECT application_id, (SELECT count(*) FROM sqlite_master) FROM pragma_application_id";
+    let (id, tables): (i64, i64) = connection
+        .query_row(select, [], |row| Ok((row.get(0)?, row.get(1)?)))
         .map_err(|error| not_ours(error, folder))?;
+    if tables == 0 {
+        return Err(StoreError::NoResults { folder: folder.to_owned() });
+    }
     if id != APPLICATION_ID {
-        // A run makes the file and fills it in its first moment.
-        let folder = folder.to_owned();
-        let is_begun = is_empty(connection, &folder)?;
-        return Err(if is_begun {
-            StoreError::NoResults { folder }
-        } else {
-            StoreError::NotResults { folder }
-        });
+        return Err(StoreError::NotResults { folder: folder.to_owned() });
     }
     for (key, what, expected) in
         [("schema_version", "storage", SCHEMA_VERSION), ("data_version", "data", DATA_VERSION)]
