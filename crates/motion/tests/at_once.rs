@@ -77,6 +77,27 @@ fn stops_of_different_laws_close_at_once() {
     }
 }
 
+/// The force of the damper jumps in the instant of the impact, whose speed the other law keeps: its sensitivities are those of the motion before.
+#[test]
+fn an_impact_that_is_remembered_is_that_before_a_damper_of_the_same_level_acts() {
+    let level = 0.2 * STATIC;
+    let elastic = HertzStop::with_gap(300.0 * W * W / STATIC.sqrt(), level).unwrap();
+    let remembers = Law::Restitution(RestitutionStop::new(elastic, RestitutionModel::HuGuo, 0.5).unwrap());
+    let damped = LinearStop::with_gap(300.0 * W * W, level).unwrap().with_damping(5.0 * W).unwrap();
+    let load = Load { support: vec![], forces: vec![force(&[1.0], 1, 2.0 * STATIC * W * W, 0.0)] };
+    for laws in [[remembers, Law::Linear(damped)], [Law::Linear(damped), remembers]] {
+        let stops = laws.map(|law| element(&[1.0], 0.0, law)).to_vec();
+        let system = System::new(model(&[W], diagonal(&[0.1 * W])), &load, stops).unwrap();
+        let mut touches = 0;
+        for frequency_hz in [2.2, 3.1, 4.7, 6.3, 9.2] {
+            let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+            // Up to seven impacts of each, whose sensitivities grow like one over their speeds.
+            touches += assert_agreement(&system, &stretch, &[0.0, 0.0], 1e-7, &format!("{frequency_hz} Hz"));
+        }
+        assert!(touches >= 20, "{touches}");
+    }
+}
+
 /// At rest on the level: the load pulls away, and the preload pushes more, or less, than that.
 #[test]
 fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {

@@ -82,14 +82,20 @@ impl VectorField for SystemField<'_> {
     }
 
     fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
-        let mut first = 0;
+        let (mut first, mut closing, mut open) = (0, Vec::new(), at.inside.to_vec());
         for (e, element) in self.system.elements().iter().enumerate() {
-            let switch = first;
-            first += switches_of(element);
-            if !element.law.depends_on_velocity() || before[switch] || !at.inside[switch] {
-                continue;
+            let switches = first..first + switches_of(element);
+            first = switches.end;
+            if element.law.depends_on_velocity() && !before[switches.start] && at.inside[switches.start] {
+                open[switches.clone()].copy_from_slice(&before[switches]);
+                closing.push(e);
             }
-            self.remember_impact(e, at, columns);
+        }
+        // What is remembered of an impact is of the motion before all forces that jump in this instant.
+        for &e in &closing {
+            self.remember_impact(e, Point { inside: &open, ..at }, columns);
+        }
+        for &e in &closing {
             self.jump_at_onset(e, at.time, columns);
         }
     }
