@@ -216,6 +216,12 @@ impl System {
         self.elements.iter().any(|element| element.law.remembers_impact())
     }
 
+    /// Whether an element is a rigid stop, whose impacts turn velocities round at once.
+    #[must_use]
+    pub fn has_rigid_stops(&self) -> bool {
+        self.elements.iter().any(|element| element.law.rigid().is_some())
+    }
+
     /// Orders of the load, ascending; 0 is the constant part.
     #[must_use]
     pub fn orders(&self) -> &[u32] {

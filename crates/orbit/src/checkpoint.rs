@@ -193,8 +193,6 @@ fn read(
     Some(Ok(Stored { problem, state, evaluations_between, last_rows }))
 }
 
-/// The period and what varies: a word with the period below and the kind of parameter and its element above, and the fixed frequency, if there is
-/// one.
 /// The follower, but for why it stopped; `None` if its points do not have this length.
 fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpoint> {
     let (current, start) = (reader.point()?, reader.point()?);
@@ -240,6 +238,8 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
     })
 }
 
+/// The period and what varies: a word with the period below and the kind of parameter and its element above, and the fixed frequency, if there is
+/// one.
 fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationParameter) {
     let (kind, element) = match varied.parameter() {
         None => (0, 0),

@@ -130,6 +130,9 @@ impl Touch {
                 turns.push(phases[0] + before / (before - after) * (phases[1] - phases[0]));
             }
         }
+        if turns.is_empty() {
+            return Ok(None);
+        }
         let places = shooting.integrator.trace(&orbit, state, &turns)?.samples;
         let turn = |(phase, state): (f64, Vec<f64>)| {
             // At an impact the rate jumps: it does not vanish near the turn.

@@ -164,7 +164,7 @@ impl PathProblem for ShootingProblem {
 
     /// Impacts on rigid stops have a speed that goes like the root of the depth.
     fn has_root_corners(&self) -> bool {
-        self.system().elements().iter().any(|element| element.law.rigid().is_some())
+        self.system().has_rigid_stops()
     }
 
     fn signature(&self) -> u64 {

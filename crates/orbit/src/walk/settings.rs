@@ -21,9 +21,8 @@ pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
 /// Settings of the path from those of the orbits; `length` is [`hertz_per_norm`].
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
-    let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
     let crawl = if begins_with_care(system) { CRAWL_BESIDE_IMPACTS } else { 1.0 };
-    let shortest = if rigid { SHORTEST_AT_IMPACTS } else { 1.0 };
+    let shortest = if system.has_rigid_stops() { SHORTEST_AT_IMPACTS } else { 1.0 };
     Settings {
         initial_step: 0.1 * settings.max_step_hz,
         max_parameter_step: settings.max_step_hz,

@@ -165,7 +165,7 @@ pub(super) fn compare(
     list.extend(of_multipliers.map(|found| Comparison { grazing: jumps && grazing > 0, ..found }));
     list.extend(leading(row, solution));
     // Behind grazing on a rigid stop everything varies like the root of the distance from it.
-    let rigid = system.elements().iter().any(|element| element.law.rigid().is_some());
+    let rigid = system.has_rigid_stops();
     if grazing > 0 && rigid {
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
