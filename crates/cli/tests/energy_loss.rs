@@ -74,6 +74,28 @@ fn every_law_is_followed_and_verified() {
     }
 }
 
+/// Two masses whose largest contact force wanders over the border of two steps of the integrator, where the polynomial of neither tells its place well: it is that of the general integrator.
+#[test]
+fn a_force_that_is_largest_at_the_border_of_two_steps_is_verified() {
+    let one_mass = study("law = \"hu-guo\"\nstiffness_n_m15 = 20.0\nrestitution = 0.7");
+    let second = "[[structure.mass]]\nname = \"second\"\nmass_kg = 0.4\n[[structure.spring]]\nbetween = [\"mass\", \"second\"]\nstiffness_n_m = 3.0\n";
+    let two_masses = one_mass[..one_mass.find("[[vary]]").unwrap()]
+        .replace("[damping]", &format!("{second}[damping]"))
+        .replace("stiffness_n_m = 1000.0", "stiffness_n_m = 1.0")
+        .replace("modal_ratio = 0.02", "modal_ratio = 0.03")
+        .replace("amplitude_n = 5.0", "amplitude_n = 0.3")
+        .replace("frequency_hz = [5.2, 6.4]\nphase_rad = -2.2", "frequency_hz = [0.16635, 0.16637]")
+        .replace("gap_m = 0.02", "gap_m = 0.5")
+        .replace("max_step_hz = 0.01", "max_step_hz = 2e-7")
+        .replace("frequencies = 1\nstarts = 1", "frequencies = 3\nstarts = 3");
+    let workshop = Workshop::with(&two_masses);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--jobs", "1"]));
+    let verify = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
+    let document: Value = serde_json::from_str(&stdout(&verify)).unwrap();
+    assert_eq!(document["agree"], true, "{document}");
+    assert!(document["sampled"].as_u64().unwrap() > 150, "{document}");
+}
+
 /// With the phase 0 in the middle of the contact the orbit begins at another phase and is the same.
 #[test]
 fn an_orbit_in_contact_at_phase_0_is_found() {

@@ -2,8 +2,8 @@
 //!
 //! In a force step the displacement of the response and the force of each element are taken as polynomials in the variable of the step, which tell where the largest value `r` is. They are not
 //! accurate enough for the value itself: that is computed once more from the convolution `r(t) = C exp(A t) x + int C exp(A (t - s)) B F(s) ds + r_particular(t)`, at the time
-//! where Newton's method finds `r'(t) = 0` for it, or at an end of the step. The force follows from it by its law, and so does the acceleration, at the
-//! place of its own maximum.
+//! where Newton's method finds `r'(t) = 0` for it, or at an end of the step. The force follows from it by its law; that of a law that depends on the velocity turns beside the displacement, and it is taken at the
+//! vertex of parabolas through the force itself, as is the acceleration, which follows from the forces.
 //!
 //! **Which steps are looked at.** Without forces the energy norm `|x_i|` of a block does not grow, and `|B_ai|` is the most that a unit of force adds per time (`touching.rs`). With the largest magnitude
 //! `F_a` of the Bernstein coefficients of each force, between which its polynomial lies, and the length h of the step,
@@ -42,10 +42,12 @@ struct Peak {
 const ALIKE: f64 = 1e-5;
 /// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as smooth as steps are.
 const BETWEEN_NODES: f64 = 1.5;
-/// Steps of Newton's method to the place of a largest displacement.
+/// Steps of Newton's method to the place of a largest displacement, or of parabolas to that of a largest force or acceleration.
 const POLISHES: usize = 6;
 /// So near to it, in parts of the step, a parabola gives the value: what is left is of third order, 1e-12 of the variation in the step.
 const NEAR: f64 = 1e-4;
+/// Distance of the points that a parabola is laid through, in parts of the step: so near to its vertex the value is the largest to 1e-12 of the variation in the step.
+const BETWEEN_POINTS: f64 = 1e-3;
 
 impl Peaks {
     /// None yet, of a function that has this value elsewhere.
@@ -112,19 +114,16 @@ impl ExactIntegrator {
         peaks.fold(elsewhere, |largest, peak| largest.max(self.exact_extremum(course, peak, f64::abs)))
     }
 
-    /// Largest of the forces that were noted: at the extremum of the displacement; where the law depends on the velocity, at the place that the polynomial tells.
+    /// Largest of the forces that were noted: at the extremum of the displacement, or where the law depends on the velocity, of the force itself.
     pub(super) fn largest_force(&mut self, course: &Course, peaks: Peaks) -> f64 {
         let mut largest = 0.0_f64;
         for peak in &peaks.peaks {
-            let time = self.recall_peak(course, peak);
             let law = self.laws[peak.output];
-            let force = if law.depends_on_velocity() {
-                let jet = self.jet_in_step(course.numbers(peak.step.state), peak.output, time);
-                law.pressing_force(jet.value, jet.slope).value.abs()
+            largest = largest.max(if law.depends_on_velocity() {
+                self.exact_damped_force(course, peak)
             } else {
                 self.exact_extremum(course, peak, |displacement| law.force(displacement, 0.0).value.abs())
-            };
-            largest = largest.max(force);
+            });
         }
         largest
     }
@@ -218,19 +217,33 @@ impl ExactIntegrator {
         largest
     }
 
-    /// The acceleration of the response at a peak: the polynomial tells where it is, and there the forces follow from the
-    /// displacements, which are much more accurate.
+    /// Largest force of a law that depends on the velocity in the step of a peak, near its place.
+    fn exact_damped_force(&mut self, course: &Course, peak: &Peak) -> f64 {
+        let (output, state) = (peak.output, course.numbers(peak.step.state));
+        let time = self.recall_peak(course, peak);
+        largest_near(time, peak.step.length, |time| {
+            let jet = self.jet_in_step(state, output, time);
+            self.laws[output].pressing_force(jet.value, jet.slope).value.abs()
+        })
+    }
+
+    /// Largest acceleration of the response in the step of a peak, near its place. The forces follow from the displacements, which are much more accurate
+    /// than their polynomials.
     fn exact_acceleration(&mut self, course: &Course, peak: &Peak) -> f64 {
         let (response, state) = (self.laws.len(), course.numbers(peak.step.state));
-        let time = self.recall_peak(course, peak);
-        let mut exact = self.jet_in_step(state, response, time).curvature;
-        for (a, &element) in self.step.active.iter().enumerate() {
-            let polynomial = self.step.interpolate(&self.step.force, a, peak.place);
-            let jet = self.jet_in_step(state, element, time);
-            exact += self.mobility[response][element]
-                * (self.laws[element].pressing_force(jet.value, jet.slope).value - polynomial);
-        }
-        exact.abs()
+        let (time, grading) = (self.recall_peak(course, peak), peak.step.grading);
+        let length = peak.step.length;
+        largest_near(time, length, |time| {
+            let mut exact = self.jet_in_step(state, response, time).curvature;
+            let place = grading.inverse(time / length);
+            for (a, &element) in self.step.active.iter().enumerate() {
+                let polynomial = self.step.interpolate(&self.step.force, a, place);
+                let jet = self.jet_in_step(state, element, time);
+                exact += self.mobility[response][element]
+                    * (self.laws[element].pressing_force(jet.value, jet.slope).value - polynomial);
+            }
+            exact.abs()
+        })
     }
 
     /// Displacement (`derivative` 0) or acceleration (2) of the response point at the nodes of the solved step.
@@ -254,4 +267,26 @@ impl ExactIntegrator {
         }
         values
     }
+}
+
+/// Largest value of a function in a step of that length, near a time: the vertices of parabolas through three values close to one another, as long as they move, or an end of the step.
+fn largest_near(time: f64, length: f64, value: impl Fn(f64) -> f64) -> f64 {
+    let (mut time, between) = (time, BETWEEN_POINTS * length);
+    let mut largest = value(time);
+    for _ in 0..POLISHES {
+        let middle = time.clamp(between, length - between);
+        let [before, here, after] = [middle - between, middle, middle + between].map(&value);
+        largest = largest.max(before).max(here).max(after);
+        let away = 0.5 * between * (before - after) / (before - 2.0 * here + after);
+        let next = (middle + away).clamp(0.0, length);
+        if next.is_nan() {
+            break;
+        }
+        largest = largest.max(value(next));
+        if (next - time).abs() <= between {
+            break;
+        }
+        time = next;
+    }
+    largest
 }
