@@ -14,7 +14,7 @@
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `memory.rs` | laws that remember the speed of an impact |
-//! | `impact.rs`, `stick.rs` | impacts on rigid stops; chatter, stops that stick and lift |
+//! | `impact.rs`, `velocity_jump.rs`, `stick.rs` | impacts on rigid stops, the forces that jump with them; chatter, stops that stick and lift |
 //! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
@@ -82,6 +82,7 @@ mod structure;
 mod touching;
 mod trace;
 mod tracing;
+mod velocity_jump;
 mod weights;
 
 #[cfg(test)]
