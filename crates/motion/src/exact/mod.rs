@@ -4,7 +4,7 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `flow.rs`, `run.rs` | a run over a stretch |
+//! | `flow.rs`, `run.rs`, `standstill.rs` | a run over a stretch; whether it gets on |
 //! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
 //! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
@@ -75,6 +75,7 @@ mod sampling;
 mod secular;
 mod sensitivity;
 mod series;
+mod standstill;
 mod step_error;
 mod step_maximum;
 mod stick;
@@ -136,6 +137,12 @@ pub enum MotionError {
     /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or forces far beyond those of the system.
     #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
     TooManySteps { time: f64, steps: u64 },
+    /// Contacts close and open, or press and part, without end, and time does not get on: rounding decides both ways what comes first. It is no property of the system, and a motion beside this one does not
+    /// have it.
+    #[error(
+        "the motion stands still {time:.6e} s after the start of the stretch: {elements} close and open, or press and part, again and again, and time does not get on; with a gap or a phase of the start that is a little different what happens at once there is taken apart"
+    )]
+    StandsStill { time: f64, elements: String },
     /// A rigid stop is hit again and again in ever shorter distance, and the bounces do not end.
     #[error(
         "more than {impacts} impacts up to {time:.6e} s after the start of the stretch: a structure that is pressed on a rigid stop bounces the longer the nearer its restitution is to 1, and with 1 for ever"
