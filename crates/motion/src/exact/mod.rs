@@ -18,7 +18,7 @@
 //! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
-//! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
+//! | `contact_phase.rs`, `aim.rs`, `event.rs` | steps from touch to release, with error control; two events at once |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
@@ -29,6 +29,7 @@
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 //! | `tracing.rs` | what each piece of motion adds to that |
 
+mod aim;
 mod attempt;
 mod block;
 mod by_damping;
