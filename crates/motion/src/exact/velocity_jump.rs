@@ -14,6 +14,9 @@ use super::{
     run::Run,
 };
 
+/// An element and its force, `None` where it does not press.
+type VelocityForce = (usize, Option<f64>);
+
 impl ExactIntegrator {
     /// Lets the velocities jump by an impulse on the element that is hit, and the pressures with them; `[F_e]/v` of each force that jumps, v the speed of the impact.
     pub(super) fn jump_velocities(&self, run: &mut Run, impact: &Impact, impulse: f64) -> Vec<(usize, f64)> {
@@ -22,7 +25,7 @@ impl ExactIntegrator {
         run.state.iter_mut().zip(&self.inputs[hit]).for_each(|(x, b)| *x += impulse * b);
         self.turn_pressures(run);
         let speed = impact.before.slope;
-        let of_element = |((e, before), (_, behind)): (&(usize, Option<f64>), &(usize, Option<f64>))| {
+        let of_element = |((e, before), (_, behind)): (&VelocityForce, &VelocityForce)| {
             let jump = match (*before, *behind) {
                 (None, None) => 0.0,
                 (Some(_), Some(_)) => {
@@ -61,7 +64,7 @@ impl ExactIntegrator {
     }
 
     /// Forces that depend on the velocity, of contacts with penetration; `None` where they do not press.
-    fn velocity_forces(&self, run: &Run) -> Vec<(usize, Option<f64>)> {
+    fn velocity_forces(&self, run: &Run) -> Vec<VelocityForce> {
         let within = |e: usize| run.closed[e].is_some() || run.parted[e].is_some();
         let damped = (0..self.laws.len()).filter(|&e| within(e) && self.laws[e].depends_on_velocity());
         let force = |e: usize| {
