@@ -126,15 +126,18 @@ impl ExactIntegrator {
         (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON)
     }
 
-    /// How much earlier than at the end of the solved step the contact that was located there may be found to close [s]: what its location,
-    /// and rounding of its clearance, leave undecided.
-    pub(super) fn located_within(&self, run: &Run, touch: Touch) -> f64 {
-        let exponent = self.exponent_of(run, Event::Touch(touch));
+    /// How much earlier than at the end of the solved step an event that was located there may be found: what its location, and rounding of what falls to zero, leave undecided [s].
+    pub(super) fn located_within(&self, run: &Run, event: Event) -> f64 {
         let length = self.step.length;
-        let speed = self.distance(self.jet_at_step_end(run, touch.element), touch).slope.abs();
-        let margin = run.start[touch.element].margin.max(self.pressure_rounding(run, Event::Touch(touch)));
+        let speed = self.distance_at_end(run, event).slope.abs();
+        let of_displacement = match event {
+            Event::Lift(_) => 0.0,
+            other => run.start[other.element()].margin,
+        };
+        let margin = of_displacement.max(self.pressure_rounding(run, event));
         let rounding = (8.0 * margin / speed).min(length);
-        (10.0 * self.location_accuracy(exponent)).max(1e-9) * length + rounding
+        let accuracy = self.location_accuracy(self.exponent_of(run, event));
+        (10.0 * accuracy).max(1e-9) * length + rounding
     }
 
     /// Whether an event that was expected can still come.
@@ -233,12 +236,12 @@ impl ExactIntegrator {
         found
     }
 
-    /// The first end of a closed contact, or lift of a held stop, within the solved step, other than `except`, and when.
-    pub(super) fn first_release(&self, run: &Run, except: Option<Event>) -> Option<(Event, f64)> {
+    /// The first end of a closed contact, or lift of a held stop, within the solved step, other than these, and when. The first of them is that with which the step ends.
+    pub(super) fn first_release(&self, run: &Run, except: [Option<Event>; 2]) -> Option<(Event, f64)> {
         let of_active = |(a, &element): (usize, &usize)| {
-            let usual = Some(self.usual_end(element)).filter(|event| Some(*event) != except);
+            let usual = Some(self.usual_end(element)).filter(|event| !except.contains(&Some(*event)));
             let both = self.laws[element].pressure().is_some_and(|pressure| pressure.offset > 0.0);
-            let parting = Some(Event::Part(element)).filter(|event| both && Some(*event) != except);
+            let parting = Some(Event::Part(element)).filter(|event| both && !except.contains(&Some(*event)));
             let ends = usual.into_iter().chain(parting);
             ends.filter_map(|event| self.first_end(run, a, event).map(|time| (event, time)))
                 .collect::<Vec<_>>()

@@ -9,6 +9,7 @@ use super::{
     impact::MOST_IMPACTS,
     maxima::closed_bits,
     run::Run,
+    standstill::Standstill,
 };
 use crate::{Flow, Stretch};
 
@@ -146,12 +147,17 @@ impl ExactIntegrator {
         self.closed_throughout = closed_bits(run);
         let steps = MOST_STEPS * (1 + (stretch.end - stretch.start) as u64);
         let most = self.counts.steps + steps;
-        // Besides those there are flights and touches, and contacts that close and open without a step would go on for ever.
+        // Besides those there are flights and touches, which need no step.
         let mut further = steps + 2 * MOST_IMPACTS * (1 + (stretch.end - stretch.start) as u64);
+        let mut standstill = Standstill::new(run);
         while run.time < end {
             further -= 1;
-            if self.counts.steps > most || further == 0 {
+            if self.counts.steps > most {
                 return Err(MotionError::TooManySteps { time: run.time, steps });
+            }
+            if standstill.lasts(run, end) || further == 0 {
+                let elements = self.names(&standstill.changing(run));
+                return Err(MotionError::StandsStill { time: run.time, elements });
             }
             if run.impacts > MOST_IMPACTS * (1 + (stretch.end - stretch.start) as u64) {
                 return Err(MotionError::TooManyImpacts { time: run.time, impacts: run.impacts });

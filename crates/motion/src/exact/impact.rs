@@ -12,7 +12,7 @@
 //!
 //! `V+ = V - B (1 + e)/D (dr' + r'' dt) - (A B P + sum_e B_e [F_e]) dt`,
 //!
-//! where `[F_e]` are the jumps of forces that depend on the velocity, and those `lambda_j` of held stops that the impact throws off; r'' is that of the motion before, with these held. Seen along the motion, `(dr, dr')` goes to `(-e dr, -e dr' - ...)`: the determinant of the jump is `e^2`, so an
+//! where `[F_e]` are the jumps of forces that depend on the velocity (`velocity_jump.rs`), and those `lambda_j` of held stops that the impact throws off; r'' is that of the motion before, with these held. Seen along the motion, `(dr, dr')` goes to `(-e dr, -e dr' - ...)`: the determinant of the jump is `e^2`, so an
 //! impact contracts volumes by `2 ln e`. With e = 0 the velocity is forgotten: where the structure is not pressed on it leaves at once, and neighbours differ by the instant of that alone. By e itself there is the direct part `-B v/D`.
 //!
 //! **Grazing.** For `v -> 0` the sensitivities grow like `1/v`, and v like the root of the depth to which the motion would have gone: this is the singularity of grazing impacts, and it is
@@ -31,12 +31,7 @@
 //! # Source
 //! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009), 85-106 (chatter that ends).
 
-use super::{
-    ExactIntegrator, MotionError,
-    drive::Jet,
-    flight::{Boundary, Touch},
-    run::Run,
-};
+use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, run::Run};
 
 /// Most impacts in an excitation period.
 pub(super) const MOST_IMPACTS: u64 = 100_000;
@@ -55,7 +50,7 @@ pub(super) struct Impact {
     /// `D`.
     pub(super) mobility: f64,
     /// Held stops that it throws off, and what they pressed with [N].
-    thrown_off: Vec<(usize, f64)>,
+    pub(super) thrown_off: Vec<(usize, f64)>,
 }
 
 impl ExactIntegrator {
@@ -135,20 +130,19 @@ impl ExactIntegrator {
         if restitution == 0.0 {
             self.directions_lost = self.directions_lost.max(2 * run.stuck.len() + 1);
         }
-        let forces = self.velocity_forces(run);
         let displacement = self.displacement_sensitivity(run, touch);
         self.jump_at_impact(run, impact, impulse, &displacement);
-        let input = &self.inputs[touch.element];
-        run.state.iter_mut().zip(input).for_each(|(x, b)| *x += impulse * b);
-        self.turn_pressures(run);
-        let jumps = self.velocity_forces(run);
-        if let Some(sensitivity) = &mut run.sensitivity {
-            for ((element, after), (_, before)) in jumps.iter().zip(&forces) {
-                let factor = (after - before) / impact.before.slope;
-                sensitivity.add_outer(&self.inputs[*element], factor, &displacement);
-            }
-        }
+        let jumps = self.jump_velocities(run, impact, impulse);
+        self.jump_with_forces(run, &jumps, &displacement);
         self.throw_off(run, &displacement, impact.before.slope)
+    }
+
+    /// `V+ = V + sum_e B_e [F_e] dr/v`.
+    pub(super) fn jump_with_forces(&self, run: &mut Run, jumps: &[(usize, f64)], displacement: &[f64]) {
+        let Some(sensitivity) = &mut run.sensitivity else { return };
+        for &(element, jump) in jumps {
+            sensitivity.add_outer(&self.inputs[element], jump, displacement);
+        }
     }
 
     /// `V+ = V + B dP - A B P dt`.
@@ -170,34 +164,15 @@ impl ExactIntegrator {
         }
         sensitivity.add_outer(input, 1.0, &by_impulse);
         sensitivity.add_outer(&carried, -impulse * delay, displacement);
+        self.jump_with_stops(run, impact, displacement);
+    }
+
+    /// `V+ = V + sum_j B_j lambda_j dr/v` over the stops that an impact throws off.
+    pub(super) fn jump_with_stops(&self, run: &mut Run, impact: &Impact, displacement: &[f64]) {
+        let Some(sensitivity) = &mut run.sensitivity else { return };
         for &(stop, force) in &impact.thrown_off {
-            sensitivity.add_outer(&self.inputs[stop], -force * delay, displacement);
+            sensitivity.add_outer(&self.inputs[stop], force / impact.before.slope, displacement);
         }
-    }
-
-    /// After a jump of velocities: contacts whose force depends on them part, or press again.
-    fn turn_pressures(&self, run: &mut Run) {
-        for element in 0..self.laws.len() {
-            let contact = run.closed[element].or(run.parted[element]);
-            let Some(contact) = contact.filter(|_| self.laws[element].depends_on_velocity()) else {
-                continue;
-            };
-            let touch = Touch { element, contact, boundary: Boundary::Presses };
-            let missing = self.distance(self.output_jet(&run.state, element, run.time), touch).value;
-            run.closed[element] = Some(contact).filter(|_| missing < 0.0);
-            run.parted[element] = Some(contact).filter(|_| missing >= 0.0);
-        }
-    }
-
-    /// Forces that depend on the velocity, of contacts with penetration; none where they would pull.
-    fn velocity_forces(&self, run: &Run) -> Vec<(usize, f64)> {
-        let within = |e: usize| run.closed[e].is_some() || run.parted[e].is_some();
-        let damped = (0..self.laws.len()).filter(|&e| within(e) && self.laws[e].depends_on_velocity());
-        let force = |e: usize| {
-            let jet = self.output_jet(&run.state, e, run.time);
-            self.laws[e].force(jet.value, jet.slope).value
-        };
-        damped.map(|e| (e, force(e))).collect()
     }
 
     /// Writes an impact down wherever it is wanted.

@@ -4,7 +4,7 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `flow.rs`, `run.rs` | a run over a stretch |
+//! | `flow.rs`, `run.rs`, `standstill.rs` | a run over a stretch; whether it gets on |
 //! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
 //! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
@@ -14,11 +14,11 @@
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
 //! | `memory.rs` | laws that remember the speed of an impact |
-//! | `impact.rs`, `stick.rs` | impacts on rigid stops; chatter, stops that stick and lift |
+//! | `impact.rs`, `velocity_jump.rs`, `stick.rs` | impacts on rigid stops, the forces that jump with them; chatter, stops that stick and lift |
 //! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
-//! | `contact_phase.rs`, `event.rs` | steps from touch to release, with error control |
+//! | `contact_phase.rs`, `aim.rs`, `event.rs` | steps from touch to release, with error control; two events at once |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
@@ -29,6 +29,7 @@
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 //! | `tracing.rs` | what each piece of motion adds to that |
 
+mod aim;
 mod attempt;
 mod block;
 mod by_damping;
@@ -75,6 +76,7 @@ mod sampling;
 mod secular;
 mod sensitivity;
 mod series;
+mod standstill;
 mod step_error;
 mod step_maximum;
 mod stick;
@@ -82,6 +84,7 @@ mod structure;
 mod touching;
 mod trace;
 mod tracing;
+mod velocity_jump;
 mod weights;
 
 #[cfg(test)]
@@ -135,6 +138,12 @@ pub enum MotionError {
     /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or forces far beyond those of the system.
     #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
     TooManySteps { time: f64, steps: u64 },
+    /// Contacts close and open, or press and part, without end, and time does not get on: rounding decides both ways what comes first. It is no property of the system, and a motion beside this one does not
+    /// have it.
+    #[error(
+        "the motion stands still {time:.6e} s after the start of the stretch: {elements} close and open, or press and part, again and again, and time does not get on; with a gap or a phase of the start that is a little different what happens at once there is taken apart"
+    )]
+    StandsStill { time: f64, elements: String },
     /// A rigid stop is hit again and again in ever shorter distance, and the bounces do not end.
     #[error(
         "more than {impacts} impacts up to {time:.6e} s after the start of the stretch: a structure that is pressed on a rigid stop bounces the longer the nearer its restitution is to 1, and with 1 for ever"

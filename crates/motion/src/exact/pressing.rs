@@ -204,13 +204,21 @@ impl ExactIntegrator {
         (0..count).map(of_panel).collect()
     }
 
-    /// The first lift of a held stop within the solved step, other than `except`, and when.
-    pub(super) fn first_lift(&self, run: &Run, except: Option<Event>) -> Option<(Event, f64)> {
+    /// The first lift of a held stop within the solved step, and when; of the one with which the step ends, once more before that, and none of the one that is excused.
+    pub(super) fn first_lift(
+        &self,
+        run: &Run,
+        [at_end, excused]: [Option<Event>; 2],
+    ) -> Option<(Event, f64)> {
         let of_stop = |(j, &element): (usize, &usize)| {
-            let (event, panels) = (Event::Lift(element), self.panels(&run.state, j));
+            let event = Event::Lift(element);
+            if excused == Some(event) {
+                return None;
+            }
+            let panels = self.panels(&run.state, j);
             let values = panels.iter().flat_map(|panel| panel.values);
             let largest = values.fold(0.0_f64, |largest, value| largest.max(value.abs()));
-            let share = if except == Some(event) { UNDECIDED } else { 1e-9 };
+            let share = if at_end == Some(event) { UNDECIDED } else { 1e-9 };
             let margin = share * largest + run.pressing[j].margin;
             let place = panels.iter().find_map(|panel| panel.first_below(margin))?;
             Some((event, self.step.grading().map(place).0 * self.step.length))

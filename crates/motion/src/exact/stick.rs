@@ -1,16 +1,23 @@
 //! Rigid stops that stick, and how they let go.
 //!
-//! **Going over.** A chatter that comes to its end, or an impact without restitution, leaves the structure held (`held.rs`). It is the limit of an impact with e = 0 and the velocity `v -> 0`: the
-//! sensitivities keep `V+ = V - (A B + sum_e B_e f_v,e G_e) dr/D` besides what the projection takes, with `f_v` of forces that depend on the velocity and `G_e = C_e A B`.
+//! **Going over.** An impact without restitution, or a chatter that comes to its end, leaves the structure held (`held.rs`) if it is pressed on behind the impact: there, as dampers have lost the speed
+//! that the impact took, `r''` is never lower than before. With the rates `h` of the state a neighbour, who comes `dt = -dr/v` later, has `V+ = V + (h_before - h_behind) dt` besides what the
+//! projection takes, and since the velocities jump by `B P`, `P = -v/D`,
 //!
-//! **Letting go** where the pressing force vanishes continuously changes nothing in the sensitivities. Where it falls to `lambda_j < 0` by a jump, at a touch or an impact that comes
-//! `dt = -dr/v` later for a neighbour, the stop presses no more from then on, and `V+ = V + B_j lambda_j dr/v`.
+//! `V+ = V - A B dr/D + (sum_e B_e [F_e] + sum_j B_j lambda_j) dr/v`,
+//!
+//! where `[F_e]` are the jumps of forces that depend on the velocity (`velocity_jump.rs`), and `lambda_j` is what held stops pressed with that the impact throws off. As v goes to zero `[F_e]/v`
+//! keeps its value `-f_v,e G_e/D`, `G_e = C_e A B`, so the end of a chatter is no exception; a stop that sticks at the start of a stretch has this limit alone.
+//!
+//! **Letting go** where the pressing force vanishes continuously changes nothing in the sensitivities. Where it falls to `lambda_j < 0` by a jump, at a touch or an impact, whether that sticks or not, that
+//! comes `dt = -dr/v` later for a neighbour, the stop presses no more from then on, and `V+ = V + B_j lambda_j dr/v`.
 //!
 //! Forces of other elements act through all of it: they are in the acceleration that presses, and in the pressing forces (`pressing.rs`).
 
 use super::{
     ExactIntegrator, MotionError,
     clearance::ClearanceBounds,
+    contact_phase::AT_REST,
     flight::{Boundary, Touch},
     impact::Impact,
     run::Run,
@@ -34,13 +41,15 @@ impl ExactIntegrator {
             let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
             let slow = before.slope.powi(2) <= 2.0 * before.curvature * CHATTER * margin;
             if clearance.value.abs() <= CHATTER * margin && before.curvature > 0.0 && slow {
-                self.forget_the_approach(run, touch);
+                let displacement = self.displacement_sensitivity(run, touch);
+                self.forget_the_approach(run, touch, &displacement);
+                self.forget_damped_approach(run, touch, &displacement);
                 self.contraction = f64::NEG_INFINITY;
                 let elements = joined(&run.stuck, element);
                 self.hold(run, elements)?;
             }
         }
-        self.let_go_of_tension(run)
+        self.let_go_of_tension(run, None)
     }
 
     /// Lets a held stop go whose pressing force has come to its end.
@@ -88,16 +97,21 @@ impl ExactIntegrator {
     }
 
     /// Whether a touch is the end of a chatter.
-    pub(super) fn sticks(&self, run: &Run, impact: &Impact) -> bool {
+    pub(super) fn sticks(&self, run: &mut Run, impact: &Impact) -> bool {
         let (speed, press) = (impact.before.slope.max(0.0), impact.before.curvature);
         let e = impact.restitution;
         let element = impact.touch.element;
         let ClearanceBounds { second, margin, .. } =
             self.bounds(&run.state, element, self.stretch.duration());
+        if self.is_at_rest(run, element, speed) && press <= 0.0 {
+            // With a force that is rounding it is held: what it presses with then decides.
+            return press >= -AT_REST * second;
+        }
+        if e == 0.0 {
+            return self.press_behind(run, impact) > 0.0;
+        }
         if press <= 0.0 {
-            // At rest on the stop with a force that is rounding, it is held: what it presses with then decides.
-            let rounding = 8.0 * f64::EPSILON;
-            return speed <= rounding * self.speed_bound(&run.state, element) && press >= -rounding * second;
+            return false;
         }
         let height = (e * speed).powi(2) / (2.0 * press);
         if height > CHATTER * margin {
@@ -108,6 +122,11 @@ impl ExactIntegrator {
         }
         let rest = 2.0 * e * speed / (press * (1.0 - e));
         self.press_after(run, element, 2.0 * rest) >= 0.5 * press
+    }
+
+    /// Whether a speed is rounding.
+    fn is_at_rest(&self, run: &Run, element: usize, speed: f64) -> bool {
+        speed <= AT_REST * self.speed_bound(&run.state, element)
     }
 
     /// `r''` of an element after a time of flight from now, in which forces that act follow the displacements alone.
@@ -126,19 +145,31 @@ impl ExactIntegrator {
         let place = self.first_touch(element);
         self.touches[place] = self.touches[place].saturating_add(STUCK_TOUCHES);
         self.contraction = f64::NEG_INFINITY;
-        self.forget_the_approach(run, impact.touch);
+        let displacement = self.displacement_sensitivity(run, impact.touch);
+        self.forget_the_approach(run, impact.touch, &displacement);
+        let moves = !self.is_at_rest(run, element, speed);
+        if moves {
+            self.jump_with_stops(run, impact, &displacement);
+            let jumps = self.jump_velocities(run, impact, -speed / impact.mobility);
+            self.jump_with_forces(run, &jumps, &displacement);
+        } else {
+            self.forget_damped_approach(run, impact.touch, &displacement);
+        }
         let elements = joined(&run.stuck, element);
         self.hold(run, elements)?;
-        self.let_go_of_tension(run)
+        self.let_go_of_tension(run, moves.then_some((&displacement, speed)))
     }
 
-    /// Lets held stops go that would have to pull, now that another one is held, too; the strongest first.
-    fn let_go_of_tension(&mut self, run: &mut Run) -> Result<(), MotionError> {
+    /// Lets held stops go that would have to pull, now that another one is held, too, by an impact with this speed; the strongest first.
+    fn let_go_of_tension(&mut self, run: &mut Run, impact: Option<(&[f64], f64)>) -> Result<(), MotionError> {
         while run.stuck.len() > 1 {
             let pressing = self.pressing_forces(run, &run.state, run.time);
             let weakest = run.stuck.iter().copied().min_by(|&a, &b| pressing[a].total_cmp(&pressing[b]));
             let Some(element) = weakest.filter(|&element| pressing[element] < 0.0) else { return Ok(()) };
             self.lift(run, element)?;
+            if let Some((sensitivity, (displacement, speed))) = run.sensitivity.as_mut().zip(impact) {
+                sensitivity.add_outer(&self.inputs[element], pressing[element] / speed, displacement);
+            }
         }
         Ok(())
     }
@@ -165,29 +196,26 @@ impl ExactIntegrator {
         }
     }
 
-    /// `V - (A B + sum_e B_e f_v,e G_e) dr/D`: what an impact without restitution leaves besides the projection.
-    fn forget_the_approach(&mut self, run: &mut Run, touch: Touch) {
-        if run.sensitivity.is_none() {
-            return;
-        }
-        let displacement = self.displacement_sensitivity(run, touch);
-        let input = &self.inputs[touch.element];
-        let carried = self.blocks.system_times_column(input);
+    /// `V - A B dr/D`.
+    fn forget_the_approach(&self, run: &mut Run, touch: Touch, displacement: &[f64]) {
+        let Some(sensitivity) = &mut run.sensitivity else { return };
+        let carried = self.blocks.system_times_column(&self.inputs[touch.element]);
         let factor = -1.0 / self.mobility[touch.element][touch.element];
+        sensitivity.add_outer(&carried, factor, displacement);
+    }
+
+    /// `V - sum_e B_e f_v,e G_e dr/D`: the jumps of forces in the limit of no speed.
+    fn forget_damped_approach(&self, run: &mut Run, touch: Touch, displacement: &[f64]) {
+        let hit = touch.element;
         let damped =
             (0..self.laws.len()).filter(|&e| self.acts(run, e) && self.laws[e].depends_on_velocity());
-        let by_velocity: Vec<(usize, f64)> = damped
-            .map(|e| {
-                let jet = self.output_jet(&run.state, e, run.time);
-                let damping = self.laws[e].pressing_force(jet.value, jet.slope).damping;
-                (e, damping * self.mobility[e][touch.element])
-            })
-            .collect();
-        let Some(sensitivity) = &mut run.sensitivity else { return };
-        sensitivity.add_outer(&carried, factor, &displacement);
-        for (e, gain) in by_velocity {
-            sensitivity.add_outer(&self.inputs[e], factor * gain, &displacement);
-        }
+        let jump = |e: usize| {
+            let jet = self.output_jet(&run.state, e, run.time);
+            let damping = self.laws[e].pressing_force(jet.value, jet.slope).damping;
+            (e, -damping * self.mobility[e][hit] / self.mobility[hit][hit])
+        };
+        let jumps: Vec<(usize, f64)> = damped.map(jump).collect();
+        self.jump_with_forces(run, &jumps, displacement);
     }
 }
 

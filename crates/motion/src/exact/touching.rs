@@ -52,11 +52,12 @@ const WINDOWS: usize = 4;
 pub(super) struct Unresolved;
 
 impl ExactIntegrator {
-    /// The first open contact that closes within the solved step, and when. That of `event` closes at its end.
+    /// The first open contact that closes within the solved step, and when. That of `event` closes at its end, `excused` is not looked for.
     pub(super) fn first_touch_in_step(
         &mut self,
         run: &Run,
         event: Option<Event>,
+        excused: Option<Event>,
     ) -> Result<Option<(Touch, f64)>, Unresolved> {
         let mut first: Option<(Touch, f64)> = None;
         let is_open = |e: &usize| {
@@ -70,9 +71,12 @@ impl ExactIntegrator {
         for element in open {
             let from = self.looked_past(run, element);
             for touch in self.watched(element, run.parted[element]) {
+                if excused == Some(Event::Touch(touch)) {
+                    continue;
+                }
                 let mut until = first.map_or(self.step.length, |(_, time)| time);
                 if event == Some(Event::Touch(touch)) {
-                    until = until.min(self.step.length - self.located_within(run, touch));
+                    until = until.min(self.step.length - self.located_within(run, Event::Touch(touch)));
                 }
                 if from >= until {
                     continue;

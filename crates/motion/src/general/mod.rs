@@ -32,6 +32,7 @@ mod observe;
 mod rigid;
 mod search;
 mod stepper;
+mod stick;
 mod switching;
 mod system_field;
 mod tableau;

@@ -5,8 +5,8 @@
 //! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi` where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r' T)`,
 //!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
 //!   The jump of a velocity may begin or end the pressure of contacts that depend on it: those of the motion after it are in `h_after`.
-//! - A stop that sticks is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
-//!   switching function is `lambda_j` itself. What the motion was relative to the stop before is projected out, of the state and of the sensitivities.
+//! - A stop that sticks (`stick.rs`) is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
+//!   switching function is `lambda_j` itself.
 //! - A stop whose `lambda_j` falls below zero by a jump is let go then (`thrown_off.rs`).
 //! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
 //!
@@ -134,7 +134,7 @@ impl SystemField<'_> {
     }
 
     /// `[r, r', r'']` of an element in the region that is told.
-    fn relative(&mut self, e: usize, at: Point<'_>) -> [f64; 3] {
+    pub(super) fn relative(&mut self, e: usize, at: Point<'_>) -> [f64; 3] {
         let n = self.system.dof();
         let mut rates = vec![0.0; 2 * n];
         self.evaluate(at, &mut rates);
@@ -153,28 +153,6 @@ impl SystemField<'_> {
         let (shape, w) = (&self.system.elements()[e].shape, &self.system.model().natural_frequencies);
         let part = |i: usize| shape[i].abs() * (state[n + i].abs() + w[i] * state[i].abs());
         (0..n).map(part).sum::<f64>().max(self.rigid.fastest)
-    }
-
-    /// At the start of a motion: stops that stick are held, none is behind.
-    pub(super) fn begin_rigid(
-        &mut self,
-        time: f64,
-        state: &mut [f64],
-        columns: &mut [f64],
-        inside: &mut [bool],
-    ) {
-        for &(_, switch) in &self.rigid.stops {
-            inside[switch] = false;
-        }
-        for (e, switch) in self.rigid.stops.clone() {
-            let [r, speed, press] = self.relative(e, Point { time, state, inside });
-            let level = self.laws[e].contacts()[0].level;
-            let way = AT_START * self.usual_speed(e, state) * self.period;
-            if (r - level).abs() <= way && press > 0.0 && speed * speed <= 2.0 * press * way {
-                self.stick(e, state, columns, time);
-                inside[switch] = true;
-            }
-        }
     }
 
     /// What happens to rigid stops as boundaries are crossed.
@@ -199,6 +177,8 @@ impl SystemField<'_> {
             self.evaluate(Point { time, state, inside }, &mut before_it);
             let [_, speed, press] = self.relative(e, Point { time, state, inside });
             let approach = press;
+            let pressing = self.pressing_forces(time, state, inside);
+            let held = self.rigid.held.clone();
             let way = CHATTER * self.usual_speed(e, state) * self.period;
             if self.rigid.held.is_empty() || press <= 0.0 || speed * speed > 2.0 * press * way {
                 self.let_go_of_pulling(e, inside);
@@ -206,23 +186,32 @@ impl SystemField<'_> {
             let [_, speed, press] = self.relative(e, Point { time, state, inside });
             self.rigid.fastest = self.rigid.fastest.max(speed);
             let restitution = self.laws[e].rigid().map_or(0.0, crate::law::RigidStop::restitution);
-            let height = (restitution * speed).powi(2) / (2.0 * press);
-            if press > 0.0 && height <= CHATTER * self.usual_speed(e, state) * self.period {
-                let mobility = dot(&self.system.elements()[e].shape, &self.free_direction(e));
-                let impulse = speed.max(0.0) / mobility;
-                self.rigid.impacts.push(Impact {
-                    element: e,
-                    speed,
-                    impulse,
-                    sticks: true,
-                    depth: f64::INFINITY,
-                });
-                self.stick(e, state, columns, time);
+            if self.sticks((e, restitution), (speed, press), time, (state, inside)) {
+                let thrown_off = held.into_iter().filter(|stop| !self.rigid.held.contains(stop));
+                let thrown_off: Vec<_> = thrown_off.map(|stop| (stop, pressing[stop])).collect();
                 inside[switch] = true;
+                self.strike_and_stick((e, speed), &thrown_off, time, (state, columns), inside);
             } else if speed > 0.0 {
                 self.rebound((e, restitution, approach), time, (state, columns), (inside, &before_it));
             }
         }
+    }
+
+    /// Whether an impact is the end of a chatter, or without restitution and pressed on behind it, where dampers have lost the speed that it took.
+    fn sticks(
+        &mut self,
+        (e, restitution): (usize, f64),
+        (speed, press): (f64, f64),
+        time: f64,
+        (state, inside): (&[f64], &[bool]),
+    ) -> bool {
+        if restitution == 0.0 && speed > 0.0 {
+            let (mut behind, mut region) = (state.to_vec(), inside.to_vec());
+            self.take_speed((e, speed), time, &mut behind, &mut region);
+            return self.relative(e, Point { time, state: &behind, inside: &region })[2] > 0.0;
+        }
+        let height = (restitution * speed).powi(2) / (2.0 * press);
+        press > 0.0 && height <= CHATTER * self.usual_speed(e, state) * self.period
     }
 
     /// `psi`: the shape of an element less what held stops take of it.
@@ -268,14 +257,11 @@ impl SystemField<'_> {
             let impulse = factor * (velocity + approach * self.period * delay);
             add_scaled(&mut column[n..], impulse, &direction);
         }
-        while let Some((pulled, force)) = self.weakest_that_pulls(time, state, inside) {
-            self.release(pulled, inside);
-            self.throw_off((pulled, force), columns, &delays);
-        }
+        self.let_go_of_tension(time, (state, columns), inside, &delays);
     }
 
     /// After a jump of velocities: which contacts press whose force depends on them.
-    fn turn_pressures(&self, time: f64, state: &[f64], inside: &mut [bool]) {
+    pub(super) fn turn_pressures(&self, time: f64, state: &[f64], inside: &mut [bool]) {
         let mut values = vec![0.0; inside.len()];
         self.switching(time, state, &mut values);
         let mut end = 0;
@@ -292,42 +278,5 @@ impl SystemField<'_> {
         let ratio = self.system.elements()[e].support_ratio;
         let [u, v, _] = if of_frequency { self.support_by_frequency(time) } else { [0.0; 3] };
         [ratio * u, ratio * v]
-    }
-
-    /// Holds an element: `r` is its level and `r'` zero from now on.
-    fn stick(&mut self, e: usize, state: &mut [f64], columns: &mut [f64], time: f64) {
-        let n = self.system.dof();
-        let direction = self.free_direction(e);
-        let shape = self.system.elements()[e].shape.clone();
-        let mut damped = self.damped(&direction);
-        for (element, &(_, damping)) in self.system.elements().iter().zip(&self.slopes) {
-            if damping != 0.0 {
-                add_scaled(&mut damped, -damping * dot(&element.shape, &direction), &element.shape);
-            }
-        }
-        let mobility = dot(&shape, &direction);
-        self.rigid.held.push(e);
-        self.rigid.held.sort_unstable();
-        let held = self.rigid.held.clone();
-        let u = self.support_motion(time);
-        let ratio = |h: usize| self.system.elements()[h].support_ratio;
-        let levels: Vec<f64> =
-            held.iter().map(|&h| self.laws[h].contacts()[0].level - ratio(h) * u[0]).collect();
-        let speeds: Vec<f64> = held.iter().map(|&h| -ratio(h) * u[1]).collect();
-        self.constrain(&held, &levels, &mut state[..n]);
-        self.constrain(&held, &speeds, &mut state[n..]);
-        let last = columns.len() / (2 * n);
-        for (index, column) in columns.chunks_exact_mut(2 * n).enumerate() {
-            // The limit of an impact without restitution: dampers act on what the velocity was for the time of the delay.
-            let of_frequency = index + 1 == last;
-            let displacement = dot(&shape, &column[..n]) + self.support_change(e, time, of_frequency)[0];
-            add_scaled(&mut column[n..], displacement / mobility, &damped);
-            let of = |k: usize| -> Vec<f64> {
-                held.iter().map(|&h| -self.support_change(h, time, of_frequency)[k]).collect()
-            };
-            let (displacements, velocities) = (of(0), of(1));
-            self.constrain(&held, &displacements, &mut column[..n]);
-            self.constrain(&held, &velocities, &mut column[n..]);
-        }
     }
 }

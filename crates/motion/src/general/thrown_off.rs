@@ -40,7 +40,21 @@ impl SystemField<'_> {
         (pressing[weakest] < -AT_START * usual).then_some((weakest, pressing[weakest]))
     }
 
-    pub(super) fn release(&mut self, e: usize, inside: &mut [bool]) {
+    /// Held stops are let go that would have to pull behind an impact that comes later by `delays`, the strongest first.
+    pub(super) fn let_go_of_tension(
+        &mut self,
+        time: f64,
+        (state, columns): (&[f64], &mut [f64]),
+        inside: &mut [bool],
+        delays: &[f64],
+    ) {
+        while let Some((pulled, force)) = self.weakest_that_pulls(time, state, inside) {
+            self.release(pulled, inside);
+            self.throw_off((pulled, force), columns, delays);
+        }
+    }
+
+    fn release(&mut self, e: usize, inside: &mut [bool]) {
         self.rigid.held.retain(|&held| held != e);
         let stops = self.rigid.stops.iter().filter(|(stop, _)| *stop == e);
         stops.for_each(|&(_, switch)| inside[switch] = false);

@@ -1,5 +1,6 @@
 //! Flows against difference quotients.
 
+use faer::Mat;
 use hammerbeam_motion::{Parameter, Stretch, System};
 
 use super::integrator;
@@ -10,12 +11,24 @@ fn differences(advance: &mut dyn FnMut(f64) -> Vec<f64>, step: f64) -> Vec<f64> 
     (0..a.len()).map(|i| (8.0 * (c[i] - b[i]) - (d[i] - a[i])) / (12.0 * step)).collect()
 }
 
-/// Largest difference of columns, displacements scaled by the eigenfrequencies, relative to the largest entry.
-fn distance(system: &System, found: &[f64], expected: &[f64]) -> f64 {
+/// Steps of differences, in the units of what is moved.
+const STEP: f64 = 1e-6;
+
+/// Largest difference of columns, displacements scaled by the eigenfrequencies, relative to the largest entry; `rounding` is what rounding of the states leaves of the differences.
+fn distance(system: &System, found: &[f64], expected: &[f64], rounding: f64) -> f64 {
     let n = system.dof();
     let scale = |i: usize| if i < n { system.model().natural_frequencies[i].max(10.0) } else { 1.0 };
     let size = (0..2 * n).map(|i| (expected[i] * scale(i)).abs()).fold(f64::MIN_POSITIVE, f64::max);
-    (0..2 * n).map(|i| ((found[i] - expected[i]) * scale(i)).abs()).fold(0.0, f64::max) / size
+    let largest = (0..2 * n).map(|i| ((found[i] - expected[i]) * scale(i)).abs()).fold(0.0, f64::max);
+    (largest - rounding).max(0.0) / size
+}
+
+/// What a few roundings of a state leave of differences with a step.
+fn rounding(system: &System, state: &[f64], step: f64) -> f64 {
+    let n = system.dof();
+    let scale = |i: usize| if i < n { system.model().natural_frequencies[i].max(10.0) } else { 1.0 };
+    let size = (0..2 * n).map(|i| (state[i] * scale(i)).abs()).fold(0.0, f64::max);
+    16.0 * f64::EPSILON * size / step
 }
 
 /// Every column of the flow against differences.
@@ -28,28 +41,20 @@ pub fn assert_sensitivities(
 ) {
     let mut exact = integrator(system);
     let flow = exact.flow(stretch, state).unwrap();
-    let n = system.dof();
-    for j in 0..2 * n {
-        let scale = if j < n { 1.0 / system.model().natural_frequencies[j].max(10.0) } else { 1.0 };
-        let mut moved = |step: f64| {
-            let mut state = state.to_vec();
-            state[j] += step * scale;
-            exact.advance(stretch, &state).unwrap()
-        };
-        let expected: Vec<f64> = differences(&mut moved, 1e-6).iter().map(|d| d / scale).collect();
-        let found: Vec<f64> = (0..2 * n).map(|i| flow.by_state[(i, j)]).collect();
-        if is_without_effect(&found, &expected) {
-            continue;
-        }
-        let error = distance(system, &found, &expected);
-        assert!(error < bound, "column {j}: {error}\n{found:?}\n{expected:?}");
-    }
+    assert_by_state(
+        system,
+        state,
+        &flow.by_state,
+        &mut |moved| exact.advance(stretch, moved).unwrap(),
+        bound,
+    );
     let mut moved = |step: f64| {
         let stretch = Stretch { frequency_hz: stretch.frequency_hz * (1.0 + step), ..*stretch };
         exact.advance(&stretch, state).unwrap()
     };
-    let expected: Vec<f64> = differences(&mut moved, 1e-6).iter().map(|d| d / stretch.frequency_hz).collect();
-    let error = distance(system, &flow.by_frequency, &expected);
+    let expected: Vec<f64> = differences(&mut moved, STEP).iter().map(|d| d / stretch.frequency_hz).collect();
+    let left = rounding(system, &flow.state, STEP * stretch.frequency_hz);
+    let error = distance(system, &flow.by_frequency, &expected, left);
     assert!(error < bound, "frequency: {error}\n{:?}\n{expected:?}", flow.by_frequency);
     for &parameter in parameters {
         exact.differentiate_by(Some(parameter)).unwrap();
@@ -66,13 +71,40 @@ pub fn assert_sensitivities(
             exact.set_parameter(parameter, value + step * scale).unwrap();
             exact.advance(stretch, state).unwrap()
         };
-        let expected: Vec<f64> = differences(&mut moved, 1e-6).iter().map(|d| d / scale).collect();
+        let expected: Vec<f64> = differences(&mut moved, STEP).iter().map(|d| d / scale).collect();
         exact.set_parameter(parameter, value).unwrap();
         if is_without_effect(&flow.by_parameter, &expected) {
             continue;
         }
-        let error = distance(system, &flow.by_parameter, &expected);
+        let left = rounding(system, &flow.state, STEP * scale.abs());
+        let error = distance(system, &flow.by_parameter, &expected, left);
         assert!(error < bound, "{parameter:?}: {error}\n{:?}\n{expected:?}", flow.by_parameter);
+    }
+}
+
+/// The columns by state of a flow against differences of the motion.
+pub fn assert_by_state(
+    system: &System,
+    state: &[f64],
+    by_state: &Mat<f64>,
+    advance: &mut dyn FnMut(&[f64]) -> Vec<f64>,
+    bound: f64,
+) {
+    let (n, end) = (system.dof(), advance(state));
+    for j in 0..2 * n {
+        let scale = if j < n { 1.0 / system.model().natural_frequencies[j].max(10.0) } else { 1.0 };
+        let mut moved = |step: f64| {
+            let mut state = state.to_vec();
+            state[j] += step * scale;
+            advance(&state)
+        };
+        let expected: Vec<f64> = differences(&mut moved, STEP).iter().map(|d| d / scale).collect();
+        let found: Vec<f64> = (0..2 * n).map(|i| by_state[(i, j)]).collect();
+        if is_without_effect(&found, &expected) {
+            continue;
+        }
+        let error = distance(system, &found, &expected, rounding(system, &end, STEP * scale));
+        assert!(error < bound, "column {j}: {error}\n{found:?}\n{expected:?}");
     }
 }
 

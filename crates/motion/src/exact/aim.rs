@@ -1,0 +1,99 @@
+//! What a step with forces aims for: an event, or a length.
+//!
+//! **Two events at once.** Where contacts open or close in the same instant, as those of two stops of one level on one mass do, the polynomials of a step that ends with one of them may find the other a moment
+//! earlier, and the other way round. Each is then located by the motion itself, and the earlier one is taken; the other follows at once or within the slack of the next step.
+//!
+//! So the polynomials are contradicted by a location, and may be so for two reasons alone. What they find lies so near the end of the step that location and rounding do not tell them apart. Or it lies
+//! before that, and the location that went out from there ended later: there is no zero, but a distance that comes near to it. A location that went out from elsewhere says nothing of an
+//! earlier zero, and is made anew from there, once for each such place, so that it comes to an end. And only the one event is excused: others are looked for in the whole of the step.
+
+use super::event::Event;
+
+/// Part of a step within which two ends are one.
+pub(super) const SAME: f64 = 1e-9;
+
+/// A step about to be tried.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Aim {
+    pub(super) length: f64,
+    pub(super) event: Option<Event>,
+    /// Length to fall back to if the event does not come [s].
+    pub(super) otherwise: f64,
+    /// The event that was located before: the polynomials of that step had this one come earlier.
+    rival: Option<Rival>,
+}
+
+/// An event that was located.
+#[derive(Debug, Clone, Copy)]
+struct Rival {
+    event: Event,
+    /// From where Newton's method went out [s].
+    sought: f64,
+    /// Where it ended [s].
+    located: f64,
+}
+
+impl Aim {
+    /// As far as the length, whatever comes.
+    pub(super) fn free(length: f64) -> Self {
+        Self { length, event: None, otherwise: 0.0, rival: None }
+    }
+
+    pub(super) fn to(event: Event, length: f64) -> Self {
+        Self { length, event: Some(event), otherwise: 0.5 * length, rival: None }
+    }
+
+    /// To an event, or as far as another length if it does not come.
+    pub(super) fn to_or(event: Event, length: f64, otherwise: f64) -> Self {
+        Self { otherwise, ..Self::to(event, length) }
+    }
+
+    /// Whether an event that the polynomials of a step find at `found`, before its own end, was located not to come before that; `undecided` is what location and rounding leave open of its time.
+    pub(super) fn was_later(self, event: Event, found: f64, (length, undecided): (f64, f64)) -> bool {
+        self.rival.is_some_and(|rival| {
+            let near = found >= length - undecided;
+            let went_out_from_there = (rival.sought - found).abs() <= 0.5 * (rival.located - found);
+            rival.event == event && rival.located >= length * (1.0 - SAME) && (near || went_out_from_there)
+        })
+    }
+
+    /// To an event that comes before `located`, with which the step ends at `length`.
+    pub(super) fn rather(self, event: Event, time: f64, located: Option<Event>, length: f64) -> Self {
+        let rival = located.map(|event| Rival { event, sought: self.length, located: length });
+        Self { rival, ..Self::to(event, time) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIFT: Event = Event::Lift(0);
+    const PART: Event = Event::Part(1);
+    const LENGTH: f64 = 1.0;
+
+    /// The aim for a part that was found as a step ended with a lift, located at `located` by a search that went out from `sought`.
+    fn after_a_lift((sought, located): (f64, f64)) -> Aim {
+        Aim::to(LIFT, sought).rather(PART, 0.8, Some(LIFT), located)
+    }
+
+    #[test]
+    fn an_event_at_the_end_of_the_step_is_excused_wherever_its_location_went_out_from() {
+        assert!(after_a_lift((0.3, LENGTH)).was_later(LIFT, LENGTH - 1e-8, (LENGTH, 1e-7)));
+        assert!(!after_a_lift((0.3, LENGTH)).was_later(PART, LENGTH - 1e-8, (LENGTH, 1e-7)));
+        assert!(!after_a_lift((0.3, 0.9)).was_later(LIFT, LENGTH - 1e-8, (LENGTH, 1e-7)));
+    }
+
+    #[test]
+    fn an_event_well_before_the_end_is_excused_only_if_its_location_went_out_from_there() {
+        assert!(!after_a_lift((1.1, LENGTH)).was_later(LIFT, 0.5, (LENGTH, 1e-7)));
+        assert!(!after_a_lift((0.1, LENGTH)).was_later(LIFT, 0.5, (LENGTH, 1e-7)));
+        assert!(after_a_lift((0.51, LENGTH)).was_later(LIFT, 0.5, (LENGTH, 1e-7)));
+    }
+
+    #[test]
+    fn what_was_not_located_excuses_nothing() {
+        assert!(!Aim::to(PART, 0.8).rather(PART, 0.8, None, LENGTH).was_later(LIFT, 1.0, (LENGTH, 1e-7)));
+        assert!(!Aim::free(LENGTH).was_later(LIFT, 1.0, (LENGTH, 1e-7)));
+    }
+}
