@@ -7,11 +7,21 @@
 //! - a contact has a minimum of its penetration below [`NEARLY_OPEN`] of its maximum;
 //! - a contact begins with less than [`HARDLY_STRIKES`] of the largest speed of an impact, and yet its force comes to more than [`PRESSES`] of the largest. (One that just grazes has
 //!   next to no force.)
+//!
+//! **How the branch gets there from the side where the contact has opened.** A contact that begins with a small v and is pressed on with the force P has `k p^1.5 (1 + C p'/v) = P`, inertia apart, so
+//! `p^2.5 = 5/2 P v t/(k C)` after the time t. The speed is that of a flight of the height h, `v = sqrt(2 a h)`. So p, and with it all that follows, goes like `h^(1/5)`: the map over a period has a part
+//! `u h^(1/5)`, and the periodic orbits obey `h = b (f - f*) + c h^(1/5)` near the border. There `h^(1/5)` is large beside h: **h goes like `(f - f*)^5`, and the largest multiplier like `h^(-4/5)`, which is
+//! `(f - f*)^-4`**. The branch ends at a finite frequency `f*` in an orbit that presses without penetration, with a multiplier that has no bound. It cannot be computed up to there: a state is rounded by
+//! `eps`, so its image is by `eps` times the multiplier, and where that is more than the tolerance of the shooting, steps shrink to nothing although `f*` is not reached. A walk whose last
+//! [`SHORT_STEPS`] steps were short is therefore asked whether a contact of its orbit splits, and ends if one does.
 
 use hammerbeam_motion::{
     Stretch,
     exact::{ContactPiece, ExactIntegrator, MotionError},
 };
+
+/// So many short steps in a row raise the question, and as many more raise it again: a fold is passed with a few, a splitting is approached with no other.
+pub(crate) const SHORT_STEPS: u64 = 50;
 
 /// Least penetration within a contact, over its largest.
 const NEARLY_OPEN: f64 = 1e-3;

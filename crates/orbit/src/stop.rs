@@ -109,6 +109,15 @@ impl BranchWalk {
         }
     }
 
+    /// If the last steps were short, and a contact of the present orbit splits: the way to the border is no longer resolved.
+    pub(crate) fn crawls_to_splitting(&mut self) -> Option<StopReason> {
+        let short = self.follower.counters().short_in_a_row;
+        if short == 0 || !short.is_multiple_of(splitting::SHORT_STEPS) {
+            return None;
+        }
+        self.splitting(self.follower.current().parameter())
+    }
+
     /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.
     fn splitting(&mut self, frequency_hz: f64) -> Option<StopReason> {
         if !self.problem.system().remembers_impacts() {

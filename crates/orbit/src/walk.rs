@@ -187,6 +187,9 @@ impl BranchWalk {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
         }
+        if let Some(splits) = self.crawls_to_splitting() {
+            return Ok(Some(splits));
+        }
         self.keep_to_scale();
         self.keep_phase_clear();
         let mut from = self.follower.current().clone();
@@ -286,6 +289,9 @@ impl BranchWalk {
     ) -> Result<Option<StopReason>, OrbitError> {
         if self.meets_shorter_period() {
             return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
+        }
+        if let Some(splits) = self.crawls_to_splitting() {
+            return Ok(Some(splits));
         }
         self.keep_to_scale();
         self.keep_phase_clear();

@@ -59,7 +59,7 @@ impl ExactIntegrator {
         let mut aim = self.first_aim(run, touched, remaining);
         for _ in 0..MAX_TRIES {
             // Half the way to a release may lie behind the end of the stretch.
-            aim.length = aim.length.min(remaining);
+            aim.length = self.up_to_hidden_turn(run, aim.length.min(remaining));
             if aim.length < 1e-16 * end || aim.length.is_nan() {
                 break;
             }
@@ -103,6 +103,36 @@ impl ExactIntegrator {
         let speed = clearance(start.jet).slope;
         let is_rounding = speed <= AT_REST * start.velocity;
         speed > 0.0 && (!is_rounding || clearance(self.jet_with_forces(run, element)).curvature > 0.0)
+    }
+
+    /// That length, or the time to the turn of a contact that is about to open, if a step of that length would hide it in front of its first node: there neither the opening nor the corner of the force's slope
+    /// `s` is seen, and the nodes continue what is behind the turn. Of the response over the length h that leaves out about `h G s t` for a turn at the time t, which may be as small as the tolerance.
+    fn up_to_hidden_turn(&self, run: &Run, length: f64) -> f64 {
+        let (smooth, mut shortest) = (Grading::Smooth, length);
+        let first_node = smooth.map(smooth.rule().s[0]).0 * length;
+        for (element, law) in self.laws.iter().enumerate() {
+            let Some(contact) = self.closed_contact(run, element) else { continue };
+            if clearance_of(run.start[element].jet, contact.level, contact.sign).slope <= 0.0 {
+                continue;
+            }
+            let jet = self.jet_with_forces(run, element);
+            let clearance = clearance_of(jet, contact.level, contact.sign);
+            let turn = -clearance.slope / clearance.curvature;
+            if !(turn > 0.0 && turn < first_node) {
+                continue;
+            }
+            let penetration = -(clearance.value + 0.5 * clearance.slope * turn);
+            // A half-integer power has its corner within the time in which the penetration doubles.
+            let half_integer = contact.onset_exponent.fract() != 0.0;
+            let width = if half_integer { first_node } else { 0.0 };
+            let is_corner = penetration < -0.5 * clearance.curvature * width * width;
+            let slope = law.pressing_force(jet.value, jet.slope).slope.abs();
+            let hidden = length * self.mobility[element][element] * slope * turn;
+            if is_corner && hidden > self.settings.tolerance {
+                shortest = shortest.min(turn);
+            }
+        }
+        shortest
     }
 
     /// Whether the pressure of a closed contact has vanished within rounding, and falls; or is missing, as after an impact elsewhere.

@@ -232,7 +232,8 @@ impl<'a, F: VectorField> March<'a, F> {
     }
 
     fn cross(&mut self, switch: usize, watcher: &mut impl Watcher<F>) {
-        let moment = (self.time, self.instant());
+        let instant = self.instant();
+        let moment = (self.time, instant, instant.max(self.finest));
         let before = self.region.inside.clone();
         let first_step = self.region.cross(self.field, &self.stepper, moment, switch);
         self.stepper.impact(self.field, self.time, (&mut self.region.inside, &before));

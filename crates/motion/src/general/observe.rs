@@ -49,7 +49,7 @@ pub struct Observed {
 }
 
 /// What the contacts of one element do.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementMaxima {
     /// Largest contact force [N].
     pub contact_force: f64,
@@ -59,6 +59,15 @@ pub struct ElementMaxima {
     pub impulse: f64,
     /// Deepest of the extrema of the penetration [m], zero if none is above the level; of impacts on a rigid stop as in [`Observed::extrema`].
     pub deepest: f64,
+    /// Least magnitude of the extrema of the penetration [m]: next to zero where a contact grazes; infinite without extrema.
+    pub nearest: f64,
+}
+
+impl Default for ElementMaxima {
+    /// Of an element that does nothing.
+    fn default() -> Self {
+        Self { contact_force: 0.0, impact_velocity: 0.0, impulse: 0.0, deepest: 0.0, nearest: f64::INFINITY }
+    }
 }
 
 impl ElementMaxima {
@@ -70,6 +79,7 @@ impl ElementMaxima {
             impact_velocity: self.impact_velocity.max(later.impact_velocity),
             impulse: self.impulse + later.impulse,
             deepest: self.deepest.max(later.deepest),
+            nearest: self.nearest.min(later.nearest),
         }
     }
 }
@@ -250,7 +260,9 @@ impl<'a> Observer<'a> {
     /// Notes an extremum of the penetration of an element.
     fn add_extremum(&mut self, element: usize, extremum: f64) {
         self.extrema.push(extremum);
-        self.of_elements[element].deepest = self.of_elements[element].deepest.max(extremum);
+        let of_element = &mut self.of_elements[element];
+        of_element.deepest = of_element.deepest.max(extremum);
+        of_element.nearest = of_element.nearest.min(extremum.abs());
     }
 
     fn add_touch(&mut self, element: usize, speed: f64) {

@@ -37,6 +37,8 @@ pub(super) struct Region {
     pub(super) inside: Vec<bool>,
     /// For each switching function whether its zero is the start of the step.
     fresh: Vec<bool>,
+    /// When a boundary was crossed last.
+    crossed_at: f64,
     first_steps: Vec<Option<f64>>,
     state: Vec<f64>,
     values: Vec<f64>,
@@ -49,6 +51,7 @@ impl Region {
         Self {
             inside: vec![false; switches],
             fresh: vec![false; switches],
+            crossed_at: f64::NEG_INFINITY,
             first_steps: vec![None; 2 * switches],
             state: vec![0.0; dimension],
             values: vec![0.0; switches],
@@ -92,22 +95,27 @@ impl Region {
     }
 
     /// Crosses the boundary, and all others that are reached within `moment` from now: stops that act together act at one
-    /// instant up to rounding.
+    /// instant up to rounding. Over a moment rounding may be more than a slow switching function changes, and would send it back through the boundary that it has just crossed, again and again;
+    /// so what it is a moment later follows from its rate, a difference over the longer `span`. Boundaries that are crossed one after the other at one time all stay the start of the next step.
     ///
     /// Returns a good length of the first step, if there was such a crossing before.
     pub(super) fn cross(
         &mut self,
         field: &impl VectorField,
         stepper: &Stepper,
-        (time, moment): (f64, f64),
+        (time, moment, span): (f64, f64, f64),
         switch: usize,
     ) -> Option<f64> {
-        let now = self.now_and_then(field, time, stepper, moment);
-        self.fresh.fill(false);
+        let now = self.now_and_then(field, time, stepper, span);
+        if time > self.crossed_at {
+            self.fresh.fill(false);
+        }
+        self.crossed_at = time;
         let mut first_step: Option<f64> = None;
         for other in 0..self.inside.len() {
             let sign = self.sign(other);
-            let meets = sign * self.values[other] < 0.0 && sign * self.values[other] < sign * now[other];
+            let change = sign * (self.values[other] - now[other]) * (moment / span);
+            let meets = change < 0.0 && sign * now[other] + change < 0.0;
             if other == switch || meets {
                 self.inside[other] = !self.inside[other];
                 self.fresh[other] = true;

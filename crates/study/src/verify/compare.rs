@@ -157,22 +157,25 @@ pub(super) fn compare(
     let margin = tolerance * found.gain * measures.contact[0];
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
-    // A force that begins with a jump makes the monodromy matrix jump where its contact grazes: there are two of them then.
-    // That of an impact on a rigid stop grows without bound towards grazing.
-    let may_jump = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
-    let jumps = system.elements().iter().any(|element| may_jump(&element.law));
+    let jump = nearest_jump(system, found);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
-    list.extend(of_multipliers.map(|found| Comparison { grazing: jumps && grazing > 0, ..found }));
+    list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
     list.extend(leading(row, solution));
     // Behind grazing on a rigid stop everything varies like the root of the distance from it.
-    let rigid = system.has_rigid_stops();
-    if grazing > 0 && rigid {
+    if grazing > 0 && system.has_rigid_stops() {
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
-    // There multipliers jump from far outside the unit circle to where they are beyond: no multiplier is at the place of such an event.
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
-    list.extend(events(row, found, &measures, (unknown, rigid)));
+    list.extend(events(row, found, &measures, (unknown, jump)));
     list
+}
+
+/// Least distance from grazing [m] of the contacts at whose grazing the monodromy matrix jumps: those whose force begins with a jump, and impacts on rigid stops.
+fn nearest_jump(system: &System, found: &Recomputed) -> f64 {
+    let jumps = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
+    let elements = system.elements().iter().zip(&found.of_elements);
+    let nearest = elements.filter(|(element, _)| jumps(&element.law)).map(|(_, maxima)| maxima.nearest);
+    nearest.fold(f64::INFINITY, f64::min)
 }
 
 fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> Comparison {
@@ -247,12 +250,13 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
 
 /// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a penetration at zero.
 ///
-/// * `(unknown, rigid)`: how well multipliers are known, for one of condition one, and whether there are rigid stops, at whose grazing they jump.
+/// * `(unknown, jump)`: how well multipliers are known, for one of condition one, and how near a contact is to a grazing at which they jump: from one side of the place of such an event to the other, so that
+///   none need be there.
 fn events(
     row: &Row,
     found: &Recomputed,
     measures: &Measures,
-    (unknown, rigid): (f64, bool),
+    (unknown, jump): (f64, f64),
 ) -> Vec<Comparison> {
     let nearest = |distance: &dyn Fn(faer::c64) -> f64| {
         let distances = found
@@ -262,7 +266,8 @@ fn events(
         distances.fold(f64::INFINITY, f64::min)
     };
     let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
-    let jumps = rigid && touch <= EVENT * measures.contact[0];
+    let at_place = row.events.grazing || measures.rigid.iter().any(Option::is_some);
+    let jumps = at_place && jump <= EVENT * measures.contact[0];
     let mut list = Vec::new();
     let mut claim = |claimed: bool, distance: f64| {
         if claimed {

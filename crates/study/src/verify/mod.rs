@@ -28,7 +28,8 @@
 //! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
-//! Where a contact grazes whose force begins with a jump (a stop with a damper), the monodromy matrix itself jumps: multipliers may differ there.
+//! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b that a unit
+//! impulse gives: multipliers may differ there, and a fold or flip on the row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops.
 //!
 //! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for: the time of the largest acceleration is read off a polynomial.
 //!
