@@ -1,7 +1,7 @@
 //! Why a walk ended, in terms of orbits.
 
 use crate::{
-    BranchWalk,
+    BranchWalk, OrbitError,
     solve::evaluate,
     splitting::{self, Splitting},
 };
@@ -74,6 +74,14 @@ pub enum StopReason {
     },
 }
 
+/// Where an orbit begins.
+pub(crate) struct Begun {
+    /// Phase of the excitation [cycles].
+    phase: f64,
+    state: Vec<f64>,
+    frequency_hz: f64,
+}
+
 impl BranchWalk {
     /// The reason, in terms of orbits.
     pub(crate) fn stop_reason(&mut self, reason: hammerbeam_path::StopReason) -> StopReason {
@@ -118,17 +126,51 @@ impl BranchWalk {
         self.splitting(self.follower.current().parameter())
     }
 
+    /// If a step has passed a splitting: the number of contacts has changed since the last row, and a contact splits in the orbit `before` the step or in the present one, at which the problem was evaluated last.
+    ///
+    /// Beside a splitting two sheets of orbits lie close to one another, and a corrector may fall from one onto the other, in a step or where the orbit is cut anew. That is no way on.
+    pub(crate) fn passes_splitting(&mut self, before: Begun) -> Result<Option<StopReason>, OrbitError> {
+        if self.touches == self.problem.touches() {
+            return Ok(None);
+        }
+        let frequency_hz = before.frequency_hz;
+        let current = self.follower.current().point.clone();
+        let splits = self.splitting_of(before).or_else(|| {
+            let present = self.begun()?;
+            self.splitting_of(present)
+        });
+        evaluate(&mut self.problem, &current)?;
+        Ok(splits.map(|Splitting { element, phase }| StopReason::ContactSplits {
+            frequency_hz,
+            element,
+            phase,
+        }))
+    }
+
     /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.
     fn splitting(&mut self, frequency_hz: f64) -> Option<StopReason> {
-        if !self.problem.system().remembers_impacts() {
-            return None;
-        }
-        let point = self.follower.current().point.clone();
-        self.problem.move_to(&point).ok()?;
-        let begin = (self.problem.phase(), self.problem.nodes(&point).swap_remove(0));
-        let span = (self.problem.frequency(&point), f64::from(self.problem.period_multiple()));
-        let Splitting { element, phase } = splitting::find(self.problem.integrator(), begin, span).ok()??;
+        let present = self.may_split()?;
+        let Splitting { element, phase } = self.splitting_of(present)?;
         Some(StopReason::ContactSplits { frequency_hz, element, phase })
+    }
+
+    /// Where the present orbit begins, if a contact of it may split.
+    pub(crate) fn may_split(&mut self) -> Option<Begun> {
+        if self.problem.system().remembers_impacts() { self.begun() } else { None }
+    }
+
+    /// Where the present orbit begins; `None` if its motion cannot be computed.
+    fn begun(&mut self) -> Option<Begun> {
+        let point = &self.follower.current().point;
+        self.problem.move_to(point).ok()?;
+        let state = self.problem.nodes(point).swap_remove(0);
+        Some(Begun { phase: self.problem.phase(), state, frequency_hz: self.problem.frequency(point) })
+    }
+
+    /// Where a contact of an orbit splits.
+    fn splitting_of(&mut self, orbit: Begun) -> Option<Splitting> {
+        let span = (orbit.frequency_hz, f64::from(self.problem.period_multiple()));
+        splitting::find(self.problem.integrator(), (orbit.phase, orbit.state), span).ok()?
     }
 
     /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.

@@ -190,10 +190,18 @@ impl BranchWalk {
         if let Some(splits) = self.crawls_to_splitting() {
             return Ok(Some(splits));
         }
+        let before = self.may_split();
         self.keep_to_scale();
         self.keep_phase_clear();
         let mut from = self.follower.current().clone();
-        match self.advance(&mut from)? {
+        let stopped = self.advance(&mut from)?;
+        if stopped.is_none()
+            && let Some(before) = before
+            && let Some(splits) = self.passes_splitting(before)?
+        {
+            return Ok(Some(splits));
+        }
+        match stopped {
             None => match self.row() {
                 Ok(row) => {
                     self.journal.push(self.follower.in_first_units(self.follower.current()));
@@ -293,10 +301,21 @@ impl BranchWalk {
         if let Some(splits) = self.crawls_to_splitting() {
             return Ok(Some(splits));
         }
+        let before = self.may_split();
         self.keep_to_scale();
         self.keep_phase_clear();
         let mut from = self.follower.current().clone();
-        match self.advance(&mut from)? {
+        let stopped = self.advance(&mut from)?;
+        if stopped.is_none() {
+            if let Some(before) = before
+                && let Some(splits) = self.passes_splitting(before)?
+            {
+                return Ok(Some(splits));
+            }
+            self.touches.clear();
+            self.touches.extend_from_slice(self.problem.touches());
+        }
+        match stopped {
             None => {
                 let current = self.follower.current();
                 let nodes = self.problem.nodes(&current.point);

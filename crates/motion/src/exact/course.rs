@@ -16,8 +16,8 @@ type Span = (usize, usize);
 /// Something that happened.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Passage {
-    /// A flight, from a homogeneous block state; with elements held on rigid stops, and the impulses that they got.
-    Flight { start: f64, duration: f64, state: Span, held: Span, impulses: Span },
+    /// A flight, from a homogeneous block state; with the elements that are closed, those held on rigid stops, and the impulses that these got.
+    Flight { start: f64, duration: f64, state: Span, closed: u64, held: Span, impulses: Span },
     /// A contact closed with this relative velocity [m/s].
     Touch { speed: f64 },
     /// It was an impact on the rigid stop of this element, with that impulse [N s], which took that energy [J], and after which the contact stuck or not.
@@ -114,15 +114,11 @@ impl Course {
         self.stretches.push(CourseStretch { stretch: *stretch, given, closed, first_passage });
     }
 
-    pub fn flight(
-        &mut self,
-        (start, duration): (f64, f64),
-        state: &[f64],
-        (held, impulses): (&[usize], &[f64]),
-    ) {
+    /// A flight of some duration, with `run` at its start but for the state, which is given.
+    pub fn flight(&mut self, run: &Run, duration: f64, state: &[f64], impulses: &[f64]) {
         let (state, impulses) = (self.keep(state), self.keep(impulses));
-        let held = self.keep_held(held);
-        self.passages.push(Passage::Flight { start, duration, state, held, impulses });
+        let (closed, held) = (closed_bits(run), self.keep_held(&run.stuck));
+        self.passages.push(Passage::Flight { start: run.time, duration, state, closed, held, impulses });
     }
 
     fn keep_held(&mut self, held: &[usize]) -> Span {

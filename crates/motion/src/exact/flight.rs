@@ -66,7 +66,7 @@ impl ExactIntegrator {
         }
         if self.notes_course {
             let impulses = self.held_impulses(&self.flight_start, run.time, time);
-            self.course.flight((run.time, time), &self.flight_start, (&run.stuck, &impulses));
+            self.course.flight(run, time, &self.flight_start, &impulses);
         }
         self.trace_flight(run, time);
         run.time = if touch.is_none() { end } else { run.time + time };

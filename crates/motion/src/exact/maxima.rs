@@ -31,7 +31,7 @@ pub struct Maxima {
     pub energy_lost: f64,
     /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did.
     pub touches: u32,
-    /// Elements that were closed all the time, one bit each (the first 64).
+    /// Elements that were closed all the time, with or without pressure, one bit each (the first 64).
     pub closed_throughout: u64,
 }
 
@@ -145,9 +145,9 @@ impl ExactIntegrator {
         maxima.closed_throughout &= course.stretches[piece].closed;
         for passage in course.of_stretch(piece) {
             match *passage {
-                Passage::Flight { start, duration, state, held, impulses } => {
+                Passage::Flight { start, duration, state, closed, held, impulses } => {
                     let (state, held) = (course.numbers(state), course.held(held));
-                    maxima.closed_throughout &= bits(held.iter().copied());
+                    maxima.closed_throughout &= closed;
                     maxima.impulse += course.numbers(impulses).iter().sum::<f64>();
                     observation.flights.push(Flown { piece, start, duration, state, held });
                 }
@@ -210,10 +210,11 @@ impl ExactIntegrator {
     }
 }
 
-/// Closed elements, one bit each.
+/// Elements that are closed, one bit each: penetrated, whether or not the contact presses, or held.
 pub(crate) fn closed_bits(run: &Run) -> u64 {
-    let closed = run.closed.iter().enumerate().filter(|(_, contact)| contact.is_some());
-    bits(closed.map(|(element, _)| element)) | bits(run.stuck.iter().copied())
+    let contacts = run.closed.iter().zip(&run.parted).enumerate();
+    let penetrated = contacts.filter(|(_, (closed, parted))| closed.is_some() || parted.is_some());
+    bits(penetrated.map(|(element, _)| element)) | bits(run.stuck.iter().copied())
 }
 
 /// One bit each of the first 64 elements.

@@ -41,6 +41,7 @@ mod contact_phase;
 mod course;
 mod damped_step;
 mod decouple;
+mod defect;
 mod drive;
 mod drive_bounds;
 mod drive_values;
@@ -340,7 +341,7 @@ impl ExactIntegrator {
         self.directions_lost
     }
 
-    /// Elements that were closed all through the last stretch, one bit each (the first 64).
+    /// Elements that were closed all through the last stretch, with or without pressure, one bit each (the first 64).
     #[must_use]
     pub fn closed_throughout(&self) -> u64 {
         self.closed_throughout

@@ -222,7 +222,7 @@ impl ExactIntegrator {
         let (output, state) = (peak.output, course.numbers(peak.step.state));
         let time = self.recall_peak(course, peak);
         largest_near(time, peak.step.length, |time| {
-            let jet = self.jet_in_step(state, output, time);
+            let jet = self.refined_jet(state, output, time);
             self.laws[output].pressing_force(jet.value, jet.slope).value.abs()
         })
     }
@@ -238,9 +238,14 @@ impl ExactIntegrator {
             let place = grading.inverse(time / length);
             for (a, &element) in self.step.active.iter().enumerate() {
                 let polynomial = self.step.interpolate(&self.step.force, a, place);
-                let jet = self.jet_in_step(state, element, time);
+                let law = &self.laws[element];
+                let jet = if law.depends_on_velocity() {
+                    self.refined_jet(state, element, time)
+                } else {
+                    self.jet_in_step(state, element, time)
+                };
                 exact += self.mobility[response][element]
-                    * (self.laws[element].pressing_force(jet.value, jet.slope).value - polynomial);
+                    * (law.pressing_force(jet.value, jet.slope).value - polynomial);
             }
             exact.abs()
         })

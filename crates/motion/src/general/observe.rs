@@ -39,7 +39,7 @@ pub struct Observed {
     pub touches: u32,
     /// Impacts on the rigid stop of each element, and after how many of them it stuck; empty without rigid stops.
     pub impacts: Vec<[u32; 2]>,
-    /// Elements with a contact that was closed all the time, one bit each (the first 64).
+    /// Elements with a contact that was closed all the time, with or without pressure, one bit each (the first 64).
     pub closed_throughout: u64,
     /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero. An impact on a rigid stop gives
     /// `v^2/(2 |r''|)`, to which the motion would have gone.
@@ -190,7 +190,7 @@ struct Observer<'a> {
     support_ratio: f64,
     contacts: Vec<Watched>,
     inside: Vec<bool>,
-    /// Which contacts pressed all the time.
+    /// Which contacts were closed all the time.
     closed: Vec<bool>,
     maxima: Maxima,
     extrema: Vec<f64>,
@@ -293,7 +293,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
     fn begin(&mut self, field: &mut SystemField<'f>, start: Place<'_>) {
         self.inside.copy_from_slice(start.inside);
         let closed = self.closed.iter_mut().zip(&self.contacts);
-        closed.for_each(|(closed, watched)| *closed = watched.presses(start.inside));
+        closed.for_each(|(closed, watched)| *closed = start.inside[watched.penetration]);
         self.take(field, start);
     }
 
@@ -342,7 +342,7 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
                 self.maxima.touches += 1;
                 self.add_touch(element, velocity.abs());
             }
-            self.closed[place] &= self.contacts[place].presses(at.inside);
+            self.closed[place] &= at.inside[self.contacts[place].penetration];
         }
         // A force that sets in with a jump may be largest at once.
         if !impacts.is_empty()
