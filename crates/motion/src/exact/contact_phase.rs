@@ -105,36 +105,6 @@ impl ExactIntegrator {
         speed > 0.0 && (!is_rounding || clearance(self.jet_with_forces(run, element)).curvature > 0.0)
     }
 
-    /// That length, or the time to the turn of a contact that is about to open, if a step of that length would hide it in front of its first node: there neither the opening nor the corner of the force's slope
-    /// `s` is seen, and the nodes continue what is behind the turn. Of the response over the length h that leaves out about `h G s t` for a turn at the time t, which may be as small as the tolerance.
-    fn up_to_hidden_turn(&self, run: &Run, length: f64) -> f64 {
-        let (smooth, mut shortest) = (Grading::Smooth, length);
-        let first_node = smooth.map(smooth.rule().s[0]).0 * length;
-        for (element, law) in self.laws.iter().enumerate() {
-            let Some(contact) = self.closed_contact(run, element) else { continue };
-            if clearance_of(run.start[element].jet, contact.level, contact.sign).slope <= 0.0 {
-                continue;
-            }
-            let jet = self.jet_with_forces(run, element);
-            let clearance = clearance_of(jet, contact.level, contact.sign);
-            let turn = -clearance.slope / clearance.curvature;
-            if !(turn > 0.0 && turn < first_node) {
-                continue;
-            }
-            let penetration = -(clearance.value + 0.5 * clearance.slope * turn);
-            // A half-integer power has its corner within the time in which the penetration doubles.
-            let half_integer = contact.onset_exponent.fract() != 0.0;
-            let width = if half_integer { first_node } else { 0.0 };
-            let is_corner = penetration < -0.5 * clearance.curvature * width * width;
-            let slope = law.pressing_force(jet.value, jet.slope).slope.abs();
-            let hidden = length * self.mobility[element][element] * slope * turn;
-            if is_corner && hidden > self.settings.tolerance {
-                shortest = shortest.min(turn);
-            }
-        }
-        shortest
-    }
-
     /// Whether the pressure of a closed contact has vanished within rounding, and falls; or is missing, as after an impact elsewhere.
     fn has_parted(&self, run: &Run, element: usize) -> bool {
         let Some(contact) = run.closed[element] else { return false };
@@ -255,6 +225,11 @@ impl ExactIntegrator {
                 return Tried::ClosesNow(touch);
             }
             return Tried::Again(aim.rather(earlier, time, event, length));
+        }
+        if event.is_none()
+            && let Some(shorter) = self.hidden_turn_at_end(run)
+        {
+            return free(shorter);
         }
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
         if error > 1.0 {

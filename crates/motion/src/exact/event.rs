@@ -225,7 +225,7 @@ impl ExactIntegrator {
     }
 
     /// The same with that.
-    fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
+    pub(super) fn jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
         let mut found = self.free_jet_at_step_end(run, output);
         let own = found;
         for &other in &self.step.active {

@@ -55,6 +55,7 @@ mod force_bound;
 mod force_step;
 mod forecast;
 mod held;
+mod hidden_turn;
 mod hold;
 mod impact;
 mod lanes;
