@@ -85,13 +85,122 @@ fn a_branch_ends_before_the_border_at_which_its_contact_splits_in_some_hundred_s
 }
 
 /// Where the contact of a preloaded sphere begins to open, a step may begin just before the place at which it turns: neither the opening nor the corner of the stiffness, `sqrt(p)`, may get lost in front of
-/// the first node of that step. (At the usual 1e-9 one row still disagrees by 1.1e-9.)
+/// the first node of that step, nor behind the last one of the step before.
 #[test]
 fn multipliers_agree_where_a_preloaded_contact_begins_to_open() {
     let stop = "law = \"hertz\"\nstiffness_n_m15 = 20.0\npreload_n = 0.2";
     let workshop = two_masses("[0.137, 0.138]", "1e-5", stop);
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     assert!(workshop.csv("results").contains("grazing"), "the contact does not begin to open");
-    let found = workshop.hammerbeam(&["verify", "results", "--all", "--tolerance", "1e-8"]);
+    let found = workshop.hammerbeam(&["verify", "results", "--all"]);
     assert_eq!(found.status.code(), Some(0), "{}", stdout(&found));
+}
+
+/// One mass beside stops, driven.
+fn one_mass(spring: &str, drive: &str, stops: &str, max_step: &str) -> Workshop {
+    Workshop::with(&format!(
+        r#"
+        [structure]
+        kind = "lumped"
+        mass = [{{ name = "m", mass_kg = 1.0 }}]
+        spring = [{{ between = ["m", "ground"], stiffness_n_m = {spring} }}]
+        [damping]
+        modal_ratio = 0.05
+        [excitation]
+        kind = "force"
+        at = "m"
+        {drive}
+        [search]
+        frequencies = 4
+        starts = 2
+        trials = 0
+        unstable_starts = false
+        [continuation]
+        max_step_hz = {max_step}
+        {stops}
+        "#
+    ))
+}
+
+/// Beside the border two sheets of orbits lie close to one another, with one contact and with two: the walks on both end there, and none falls onto the other, which looked like a flip.
+#[test]
+fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
+    let study = r#"
+        [structure]
+        kind = "lumped"
+        mass = [{ name = "m0", mass_kg = 1.0 }, { name = "m1", mass_kg = 1.637 }]
+        spring = [
+            { between = ["m0", "ground"], stiffness_n_m = 7785.1 },
+            { between = ["m1", "m0"], stiffness_n_m = 5551.5 },
+        ]
+        [damping]
+        modal_ratio = 0.2
+        [excitation]
+        kind = "force"
+        at = "m1"
+        amplitude_n = 5.001
+        frequency_hz = [3.3, 3.6]
+        [[stop]]
+        name = "s"
+        at = "m1"
+        side = "above"
+        law = "hunt-crossley"
+        restitution = 0.5
+        stiffness_n_m15 = 1.6738e6
+        gap_m = 0.00079885
+        [search]
+        frequencies = 4
+        starts = 2
+        trials = 0
+        unstable_starts = false
+        [continuation]
+        max_step_hz = 0.01
+        "#;
+    let workshop = Workshop::with(study);
+    let output = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
+    assert_success(&output);
+    let text = stdout(&output);
+    assert_eq!(text.matches("s opens and is pressed on again at once").count(), 2, "{text}");
+    let found = workshop.hammerbeam(&["verify", "results", "--all"]);
+    assert_success(&found);
+    // On no sheet does the number of contacts change.
+    let table = workshop.csv("results");
+    let column = |title: &str| table.lines().next().unwrap().split(',').position(|t| t == title).unwrap();
+    let (branch, contacts) = (column("branch"), column("contacts"));
+    let mut sheets: Vec<(String, String)> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>())
+        .map(|row| (row[branch].clone(), row[contacts].clone()))
+        .collect();
+    sheets.sort();
+    sheets.dedup();
+    let contacts: Vec<&str> = sheets.iter().map(|(_, contacts)| contacts.as_str()).collect();
+    assert!(contacts == ["1", "2"] || contacts == ["2", "1"], "{sheets:?}");
+}
+
+/// A stop that takes almost all that an impact has stops pressing before it opens, and is pressed on again: it is closed throughout, and nothing grazes where that begins.
+#[test]
+fn a_contact_that_presses_no_more_for_a_while_is_closed_all_the_time() {
+    let stop = "[[stop]]\nname = \"s\"\nat = \"m\"\nside = \"above\"\nlaw = \"hunt-crossley\"\npreload_n = 3.7033\nstiffness_n_m15 = 3.9506e5\nloss_s_m = 54.22";
+    let drive = "amplitude_n = 1.472\nfrequency_hz = [10.0, 24.0]";
+    let workshop = one_mass("5564.1", drive, stop, "0.1");
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let table = workshop.csv("results");
+    let place = table.lines().next().unwrap().split(',').position(|title| title == "contacts").unwrap();
+    assert!(table.lines().skip(1).all(|line| line.split(',').nth(place) == Some("1")), "{table}");
+    assert!(!table.contains("grazing"));
+    assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
+}
+
+/// A contact whose law begins at the level of a rigid stop has the force that rounding of the level gives it, or none.
+#[test]
+fn a_force_that_rounding_makes_is_none() {
+    let stop = |law: &str| {
+        format!("[[stop]]\nat = \"m\"\nside = \"below\"\ngap_m = 0.0\nrestitution = 0.3\n{law}\n")
+    };
+    let stops = stop("law = \"flores\"\nstiffness_n_m15 = 2.1688e7") + &stop("law = \"rigid\"");
+    let workshop = one_mass("3298.1", "amplitude_n = 6.139\nfrequency_hz = [9.0, 9.6]", &stops, "0.01");
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
 }

@@ -153,8 +153,8 @@ pub(super) fn compare(
 ) -> Vec<Comparison> {
     let measures = Measures::of((system, response), scales, solution.frequency_hz, found);
     let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
-    maxima(row, found, &measures, &mut list);
     let margin = tolerance * found.gain * measures.contact[0];
+    maxima(row, found, (&measures, force_at(system, margin)), &mut list);
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
     let jump = nearest_jump(system, found);
@@ -182,7 +182,29 @@ fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> C
     Comparison { quantity, stored, recomputed, difference, grazing: false }
 }
 
-fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Comparison>) {
+/// The largest force of a contact whose penetration is so deep [N].
+fn force_at(system: &System, depth: f64) -> f64 {
+    let of_element = |element: &LocalElement| {
+        let contacts = element.law.contacts().iter();
+        let forces =
+            contacts.map(|contact| element.law.force(contact.level + contact.sign * depth, 0.0).value.abs());
+        forces.fold(0.0, f64::max)
+    };
+    system
+        .elements()
+        .iter()
+        .filter(|element| element.law.rigid().is_none())
+        .map(of_element)
+        .fold(0.0, f64::max)
+}
+
+/// * `least_force`: that of a penetration which is not known from none [N].
+fn maxima(
+    row: &Row,
+    found: &Recomputed,
+    (measures, least_force): (&Measures, f64),
+    list: &mut Vec<Comparison>,
+) {
     let (stored, new) = (&row.maxima, &found.maxima);
     let pressed = measures.factor_of_largest(found, |element| element.contact_force);
     // Where nothing presses, what jumps at an impact has made the motion.
@@ -201,7 +223,9 @@ fn maxima(row: &Row, found: &Recomputed, measures: &Measures, list: &mut Vec<Com
     );
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
-    push(Quantity::ContactForce, stored.contact_force, new.contact_force, factor * new.contact_force);
+    let is_none = stored.contact_force.max(new.contact_force) <= least_force;
+    let recomputed = if is_none { stored.contact_force } else { new.contact_force };
+    push(Quantity::ContactForce, stored.contact_force, recomputed, factor * new.contact_force);
     let touch = if new.impact_velocity > 0.0 { measures.touch_factor(new.impact_velocity) } else { 1.0 };
     push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, touch * new.impact_velocity);
     push(Quantity::Impulse, stored.impulse, new.impulse, measures.impulse(found));
