@@ -1,5 +1,7 @@
 //! Why a walk ended, in terms of orbits.
 
+use hammerbeam_path::ContinuationPoint;
+
 use crate::{
     BranchWalk, OrbitError,
     solve::evaluate,
@@ -74,12 +76,13 @@ pub enum StopReason {
     },
 }
 
-/// Where an orbit begins.
-pub(crate) struct Begun {
+/// A point of a walk and the phase at which its orbit begins.
+pub(crate) struct Place {
     /// Phase of the excitation [cycles].
     phase: f64,
+    /// First node of the orbit.
     state: Vec<f64>,
-    frequency_hz: f64,
+    point: ContinuationPoint,
 }
 
 impl BranchWalk {
@@ -126,20 +129,21 @@ impl BranchWalk {
         self.splitting(self.follower.current().parameter())
     }
 
-    /// If a step has passed a splitting: the number of contacts has changed since the last row, and a contact splits in the orbit `before` the step or in the present one, at which the problem was evaluated last.
+    /// If a step has passed a splitting: the number of contacts of an element has changed since the last row, and a contact of it splits in the orbit `before` the step or in the present one, at which the
+    /// problem was evaluated last.
     ///
     /// Beside a splitting two sheets of orbits lie close to one another, and a corrector may fall from one onto the other, in a step or where the orbit is cut anew. That is no way on.
-    pub(crate) fn passes_splitting(&mut self, before: Begun) -> Result<Option<StopReason>, OrbitError> {
-        if self.touches == self.problem.touches() {
+    pub(crate) fn passes_splitting(&mut self, before: &Place) -> Result<Option<StopReason>, OrbitError> {
+        let changed = self.elements_with_other_touches();
+        if changed.is_empty() {
             return Ok(None);
         }
-        let frequency_hz = before.frequency_hz;
-        let current = self.follower.current().point.clone();
-        let splits = self.splitting_of(before).or_else(|| {
-            let present = self.begun()?;
-            self.splitting_of(present)
-        });
-        evaluate(&mut self.problem, &current)?;
+        let current = self.place();
+        let among = |found: Splitting| Some(found).filter(|found| changed.contains(&found.element));
+        let splits = self.splitting_of(before).and_then(among);
+        let splits = splits.or_else(|| self.splitting_of(&current).and_then(among));
+        evaluate(&mut self.problem, &current.point.point)?;
+        let frequency_hz = before.point.parameter();
         Ok(splits.map(|Splitting { element, phase }| StopReason::ContactSplits {
             frequency_hz,
             element,
@@ -147,30 +151,40 @@ impl BranchWalk {
         }))
     }
 
+    /// Names of the elements whose laws remember impacts and whose touches are not as many as in the last row.
+    fn elements_with_other_touches(&self) -> Vec<String> {
+        let elements = self.problem.system().elements().iter();
+        let touches = self.touches.iter().zip(self.problem.touches());
+        let changed = elements
+            .zip(touches)
+            .filter(|(element, (row, now))| element.law.remembers_impact() && row != now);
+        changed.map(|(element, _)| element.name.clone()).collect()
+    }
+
     /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.
     fn splitting(&mut self, frequency_hz: f64) -> Option<StopReason> {
         let present = self.may_split()?;
-        let Splitting { element, phase } = self.splitting_of(present)?;
+        let Splitting { element, phase } = self.splitting_of(&present)?;
         Some(StopReason::ContactSplits { frequency_hz, element, phase })
     }
 
     /// Where the present orbit begins, if a contact of it may split.
-    pub(crate) fn may_split(&mut self) -> Option<Begun> {
-        if self.problem.system().remembers_impacts() { self.begun() } else { None }
+    pub(crate) fn may_split(&self) -> Option<Place> {
+        self.problem.system().remembers_impacts().then(|| self.place())
     }
 
-    /// Where the present orbit begins; `None` if its motion cannot be computed.
-    fn begun(&mut self) -> Option<Begun> {
-        let point = &self.follower.current().point;
-        self.problem.move_to(point).ok()?;
-        let state = self.problem.nodes(point).swap_remove(0);
-        Some(Begun { phase: self.problem.phase(), state, frequency_hz: self.problem.frequency(point) })
+    fn place(&self) -> Place {
+        let point = self.follower.current().clone();
+        Place { phase: self.problem.phase(), state: self.problem.nodes(&point.point).swap_remove(0), point }
     }
 
     /// Where a contact of an orbit splits.
-    fn splitting_of(&mut self, orbit: Begun) -> Option<Splitting> {
-        let span = (orbit.frequency_hz, f64::from(self.problem.period_multiple()));
-        splitting::find(self.problem.integrator(), (orbit.phase, orbit.state), span).ok()?
+    fn splitting_of(&mut self, orbit: &Place) -> Option<Splitting> {
+        let point = &orbit.point.point;
+        self.problem.move_to(point).ok()?;
+        let begin = (orbit.phase, orbit.state.clone());
+        let span = (self.problem.frequency(point), f64::from(self.problem.period_multiple()));
+        splitting::find(self.problem.integrator(), begin, span).ok()?
     }
 
     /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.

@@ -196,7 +196,7 @@ impl BranchWalk {
         let mut from = self.follower.current().clone();
         let stopped = self.advance(&mut from)?;
         if stopped.is_none()
-            && let Some(before) = before
+            && let Some(before) = &before
             && let Some(splits) = self.passes_splitting(before)?
         {
             return Ok(Some(splits));
@@ -307,7 +307,7 @@ impl BranchWalk {
         let mut from = self.follower.current().clone();
         let stopped = self.advance(&mut from)?;
         if stopped.is_none() {
-            if let Some(before) = before
+            if let Some(before) = &before
                 && let Some(splits) = self.passes_splitting(before)?
             {
                 return Ok(Some(splits));

@@ -7,8 +7,9 @@ use super::{
 
 /// Parabolas by which the largest value of a polynomial is closed in.
 const PARABOLAS: usize = 6;
-/// Of places where it is as large up to this part, the table of a polynomial does not tell which is the largest: between two of its entries the value is higher by less.
-const UNDECIDED: f64 = 5e-2;
+/// Of places where it is as large up to this part, the table of a polynomial does not tell which is the largest: between two of its entries the value is higher by at most 15 %, where all of eleven zeros
+/// lie within the step.
+const UNDECIDED: f64 = 0.2;
 
 impl Rule {
     /// Largest magnitude of a polynomial given at the nodes, and where in the variable of the step.

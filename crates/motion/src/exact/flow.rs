@@ -152,10 +152,10 @@ impl ExactIntegrator {
         let mut standstill = Standstill::new(run);
         while run.time < end {
             further -= 1;
-            if self.counts.steps > most {
+            if self.counts.steps > most || further == 0 {
                 return Err(MotionError::TooManySteps { time: run.time, steps });
             }
-            if standstill.lasts(run, end) || further == 0 {
+            if standstill.lasts(run, end) {
                 let elements = self.names(&standstill.changing(run));
                 return Err(MotionError::StandsStill { time: run.time, elements });
             }

@@ -12,8 +12,7 @@ use crate::store::Row;
 
 /// How far a multiplier may be from where an event puts it: events are located to a part of the step, and multipliers change fast there.
 const EVENT: f64 = 1e-5;
-/// Accuracy of the stored maxima beside that of the motion. The time of the largest acceleration is taken from the polynomial of a force step: it is
-/// less accurate.
+/// Accuracy of the stored maxima beside that of the motion.
 const FORCE: f64 = 1e-9;
 const DISPLACEMENT: f64 = 1e-9;
 const ACCELERATION: f64 = 1e-7;
@@ -154,10 +153,11 @@ pub(super) fn compare(
     let measures = Measures::of((system, response), scales, solution.frequency_hz, found);
     let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
     let margin = tolerance * found.gain * measures.contact[0];
-    maxima(row, found, (&measures, force_at(system, margin)), &mut list);
+    maxima(row, found, (&measures, force_at(system, found, margin)), &mut list);
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
-    let jump = nearest_jump(system, found);
+    let jumps = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
+    let jump = nearest(system, found, jumps);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
     list.extend(leading(row, solution));
@@ -166,15 +166,18 @@ pub(super) fn compare(
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
-    list.extend(events(row, found, &measures, (unknown, jump)));
+    let rigid = nearest(system, found, |law| law.rigid().is_some());
+    let damped = nearest(system, found, |law| law.onset_damping() > 0.0);
+    // Beside a rigid stop multipliers are far outside the unit circle; at a damper they jump on the row of the grazing.
+    let at_jump = rigid.min(if row.events.grazing { damped } else { f64::INFINITY });
+    list.extend(events(row, found, &measures, (unknown, at_jump)));
     list
 }
 
-/// Least distance from grazing [m] of the contacts at whose grazing the monodromy matrix jumps: those whose force begins with a jump, and impacts on rigid stops.
-fn nearest_jump(system: &System, found: &Recomputed) -> f64 {
-    let jumps = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
+/// Least distance from grazing [m] of the contacts of some laws.
+fn nearest(system: &System, found: &Recomputed, of: impl Fn(&Law) -> bool) -> f64 {
     let elements = system.elements().iter().zip(&found.of_elements);
-    let nearest = elements.filter(|(element, _)| jumps(&element.law)).map(|(_, maxima)| maxima.nearest);
+    let nearest = elements.filter(|(element, _)| of(&element.law)).map(|(_, maxima)| maxima.nearest);
     nearest.fold(f64::INFINITY, f64::min)
 }
 
@@ -182,14 +185,17 @@ fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> C
     Comparison { quantity, stored, recomputed, difference, grazing: false }
 }
 
-/// The largest force of a contact whose penetration is so deep [N].
-fn force_at(system: &System, depth: f64) -> f64 {
+/// The largest force at a penetration of that depth, of the elements that come no deeper [N].
+fn force_at(system: &System, found: &Recomputed, depth: f64) -> f64 {
     let of_element = |element: &LocalElement| {
         let contacts = element.law.contacts().iter();
         let forces =
             contacts.map(|contact| element.law.force(contact.level + contact.sign * depth, 0.0).value.abs());
         forces.fold(0.0, f64::max)
     };
+    if found.of_elements.iter().any(|element| element.deepest > depth && element.contact_force > 0.0) {
+        return 0.0;
+    }
     system
         .elements()
         .iter()
@@ -224,8 +230,8 @@ fn maxima(
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
     push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
     let is_none = stored.contact_force.max(new.contact_force) <= least_force;
-    let recomputed = if is_none { stored.contact_force } else { new.contact_force };
-    push(Quantity::ContactForce, stored.contact_force, recomputed, factor * new.contact_force);
+    let measure = if is_none { f64::INFINITY } else { factor * new.contact_force };
+    push(Quantity::ContactForce, stored.contact_force, new.contact_force, measure);
     let touch = if new.impact_velocity > 0.0 { measures.touch_factor(new.impact_velocity) } else { 1.0 };
     push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, touch * new.impact_velocity);
     push(Quantity::Impulse, stored.impulse, new.impulse, measures.impulse(found));
@@ -290,8 +296,7 @@ fn events(
         distances.fold(f64::INFINITY, f64::min)
     };
     let touch = found.extrema.iter().map(|extremum| extremum.abs()).fold(f64::INFINITY, f64::min);
-    let at_place = row.events.grazing || measures.rigid.iter().any(Option::is_some);
-    let jumps = at_place && jump <= EVENT * measures.contact[0];
+    let jumps = jump <= EVENT * measures.contact[0];
     let mut list = Vec::new();
     let mut claim = |claimed: bool, distance: f64| {
         if claimed {
