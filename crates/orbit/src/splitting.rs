@@ -4,7 +4,7 @@
 //! on one side keep the old v; on the other side the contact opens for an instant and begins anew, with a v next to zero. Then it can hardly be pressed in, since the force grows like one over v:
 //! it acts like a rigid stop without rebound. The motion jumps from one side to the other, so a branch that comes there ends, from either side:
 //!
-//! - a contact has a minimum of its penetration below [`NEARLY_OPEN`] of its maximum;
+//! - a contact has a minimum of its penetration below [`NEARLY_OPEN`] of its maximum, and comes to more than [`IS_DEEP`] of that behind it;
 //! - a contact begins with less than [`HARDLY_STRIKES`] of the largest speed of an impact, and yet its force comes to more than [`PRESSES`] of the largest. (One that just grazes has
 //!   next to no force.)
 //!
@@ -29,6 +29,10 @@ const NEARLY_OPEN: f64 = 1e-3;
 const HARDLY_STRIKES: f64 = 1e-3;
 /// Force of a contact, over the largest.
 const PRESSES: f64 = 1e-2;
+/// Penetration behind the place at which a contact splits, over the largest: that of [`PRESSES`] of the largest force, `0.01^(2/3)`. What comes less deep hardly presses, whether a new contact begins or not.
+const IS_DEEP: f64 = 0.0464;
+/// Penetration, over the displacements of the modes at the beginning of the contact, whose minima are rounding.
+const SHALLOW: f64 = 1e-9;
 /// Places at which the penetration is read in a contact, and again around its least value.
 const READINGS: usize = 256;
 /// Closer looks, each by the factor `READINGS/2`.
@@ -60,6 +64,10 @@ pub(crate) fn find(
     for piece in &contacts {
         let Some(begin) = &piece.begin else { continue };
         let (from, to) = (begin.time, piece.end.unwrap_or(cycles / frequency_hz));
+        // One that just grazes has next to no force, and minima of rounding.
+        if !presses(piece, &contacts) {
+            continue;
+        }
         let splits_at = if begins_slowly(piece, &contacts) {
             Some(from)
         } else {
@@ -73,13 +81,20 @@ pub(crate) fn find(
     Ok(None)
 }
 
-/// Whether a contact begins with next to no speed and presses all the same.
+/// Whether the force of a contact is not small against the largest of its element.
+fn presses(piece: &ContactPiece, all: &[ContactPiece]) -> bool {
+    piece.peak_force > PRESSES * largest_of(piece, all, |piece| piece.peak_force)
+}
+
+/// Whether a contact begins with next to no speed.
 fn begins_slowly(piece: &ContactPiece, all: &[ContactPiece]) -> bool {
-    let of_element = || all.iter().filter(|other| other.element == piece.element);
     let speed = |piece: &ContactPiece| piece.begin.as_ref().map_or(0.0, |begin| begin.velocity.abs());
-    let fastest = of_element().map(speed).fold(0.0, f64::max);
-    let strongest = of_element().map(|piece| piece.peak_force).fold(0.0, f64::max);
-    speed(piece) < HARDLY_STRIKES * fastest && piece.peak_force > PRESSES * strongest
+    speed(piece) < HARDLY_STRIKES * largest_of(piece, all, speed)
+}
+
+/// The largest that the contacts of the element of one of them have.
+fn largest_of(piece: &ContactPiece, all: &[ContactPiece], of: impl Fn(&ContactPiece) -> f64) -> f64 {
+    all.iter().filter(|other| other.element == piece.element).map(of).fold(0.0, f64::max)
 }
 
 /// When the penetration of a contact has a minimum next to zero.
@@ -92,18 +107,24 @@ fn nearly_opens(
 ) -> Result<Option<f64>, MotionError> {
     let mut deepest = 0.0_f64;
     let mut least = None;
-    for _ in 0..LOOKS {
+    for look in 0..LOOKS {
         let times: Vec<f64> =
             (1..READINGS).map(|k| from + (to - from) * k as f64 / READINGS as f64).collect();
         let depths = penetrations(integrator, stretch, state, piece, &times)?;
-        deepest = depths.iter().fold(deepest, |deepest, depth| deepest.max(*depth));
-        let minima =
-            (1..depths.len() - 1).filter(|&k| depths[k] <= depths[k - 1] && depths[k] < depths[k + 1]);
+        let largest = |depths: &[f64]| depths.iter().copied().fold(0.0_f64, f64::max);
+        deepest = deepest.max(largest(&depths));
+        let is_deep_behind = |k: usize| look > 0 || largest(&depths[k..]) > IS_DEEP * deepest;
+        let minima = (1..depths.len() - 1)
+            .filter(|&k| depths[k] <= depths[k - 1] && depths[k] < depths[k + 1] && is_deep_behind(k));
         let Some(k) = minima.min_by(|&a, &b| depths[a].total_cmp(&depths[b])) else { break };
         least = Some((depths[k], times[k]));
         (from, to) = (times[k - 1], times[k + 1]);
     }
-    Ok(least.filter(|(depth, _)| *depth < NEARLY_OPEN * deepest).map(|(_, time)| time))
+    let shape = &integrator.system().elements()[piece.element].shape;
+    let state = piece.begin.iter().flat_map(|begin| &begin.state);
+    let modal: f64 = shape.iter().zip(state).map(|(phi, q)| (phi * q).abs()).sum();
+    let is_told = deepest > SHALLOW * modal;
+    Ok(least.filter(|(depth, _)| is_told && *depth < NEARLY_OPEN * deepest).map(|(_, time)| time))
 }
 
 /// Penetrations of a contact at some times since the start of the stretch.
