@@ -18,14 +18,14 @@
 //! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
-//! | `contact_phase.rs`, `aim.rs`, `event.rs` | steps from touch to release, with error control; two events at once |
+//! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
 //! | `course.rs` | what a motion went through |
 //! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
-//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs` | maxima on the continuous motion, reading inside a step |
+//! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
 //! | `trace.rs` | states at given phases, and every contact with its impulse and the energy it took |
 //! | `tracing.rs` | what each piece of motion adds to that |
 

@@ -1,7 +1,7 @@
 //! Rigid stops that stick, and how they let go.
 //!
 //! **Going over.** An impact without restitution, or a chatter that comes to its end, leaves the structure held (`held.rs`) if it is pressed on behind the impact: there, as dampers have lost the speed
-//! that the impact took, `r''` is never lower than before. With the rates `h` of the state a neighbour, who comes `dt = -dr/v` later, has `V+ = V + (h_before - h_behind) dt` besides what the
+//! that the impact took, `r''` is not lower than before, as long as the same stops are held. With the rates `h` of the state a neighbour, who comes `dt = -dr/v` later, has `V+ = V + (h_before - h_behind) dt` besides what the
 //! projection takes, and since the velocities jump by `B P`, `P = -v/D`,
 //!
 //! `V+ = V - A B dr/D + (sum_e B_e [F_e] + sum_j B_j lambda_j) dr/v`,

@@ -29,9 +29,9 @@
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
 //! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b that a unit
-//! impulse gives: multipliers may differ there, and a fold or flip on the row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops.
+//! impulse gives: multipliers may differ there, and a fold, flip or Neimark-Sacker point on the row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops.
 //!
-//! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for: the time of the largest acceleration is read off a polynomial.
+//! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for. A force that is no larger than that of a penetration of `T G L_r`, and of an element that comes no deeper, agrees with none.
 //!
 //! | file | idea |
 //! |---|---|
