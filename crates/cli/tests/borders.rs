@@ -42,6 +42,13 @@ fn two_masses(frequencies: &str, max_step: &str, stop: &str) -> Workshop {
     ))
 }
 
+/// A column of an exported table.
+fn column<'t>(table: &'t str, title: &str) -> Vec<&'t str> {
+    let mut rows = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let place = rows.next().unwrap().iter().position(|name| *name == title).unwrap();
+    rows.map(|row| row[place]).collect()
+}
+
 /// At the touch the force of the damper sets in with a jump, and with it a multiplier passes +1 without having been there: the fold is a corner.
 #[test]
 fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
@@ -76,10 +83,8 @@ fn a_branch_ends_before_the_border_at_which_its_contact_splits_in_some_hundred_s
     let text = stdout(&output);
     assert!(text.contains("s opens and is pressed on again at once"), "{text}{}", stderr(&output));
     let table = workshop.csv("results");
-    let place =
-        table.lines().next().unwrap().split(',').position(|title| title == "leading_multiplier_re").unwrap();
-    let multipliers =
-        table.lines().skip(1).map(|line| line.split(',').nth(place).unwrap().parse::<f64>().unwrap());
+    let multipliers = column(&table, "leading_multiplier_re");
+    let multipliers = multipliers.iter().map(|value| value.parse::<f64>().unwrap());
     let beside = multipliers.filter(|multiplier| multiplier.abs() > 1e6).count();
     assert!((1..1000).contains(&beside), "{beside} solutions beside the border");
 }
@@ -165,17 +170,10 @@ fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
     assert_success(&found);
     // On no sheet does the number of contacts change.
     let table = workshop.csv("results");
-    let column = |title: &str| table.lines().next().unwrap().split(',').position(|t| t == title).unwrap();
-    let (branch, contacts) = (column("branch"), column("contacts"));
-    let mut sheets: Vec<(String, String)> = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>())
-        .map(|row| (row[branch].clone(), row[contacts].clone()))
-        .collect();
+    let mut sheets: Vec<_> = column(&table, "branch").into_iter().zip(column(&table, "contacts")).collect();
     sheets.sort();
     sheets.dedup();
-    let contacts: Vec<&str> = sheets.iter().map(|(_, contacts)| contacts.as_str()).collect();
+    let contacts: Vec<&str> = sheets.iter().map(|(_, contacts)| *contacts).collect();
     assert!(contacts == ["1", "2"] || contacts == ["2", "1"], "{sheets:?}");
 }
 
@@ -187,8 +185,7 @@ fn a_contact_that_presses_no_more_for_a_while_is_closed_all_the_time() {
     let workshop = one_mass("5564.1", drive, stop, "0.1");
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
     let table = workshop.csv("results");
-    let place = table.lines().next().unwrap().split(',').position(|title| title == "contacts").unwrap();
-    assert!(table.lines().skip(1).all(|line| line.split(',').nth(place) == Some("1")), "{table}");
+    assert!(column(&table, "contacts").iter().all(|contacts| *contacts == "1"), "{table}");
     assert!(!table.contains("grazing"));
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
 }

@@ -184,11 +184,8 @@ impl BranchWalk {
             rows.push(self.row()?);
             return Ok(None);
         }
-        if self.meets_shorter_period() {
-            return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
-        }
-        if let Some(splits) = self.crawls_to_splitting() {
-            return Ok(Some(splits));
+        if let Some(end) = self.ends_here() {
+            return Ok(Some(end));
         }
         let before = self.may_split();
         self.keep_to_scale();
@@ -224,6 +221,14 @@ impl BranchWalk {
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
+    }
+
+    /// Why the walk ends at the present point, if it does.
+    fn ends_here(&mut self) -> Option<StopReason> {
+        if self.meets_shorter_period() {
+            return Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() });
+        }
+        self.crawls_to_splitting()
     }
 
     /// Measures in units that fit the present orbit, so that tolerances and steps stay relative to it.
@@ -295,11 +300,8 @@ impl BranchWalk {
         &mut self,
         states: &mut Vec<Walked>,
     ) -> Result<Option<StopReason>, OrbitError> {
-        if self.meets_shorter_period() {
-            return Ok(Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() }));
-        }
-        if let Some(splits) = self.crawls_to_splitting() {
-            return Ok(Some(splits));
+        if let Some(end) = self.ends_here() {
+            return Ok(Some(end));
         }
         let before = self.may_split();
         self.keep_to_scale();

@@ -156,8 +156,9 @@ pub(super) fn compare(
     maxima(row, found, (&measures, force_at(system, found, margin)), &mut list);
     let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
     list.push(contacts(row, found, grazing));
-    let jumps = |law: &Law| law.onset_damping() > 0.0 || law.rigid().is_some();
-    let jump = nearest(system, found, jumps);
+    let rigid = nearest(system, found, |law| law.rigid().is_some());
+    let damped = nearest(system, found, |law| law.onset_damping() > 0.0);
+    let jump = rigid.min(damped);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
     list.extend(leading(row, solution));
@@ -166,8 +167,6 @@ pub(super) fn compare(
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
-    let rigid = nearest(system, found, |law| law.rigid().is_some());
-    let damped = nearest(system, found, |law| law.onset_damping() > 0.0);
     // Beside a rigid stop multipliers are far outside the unit circle; at a damper they jump on the row of the grazing.
     let at_jump = rigid.min(if row.events.grazing { damped } else { f64::INFINITY });
     list.extend(events(row, found, &measures, (unknown, at_jump)));
