@@ -1,7 +1,7 @@
 //! Steps while forces act, with control of their error (`step_error.rs`).
 //!
-//! A contact that is struck and left takes two steps: one from the touch to about its middle, one from there to the release, each
-//! graded towards its end. Where that is too coarse, steps between them go as far as their error allows. What a step aims for is in `aim.rs`.
+//! A contact that is struck and left takes a step from the touch and one to the release, each graded towards its end, and where those are too coarse others between them.
+//! How long they are is in `step_length.rs`, what a step aims for in `aim.rs`.
 //!
 //! **What limits very stiff contacts** is rounding of the displacement. A contact of the duration T has the circular frequency `w_c = pi/T`, which grows like `k^(2/5)` for Hertz and like `k^(1/2)` for a linear
 //! stop. Within it sensitivities of the velocity by the displacement are of the size of `w_c`, and cancel down to what an impact leaves of them, some `2 r''/v`. The displacement is a sum over the modes
@@ -20,7 +20,6 @@ use super::{
     event::{Event, Solved},
     flight::{Boundary, Touch, clearance_of},
     run::Run,
-    step_error::LONGEST_GROWTH,
     touching::Unresolved,
 };
 use crate::Contact;
@@ -136,7 +135,7 @@ impl ExactIntegrator {
     }
 
     /// How a step is graded; a step from a touch that ends with a release cannot be.
-    fn grading(&self, run: &Run, touched: Option<usize>, event: Option<Event>) -> Option<Grading> {
+    pub(super) fn grading(&self, run: &Run, touched: Option<usize>, event: Option<Event>) -> Option<Grading> {
         let half_integer = |element: usize| {
             self.closed_contact(run, element).is_some_and(|contact| contact.onset_exponent.fract() != 0.0)
         };
@@ -148,37 +147,6 @@ impl ExactIntegrator {
             (false, true) => Some(Grading::Release),
             (true, true) => None,
         }
-    }
-
-    /// The first try: to the release where it is expected within reach, else as far as the last step's error allows.
-    fn first_aim(&self, run: &Run, touched: Option<usize>, remaining: f64) -> Aim {
-        let known = run.release.filter(|known| known.1 > run.time && self.may_come(run, known.0));
-        let forecast = match known {
-            Some((event, time)) => Some((event, time - run.time)),
-            None => self.first_forecast(run, touched).map(|(element, time)| (self.usual_end(element), time)),
-        };
-        let proposal = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };
-        let Some((ending, time)) = forecast else {
-            return Aim::free(proposal.min(remaining));
-        };
-        let proposal = if run.proposal > 0.0 { proposal } else { 0.5 * time };
-        let event = Some(ending);
-        let whole = self.grading(run, touched, event).is_some();
-        if whole && (time <= 1.4 * proposal || run.proposal == 0.0) && time <= 1.2 * remaining {
-            return Aim::to_or(ending, time.min(remaining), proposal.min(remaining));
-        }
-        let shorter = if time < 2.0 * proposal { 0.5 * time } else { proposal };
-        Aim::free(shorter.min(remaining))
-    }
-
-    /// A first guess of the step length: a part of the period of the loaded contact.
-    fn first_length(&self, run: &Run, remaining: f64) -> f64 {
-        let stiffest = |&e: &usize| {
-            let force = self.laws[e].pressing_force(run.start[e].jet.value, run.start[e].jet.slope);
-            (self.mobility[e][e] * force.slope.abs()).sqrt() + self.mobility[e][e] * force.damping.abs()
-        };
-        let rate = self.step.active.iter().map(stiffest).fold(2.0 / remaining, f64::max);
-        1.5 / rate
     }
 
     fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: Aim, remaining: f64) -> Tried {
@@ -203,7 +171,7 @@ impl ExactIntegrator {
             _ => self.first_release(run, [None; 2]),
         };
         if error > 1.0 {
-            let shorter = length * self.growth(error).clamp(0.1, 0.7);
+            let shorter = length * self.growth(error).max(0.1);
             let Some((end, time)) = release else { return free(shorter) };
             // Where the step passed the release its error says little.
             let news = run.release.is_none();
@@ -234,7 +202,7 @@ impl ExactIntegrator {
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
         if error > 1.0 {
             run.release = release.map(|(end, time)| (end, run.time + time)).or(run.release);
-            return free(length * self.growth(error).clamp(0.1, 0.7));
+            return free(length * self.growth(error).max(0.1));
         }
         Tried::Accepted { error, event }
     }
@@ -271,11 +239,6 @@ impl ExactIntegrator {
             Some((touch, time)) => Some((Event::Touch(touch), time)),
             None => self.first_release(run, [event, excused]),
         })
-    }
-
-    /// By how much the length may change for an error relative to its bound.
-    fn growth(&self, error: f64) -> f64 {
-        0.8 * error.powf(-1.0 / NODES as f64)
     }
 
     /// Opens or closes the contact that ended a step.
@@ -337,6 +300,6 @@ impl ExactIntegrator {
         if end - run.time <= 4.0 * f64::EPSILON * end {
             run.time = end;
         }
-        run.proposal = self.resolved_length(length * self.growth(error).clamp(0.3, LONGEST_GROWTH));
+        self.plan_next(run, length, error);
     }
 }

@@ -78,6 +78,7 @@ impl ExactIntegrator {
         let mut run = std::mem::take(&mut self.run);
         run.time = 0.0;
         run.proposal = 0.0;
+        run.graded = 0.0;
         run.touched = None;
         run.pressed = None;
         run.slack = 0.0;
@@ -187,6 +188,7 @@ impl ExactIntegrator {
     /// Notes that a contact without force crosses a boundary.
     pub(super) fn close(&mut self, run: &mut Run, touch: Touch) -> Result<(), MotionError> {
         run.proposal = 0.0;
+        run.graded = 0.0;
         run.release = None;
         run.slack = 0.0;
         match touch.boundary {

@@ -80,6 +80,7 @@ mod sensitivity;
 mod series;
 mod standstill;
 mod step_error;
+mod step_length;
 mod step_maximum;
 mod stick;
 mod structure;

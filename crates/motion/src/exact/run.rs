@@ -19,6 +19,8 @@ pub(crate) struct Run {
     pub remaining: f64,
     /// Step length that the error allows next [s]; 0 if nothing is known.
     pub proposal: f64,
+    /// Length that the error allows a step that is graded towards an end of the contact [s]; 0 if nothing is known.
+    pub graded: f64,
     /// Element that has just touched, whose force sets in now.
     pub touched: Option<usize>,
     /// Element that has just come to press again after it had parted.
