@@ -7,7 +7,7 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, diagonal, element, force, hertz, model};
+use common::{assert_agreement, diagonal, difference, element, force, hertz, model};
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
@@ -120,6 +120,40 @@ fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
             assert_eq!((touches as usize, inside[0]), (expected, load != -1.2), "{what}");
             assert!(if load > 0.0 { touches > 1 } else { touches == 1 }, "{what}: {touches}");
             assert!(load != -0.5 || inside.iter().all(|inside| *inside), "{what}");
+        }
+    }
+}
+
+/// Three stops that share the stiffness of one are that one: all of their contacts begin, part and end in the same instants.
+#[test]
+fn three_stops_of_one_level_are_one_of_their_stiffnesses_added() {
+    let damped = |share: f64| {
+        LinearStop::with_gap(share * 300.0 * W * W, 0.0).unwrap().with_damping(share * 20.0 * W).unwrap()
+    };
+    let elastic = |share: f64| HertzStop::with_gap(share * 300.0 * W * W / STATIC.sqrt(), 0.0).unwrap();
+    // The damped spring stops the bouncing: its last touches are slow, and sensitivities have the rounding of the level over their speed.
+    let laws: [(&dyn Fn(f64) -> Law, f64); 4] = [
+        (&|share| linear(share * 300.0), 1e-8),
+        (&|share| Law::Linear(damped(share)), 1e-7),
+        (&|share| Law::Hertz(elastic(share)), 1e-8),
+        (&|share| Law::HuntCrossley(HuntCrossleyStop::new(elastic(share), 20.0).unwrap()), 1e-8),
+    ];
+    for (index, (law, bound)) in laws.into_iter().enumerate() {
+        let three = mass(&[0.2, 0.5, 0.3].map(|share| (0.8, law(share))), 2.0);
+        let of_one = mass(&[(0.8, law(1.0))], 2.0);
+        let [mut three, mut one] = [three, of_one.clone()]
+            .map(|system| ExactIntegrator::new(system, ExactSettings { tolerance: 1e-12 }).unwrap());
+        for k in 0..40 {
+            let stretch = Stretch { frequency_hz: 3.0 + 0.11 * f64::from(k), start: 0.0, end: 1.0 };
+            let mut state = vec![0.0; 2];
+            for period in 0..4 {
+                let what = format!("law {index}, {stretch:?}, period {period}");
+                let expected = one.flow(&stretch, &state).unwrap();
+                let found = three.flow(&stretch, &state).expect(&what);
+                let error = difference(&of_one, &stretch, &found, &expected);
+                assert!(error.largest() <= bound, "{what}: {error:?}");
+                state = expected.state;
+            }
         }
     }
 }

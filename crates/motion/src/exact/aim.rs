@@ -1,11 +1,12 @@
 //! What a step with forces aims for: an event, or a length.
 //!
-//! **Two events at once.** Where contacts open or close in the same instant, as those of two stops of one level on one mass do, the polynomials of a step that ends with one of them may find the other a moment
+//! **Events at once.** Where contacts open or close in the same instant, as those of two stops of one level on one mass do, the polynomials of a step that ends with one of them may find the other a moment
 //! earlier, and the other way round. Each is then located by the motion itself, and the earlier one is taken; the other follows at once or within the slack of the next step.
 //!
 //! So the polynomials are contradicted by a location, and may be so for two reasons alone. What they find lies so near the end of the step that location and rounding do not tell them apart. Or it lies
 //! before that, and the location that went out from there ended later: there is no zero, but a distance that comes near to it. A location that went out from elsewhere says nothing of an
-//! earlier zero, and is made anew from there, once for each such place, so that it comes to an end. And only the one event is excused: others are looked for in the whole of the step.
+//! earlier zero, and is made anew from there, once for each such place, so that it comes to an end. All events that were located for the step are remembered: of three that contradict one another in a circle the
+//! third would else send the step back to the first. And only these are excused: others are looked for in the whole of the step.
 
 use super::event::Event;
 
@@ -13,14 +14,14 @@ use super::event::Event;
 pub(super) const SAME: f64 = 1e-9;
 
 /// A step about to be tried.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Aim {
     pub(super) length: f64,
     pub(super) event: Option<Event>,
     /// Length to fall back to if the event does not come [s].
     pub(super) otherwise: f64,
-    /// The event that was located before: the polynomials of that step had this one come earlier.
-    rival: Option<Rival>,
+    /// The events that were located before, each once: the polynomials of the steps that end with them had another one come earlier.
+    rivals: Vec<Rival>,
 }
 
 /// An event that was located.
@@ -36,11 +37,11 @@ struct Rival {
 impl Aim {
     /// As far as the length, whatever comes.
     pub(super) fn free(length: f64) -> Self {
-        Self { length, event: None, otherwise: 0.0, rival: None }
+        Self { length, event: None, otherwise: 0.0, rivals: Vec::new() }
     }
 
     pub(super) fn to(event: Event, length: f64) -> Self {
-        Self { length, event: Some(event), otherwise: 0.5 * length, rival: None }
+        Self { length, event: Some(event), otherwise: 0.5 * length, rivals: Vec::new() }
     }
 
     /// To an event, or as far as another length if it does not come.
@@ -49,8 +50,8 @@ impl Aim {
     }
 
     /// Whether an event that the polynomials of a step find at `found`, before its own end, was located not to come before that; `undecided` is what location and rounding leave open of its time.
-    pub(super) fn was_later(self, event: Event, found: f64, (length, undecided): (f64, f64)) -> bool {
-        self.rival.is_some_and(|rival| {
+    pub(super) fn was_later(&self, event: Event, found: f64, (length, undecided): (f64, f64)) -> bool {
+        self.rivals.iter().any(|rival| {
             let near = found >= length - undecided;
             let went_out_from_there = (rival.sought - found).abs() <= 0.5 * (rival.located - found);
             rival.event == event && rival.located >= length * (1.0 - SAME) && (near || went_out_from_there)
@@ -58,9 +59,13 @@ impl Aim {
     }
 
     /// To an event that comes before `located`, with which the step ends at `length`.
-    pub(super) fn rather(self, event: Event, time: f64, located: Option<Event>, length: f64) -> Self {
-        let rival = located.map(|event| Rival { event, sought: self.length, located: length });
-        Self { rival, ..Self::to(event, time) }
+    pub(super) fn rather(&self, event: Event, time: f64, located: Option<Event>, length: f64) -> Self {
+        let (mut rivals, sought) = (self.rivals.clone(), self.length);
+        if let Some(event) = located {
+            rivals.retain(|rival| rival.event != event);
+            rivals.push(Rival { event, sought, located: length });
+        }
+        Self { rivals, ..Self::to(event, time) }
     }
 }
 
@@ -89,6 +94,16 @@ mod tests {
         assert!(!after_a_lift((1.1, LENGTH)).was_later(LIFT, 0.5, (LENGTH, 1e-7)));
         assert!(!after_a_lift((0.1, LENGTH)).was_later(LIFT, 0.5, (LENGTH, 1e-7)));
         assert!(after_a_lift((0.51, LENGTH)).was_later(LIFT, 0.5, (LENGTH, 1e-7)));
+    }
+
+    /// Three that the polynomials put before one another: the last one is taken.
+    #[test]
+    fn all_that_were_located_are_excused() {
+        let third = after_a_lift((0.3, LENGTH)).rather(Event::Release(2), 1.0 - 1e-8, Some(PART), LENGTH);
+        for event in [LIFT, PART] {
+            assert!(third.was_later(event, LENGTH - 1e-8, (LENGTH, 1e-7)), "{event:?}");
+        }
+        assert!(!third.was_later(Event::Release(2), LENGTH - 1e-8, (LENGTH, 1e-7)));
     }
 
     #[test]

@@ -62,7 +62,7 @@ impl ExactIntegrator {
             if aim.length < 1e-16 * end || aim.length.is_nan() {
                 break;
             }
-            match self.try_step(run, touched, aim, remaining) {
+            match self.try_step(run, touched, &aim, remaining) {
                 Tried::Again(next) => aim = next,
                 Tried::ClosesNow(touch) => {
                     return self.close(run, touch);
@@ -149,7 +149,7 @@ impl ExactIntegrator {
         }
     }
 
-    fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: Aim, remaining: f64) -> Tried {
+    fn try_step(&mut self, run: &mut Run, touched: Option<usize>, aim: &Aim, remaining: f64) -> Tried {
         let free = |length: f64| Tried::Again(Aim::free(length));
         let to = |event: Event, length: f64| Tried::Again(Aim::to(event, length));
         let Some(grading) = self.grading(run, touched, aim.event) else { return free(aim.otherwise) };
@@ -168,7 +168,7 @@ impl ExactIntegrator {
         let event = aim.event.filter(|_| at_event);
         let release = match event {
             Some(end @ (Event::Release(_) | Event::Part(_) | Event::Lift(_))) => Some((end, length)),
-            _ => self.first_release(run, [None; 2]),
+            _ => self.first_release(run, None, &[]),
         };
         if error > 1.0 {
             let shorter = length * self.growth(error).max(0.1);
@@ -207,37 +207,41 @@ impl ExactIntegrator {
         Tried::Accepted { error, event }
     }
 
-    /// An event that the polynomials find before the end of the solved step, and when, apart from one that was located to come later.
+    /// An event that the polynomials find before the end of the solved step, and when, apart from those that were located to come later.
     fn earlier_event(
         &mut self,
         run: &Run,
-        aim: Aim,
+        aim: &Aim,
         (event, length): (Option<Event>, f64),
     ) -> Result<Option<(Event, f64)>, Unresolved> {
-        let found = self.first_in_step(run, event, None)?.filter(|found| found.1 < length * (1.0 - SAME));
-        let Some((earlier, time)) = found else { return Ok(None) };
-        let undecided = self.located_within(run, earlier);
-        if !aim.was_later(earlier, time, (length, undecided)) {
-            return Ok(Some((earlier, time)));
+        let mut excused = Vec::new();
+        loop {
+            let found = self.first_in_step(run, event, &excused)?;
+            let Some((earlier, time)) = found.filter(|found| found.1 < length * (1.0 - SAME)) else {
+                return Ok(None);
+            };
+            let undecided = self.located_within(run, earlier);
+            if excused.contains(&earlier) || !aim.was_later(earlier, time, (length, undecided)) {
+                return Ok(Some((earlier, time)));
+            }
+            // What is not looked for any more was the first: there may be another one behind it.
+            excused.push(earlier);
         }
-        // What is not looked for any more was the first: there may be another one behind it.
-        let other = self.first_in_step(run, event, Some(earlier))?;
-        Ok(other.filter(|found| found.1 < length * (1.0 - SAME)))
     }
 
-    /// The first touch, else the first release, in the solved step that ends with `event`, other than `excused`.
+    /// The first touch, else the first release, in the solved step that ends with `event`, other than those `excused`.
     fn first_in_step(
         &mut self,
         run: &Run,
         event: Option<Event>,
-        excused: Option<Event>,
+        excused: &[Event],
     ) -> Result<Option<(Event, f64)>, Unresolved> {
         let length = self.step.length;
         let touch = self.first_touch_in_step(run, event, excused)?;
         let touch = touch.filter(|(_, time)| *time < length * (1.0 - SAME));
         Ok(match touch {
             Some((touch, time)) => Some((Event::Touch(touch), time)),
-            None => self.first_release(run, [event, excused]),
+            None => self.first_release(run, event, excused),
         })
     }
 

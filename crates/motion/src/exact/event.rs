@@ -236,17 +236,23 @@ impl ExactIntegrator {
         found
     }
 
-    /// The first end of a closed contact, or lift of a held stop, within the solved step, other than these, and when. The first of them is that with which the step ends.
-    pub(super) fn first_release(&self, run: &Run, except: [Option<Event>; 2]) -> Option<(Event, f64)> {
+    /// The first end of a closed contact, or lift of a held stop, within the solved step, and when, other than those `excused` and the one with which the step ends.
+    pub(super) fn first_release(
+        &self,
+        run: &Run,
+        at_end: Option<Event>,
+        excused: &[Event],
+    ) -> Option<(Event, f64)> {
+        let is_sought = |event: &Event| at_end != Some(*event) && !excused.contains(event);
         let of_active = |(a, &element): (usize, &usize)| {
-            let usual = Some(self.usual_end(element)).filter(|event| !except.contains(&Some(*event)));
+            let usual = Some(self.usual_end(element)).filter(is_sought);
             let both = self.laws[element].pressure().is_some_and(|pressure| pressure.offset > 0.0);
-            let parting = Some(Event::Part(element)).filter(|event| both && !except.contains(&Some(*event)));
+            let parting = Some(Event::Part(element)).filter(|event| both && is_sought(event));
             let ends = usual.into_iter().chain(parting);
             ends.filter_map(|event| self.first_end(run, a, event).map(|time| (event, time)))
                 .collect::<Vec<_>>()
         };
-        let lift = if run.stuck.is_empty() { None } else { self.first_lift(run, except) };
+        let lift = if run.stuck.is_empty() { None } else { self.first_lift(run, at_end, excused) };
         let ends = self.step.active.iter().enumerate().flat_map(of_active).chain(lift);
         ends.min_by(|x, y| x.1.total_cmp(&y.1))
     }

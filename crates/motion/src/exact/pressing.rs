@@ -204,15 +204,16 @@ impl ExactIntegrator {
         (0..count).map(of_panel).collect()
     }
 
-    /// The first lift of a held stop within the solved step, and when; of the one with which the step ends, once more before that, and none of the one that is excused.
+    /// The first lift of a held stop within the solved step, and when; of the one with which the step ends, once more before that, and none of those that are excused.
     pub(super) fn first_lift(
         &self,
         run: &Run,
-        [at_end, excused]: [Option<Event>; 2],
+        at_end: Option<Event>,
+        excused: &[Event],
     ) -> Option<(Event, f64)> {
         let of_stop = |(j, &element): (usize, &usize)| {
             let event = Event::Lift(element);
-            if excused == Some(event) {
+            if excused.contains(&event) {
                 return None;
             }
             let panels = self.panels(&run.state, j);

@@ -52,12 +52,12 @@ const WINDOWS: usize = 4;
 pub(super) struct Unresolved;
 
 impl ExactIntegrator {
-    /// The first open contact that closes within the solved step, and when. That of `event` closes at its end, `excused` is not looked for.
+    /// The first open contact that closes within the solved step, and when. That of `event` closes at its end, those `excused` are not looked for.
     pub(super) fn first_touch_in_step(
         &mut self,
         run: &Run,
         event: Option<Event>,
-        excused: Option<Event>,
+        excused: &[Event],
     ) -> Result<Option<(Touch, f64)>, Unresolved> {
         let mut first: Option<(Touch, f64)> = None;
         let is_open = |e: &usize| {
@@ -71,7 +71,7 @@ impl ExactIntegrator {
         for element in open {
             let from = self.looked_past(run, element);
             for touch in self.watched(element, run.parted[element]) {
-                if excused == Some(Event::Touch(touch)) {
+                if excused.contains(&Event::Touch(touch)) {
                     continue;
                 }
                 let mut until = first.map_or(self.step.length, |(_, time)| time);

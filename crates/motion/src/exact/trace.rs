@@ -160,7 +160,7 @@ impl ExactIntegrator {
 
     /// As [`Self::trace`], with states within contacts that are too short for the phases: the trace has [`Trace::inside`].
     ///
-    /// * `in_a_step`: so many at equal distances in each step of the integrator in which something is in contact and fewer of the phases lie. A contact takes some four steps.
+    /// * `in_a_step`: so many at equal distances in each step of the integrator in which something is in contact and fewer of the phases lie. A contact takes some three steps.
     ///
     /// # Errors
     /// See [`MotionError`].

@@ -138,28 +138,37 @@ impl Difference {
     }
 }
 
-/// Compares two flows of a system over a stretch.
+/// Compares two flows of a system over a stretch, each part relative to its largest entry.
+///
+/// The column by the frequency is the difference of what the load and the duration change. Where a motion with large losses follows the load it is far smaller than the state over the
+/// frequency, of which rounding is left: it is relative to a hundredth of that at least.
 pub fn difference(system: &System, stretch: &Stretch, found: &Flow, expected: &Flow) -> Difference {
     let n = system.dof();
     let slowest = TAU * stretch.frequency_hz;
     let scale = |i: usize| if i < n { system.model().natural_frequencies[i].max(slowest) } else { 1.0 };
-    let of = |value: &dyn Fn(&Flow, usize) -> f64, count: usize| {
-        let (mut error, mut norm) = (0.0_f64, f64::MIN_POSITIVE);
-        for index in 0..count {
-            let gap = (value(found, index) - value(expected, index)).abs();
-            error = if gap.is_nan() { f64::INFINITY } else { error.max(gap) };
-            norm = norm.max(value(expected, index).abs());
-        }
-        error / norm
+    let largest = |count: usize, value: &dyn Fn(usize) -> f64| {
+        let magnitudes = (0..count).map(|index| value(index).abs());
+        magnitudes
+            .fold(0.0_f64, |largest, value| if value.is_nan() { f64::INFINITY } else { largest.max(value) })
+    };
+    let of = |value: &dyn Fn(&Flow, usize) -> f64, count: usize, least: f64| {
+        let gap = largest(count, &|index| value(found, index) - value(expected, index));
+        gap / largest(count, &|index| value(expected, index)).max(least)
     };
     let entry = |flow: &Flow, index: usize| {
         let (i, j) = (index / (2 * n), index % (2 * n));
         flow.by_state[(i, j)] * scale(i) / scale(j)
     };
+    let state = |flow: &Flow, i: usize| flow.state[i] * scale(i);
+    let size = largest(2 * n, &|i| state(expected, i));
     Difference {
-        state: of(&|flow, i| flow.state[i] * scale(i), 2 * n),
-        by_state: of(&entry, 4 * n * n),
-        by_frequency: of(&|flow, i| flow.by_frequency[i] * scale(i), 2 * n),
+        state: of(&state, 2 * n, f64::MIN_POSITIVE),
+        by_state: of(&entry, 4 * n * n, f64::MIN_POSITIVE),
+        by_frequency: of(
+            &|flow, i| flow.by_frequency[i] * scale(i),
+            2 * n,
+            (0.01 * size / stretch.frequency_hz).max(f64::MIN_POSITIVE),
+        ),
     }
 }
 
