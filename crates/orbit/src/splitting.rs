@@ -14,6 +14,10 @@
 //! `(f - f*)^-4`**. The branch ends at a finite frequency `f*` in an orbit that presses without penetration, with a multiplier that has no bound. It cannot be computed up to there: a state is rounded by
 //! `eps`, so its image is by `eps` times the multiplier, and where that is more than the tolerance of the shooting, steps shrink to nothing although `f*` is not reached. A walk whose last
 //! [`SHORT_STEPS`] steps were short is therefore asked whether a contact of its orbit splits, and ends if one does.
+//!
+//! Steps of the path need not be short there, while those of the motion are: the sensitivities of a force that goes like `1/v` round by so much that no step of the motion within the contact seems
+//! good enough, and an evaluation takes thousands of them instead of some. Where a point took more than [`LABORIOUS`] of them for each touch, a contact that begins with next to no speed is the end as well. There
+//! the work tells that it presses, so it need not come to [`PRESSES`], only to [`JUST_PRESSES`] of the largest force.
 
 use hammerbeam_motion::{
     Stretch,
@@ -23,12 +27,17 @@ use hammerbeam_motion::{
 /// So many short steps in a row raise the question, and as many more raise it again: a fold is passed with a few, a splitting is approached with no other.
 pub(crate) const SHORT_STEPS: u64 = 50;
 
+/// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path; some ten are usual.
+pub(crate) const LABORIOUS: u64 = 500;
+
 /// Least penetration within a contact, over its largest.
 const NEARLY_OPEN: f64 = 1e-3;
 /// Speed of an impact, over the largest.
 const HARDLY_STRIKES: f64 = 1e-3;
 /// Force of a contact, over the largest.
 const PRESSES: f64 = 1e-2;
+/// The same where the motion tells besides that the contact presses. One that grazes with [`HARDLY_STRIKES`] of the largest speed comes to that to the power of 6/5, 2.5e-4.
+const JUST_PRESSES: f64 = 1e-3;
 /// Penetration behind the place at which a contact splits, over the largest: that of [`PRESSES`] of the largest force, `0.01^(2/3)`. What comes less deep hardly presses, whether a new contact begins or not.
 const IS_DEEP: f64 = 0.0464;
 /// Penetration, over the displacements of the modes at the beginning of the contact, whose minima are rounding.
@@ -57,15 +66,12 @@ pub(crate) fn find(
     (frequency_hz, cycles): (f64, f64),
 ) -> Result<Option<Splitting>, MotionError> {
     let stretch = Stretch { frequency_hz, start, end: start + cycles };
-    let contacts = integrator.trace(&stretch, &state, &[])?.contacts;
-    let remembers =
-        |piece: &&ContactPiece| integrator.system().elements()[piece.element].law.remembers_impact();
-    let contacts: Vec<ContactPiece> = contacts.iter().filter(remembers).cloned().collect();
+    let contacts = contacts_that_remember(integrator, &stretch, &state)?;
     for piece in &contacts {
         let Some(begin) = &piece.begin else { continue };
         let (from, to) = (begin.time, piece.end.unwrap_or(cycles / frequency_hz));
         // One that just grazes has next to no force, and minima of rounding.
-        if !presses(piece, &contacts) {
+        if !presses(piece, &contacts, PRESSES) {
             continue;
         }
         let splits_at = if begins_slowly(piece, &contacts) {
@@ -74,16 +80,51 @@ pub(crate) fn find(
             nearly_opens(integrator, &stretch, &state, piece, (from, to))?
         };
         if let Some(time) = splits_at {
-            let element = integrator.system().elements()[piece.element].name.clone();
-            return Ok(Some(Splitting { element, phase: (start + time * frequency_hz).rem_euclid(1.0) }));
+            return Ok(Some(splitting(integrator, piece, start + time * frequency_hz)));
         }
     }
     Ok(None)
 }
 
-/// Whether the force of a contact is not small against the largest of its element.
-fn presses(piece: &ContactPiece, all: &[ContactPiece]) -> bool {
-    piece.peak_force > PRESSES * largest_of(piece, all, |piece| piece.peak_force)
+/// The first contact of an orbit that begins with next to no speed and is pressed on.
+///
+/// # Errors
+/// [`MotionError`] if the motion cannot be followed.
+pub(crate) fn find_slow_begin(
+    integrator: &mut ExactIntegrator,
+    (start, state): (f64, Vec<f64>),
+    (frequency_hz, cycles): (f64, f64),
+) -> Result<Option<Splitting>, MotionError> {
+    let stretch = Stretch { frequency_hz, start, end: start + cycles };
+    let contacts = contacts_that_remember(integrator, &stretch, &state)?;
+    let splits =
+        |piece: &&ContactPiece| presses(piece, &contacts, JUST_PRESSES) && begins_slowly(piece, &contacts);
+    let first = contacts.iter().filter(|piece| piece.begin.is_some()).find(splits);
+    Ok(first.map(|piece| {
+        let time = piece.begin.as_ref().map_or(0.0, |begin| begin.time);
+        splitting(integrator, piece, start + time * frequency_hz)
+    }))
+}
+
+/// Contacts of the elements whose laws remember how a contact began.
+fn contacts_that_remember(
+    integrator: &mut ExactIntegrator,
+    stretch: &Stretch,
+    state: &[f64],
+) -> Result<Vec<ContactPiece>, MotionError> {
+    let contacts = integrator.trace(stretch, state, &[])?.contacts;
+    let elements = integrator.system().elements();
+    Ok(contacts.into_iter().filter(|piece| elements[piece.element].law.remembers_impact()).collect())
+}
+
+fn splitting(integrator: &ExactIntegrator, piece: &ContactPiece, phase: f64) -> Splitting {
+    let element = integrator.system().elements()[piece.element].name.clone();
+    Splitting { element, phase: phase.rem_euclid(1.0) }
+}
+
+/// Whether the force of a contact is more than this share of the largest of its element.
+fn presses(piece: &ContactPiece, all: &[ContactPiece], share: f64) -> bool {
+    piece.peak_force > share * largest_of(piece, all, |piece| piece.peak_force)
 }
 
 /// Whether a contact begins with next to no speed.

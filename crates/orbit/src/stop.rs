@@ -85,6 +85,29 @@ pub(crate) struct Place {
     point: ContinuationPoint,
 }
 
+/// Work of a walk.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Work {
+    /// Steps of the motion with forces.
+    pub force_steps: u64,
+    /// Shooting evaluations.
+    pub evaluations: u64,
+}
+
+impl Work {
+    pub fn since(self, earlier: Self) -> Self {
+        Self {
+            force_steps: self.force_steps - earlier.force_steps,
+            evaluations: self.evaluations - earlier.evaluations,
+        }
+    }
+
+    /// Whether an orbit with so many touches took far more steps of the motion than touches take.
+    fn is_laborious(self, touches: u64) -> bool {
+        self.force_steps > splitting::LABORIOUS * touches.max(1) * self.evaluations.max(1)
+    }
+}
+
 impl BranchWalk {
     /// The reason, in terms of orbits.
     pub(crate) fn stop_reason(&mut self, reason: hammerbeam_path::StopReason) -> StopReason {
@@ -127,6 +150,23 @@ impl BranchWalk {
             return None;
         }
         self.splitting(self.follower.current().parameter())
+    }
+
+    /// If the motion of the last step took far more work than its contacts need, and one of them begins with next to no speed.
+    pub(crate) fn labours_at_splitting(&mut self, spent: Work) -> Result<Option<StopReason>, OrbitError> {
+        let touches = self.problem.touches().iter().map(|&touches| u64::from(touches)).sum();
+        if !spent.is_laborious(touches) {
+            return Ok(None);
+        }
+        let present = self.place();
+        let found = self.slow_begin_of(&present);
+        evaluate(&mut self.problem, &present.point.point)?;
+        let frequency_hz = present.point.parameter();
+        Ok(found.map(|Splitting { element, phase }| StopReason::ContactSplits {
+            frequency_hz,
+            element,
+            phase,
+        }))
     }
 
     /// If a step has passed a splitting: the number of contacts of an element has changed since the last row, and a contact of it splits in the orbit `before` the step or in the present one, at which the
@@ -180,11 +220,22 @@ impl BranchWalk {
 
     /// Where a contact of an orbit splits.
     fn splitting_of(&mut self, orbit: &Place) -> Option<Splitting> {
+        let (begin, span) = self.begin_and_span(orbit)?;
+        splitting::find(self.problem.integrator(), begin, span).ok()?
+    }
+
+    /// Where a contact of an orbit has just split.
+    fn slow_begin_of(&mut self, orbit: &Place) -> Option<Splitting> {
+        let (begin, span) = self.begin_and_span(orbit)?;
+        splitting::find_slow_begin(self.problem.integrator(), begin, span).ok()?
+    }
+
+    /// Phase and state with which an orbit begins, its frequency and its excitation periods.
+    fn begin_and_span(&mut self, orbit: &Place) -> Option<((f64, Vec<f64>), (f64, f64))> {
         let point = &orbit.point.point;
         self.problem.move_to(point).ok()?;
-        let begin = (orbit.phase, orbit.state.clone());
         let span = (self.problem.frequency(point), f64::from(self.problem.period_multiple()));
-        splitting::find(self.problem.integrator(), begin, span).ok()?
+        Some(((orbit.phase, orbit.state.clone()), span))
     }
 
     /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.

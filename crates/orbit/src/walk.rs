@@ -19,6 +19,7 @@ use crate::{
     size::{Cut, orbit_scale},
     solve::{evaluate, integrator, nodes_from},
     state_scale::StateScale,
+    stop::{Place as Passed, Work},
 };
 use settings::segment_count;
 pub(crate) use settings::{hertz_per_norm, path_settings};
@@ -191,10 +192,11 @@ impl BranchWalk {
         self.keep_to_scale();
         self.keep_phase_clear();
         let mut from = self.follower.current().clone();
+        let work = self.work();
         let stopped = self.advance(&mut from)?;
         if stopped.is_none()
             && let Some(before) = &before
-            && let Some(splits) = self.passes_splitting(before)?
+            && let Some(splits) = self.comes_to_splitting(before, work)?
         {
             return Ok(Some(splits));
         }
@@ -307,10 +309,11 @@ impl BranchWalk {
         self.keep_to_scale();
         self.keep_phase_clear();
         let mut from = self.follower.current().clone();
+        let work = self.work();
         let stopped = self.advance(&mut from)?;
         if stopped.is_none() {
             if let Some(before) = &before
-                && let Some(splits) = self.passes_splitting(before)?
+                && let Some(splits) = self.comes_to_splitting(before, work)?
             {
                 return Ok(Some(splits));
             }
@@ -327,6 +330,27 @@ impl BranchWalk {
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
+    }
+
+    /// Work done so far; differences of it depend on nothing but the path.
+    fn work(&mut self) -> Work {
+        let force_steps = self.problem.integrator().counts().steps;
+        Work { force_steps, evaluations: self.follower.counters().evaluations }
+    }
+
+    /// If a step of the path has passed a splitting, or has become laborious beside one.
+    ///
+    /// * `earlier`: the work before the step.
+    fn comes_to_splitting(
+        &mut self,
+        before: &Passed,
+        earlier: Work,
+    ) -> Result<Option<StopReason>, OrbitError> {
+        let spent = self.work().since(earlier);
+        if let Some(splits) = self.passes_splitting(before)? {
+            return Ok(Some(splits));
+        }
+        self.labours_at_splitting(spent)
     }
 
     /// Excitation periods of an orbit.
