@@ -64,7 +64,7 @@ pub trait VectorField {
         let _ = (time, state, columns, inside);
     }
 
-    /// Lets the state jump where a boundary was crossed, and sensitivities with it; the field may throw the motion back into the region that was left.
+    /// Lets the state jump where a boundary was crossed, and sensitivities with it; the field may throw the motion back into the region that was left. A field with a memory puts down here what it keeps.
     ///
     /// * `(state, columns)`: to be changed; columns as in [`VectorField::jump`], which is called next.
     /// * `(inside, before)`: the new region, to be changed, and the one that was left.
@@ -77,7 +77,7 @@ pub trait VectorField {
         let _ = (time, state, columns, inside, before);
     }
 
-    /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous; a field with a memory puts down here what it keeps.
+    /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous.
     ///
     /// * `at`: the place, with the new region; `before`: the region that was left.
     /// * `columns`: as in [`VectorField::tangents`], the one by the parameter last; to be changed. Empty where no sensitivities are wanted.

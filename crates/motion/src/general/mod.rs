@@ -29,6 +29,7 @@ mod error;
 mod field;
 mod march;
 mod observe;
+mod resting;
 mod rigid;
 mod search;
 mod stepper;

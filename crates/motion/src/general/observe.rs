@@ -333,6 +333,10 @@ impl<'f> Watcher<SystemField<'f>> for Observer<'_> {
                 self.add_extremum(impact.element, impact.depth);
             }
         }
+        for (element, speed) in std::mem::take(&mut field.rigid.touches) {
+            self.maxima.touches += 1;
+            self.add_touch(element, speed);
+        }
         for place in 0..self.contacts.len() {
             let watched = &self.contacts[place];
             let is_rigid = field.laws[watched.element].rigid().is_some();

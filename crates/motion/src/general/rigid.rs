@@ -8,6 +8,7 @@
 //! - A stop that sticks (`stick.rs`) is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
 //!   switching function is `lambda_j` itself.
 //! - A stop whose `lambda_j` falls below zero by a jump is let go then (`thrown_off.rs`).
+//! - Other contacts of the same place rest as long as a stop is held (`resting.rs`).
 //! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
 //!
 //! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no flight is known, and impacts are zeros of dense output.
@@ -16,6 +17,7 @@ use faer::{Mat, linalg::solvers::Solve};
 
 use super::{
     Point, VectorField,
+    resting::Resting,
     system_field::{SystemField, add_scaled, dot, switches_of},
 };
 
@@ -23,6 +25,8 @@ use super::{
 const CHATTER: f64 = 1e-12;
 /// What a state at the start may be off a stop that it sticks to, relative to the same.
 pub(super) const AT_START: f64 = 1e-10;
+/// Speed, relative to the usual one, below which it is rounding.
+pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
 
 /// What is known of the rigid stops of a system.
 #[derive(Debug, Clone, Default)]
@@ -31,10 +35,14 @@ pub(super) struct RigidStops {
     pub(super) stops: Vec<(usize, usize)>,
     /// Elements that are held.
     pub(super) held: Vec<usize>,
+    /// Contacts whose penetration these keep at zero.
+    pub(super) resting: Vec<Resting>,
     /// Fastest impact so far [m/s].
     fastest: f64,
     /// Impacts since they were asked for last.
     pub(super) impacts: Vec<Impact>,
+    /// Touches since then of contacts that close and open in one instant, of elements, with their speeds [m/s].
+    pub(super) touches: Vec<(usize, f64)>,
 }
 
 /// An impact that happened.
@@ -164,36 +172,52 @@ impl SystemField<'_> {
     ) {
         for (e, switch) in self.rigid.stops.clone() {
             if before[switch] && !inside[switch] {
-                self.rigid.held.retain(|&held| held != e);
+                self.release(e, inside);
             }
         }
+        self.meet_companions(inside, before);
         self.throw_off_by_dampers(time, (state, columns), (inside, before));
         for (e, switch) in self.rigid.stops.clone() {
             if before[switch] || !inside[switch] {
                 continue;
             }
             inside[switch] = false;
-            let mut before_it = vec![0.0; state.len()];
-            self.evaluate(Point { time, state, inside }, &mut before_it);
-            let [_, speed, press] = self.relative(e, Point { time, state, inside });
-            let approach = press;
-            let pressing = self.pressing_forces(time, state, inside);
-            let held = self.rigid.held.clone();
-            let way = CHATTER * self.usual_speed(e, state) * self.period;
-            if self.rigid.held.is_empty() || press <= 0.0 || speed * speed > 2.0 * press * way {
-                self.let_go_of_pulling(e, inside);
+            if self.rests(e) {
+                continue;
             }
-            let [_, speed, press] = self.relative(e, Point { time, state, inside });
-            self.rigid.fastest = self.rigid.fastest.max(speed);
-            let restitution = self.laws[e].rigid().map_or(0.0, crate::law::RigidStop::restitution);
-            if self.sticks((e, restitution), (speed, press), time, (state, inside)) {
-                let thrown_off = held.into_iter().filter(|stop| !self.rigid.held.contains(stop));
-                let thrown_off: Vec<_> = thrown_off.map(|stop| (stop, pressing[stop])).collect();
-                inside[switch] = true;
-                self.strike_and_stick((e, speed), &thrown_off, time, (state, columns), inside);
-            } else if speed > 0.0 {
-                self.rebound((e, restitution, approach), time, (state, columns), (inside, &before_it));
-            }
+            self.open_companions(e, time, state, (inside, before));
+            self.meet((e, switch), time, (state, columns), inside);
+        }
+    }
+
+    /// Meets a rigid stop.
+    fn meet(
+        &mut self,
+        (e, switch): (usize, usize),
+        time: f64,
+        (state, columns): (&mut [f64], &mut [f64]),
+        inside: &mut [bool],
+    ) {
+        let mut before_it = vec![0.0; state.len()];
+        self.evaluate(Point { time, state, inside }, &mut before_it);
+        let [_, speed, press] = self.relative(e, Point { time, state, inside });
+        let approach = press;
+        let pressing = self.pressing_forces(time, state, inside);
+        let held = self.rigid.held.clone();
+        let way = CHATTER * self.usual_speed(e, state) * self.period;
+        if self.rigid.held.is_empty() || press <= 0.0 || speed * speed > 2.0 * press * way {
+            self.let_go_of_pulling(e, inside);
+        }
+        let [_, speed, press] = self.relative(e, Point { time, state, inside });
+        self.rigid.fastest = self.rigid.fastest.max(speed);
+        let restitution = self.laws[e].rigid().map_or(0.0, crate::law::RigidStop::restitution);
+        if self.sticks((e, restitution), (speed, press), time, (state, inside)) {
+            let thrown_off = held.into_iter().filter(|stop| !self.rigid.held.contains(stop));
+            let thrown_off: Vec<_> = thrown_off.map(|stop| (stop, pressing[stop])).collect();
+            inside[switch] = true;
+            self.strike_and_stick((e, speed), &thrown_off, time, (state, columns), inside);
+        } else if speed > 0.0 {
+            self.rebound((e, restitution, approach), time, (state, columns), (inside, &before_it));
         }
     }
 
@@ -209,6 +233,10 @@ impl SystemField<'_> {
             let (mut behind, mut region) = (state.to_vec(), inside.to_vec());
             self.take_speed((e, speed), time, &mut behind, &mut region);
             return self.relative(e, Point { time, state: &behind, inside: &region })[2] > 0.0;
+        }
+        if speed < -AT_REST * self.usual_speed(e, state) {
+            // Another stop of its place has turned the speed round.
+            return false;
         }
         let height = (restitution * speed).powi(2) / (2.0 * press);
         press > 0.0 && height <= CHATTER * self.usual_speed(e, state) * self.period

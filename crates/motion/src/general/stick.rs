@@ -11,12 +11,9 @@
 
 use super::{
     Point,
-    rigid::{AT_START, Impact},
+    rigid::{AT_REST, AT_START, Impact},
     system_field::{SystemField, add_scaled, dot, switches_of},
 };
-
-/// Speed of an impact, relative to the usual one, below which it is rounding.
-const AT_REST: f64 = 8.0 * f64::EPSILON;
 
 /// Force of an element and its derivative by the velocity; `None` where the law does not depend on that, or does not press.
 type VelocityForce = Option<(f64, f64)>;
@@ -34,6 +31,9 @@ impl SystemField<'_> {
             inside[switch] = false;
         }
         for (e, switch) in self.rigid.stops.clone() {
+            if self.rests(e) {
+                continue;
+            }
             let [r, speed, press] = self.relative(e, Point { time, state, inside });
             let level = self.laws[e].contacts()[0].level;
             let way = AT_START * self.usual_speed(e, state) * self.period;
@@ -150,8 +150,7 @@ impl SystemField<'_> {
         for (element, factor) in self.system.elements().iter().zip(jumps) {
             add_scaled(&mut jump, *factor, &element.shape);
         }
-        self.rigid.held.push(e);
-        self.rigid.held.sort_unstable();
+        self.add_held(e);
         let held = self.rigid.held.clone();
         let u = self.support_motion(time);
         let ratio = |h: usize| self.system.elements()[h].support_ratio;

@@ -18,10 +18,7 @@ impl SystemField<'_> {
             // The impulse of the impact is negative; a positive part along a held shape is pushed against it.
             let strongest = (0..held.len()).max_by(|&j, &k| reactions[j].total_cmp(&reactions[k]));
             let Some(pulled) = strongest.filter(|&j| reactions[j] > 1e-12) else { return };
-            self.rigid.held.remove(pulled);
-            for &(stop, switch) in &self.rigid.stops {
-                inside[switch] &= stop != held[pulled];
-            }
+            self.release(held[pulled], inside);
         }
     }
 
@@ -52,12 +49,6 @@ impl SystemField<'_> {
             self.release(pulled, inside);
             self.throw_off((pulled, force), columns, delays);
         }
-    }
-
-    fn release(&mut self, e: usize, inside: &mut [bool]) {
-        self.rigid.held.retain(|&held| held != e);
-        let stops = self.rigid.stops.iter().filter(|(stop, _)| *stop == e);
-        stops.for_each(|&(_, switch)| inside[switch] = false);
     }
 
     /// Sensitivities as a stop that was released had pressed with `force` before an instant that comes later by `delays`, one for each column.

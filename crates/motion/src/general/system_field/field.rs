@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{SystemField, add_scaled, dot, linear_rates, switches_of};
+use super::{SystemField, add_scaled, dot, linear_rates};
 use crate::general::{Column, Point, VectorField};
 
 impl VectorField for SystemField<'_> {
@@ -78,24 +78,13 @@ impl VectorField for SystemField<'_> {
     }
 
     fn impact(&mut self, time: f64, motion: (&mut [f64], &mut [f64]), region: (&mut [bool], &[bool])) {
-        self.cross_rigid(time, motion, region);
+        let (state, columns) = motion;
+        self.remember_impacts(time, (state, columns), (region.0, region.1));
+        self.cross_rigid(time, (state, columns), region);
     }
 
     fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
-        let (mut first, mut closing, mut open) = (0, Vec::new(), at.inside.to_vec());
-        for (e, element) in self.system.elements().iter().enumerate() {
-            let switches = first..first + switches_of(element);
-            first = switches.end;
-            if element.law.depends_on_velocity() && !before[switches.start] && at.inside[switches.start] {
-                open[switches.clone()].copy_from_slice(&before[switches]);
-                closing.push(e);
-            }
-        }
-        // What is remembered of an impact is of the motion before all forces that jump in this instant.
-        for &e in &closing {
-            self.remember_impact(e, Point { inside: &open, ..at }, columns);
-        }
-        for &e in &closing {
+        for (e, _) in self.damped_that_close(at.inside, before) {
             self.jump_at_onset(e, at.time, columns);
         }
     }
@@ -131,5 +120,6 @@ impl VectorField for SystemField<'_> {
                 k += 1;
             }
         }
+        self.rigid.resting.iter().for_each(|contact| contact.write(&pressing, &self.region, values));
     }
 }

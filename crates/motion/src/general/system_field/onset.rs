@@ -1,8 +1,8 @@
 //! What begins with a contact: forces that jump, impacts that are remembered.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, ops::Range};
 
-use super::{SystemField, add_scaled, dot};
+use super::{SystemField, add_scaled, dot, switches_of};
 use crate::general::{GeneralError, Point, VectorField};
 
 impl SystemField<'_> {
@@ -51,8 +51,37 @@ impl SystemField<'_> {
         }
     }
 
+    /// Elements whose force depends on the velocity and whose contact closes, with their switching functions.
+    pub(super) fn damped_that_close(&self, inside: &[bool], before: &[bool]) -> Vec<(usize, Range<usize>)> {
+        let (mut first, mut closing) = (0, Vec::new());
+        for (e, element) in self.system.elements().iter().enumerate() {
+            let switches = first..first + switches_of(element);
+            first = switches.end;
+            if element.law.depends_on_velocity() && !before[switches.start] && inside[switches.start] {
+                closing.push((e, switches));
+            }
+        }
+        closing
+    }
+
+    /// Keeps the speeds of impacts in memory: those of the motion before all velocities and forces that jump in this instant. A contact that rested has none.
+    pub(super) fn remember_impacts(
+        &mut self,
+        time: f64,
+        (state, columns): (&[f64], &[f64]),
+        (inside, before): (&[bool], &[bool]),
+    ) {
+        let (closing, mut open) = (self.damped_that_close(inside, before), inside.to_vec());
+        for (_, switches) in &closing {
+            open[switches.clone()].copy_from_slice(&before[switches.clone()]);
+        }
+        for (e, _) in closing.into_iter().filter(|(e, _)| !self.rests(*e)).collect::<Vec<_>>() {
+            self.remember_impact(e, Point { time, state, inside: &open }, columns);
+        }
+    }
+
     /// Keeps the speed of an impact in memory, and its sensitivities `dr' - r'' dr/r'`.
-    pub(super) fn remember_impact(&mut self, e: usize, at: Point<'_>, columns: &[f64]) {
+    fn remember_impact(&mut self, e: usize, at: Point<'_>, columns: &[f64]) {
         if !self.laws[e].remembers_impact() {
             return;
         }
