@@ -30,6 +30,9 @@ pub fn state(
     study: (&StudyFile, &Model),
     results: Option<&Path>,
 ) -> Result<Vec<f64>, Failure> {
+    if let Some(folder) = results {
+        StoredBranches::open(folder, study.0)?;
+    }
     let state = meant(text, map, study, results)?;
     map.check_in_front_of_stops(&state).map_err(|error| {
         Failure::BadInput(format!("--initial {text}, at {} Hz: {error}", map.frequency_hz()))

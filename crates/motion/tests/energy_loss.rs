@@ -288,6 +288,30 @@ fn restitution_that_comes_out_is_that_of_the_first_integral() {
     }
 }
 
+/// What comes out of each factor as its source prints it, solved by bisection outside of this program.
+#[test]
+fn restitution_that_comes_out_is_that_of_the_printed_factors() {
+    use RestitutionModel::{
+        Flores, Gonthier, HerbertMcWhannell, HuGuo, HuntCrossley, LankaraniNikravesh, LeeWang,
+    };
+    let table = [
+        (HuntCrossley, [0.909_016, 0.768_000, 0.662_962, 0.581_288]),
+        (HerbertMcWhannell, [0.900_893, 0.722_683, 0.593_624, 0.519_967]),
+        (LeeWang, [0.952_370, 0.869_343, 0.799_199, 0.738_995]),
+        (LankaraniNikravesh, [0.913_177, 0.795_973, 0.725_241, 0.684_225]),
+        (Gonthier, [0.876_435, 0.669_581, 0.487_741, 0.304_225]),
+        (Flores, [0.893_921, 0.683_184, 0.470_445, 0.256_208]),
+        (HuGuo, [0.899_900, 0.697_297, 0.487_741, 0.270_658]),
+    ];
+    assert_eq!(table.len(), RestitutionModel::ALL.len());
+    for (model, row) in table {
+        for (e, expected) in [0.9, 0.7, 0.5, 0.3].into_iter().zip(row) {
+            let (_, found) = Bounce::new(0.2, restitution(1e8, model, e, 0.0)).restitution(1.0, 0.2);
+            assert!((found - expected).abs() < 1e-6, "{model:?} {e}: {found} against {expected}");
+        }
+    }
+}
+
 /// What the sources say of their range: exact to first order near 1 (four models), complete loss at 0 (those with e below the line), fair throughout (Flores).
 #[test]
 fn models_are_good_where_their_sources_say() {

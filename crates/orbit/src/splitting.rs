@@ -27,7 +27,7 @@ use hammerbeam_motion::{
 /// So many short steps in a row raise the question, and as many more raise it again: a fold is passed with a few, a splitting is approached with no other.
 pub(crate) const SHORT_STEPS: u64 = 50;
 
-/// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path; some ten are usual.
+/// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path and in that of the orbit itself; some ten are usual.
 pub(crate) const LABORIOUS: u64 = 500;
 
 /// Least penetration within a contact, over its largest.

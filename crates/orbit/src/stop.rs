@@ -135,7 +135,8 @@ impl BranchWalk {
             }
             hammerbeam_path::StopReason::EvaluationFailed { parameter, error, .. } => {
                 let message = self.problem.failure().map_or_else(|| error.to_string(), ToString::to_string);
-                StopReason::Motion { frequency_hz: parameter, message }
+                self.splitting(frequency_hz)
+                    .unwrap_or(StopReason::Motion { frequency_hz: parameter, message })
             }
             hammerbeam_path::StopReason::Budget => {
                 StopReason::Budget { solutions: self.follower.counters().accepted as usize }
@@ -152,16 +153,27 @@ impl BranchWalk {
         self.splitting(self.follower.current().parameter())
     }
 
-    /// If the motion of the last step took far more work than its contacts need, and one of them begins with next to no speed.
-    pub(crate) fn labours_at_splitting(&mut self, spent: Work) -> Result<Option<StopReason>, OrbitError> {
+    /// If the motion of the last step, which led away from `before`, took far more work than its contacts need, that of the orbit reached does, and one of its contacts begins with next to no speed.
+    pub(crate) fn labours_at_splitting(
+        &mut self,
+        before: &Place,
+        spent: Work,
+    ) -> Result<Option<StopReason>, OrbitError> {
         let touches = self.problem.touches().iter().map(|&touches| u64::from(touches)).sum();
         if !spent.is_laborious(touches) {
             return Ok(None);
         }
         let present = self.place();
+        // A correction on a wrong way may have been what cost so much.
+        let earlier = self.problem.integrator().counts().steps;
+        evaluate(&mut self.problem, &present.point.point)?;
+        let alone = Work { force_steps: self.problem.integrator().counts().steps - earlier, evaluations: 1 };
+        if !alone.is_laborious(touches) {
+            return Ok(None);
+        }
         let found = self.slow_begin_of(&present);
         evaluate(&mut self.problem, &present.point.point)?;
-        let frequency_hz = present.point.parameter();
+        let frequency_hz = before.point.parameter();
         Ok(found.map(|Splitting { element, phase }| StopReason::ContactSplits {
             frequency_hz,
             element,

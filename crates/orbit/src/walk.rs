@@ -350,7 +350,7 @@ impl BranchWalk {
         if let Some(splits) = self.passes_splitting(before)? {
             return Ok(Some(splits));
         }
-        self.labours_at_splitting(spent)
+        self.labours_at_splitting(before, spent)
     }
 
     /// Excitation periods of an orbit.

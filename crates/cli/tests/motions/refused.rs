@@ -36,6 +36,8 @@ fn options_that_make_no_sense_are_refused() {
         (&simulate, &["--initial", "-1,2,nan,4"], "found \"nan\""),
         (&simulate, &["--initial", "branch:1"], "needs --results DIR"),
         (&simulate, &["--initial", "branch:1", "--results", "nowhere"], "there are no results in nowhere"),
+        (&simulate, &["--results", "nowhere"], "there are no results in nowhere"),
+        (&lyapunov, &["--results", "nowhere"], "there are no results in nowhere"),
         (&lyapunov, &["--to", "4"], "--to is 4 Hz, which is below --frequency, 5 Hz"),
         (&lyapunov, &["--step", "1"], "--to"),
         (&lyapunov, &["--periods", "19"], "19 is not in 20..="),

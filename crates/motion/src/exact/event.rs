@@ -24,7 +24,7 @@ const RELATIVE_ACCURACY: f64 = 0.02;
 const COARSE: f64 = 1e-5;
 
 /// A step that ends with a release and is longer than what the last step allows by this factor fails as a rule.
-const HOPELESS: f64 = 1.5;
+pub(super) const HOPELESS: f64 = 1.5;
 
 /// What ends a step.
 #[derive(Debug, Clone, Copy, PartialEq)]

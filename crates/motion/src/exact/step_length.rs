@@ -4,7 +4,7 @@
 //! `s = sqrt(t/h)` up to the release, at `s = sqrt(T/h)`, and the nearer that is the slower its coefficients fall. So the error goes with the length faster than with a fixed power: from `0.3 T` to `0.5 T`
 //! with powers from 11 down to 5. A step to the release is the same seen backwards. One through the middle has a release or a touch beyond either end only, and bears nearly twice the length.
 //!
-//! Two halves are enough for sensitivities up to a tolerance of some 1e-10 ([`HALF_WITH_SENSITIVITIES`]). Below that a contact takes three steps: one from the touch that is as much shorter as the tolerance asks for, one
+//! The error is relative to a bound that goes like the root of the tolerance (`step_error.rs`): two halves are enough for sensitivities down to a tolerance of 2.5e-10 ([`HALF_WITH_SENSITIVITIES`]). Below that a contact takes three steps: one from the touch that is as much shorter as the tolerance asks for, one
 //! through the middle, and one to the release, for which as much is left as the first step bore. Where the middle one does not reach so far there are more. The forecast of the release comes up to a tenth too early as a rule
 //! (`forecast.rs`), so the step before the last goes somewhat farther than it says.
 
@@ -12,6 +12,7 @@ use super::{
     ExactIntegrator,
     aim::Aim,
     collocation::{Grading, NODES},
+    event::HOPELESS,
     run::Run,
     step_error::LONGEST_GROWTH,
 };
@@ -45,13 +46,17 @@ impl ExactIntegrator {
             let length = if run.proposal > 0.0 { run.proposal } else { self.first_length(run, remaining) };
             return Aim::free(length.min(remaining));
         };
-        let reach =
-            self.grading(run, touched, Some(ending)).map_or(0.0, |grading| reach_of_end(run, grading));
+        let to_end = self.grading(run, touched, Some(ending));
+        let reach = to_end.map_or(0.0, |grading| reach_of_end(run, grading));
         if time <= reach && time <= 1.2 * remaining {
             let otherwise = if run.proposal > 0.0 { run.proposal } else { 0.5 * time };
             return Aim::to_or(ending, time.min(remaining), otherwise.min(remaining));
         }
-        let length = if run.proposal > 0.0 { before_end(run, time) } else { self.first_part(run) * time };
+        let length = if run.proposal > 0.0 {
+            before_end(run, time, to_end == Some(Grading::Release))
+        } else {
+            self.first_part(run) * time
+        };
         Aim::free(length.min(remaining))
     }
 
@@ -81,7 +86,8 @@ impl ExactIntegrator {
     pub(super) fn plan_next(&self, run: &mut Run, length: f64, error: f64) {
         let mut growth = self.growth(error);
         if self.step.grading() == Grading::Touch {
-            run.graded = BACKWARDS * length * allowed(error, Grading::Touch).min(LONGEST_GROWTH);
+            let longest = BACKWARDS * length * allowed(error, Grading::Touch).min(LONGEST_GROWTH);
+            run.graded = self.resolved_length(longest);
             growth *= SMOOTH_BEARS;
         }
         run.proposal = self.resolved_length(length * growth.clamp(0.3, LONGEST_GROWTH));
@@ -99,17 +105,17 @@ fn reach_of_end(run: &Run, grading: Grading) -> f64 {
     if run.proposal == 0.0 {
         f64::INFINITY
     } else if grading == Grading::Release && run.graded > 0.0 {
-        0.95 * run.graded
+        (0.95 * run.graded).min(HOPELESS * run.proposal)
     } else {
         1.4 * run.proposal
     }
 }
 
-/// Length of a step before one to an end that is expected in that time.
-fn before_end(run: &Run, time: f64) -> f64 {
-    let rest = 1.05 * time - 0.85 * run.graded;
-    if run.graded > 0.0 && rest <= 1.1 * run.proposal {
-        rest.max(0.4 * time)
+/// Length of a step before one to an end that is expected in that time, and to which a step is graded or not.
+fn before_end(run: &Run, time: f64, is_graded: bool) -> f64 {
+    let (rest, most) = (1.05 * time - 0.85 * run.graded, 1.1 * run.proposal);
+    if is_graded && run.graded > 0.0 && rest <= most {
+        rest.max(0.4 * time).min(most)
     } else if time < 2.0 * run.proposal {
         0.5 * time
     } else {

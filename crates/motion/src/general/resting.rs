@@ -61,7 +61,7 @@ impl SystemField<'_> {
 
     /// A contact does not close without a rigid stop of its place being met, though rounding may have the one before its level and the other behind.
     pub(super) fn meet_companions(&self, inside: &mut [bool], before: &[bool]) {
-        let open = self.rigid.stops.iter().filter(|(e, _)| !self.rigid.held.contains(e));
+        let open = self.rigid.stops.iter().filter(|(e, _)| !self.rigid.held.contains(e) && !self.rests(*e));
         for &(e, switch) in open {
             let held: Vec<usize> = self.rigid.held.iter().copied().chain([e]).collect();
             let closes = |contact: &Resting| inside[contact.penetration] && !before[contact.penetration];

@@ -176,6 +176,11 @@ impl SystemField<'_> {
             }
         }
         self.meet_companions(inside, before);
+        for (e, switch) in self.rigid.stops.clone() {
+            if !before[switch] && inside[switch] && !self.rests(e) {
+                self.open_companions(e, time, state, (inside, before));
+            }
+        }
         self.throw_off_by_dampers(time, (state, columns), (inside, before));
         for (e, switch) in self.rigid.stops.clone() {
             if before[switch] || !inside[switch] {
@@ -185,7 +190,6 @@ impl SystemField<'_> {
             if self.rests(e) {
                 continue;
             }
-            self.open_companions(e, time, state, (inside, before));
             self.meet((e, switch), time, (state, columns), inside);
         }
     }

@@ -153,6 +153,9 @@ pub fn difference(system: &System, stretch: &Stretch, found: &Flow, expected: &F
     };
     let of = |value: &dyn Fn(&Flow, usize) -> f64, count: usize, least: f64| {
         let gap = largest(count, &|index| value(found, index) - value(expected, index));
+        if gap == f64::INFINITY {
+            return gap;
+        }
         gap / largest(count, &|index| value(expected, index)).max(least)
     };
     let entry = |flow: &Flow, index: usize| {

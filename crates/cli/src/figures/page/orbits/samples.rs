@@ -6,7 +6,7 @@ use hammerbeam_motion::{
 };
 use hammerbeam_orbit::PeriodicSolution;
 
-/// Samples in each of the steps, some four, in which a contact is integrated, unless as many regular ones lie in it.
+/// Samples in each of the steps, some three, in which a contact is integrated, unless as many regular ones lie in it.
 const IN_A_STEP: usize = 6;
 
 /// A state of an orbit.
