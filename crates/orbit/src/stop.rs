@@ -232,22 +232,23 @@ impl BranchWalk {
 
     /// Where a contact of an orbit splits.
     fn splitting_of(&mut self, orbit: &Place) -> Option<Splitting> {
-        let (begin, span) = self.begin_and_span(orbit)?;
+        let span = self.move_to_orbit(orbit)?;
+        let begin = (orbit.phase, orbit.state.clone());
         splitting::find(self.problem.integrator(), begin, span).ok()?
     }
 
     /// Where a contact of an orbit has just split.
     fn slow_begin_of(&mut self, orbit: &Place) -> Option<Splitting> {
-        let (begin, span) = self.begin_and_span(orbit)?;
+        let span = self.move_to_orbit(orbit)?;
+        let begin = (orbit.phase, orbit.state.clone());
         splitting::find_slow_begin(self.problem.integrator(), begin, span).ok()?
     }
 
-    /// Phase and state with which an orbit begins, its frequency and its excitation periods.
-    fn begin_and_span(&mut self, orbit: &Place) -> Option<((f64, Vec<f64>), (f64, f64))> {
+    /// Sets the parameter of an orbit; its frequency [Hz] and its excitation periods.
+    fn move_to_orbit(&mut self, orbit: &Place) -> Option<(f64, f64)> {
         let point = &orbit.point.point;
         self.problem.move_to(point).ok()?;
-        let span = (self.problem.frequency(point), f64::from(self.problem.period_multiple()));
-        Some(((orbit.phase, orbit.state.clone()), span))
+        Some((self.problem.frequency(point), f64::from(self.problem.period_multiple())))
     }
 
     /// Largest magnitude of the multipliers of the present orbit; infinite where they cannot be had.
