@@ -30,6 +30,9 @@ const MAX_TRIES: usize = 60;
 /// Part of the largest velocity of an element below which its own is rounding.
 pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
 
+/// Most of its length that a step keeps that was too inaccurate: its error is hardly one that a power describes yet, and what would just do by it can be far off.
+const MOST_KEPT: f64 = 0.7;
+
 /// What became of a try.
 enum Tried {
     Accepted {
@@ -171,7 +174,7 @@ impl ExactIntegrator {
             _ => self.first_release(run, None, &[]),
         };
         if error > 1.0 {
-            let shorter = length * self.growth(error).max(0.1);
+            let shorter = length * self.growth(error).clamp(0.1, MOST_KEPT);
             let Some((end, time)) = release else { return free(shorter) };
             // Where the step passed the release its error says little.
             let news = run.release.is_none();
@@ -202,7 +205,7 @@ impl ExactIntegrator {
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
         if error > 1.0 {
             run.release = release.map(|(end, time)| (end, run.time + time)).or(run.release);
-            return free(length * self.growth(error).max(0.1));
+            return free(length * self.growth(error).clamp(0.1, MOST_KEPT));
         }
         Tried::Accepted { error, event }
     }
