@@ -30,10 +30,8 @@ pub fn state(
     study: (&StudyFile, &Model),
     results: Option<&Path>,
 ) -> Result<Vec<f64>, Failure> {
-    if let Some(folder) = results {
-        StoredBranches::open(folder, study.0)?;
-    }
-    let state = meant(text, map, study, results)?;
+    let branches = results.map(|folder| StoredBranches::open(folder, study.0)).transpose()?;
+    let state = meant(text, map, study.1, branches.as_ref())?;
     map.check_in_front_of_stops(&state).map_err(|error| {
         Failure::BadInput(format!("--initial {text}, at {} Hz: {error}", map.frequency_hz()))
     })?;
@@ -43,12 +41,12 @@ pub fn state(
 fn meant(
     text: &str,
     map: &mut SystemMap,
-    study: (&StudyFile, &Model),
-    results: Option<&Path>,
+    model: &Model,
+    branches: Option<&StoredBranches>,
 ) -> Result<Vec<f64>, Failure> {
     let size = map.dimension();
     if let Some(branch) = text.strip_prefix("branch:") {
-        return of_branch(branch, map, study, results);
+        return of_branch(branch, map, model, branches);
     }
     match text {
         "rest" => Ok(vec![0.0; size]),
@@ -82,14 +80,13 @@ fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
 fn of_branch(
     text: &str,
     map: &mut SystemMap,
-    (file, model): (&StudyFile, &Model),
-    results: Option<&Path>,
+    model: &Model,
+    branches: Option<&StoredBranches>,
 ) -> Result<Vec<f64>, Failure> {
     let frequency_hz = map.frequency_hz();
-    let Some(folder) = results else {
+    let Some(branches) = branches else {
         return Err(Failure::BadInput("--initial branch:N needs --results DIR".to_owned()));
     };
-    let branches = StoredBranches::open(folder, file)?;
     let known: Vec<u32> = branches.branches().iter().map(|branch| branch.record.id).collect();
     let Some(number) = text.parse::<u32>().ok().filter(|number| known.contains(number)) else {
         let last = known.last().copied().unwrap_or(0);

@@ -165,20 +165,14 @@ impl BranchWalk {
         }
         let present = self.place();
         // A correction on a wrong way may have been what cost so much.
-        let earlier = self.problem.integrator().counts().steps;
+        let earlier = self.work();
         evaluate(&mut self.problem, &present.point.point)?;
-        let alone = Work { force_steps: self.problem.integrator().counts().steps - earlier, evaluations: 1 };
-        if !alone.is_laborious(touches) {
+        if !self.work().since(earlier).is_laborious(touches) {
             return Ok(None);
         }
         let found = self.slow_begin_of(&present);
         evaluate(&mut self.problem, &present.point.point)?;
-        let frequency_hz = before.point.parameter();
-        Ok(found.map(|Splitting { element, phase }| StopReason::ContactSplits {
-            frequency_hz,
-            element,
-            phase,
-        }))
+        Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
     }
 
     /// If a step has passed a splitting: the number of contacts of an element has changed since the last row, and a contact of it splits in the orbit `before` the step or in the present one, at which the
@@ -195,12 +189,7 @@ impl BranchWalk {
         let splits = self.splitting_of(before).and_then(among);
         let splits = splits.or_else(|| self.splitting_of(&current).and_then(among));
         evaluate(&mut self.problem, &current.point.point)?;
-        let frequency_hz = before.point.parameter();
-        Ok(splits.map(|Splitting { element, phase }| StopReason::ContactSplits {
-            frequency_hz,
-            element,
-            phase,
-        }))
+        Ok(splits.map(|splitting| splits_at(before.point.parameter(), splitting)))
     }
 
     /// Names of the elements whose laws remember impacts and whose touches are not as many as in the last row.
@@ -216,8 +205,7 @@ impl BranchWalk {
     /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.
     fn splitting(&mut self, frequency_hz: f64) -> Option<StopReason> {
         let present = self.may_split()?;
-        let Splitting { element, phase } = self.splitting_of(&present)?;
-        Some(StopReason::ContactSplits { frequency_hz, element, phase })
+        self.splitting_of(&present).map(|splitting| splits_at(frequency_hz, splitting))
     }
 
     /// Where the present orbit begins, if a contact of it may split.
@@ -257,4 +245,9 @@ impl BranchWalk {
         let row = evaluate(&mut self.problem, &point.point).and_then(|()| self.row_at(&point));
         row.map_or(f64::INFINITY, |row| row.solution.largest_multiplier())
     }
+}
+
+/// Why a walk ends whose last orbit has this frequency.
+fn splits_at(frequency_hz: f64, Splitting { element, phase }: Splitting) -> StopReason {
+    StopReason::ContactSplits { frequency_hz, element, phase }
 }

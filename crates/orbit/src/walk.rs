@@ -333,7 +333,7 @@ impl BranchWalk {
     }
 
     /// Work done so far; differences of it depend on nothing but the path.
-    fn work(&mut self) -> Work {
+    pub(crate) fn work(&mut self) -> Work {
         let force_steps = self.problem.integrator().counts().steps;
         Work { force_steps, evaluations: self.follower.counters().evaluations }
     }

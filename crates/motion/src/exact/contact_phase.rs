@@ -224,7 +224,7 @@ impl ExactIntegrator {
                 return Ok(None);
             };
             let undecided = self.located_within(run, earlier);
-            if excused.contains(&earlier) || !aim.was_later(earlier, time, (length, undecided)) {
+            if !aim.was_later(earlier, time, (length, undecided)) {
                 return Ok(Some((earlier, time)));
             }
             // What is not looked for any more was the first: there may be another one behind it.

@@ -63,10 +63,7 @@ impl SystemField<'_> {
     pub(super) fn meet_companions(&self, inside: &mut [bool], before: &[bool]) {
         let open = self.rigid.stops.iter().filter(|(e, _)| !self.rigid.held.contains(e) && !self.rests(*e));
         for &(e, switch) in open {
-            let held: Vec<usize> = self.rigid.held.iter().copied().chain([e]).collect();
-            let closes = |contact: &Resting| inside[contact.penetration] && !before[contact.penetration];
-            let met = self.resting_on(&held).iter().any(|contact| contact.opens_with(e) && closes(contact));
-            inside[switch] |= met;
+            inside[switch] |= !self.closing_companions(e, inside, before).is_empty();
         }
     }
 
@@ -79,12 +76,8 @@ impl SystemField<'_> {
         state: &[f64],
         (inside, before): (&mut [bool], &[bool]),
     ) {
-        let held: Vec<usize> = self.rigid.held.iter().copied().chain([e]).collect();
-        let closes = |contact: &Resting| inside[contact.penetration] && !before[contact.penetration];
-        let of_its_place = self.resting_on(&held).into_iter();
-        let companions = of_its_place.filter(|contact| contact.opens_with(e) && closes(contact));
         let velocities = &state[self.system.dof()..];
-        for contact in companions.collect::<Vec<_>>() {
+        for contact in self.closing_companions(e, inside, before) {
             let element = &self.system.elements()[contact.element];
             if element.law.rigid().is_some() {
                 continue;
@@ -96,6 +89,15 @@ impl SystemField<'_> {
                 self.rigid.touches.push((contact.element, speed));
             }
         }
+    }
+
+    /// Contacts that close and would rest if the stop of an element were held, too, and open as that is left.
+    fn closing_companions(&self, e: usize, inside: &[bool], before: &[bool]) -> Vec<Resting> {
+        let held: Vec<usize> = self.rigid.held.iter().copied().chain([e]).collect();
+        let closes = |contact: &Resting| inside[contact.penetration] && !before[contact.penetration];
+        let mut found = self.resting_on(&held);
+        found.retain(|contact| contact.opens_with(e) && closes(contact));
+        found
     }
 
     /// Lets a held stop go; contacts that rested on it are open, if it moves them that way.
