@@ -16,6 +16,8 @@ use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings};
 
 const SKETCH: usize = 8;
 const NONE: u32 = u32::MAX;
+/// Cells along the longest step: in thickets, where steps are short, thousands of segments would lie in a cell as long as that.
+const CELLS_A_STEP: f64 = 8.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
 
@@ -50,7 +52,8 @@ impl PathMemory {
         let parameter_root = weights[weights.len() - 1].sqrt();
         Self {
             roots: weights.iter().map(|w| w.sqrt()).collect(),
-            cell: settings.max_step_length.min(4.0 * settings.max_parameter_step * parameter_root),
+            cell: settings.max_step_length.min(4.0 * settings.max_parameter_step * parameter_root)
+                / CELLS_A_STEP,
             tolerance: 10.0 * settings.correction_tolerance,
             largest_defect: settings.sheet_distance,
             vertices: Vec::new(),

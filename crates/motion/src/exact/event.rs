@@ -71,6 +71,8 @@ impl ExactIntegrator {
     ) -> Option<Solved> {
         let exponent = self.exponent_of(run, event);
         let accuracy = self.location_accuracy(exponent);
+        // Newton's method with the curvature: the next error is below the power 2.5 of this one.
+        let nearly = 0.3 * accuracy.powf(0.4);
         // A stop that has just been left is not met before its clearance is looked at again, however little it is above zero meanwhile.
         let least = match event {
             Event::Touch(touch) => self.looked_past(run, touch.element).min(remaining),
@@ -106,8 +108,7 @@ impl ExactIntegrator {
             if length + change > self.longest_with_sensitivities(run) {
                 return Some(Solved { error: f64::INFINITY, at_event: true, length: length + change });
             }
-            // Newton's method with the curvature: the next error is below the power 2.5 of this one.
-            let near = change.abs() <= 0.3 * accuracy.powf(0.4) * length && distance.curvature.is_finite();
+            let near = change.abs() <= nearly * length && distance.curvature.is_finite();
             last = fine && near && length + change < remaining;
             precision = self.full_precision();
             length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining).max(least);

@@ -28,7 +28,7 @@ struct Bounce {
 impl Bounce {
     /// Potential at a penetration.
     fn potential(&self, x: f64) -> f64 {
-        self.leaving * x + self.gain * x.powf(self.power)
+        self.leaving * x + self.gain * power_of(x, self.power)
     }
 
     /// Penetration at which the potential has this value, by Newton's method from above (the potential is convex).
@@ -39,7 +39,7 @@ impl Bounce {
         }
         let mut x = elastic.min(energy / self.leaving);
         for _ in 0..8 {
-            let force = self.leaving + self.power * self.gain * x.powf(self.power - 1.0);
+            let force = self.leaving + self.power * self.gain * power_of(x, self.power - 1.0);
             let change = (self.potential(x) - energy) / force;
             x -= change;
             if change.abs() <= 1e-3 * x {
@@ -58,6 +58,16 @@ impl Bounce {
             2.0 * depth * w / (2.0 * kinetic).sqrt()
         };
         GAUSS_4.iter().map(|&(x, weight)| weight * slowness(range * x)).sum::<f64>() * range
+    }
+}
+
+/// A power of a number that is not negative, without a logarithm where the exponent is a multiple of a half, as in all laws.
+fn power_of(x: f64, exponent: f64) -> f64 {
+    let whole = exponent.floor();
+    match exponent - whole {
+        0.0 => x.powi(whole as i32),
+        0.5 => x.powi(whole as i32) * x.sqrt(),
+        _ => x.powf(exponent),
     }
 }
 
@@ -81,7 +91,7 @@ impl ExactIntegrator {
         // The coefficient K of the law, read off it where it is loaded.
         let probe = if penetration > 0.0 { penetration } else { 1e-6 };
         let force = self.laws[element].force(contact.level + contact.sign * probe, 0.0).value.abs();
-        let coefficient = force / probe.powf(contact.onset_exponent);
+        let coefficient = force / power_of(probe, contact.onset_exponent);
         let gain = mobility * coefficient / power;
         if gain == 0.0 {
             return None;
@@ -98,7 +108,8 @@ impl ExactIntegrator {
         if depth.is_nan() || depth <= 0.0 {
             return None;
         }
-        let (rising, falling) = (bounce.time(penetration, depth), bounce.time(0.0, depth));
+        let falling = bounce.time(0.0, depth);
+        let rising = if penetration == 0.0 { falling } else { bounce.time(penetration, depth) };
         let time = if speed > 0.0 { falling + rising } else { falling - rising };
         (time > 0.0).then_some((element, time))
     }

@@ -319,20 +319,24 @@ impl Series {
     ) -> Jet {
         let rule = grading.rule();
         let z = length * self.rate;
-        let mut sums = [0.0; 3];
-        let (mut power, mut factor) = (1.0, length);
         let count = self.columns.len();
-        for m in 0..Self::terms(z) {
-            (0..3).for_each(|d| sums[d] += power * readings[m + d]);
-            power *= z / (m + 1) as f64;
-            for (a, &e) in active.iter().enumerate() {
-                let force = &force[a * NODES..(a + 1) * NODES];
-                let moment = factor * dot(&rule.at_end[m], force);
-                let markov = &self.markov[output * count + e];
-                (0..3).for_each(|d| sums[d] += markov[m + d] * moment);
+        let sums = vectorised(|| {
+            let mut sums = [0.0; 3];
+            let (mut power, mut factor) = (1.0, length);
+            let three = |list: &[f64], m: usize| [list[m], list[m + 1], list[m + 2]];
+            for m in 0..Self::terms(z) {
+                let reading = three(readings, m);
+                (0..3).for_each(|d| sums[d] += power * reading[d]);
+                power *= z / (m + 1) as f64;
+                for (force, &e) in force.as_chunks::<NODES>().0.iter().zip(active) {
+                    let moment = factor * dot(&rule.at_end[m], force);
+                    let markov = three(&self.markov[output * count + e], m);
+                    (0..3).for_each(|d| sums[d] += markov[d] * moment);
+                }
+                factor *= z;
             }
-            factor *= z;
-        }
+            sums
+        });
         Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
     }
 }
