@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::{
     IMPACT_OSCILLATOR,
-    common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout},
+    common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, short_run, stderr, stdout},
     document, remembering,
 };
 
@@ -208,4 +208,118 @@ fn faulty_studies_are_refused() {
         assert_bad_input(&workshop.hammerbeam(arguments), &["`gap_m` is -0.001 m", "stop[0].gap_m"]);
     }
     assert_eq!(workshop.listing(), before);
+}
+
+/// One beyond each end of what an option allows, and options that exclude one another.
+#[test]
+fn options_beyond_their_limits_are_refused() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let sweep = ["sweep", "study.toml"];
+    let basins = ["basins", "study.toml", "--frequency", "5", "--x", "q1=0..1", "--y", "v1=0..1"];
+    let before = workshop.listing();
+    for (command, options, part) in [
+        (
+            &sweep[..],
+            &["--starts", "3", "--initial", "rest"][..],
+            "'--starts <N>' cannot be used with '--initial",
+        ),
+        (&sweep, &["--starts", "100001"], "100001 is not in 1..=100000"),
+        (&sweep, &["--samples", "0"], "'0' for '--samples <N>': 0 is not in 1..=100000"),
+        (&sweep, &["--samples", "100001"], "100001 is not in 1..=100000"),
+        (&sweep, &["--patience-periods", "0"], "'0' for '--patience-periods <N>': 0 is not in 1..=100000000"),
+        (&sweep, &["--longest-period", "1025"], "1025 is not in 1..=1024"),
+        (&sweep, &["--jobs", "0"], "'0' for '--jobs <N>': 0 is not in 1..="),
+        (&basins, &["--grid", "10001"], "10001 is not in 1..=10000"),
+        (&basins, &["--patience-periods", "0"], "0 is not in 1..=100000000"),
+        (
+            &basins,
+            &["--longest-period", "1025"],
+            "'1025' for '--longest-period <N>': 1025 is not in 1..=1024",
+        ),
+        (&basins, &["--jobs", "0"], "'0' for '--jobs <N>': 0 is not in 1..="),
+    ] {
+        assert_bad_input(&workshop.hammerbeam(&[command, options].concat()), &[part]);
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
+}
+
+/// Two masses of their own: the response is that of the second, and the first mode is that of the first.
+#[test]
+fn displacement_is_refused_as_a_coordinate_where_the_first_mode_does_not_move_the_response_point() {
+    let workshop = Workshop::driven_mass("frequency_hz = [0.1, 0.2]\n[response]\npoint = \"other\"");
+    let study = std::fs::read_to_string(workshop.path("study.toml")).unwrap();
+    let other = "mass = [{ name = \"other\", mass_kg = 1.0 }, ";
+    let held = "spring = [{ between = [\"other\", \"ground\"], stiffness_n_m = 9.0 }, ";
+    let study = study.replace("mass = [", other).replace("spring = [", held);
+    std::fs::write(workshop.path("study.toml"), study).unwrap();
+    let basins = |x: &str, y: &str| {
+        workshop.hammerbeam(&[
+            "basins",
+            "study.toml",
+            "--frequency",
+            "0.1",
+            "--grid",
+            "1",
+            "--x",
+            x,
+            "--y",
+            y,
+        ])
+    };
+    for (x, y, flag) in [("displacement=0..1", "q2=0..1", "--x"), ("q1=0..1", "velocity=0..1", "--y")] {
+        let part =
+            format!("{flag}: the first mode does not move the response point; allowed: q1 to q2, v1 to v2");
+        assert_bad_input(&basins(x, y), &[&part]);
+    }
+    // The coordinates that are allowed are.
+    assert_success(&basins("q2=0..1", "v2=0..1"));
+}
+
+/// As `simulate` does.
+#[test]
+fn lyapunov_and_sweep_refuse_states_in_which_no_motion_begins() {
+    let rigid = Workshop::with(IMPACT_OSCILLATOR);
+    let memory = Workshop::with(&remembering());
+    for (workshop, initial, part) in [
+        (
+            &rigid,
+            "1.5,0",
+            "--initial 1.5,0, at 0.3 Hz: the state lies 5.000e-1 m behind the rigid stop \"stop\"",
+        ),
+        (&memory, "0.1,0", "the state lies 1.000e-1 m within the contact of \"stop\""),
+    ] {
+        for command in [
+            &["lyapunov", "study.toml", "--frequency", "0.3"][..],
+            &["sweep", "study.toml", "--from", "0.3", "--to", "0.4"],
+        ] {
+            let arguments = [command, &["--initial", initial, "--out", "out"]].concat();
+            assert_bad_input(&workshop.hammerbeam(&arguments), &[part]);
+            assert!(!workshop.path("out").exists(), "something was written");
+        }
+    }
+}
+
+/// The run has one branch, which ends at 14 Hz.
+#[test]
+fn branches_that_are_not_there_are_refused_by_every_command() {
+    let workshop = short_run("");
+    let before = workshop.listing();
+    for command in [
+        &["simulate", "study.toml", "--frequency", "15"][..],
+        &["lyapunov", "study.toml", "--frequency", "15"],
+        &["sweep", "study.toml", "--from", "15", "--to", "16"],
+    ] {
+        let of = |branch: &str| {
+            workshop.hammerbeam(&[command, &["--initial", branch, "--results", "results"]].concat())
+        };
+        for branch in ["branch:2", "branch:0", "branch:x", "branch:"] {
+            let name = &branch["branch:".len()..];
+            let part = format!("--initial: there is no branch {name:?}; allowed: 1 to 1");
+            assert_bad_input(&of(branch), &[&part]);
+        }
+        let output = of("branch:1");
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("branch 1 does not cross 15 Hz"), "{}", stderr(&output));
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
 }
