@@ -19,7 +19,7 @@ use hammerbeam_motion::{
     Law, Load, System,
     law::{HertzStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop},
 };
-use hammerbeam_orbit::{OrbitSettings, find_start};
+use hammerbeam_orbit::{BranchWalk, OrbitMaxima, OrbitSettings, PeriodicSolution, Side, find_start};
 
 const FREQUENCY: f64 = 1.8;
 const GAP: f64 = 0.1;
@@ -40,27 +40,37 @@ fn rigid(e: f64) -> [f64; 3] {
     [speed, sum, e * e]
 }
 
-/// The same of the orbit with this stop.
-fn compliant(law: Law) -> [f64; 3] {
+/// The oscillator with this stop, driven by `force cos(w t)`.
+fn rig(law: Law, force: f64) -> Rig {
     let model = single_mass(1.0, 1.0, 0.0, false);
-    let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, 1.0)] };
+    let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, force)] };
     let stop = element_at(&model, "mass", law);
     let response = response_of(&model, "mass");
-    let rig = Rig { system: System::new(model, &load, vec![stop]).unwrap(), response };
-    let orbit =
-        find_start(&rig.system, &rig.response, FREQUENCY / TAU, 1, &OrbitSettings::default()).unwrap();
+    Rig { system: System::new(model, &load, vec![stop]).unwrap(), response }
+}
+
+/// The same of an orbit that was found.
+fn read(orbit: &PeriodicSolution) -> [f64; 3] {
     assert_eq!(orbit.maxima.contacts, 1);
     let [[a, b], [c, d]] = [orbit.floquet_multipliers[0], orbit.floquet_multipliers[1]];
     [orbit.maxima.impact_velocity, a + c, a * c - b * d]
 }
 
+/// The same of the orbit with this stop.
+fn compliant(law: Law) -> [f64; 3] {
+    let rig = rig(law, 1.0);
+    read(&find_start(&rig.system, &rig.response, FREQUENCY / TAU, 1, &OrbitSettings::default()).unwrap())
+}
+
 /// Largest difference from the rigid stop of `e` at each stiffness, and the slope of its logarithm.
 fn convergence(e: f64, stiffnesses: [f64; 2], law: impl Fn(f64) -> Law) -> ([f64; 2], f64) {
+    converged(e, stiffnesses, stiffnesses.map(|stiffness| compliant(law(stiffness))))
+}
+
+/// The same of what was found with these stiffnesses.
+fn converged(e: f64, stiffnesses: [f64; 2], found: [[f64; 3]; 2]) -> ([f64; 2], f64) {
     let rigid = rigid(e);
-    let errors = stiffnesses.map(|stiffness| {
-        let found = compliant(law(stiffness));
-        (0..3).map(|i| (found[i] - rigid[i]).abs()).fold(0.0, f64::max)
-    });
+    let errors = found.map(|found| (0..3).map(|i| (found[i] - rigid[i]).abs()).fold(0.0, f64::max));
     (errors, (errors[1] / errors[0]).ln() / (stiffnesses[1] / stiffnesses[0]).ln())
 }
 
@@ -108,11 +118,40 @@ fn stiffer_hertz_contacts_with_restitution_converge_to_the_rigid_stop() {
     }
 }
 
-/// A contact without loss gives the speed back, as a rigid stop with `e = 1` does: nothing damps these orbits, and their multipliers stay on the unit circle, with the product 1.
+/// The orbit of `e = 1` with an elastic Hertz stop in place of the rigid one. Nothing damps it, so no motion settles to it: it is corrected from the rigid one, which is the same forwards and backwards
+/// about its impact. With the force the other way round that is at half the period, and at phase 0 the mass turns: `x = -g + (s - g) cos(T/2) - V sin(T/2)`.
+fn elastic(stiffness: f64) -> [f64; 3] {
+    let law = Law::Hertz(HertzStop::with_gap(stiffness, GAP).unwrap());
+    let rig = rig(law, -1.0);
+    let (half, g) = (PI / FREQUENCY, 1.0 / (1.0 - FREQUENCY * FREQUENCY));
+    let turn = -g + (GAP - g) * half.cos() - rigid(1.0)[0] * half.sin();
+    let guess = PeriodicSolution {
+        frequency_hz: FREQUENCY / TAU,
+        period_multiple: 1,
+        phase: 0.0,
+        nodes: vec![vec![turn, 0.0]],
+        floquet_multipliers: vec![[1.0, 0.0]; 2],
+        residual: 0.0,
+        error_estimate: 0.0,
+        maxima: OrbitMaxima::default(),
+    };
+    let settings = OrbitSettings::default();
+    let range_hz = (0.9 * guess.frequency_hz, 1.1 * guess.frequency_hz);
+    let mut walk =
+        BranchWalk::new(&rig.system, &rig.response, &guess, Side::Up, range_hz, &settings).unwrap();
+    let orbit = walk.start_row().unwrap().solution;
+    assert!(orbit.nodes[0][1].abs() < 1e-9, "it turns at phase 0, as the rigid one does: {:?}", orbit.nodes);
+    read(&orbit)
+}
+
+/// A contact without loss gives the speed back, as a rigid stop with `e = 1` does: multipliers stay on the unit circle, with the product 1.
 #[test]
 fn stiffer_elastic_hertz_contacts_converge_to_the_rigid_stop_that_loses_nothing() {
-    let (errors, slope) =
-        convergence(1.0, [1e8, 1e12], |stiffness| Law::Hertz(HertzStop::with_gap(stiffness, GAP).unwrap()));
+    let found = [1e8, 1e12].map(elastic);
+    for [.., product] in found {
+        assert!((product - 1.0).abs() < 1e-8, "{product}");
+    }
+    let (errors, slope) = converged(1.0, [1e8, 1e12], found);
     assert!(errors[1] < 1e-3, "{errors:?}");
     assert!((slope + 0.4).abs() < 0.01, "{errors:?}, slope {slope}");
 }

@@ -120,7 +120,7 @@ fn leg(system: &System, state: &[f64]) -> (usize, Vec<f64>, Mat<f64>) {
 }
 
 /// Along one motion, that of the exact integrator, both give the same growth in every leg: what they differ by is the error of the fundamental matrices, 1e-9 of their largest entries, over what
-/// the direction that shrinks most leaves of them.
+/// the direction that shrinks most leaves of them, a thousandth at worst. Errors of legs have either sign.
 #[test]
 fn both_methods_give_the_same_growth_along_one_motion() {
     for (name, system) in chaotic_ones() {
@@ -142,22 +142,21 @@ fn both_methods_give_the_same_growth_along_one_motion() {
             let growth = [frames[0].carry(&exact), frames[1].carry(&of_general)];
             for i in 0..state.len() {
                 let difference = growth[0][i] - growth[1][i];
-                assert!(difference.abs() < 1e-5, "{name}, leg {legs}: {growth:?}");
+                assert!(difference.abs() < 1e-6, "{name}, leg {legs}: {growth:?}");
                 sums[0][i] += growth[0][i];
                 sums[1][i] += growth[1][i];
             }
             (state, legs) = (end, legs + 1);
         }
         let exponents = sums.map(|sum| sum.iter().map(|sum| sum / periods as f64).collect::<Vec<_>>());
-        eprintln!("{name}: {legs} legs, {exponents:?}");
         for (a, b) in exponents[0].iter().zip(&exponents[1]) {
-            assert!((a - b).abs() < 1e-6, "{name}: {exponents:?}");
+            assert!((a - b).abs() < 1e-7, "{name}: {exponents:?}");
         }
         assert!(legs > 75 && exponents[0][0] > 0.1, "{name}: {legs} legs, {exponents:?}");
     }
 }
 
-/// Each on its own motion, from the same state: the motions part, by a factor e in some three periods, and as long as they are together the growth is the same leg by leg.
+/// Each on its own motion, from the same state: the motions part by a factor e in three to four periods, from 1e-11 to 1e-7 in about thirty, and until then the growth is the same leg by leg.
 #[test]
 fn growth_is_the_same_until_the_motions_part() {
     for (name, system) in chaotic_ones() {
@@ -186,8 +185,7 @@ fn growth_is_the_same_until_the_motions_part() {
                 assert!((a - b).abs() < 1e-4, "{name}, period {period}: {growth:?} {growth_of_general:?}");
             }
         }
-        eprintln!("{name}: together for {together} periods");
-        assert!(together >= 10, "{name}: they part after {together} periods");
+        assert!(together >= 20, "{name}: they part after {together} periods");
     }
 }
 
@@ -228,8 +226,7 @@ fn long_averages_of_both_methods_are_within_their_intervals() {
         let found: Spectrum = lyapunov(&mut map, &start, settings).unwrap();
         assert_eq!(found.expected_sum, None, "{name} has no rule for the sum");
         assert!(found.exponents[0].low() > 0.0, "{name}: {:?}", found.exponents);
-        let other = by_general(&system, &start, 20, 15);
-        eprintln!("{name}: {:?} {other:?}", found.exponents);
+        let other = by_general(&system, &start, 20, 60);
         for (exponent, (value, half_width)) in found.exponents.iter().zip(other) {
             let bound = exponent.half_width + half_width;
             assert!((exponent.value - value).abs() < bound, "{name}: {exponent:?}, {value} +- {half_width}");

@@ -19,20 +19,41 @@ fn attractors(workshop: &Workshop, frequency: &str, [x, y]: [&str; 2]) -> Vec<Va
     found["attractors"].as_array().unwrap().clone()
 }
 
-/// Columns of the stored solution of each branch that is nearest to a frequency, by the number of the branch.
-fn nearest(workshop: &Workshop, frequency_hz: f64, columns: [&str; 3]) -> Vec<(u64, [f64; 3])> {
+/// The stored solution of a branch that is nearest to a frequency.
+#[derive(Debug)]
+struct Nearest {
+    branch: u64,
+    period: f64,
+    frequency_hz: f64,
+    displacement: f64,
+    contacts: f64,
+}
+
+/// One of every branch of the results.
+fn nearest(workshop: &Workshop, frequency_hz: f64) -> Vec<Nearest> {
     let text = workshop.csv("results");
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
-    let index = |name: &str| rows[0].iter().position(|column| *column == name).unwrap();
-    let number = |row: &Vec<&str>, name: &str| row[index(name)].parse::<f64>().unwrap();
-    let distance = |row: &Vec<&str>| (number(row, "frequency_hz") - frequency_hz).abs();
-    let last = rows[1..].iter().map(|row| number(row, "branch") as u64).max().unwrap();
-    let of_branch = |branch: u64| {
-        let of = rows[1..].iter().filter(|row| number(row, "branch") as u64 == branch);
-        let row = of.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap();
-        (branch, columns.map(|name| number(row, name)))
+    let number = |row: &[&str], name: &str| {
+        let index = rows[0].iter().position(|column| *column == name).unwrap();
+        row[index].parse::<f64>().unwrap()
     };
-    (1..=last).map(of_branch).collect()
+    let mut found: Vec<Nearest> = Vec::new();
+    for row in &rows[1..] {
+        let new = Nearest {
+            branch: number(row, "branch") as u64,
+            period: number(row, "period_multiple"),
+            frequency_hz: number(row, "frequency_hz"),
+            displacement: number(row, "max_abs_displacement_m"),
+            contacts: number(row, "contacts"),
+        };
+        let off = |row: &Nearest| (row.frequency_hz - frequency_hz).abs();
+        match found.iter_mut().find(|known| known.branch == new.branch) {
+            Some(known) if off(known) <= off(&new) => {}
+            Some(known) => *known = new,
+            None => found.push(new),
+        }
+    }
+    found
 }
 
 /// Displacement and velocity of a mass of 1 kg at phase 0.
@@ -44,20 +65,27 @@ fn state(attractor: &Value) -> [f64; 2] {
 /// that is nearly a harmonic one has the amplitude `|q - i v/W|`, which is that of its branch and far from those of the others.
 #[test]
 fn two_motions_of_one_period_are_on_the_branches_of_their_amplitudes() {
-    let study = DUFFING.replace("frequency_hz = [0.08, 0.5]", "frequency_hz = [0.24, 0.26]");
-    let workshop = Workshop::with(&format!("{study}\n[continuation]\nmax_step_hz = 0.002\n"));
+    let study = DUFFING.replace("frequency_hz = [0.08, 0.5]", "frequency_hz = [0.22, 0.28]");
+    let workshop = Workshop::with(&format!("{study}\n[continuation]\nmax_step_hz = 0.005\n"));
     let found = attractors(&workshop, "0.25", ["q1=-2..2", "v1=-3..3"]);
-    let branches = nearest(&workshop, 0.25, ["max_abs_displacement_m", "frequency_hz", "contacts"]);
+    let branches = nearest(&workshop, 0.25);
     assert_eq!((found.len(), branches.len()), (2, 3), "{found:?} {branches:?}");
     for attractor in &found {
         let [q, v] = state(attractor);
         let amplitude = q.hypot(v / (TAU * 0.25));
-        let far = |(_, [displacement, ..]): &&(u64, [f64; 3])| (displacement / amplitude).ln().abs();
+        let far = |known: &&Nearest| (known.displacement / amplitude).ln().abs();
         let own = branches.iter().min_by(|a, b| far(a).total_cmp(&far(b))).unwrap();
-        assert_eq!(attractor["branch"], own.0, "{attractor} {branches:?}");
+        assert_eq!(attractor["branch"], own.branch, "{attractor} {branches:?}");
         assert!(far(&own) < 0.2, "{attractor} {branches:?}");
     }
     assert_ne!(found[0]["branch"], found[1]["branch"]);
+}
+
+/// Real and imaginary part of `F/(1 - W^2 + i c W)` [m].
+fn linear(frequency_hz: f64) -> [f64; 2] {
+    let w = TAU * frequency_hz;
+    let (real, imaginary) = (1.0 - w * w, 0.04 * w);
+    [0.4 * real, -0.4 * imaginary].map(|part| part / (real * real + imaginary * imaginary))
 }
 
 /// Above its resonance the mass may stay away from its rigid stop, and then moves as `Re F/(1 - W^2 + i c W) exp(i W t)`, or strike it in every second period: branches of one and of two periods.
@@ -81,24 +109,20 @@ fn a_motion_that_strikes_and_one_that_does_not_are_on_their_branches() {
         "#,
     );
     let found = attractors(&workshop, "0.42", ["q1=-1..0.2", "v1=-1..1"]);
-    let branches = nearest(&workshop, 0.42, ["period_multiple", "contacts", "max_abs_displacement_m"]);
+    let branches = nearest(&workshop, 0.42);
     assert_eq!((found.len(), branches.len()), (2, 2), "{found:?} {branches:?}");
-    let w = TAU * 0.42;
-    let (real, imaginary) = (1.0 - w * w, 0.04 * w);
-    let square = real * real + imaginary * imaginary;
     for attractor in &found {
-        let branch = attractor["branch"].as_u64().unwrap();
-        let [period, contacts, displacement] = branches.iter().find(|known| known.0 == branch).unwrap().1;
-        assert_eq!(attractor["period"].as_f64(), Some(period), "{attractor} {branches:?}");
-        let [q, v] = state(attractor);
-        let linear = [0.4 * real / square, 0.4 * w * imaginary / square];
-        let away = (q - linear[0]).hypot(v - linear[1]);
-        if period == 1.0 {
+        let own = branches.iter().find(|known| attractor["branch"] == known.branch).unwrap();
+        assert_eq!(attractor["period"].as_f64(), Some(own.period), "{attractor} {own:?}");
+        let ([q, v], [real, imaginary]) = (state(attractor), linear(0.42));
+        let away = (q - real).hypot(v + TAU * 0.42 * imaginary);
+        if own.period == 1.0 {
             // A motion has come to an attractor, or repeats, within 1e-8 of its size, and comes closer by 5 % in a period.
-            assert!(away < 1e-6 && contacts == 0.0, "{attractor} {branches:?}");
-            assert!((displacement - 0.4 / square.sqrt()).abs() < 1e-9);
+            assert!(away < 1e-6 && own.contacts == 0.0, "{attractor} {own:?}");
+            let [real, imaginary] = linear(own.frequency_hz);
+            assert!((own.displacement - real.hypot(imaginary)).abs() < 1e-9, "{own:?}");
         } else {
-            assert!(away > 0.1 && contacts > 0.0, "{attractor} {branches:?}");
+            assert!(away > 0.1 && own.contacts > 0.0, "{attractor} {own:?}");
         }
     }
     assert_ne!(found[0]["branch"], found[1]["branch"]);
