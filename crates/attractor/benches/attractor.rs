@@ -179,6 +179,7 @@ fn whole_basin(_: &mut Criterion) {
     tell("general", settled.unwrap().len(), begun.elapsed());
 }
 
+#[allow(clippy::print_stdout, reason = "a benchmark tells what it measures")]
 fn tell(integrator: &str, cells: usize, taken: Duration) {
     let rate = cells as f64 / taken.as_secs_f64();
     println!(
