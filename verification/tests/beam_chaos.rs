@@ -58,11 +58,11 @@ fn run_about(frequency_hz: f64) -> Results {
     Results::of_run(&study, tempfile::tempdir().unwrap().path(), 2).unwrap()
 }
 
-/// What a run finds there of one, two and three periods, by its search from many states, has a multiplier outside the unit circle: no orbit is left for a motion to settle to. `HAMMERBEAM_EXTENSIVE=1`
-/// looks at all six.
+/// What a run finds there of one, two and three periods, by its search from many states, has a multiplier outside the unit circle: no orbit is left for a motion to settle to. One frequency of each
+/// range; `HAMMERBEAM_EXTENSIVE=1` looks at all six.
 #[test]
 fn no_orbit_of_the_branches_is_stable_where_chaos_is_found() {
-    let looked_at = if extensive() { &CHAOTIC_HZ[..] } else { &[45.0, 53.0, 85.0] };
+    let looked_at = if extensive() { &CHAOTIC_HZ[..] } else { &[45.0, 85.0] };
     for &frequency_hz in looked_at {
         let results = run_about(frequency_hz);
         let mut unstable = [0; 3];
