@@ -10,6 +10,7 @@ mod ended;
 mod exponents;
 mod exported;
 mod folders;
+mod initial;
 mod refused;
 mod simulate;
 mod sweep;
