@@ -6,13 +6,14 @@
 
 mod common;
 
-use common::{Rig, paper_beam, walk};
+use common::{Rig, extensive, paper_beam, walk};
 use hammerbeam_attractor::{
     Class, Classified, Effort, LyapunovSettings, Observable, Patience, SectionMap, SweepSettings, Sweeper,
     SystemMap, classify, lyapunov,
 };
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Side, find_start};
+use hammerbeam_verification::results::Results;
 
 fn map(rig: &Rig, frequency_hz: f64) -> SystemMap {
     SystemMap::new(rig.system.clone(), frequency_hz, 1, ExactSettings::default()).unwrap()
@@ -27,11 +28,14 @@ fn from_rest(rig: &Rig, frequency_hz: f64) -> Classified {
     classify(&mut map(rig, frequency_hz), 1, &rest, &effort()).unwrap()
 }
 
+/// Where chaos is looked for, in both ranges of the paper.
+const CHAOTIC_HZ: [f64; 6] = [45.0, 49.0, 53.0, 83.5, 85.0, 93.0];
+
 /// Both indicators say chaos, the interval of the largest exponent is well above zero, and the sum over all exponents is the divergence.
 #[test]
 fn both_indicators_find_chaos_where_the_paper_does() {
     let rig = paper_beam();
-    for frequency_hz in [45.0, 49.0, 53.0, 83.5, 85.0, 93.0] {
+    for frequency_hz in CHAOTIC_HZ {
         let found = from_rest(&rig, frequency_hz);
         assert_eq!(found.class, Class::Chaotic, "{frequency_hz} Hz");
         let largest = found.largest_exponent.unwrap();
@@ -41,6 +45,38 @@ fn both_indicators_find_chaos_where_the_paper_does() {
         let settings = LyapunovSettings { aligning: 10, averaged: 60 };
         let spectrum = lyapunov(&mut map, found.states.last().unwrap(), settings).unwrap();
         assert!((spectrum.sum / map.divergence() - 1.0).abs() < 1e-6);
+    }
+}
+
+/// A run of the study over a range about the frequency, too narrow for anything but what crosses it.
+fn run_about(frequency_hz: f64) -> Results {
+    let study = include_str!("../../studies/beam-with-stop.toml");
+    let whole = "frequency_hz = [19.0, 110.0]";
+    assert!(study.contains(whole));
+    let narrow = format!("frequency_hz = [{:?}, {:?}]", frequency_hz - 0.002, frequency_hz + 0.002);
+    let study = study.replace(whole, &narrow) + "\n[continuation]\nmax_step_hz = 0.004\n";
+    Results::of_run(&study, tempfile::tempdir().unwrap().path(), 2).unwrap()
+}
+
+/// What a run finds there of one, two and three periods, by its search from many states, has a multiplier outside the unit circle: no orbit is left for a motion to settle to. One frequency of each
+/// range; `HAMMERBEAM_EXTENSIVE=1` looks at all six.
+#[test]
+fn no_orbit_of_the_branches_is_stable_where_chaos_is_found() {
+    let looked_at = if extensive() { &CHAOTIC_HZ[..] } else { &[45.0, 85.0] };
+    for &frequency_hz in looked_at {
+        let results = run_about(frequency_hz);
+        let mut unstable = [0; 3];
+        for period_multiple in 1..=3 {
+            for (branch, orbit) in results.crossings(frequency_hz, period_multiple).unwrap() {
+                let [re, im] = orbit.floquet_multipliers[0];
+                let found =
+                    format!("{frequency_hz} Hz, branch {branch}, period {period_multiple}: {re} {im}");
+                assert!(re.hypot(im) > 1.0 && !orbit.stable(), "{found}");
+                unstable[period_multiple as usize - 1] += 1;
+            }
+        }
+        // The harmonic orbit is there at every frequency, and beside it those of two or of three periods.
+        assert!(unstable[0] >= 1 && unstable[1] + unstable[2] >= 1, "{frequency_hz} Hz: {unstable:?}");
     }
 }
 

@@ -4,13 +4,16 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use std::sync::atomic::AtomicBool;
+use std::{
+    sync::atomic::AtomicBool,
+    time::{Duration, Instant},
+};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use faer::Mat;
 use hammerbeam_attractor::{
     AttractorError, Axis, Basins, Effort, Grid, LyapunovSettings, Part, Patience, SectionMap, SystemMap,
-    lyapunov, settle, state_scales,
+    in_order, lyapunov, settle, state_scales,
 };
 use hammerbeam_motion::{
     Stretch, System,
@@ -114,15 +117,23 @@ fn exponents(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A grid over the displacement and the velocity of the first mode.
+fn grid(count: usize) -> Grid {
+    let unit = |i: usize| (0..12).map(|k| f64::from(u8::from(k == i))).collect::<Vec<f64>>();
+    Grid {
+        base: vec![0.0; 12],
+        x: Axis { direction: unit(0), low: -1e-3, high: 1e-3, count },
+        y: Axis { direction: unit(6), low: -0.2, high: 0.2, count },
+    }
+}
+
+/// How long a motion may take to repeat at 36 Hz.
+const PATIENCE: Patience = Patience { skipped: 0, periods: 400, longest: 8 };
+
 /// Cells of a basin at 36 Hz: an 8 x 8 grid with the attractors found on the way, and one motion from rest until it repeats.
 fn cells(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("basin_cells");
-    let unit = |i: usize| (0..12).map(|k| f64::from(u8::from(k == i))).collect::<Vec<f64>>();
-    let grid = Grid {
-        base: vec![0.0; 12],
-        x: Axis { direction: unit(0), low: -1e-3, high: 1e-3, count: 8 },
-        y: Axis { direction: unit(6), low: -0.2, high: 0.2, count: 8 },
-    };
+    let grid = grid(8);
     group.sample_size(10).throughput(Throughput::Elements(64));
     group.bench_function("exact, 8 x 8", |bencher| {
         bencher.iter(|| {
@@ -133,17 +144,50 @@ fn cells(criterion: &mut Criterion) {
         });
     });
     group.throughput(Throughput::Elements(1));
-    let patience = Patience { skipped: 0, periods: 400, longest: 8 };
     group.bench_function("exact, one motion", |bencher| {
         let mut map = exact(36.0);
-        bencher.iter(|| settle(&mut map, 1, &[0.0; 12], patience).unwrap());
+        bencher.iter(|| settle(&mut map, 1, &[0.0; 12], PATIENCE).unwrap());
     });
     group.bench_function("general, one motion", |bencher| {
         let mut map = general(36.0);
-        bencher.iter(|| settle(&mut map, 1, &[0.0; 12], patience).unwrap());
+        bencher.iter(|| settle(&mut map, 1, &[0.0; 12], PATIENCE).unwrap());
     });
     group.finish();
 }
 
-criterion_group!(benches, periods, exponents, cells);
+/// Threads of the whole basin.
+const CORES: usize = 2;
+/// Its cells.
+const WHOLE: f64 = 200.0 * 200.0;
+
+/// What a basin of 200 x 200 cells takes on two cores, from cells of the same rectangle by both integrators: a grid of 32 x 32 by the exact one, sixteen cells spread over it by the general one.
+fn whole_basin(_: &mut Criterion) {
+    let (stop, grid) = (AtomicBool::new(false), grid(32));
+    let begun = Instant::now();
+    let mut basins = Basins::new(common::paper_beam(), 36.0, grid.clone(), Effort::default(), EXACT).unwrap();
+    while basins.round(CORES, &stop).is_some() {}
+    tell("exact", basins.done(), begun.elapsed());
+    let spread: Vec<usize> = (0..16).map(|k| 64 * k + 4 * (k % 8)).collect();
+    let begun = Instant::now();
+    let settled = in_order(
+        &spread,
+        CORES,
+        &stop,
+        || general(36.0),
+        |map, &cell| settle(map, 1, &grid.state(cell), PATIENCE).unwrap(),
+    );
+    tell("general", settled.unwrap().len(), begun.elapsed());
+}
+
+#[allow(clippy::print_stdout, reason = "a benchmark tells what it measures")]
+fn tell(integrator: &str, cells: usize, taken: Duration) {
+    let rate = cells as f64 / taken.as_secs_f64();
+    println!(
+        "{integrator}: {cells} cells on {CORES} cores in {:.2} s, {rate:.4} cells/s; 200 x 200 cells would take {:.2} min",
+        taken.as_secs_f64(),
+        WHOLE / rate / 60.0
+    );
+}
+
+criterion_group!(benches, periods, exponents, cells, whole_basin);
 criterion_main!(benches);

@@ -3,76 +3,8 @@
 
 mod common;
 
-use common::{Workshop, assert_success, stderr, stdout};
+use common::{Workshop, assert_success, mass_against_a_stop as study, stderr, stdout};
 use serde_json::Value;
-
-/// One mass that is shaken against a stop above it.
-fn study(stop: &str) -> String {
-    format!(
-        r#"
-[structure]
-kind = "lumped"
-[[structure.mass]]
-name = "mass"
-mass_kg = 1.0
-[[structure.spring]]
-between = ["mass", "ground"]
-stiffness_n_m = 1000.0
-[damping]
-modal_ratio = 0.02
-[excitation]
-kind = "force"
-at = "mass"
-amplitude_n = 5.0
-frequency_hz = [5.2, 6.4]
-phase_rad = -2.2
-[[stop]]
-name = "wall"
-at = "mass"
-side = "above"
-gap_m = 0.02
-{stop}
-[response]
-period_multiples = [1]
-[search]
-frequencies = 1
-starts = 1
-[continuation]
-max_step_hz = 0.01
-[[vary]]
-parameter = "stop.wall.gap_m"
-range = [0.015, 0.022]
-frequency_hz = 5.9
-"#
-    )
-}
-
-/// Every law: a run with its resonance bent by the stop, a branch over the gap, and nothing for `verify` to find.
-#[test]
-fn every_law_is_followed_and_verified() {
-    let hertz = "stiffness_n_m15 = 1e7";
-    let mut stops = vec![
-        "law = \"linear\"\nstiffness_n_m = 2e4\ndamping_n_s_m = 15.0".to_owned(),
-        format!("law = \"hunt-crossley\"\n{hertz}\nloss_s_m = 0.6"),
-        format!("law = \"hunt-crossley\"\n{hertz}\nrestitution = 0.8"),
-    ];
-    for law in ["herbert-mcwhannell", "lee-wang", "lankarani-nikravesh", "gonthier", "flores", "hu-guo"] {
-        stops.push(format!("law = \"{law}\"\n{hertz}\nrestitution = 0.7"));
-    }
-    for stop in stops {
-        let workshop = Workshop::with(&study(&stop));
-        let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--jobs", "1"]);
-        assert_success(&run);
-        assert!(!stdout(&run).contains("stopped early"), "{stop}: {}", stdout(&run));
-        let touching = workshop.csv("results").lines().filter(|line| line.contains("grazing")).count();
-        assert!(touching > 0, "{stop}: no contact begins on the branch");
-        let verify = workshop.hammerbeam(&["verify", "results", "--all", "--json"]);
-        assert_success(&verify);
-        let document: Value = serde_json::from_str(&stdout(&verify)).unwrap();
-        assert_eq!(document["agree"], true, "{stop}: {document}");
-        assert!(document["sampled"].as_u64().unwrap() > 100, "{stop}: {document}");
-    }
-}
 
 /// Two masses whose largest contact force wanders over the border of two steps of the integrator, where the polynomial of neither tells its place well: it is that of the general integrator.
 #[test]

@@ -30,6 +30,47 @@ at = "m"
 amplitude_n = 0.4
 "#;
 
+/// One mass that is shaken against a stop above it, 0.02 m away; `stop` has its law.
+pub fn mass_against_a_stop(stop: &str) -> String {
+    format!(
+        r#"
+[structure]
+kind = "lumped"
+[[structure.mass]]
+name = "mass"
+mass_kg = 1.0
+[[structure.spring]]
+between = ["mass", "ground"]
+stiffness_n_m = 1000.0
+[damping]
+modal_ratio = 0.02
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 5.0
+frequency_hz = [5.2, 6.4]
+phase_rad = -2.2
+[[stop]]
+name = "wall"
+at = "mass"
+side = "above"
+gap_m = 0.02
+{stop}
+[response]
+period_multiples = [1]
+[search]
+frequencies = 1
+starts = 1
+[continuation]
+max_step_hz = 0.01
+[[vary]]
+parameter = "stop.wall.gap_m"
+range = [0.015, 0.022]
+frequency_hz = 5.9
+"#
+    )
+}
+
 /// A folder with a study file in it.
 pub struct Workshop {
     folder: TempDir,

@@ -2,10 +2,12 @@
 
 use std::{
     fs,
-    process::{Command, Stdio},
+    process::{Child, Command, Stdio},
     thread::sleep,
     time::{Duration, Instant},
 };
+
+use rusqlite::{Connection, OpenFlags};
 
 use crate::{
     DUFFING,
@@ -19,24 +21,18 @@ use crate::{
 #[test]
 fn basins_go_on_after_a_kill_with_the_same_bytes() {
     let whole = Workshop::with(DUFFING);
+    let basins = [&BASINS[..], &["out", "--jobs", "1"]].concat();
     let begun = Instant::now();
-    assert_success(&whole.hammerbeam(&[&BASINS[..], &["out", "--jobs", "1"]].concat()));
-    let duration = begun.elapsed();
+    assert_success(&whole.hammerbeam(&basins));
     let workshop = Workshop::with(DUFFING);
-    for _ in 0..3 {
-        kill_after(&workshop, duration.mul_f64(0.2));
-    }
+    kill_three_times(&workshop, &basins, begun.elapsed());
     assert_success(&workshop.hammerbeam(&[&BASINS[..], &["out", "--jobs", "3"]].concat()));
     for name in ["out/basins.csv", "out/attractors.csv"] {
         assert!(fs::read(whole.path(name)).unwrap() == fs::read(workshop.path(name)).unwrap(), "{name}");
     }
 }
 
-fn start(workshop: &Workshop) -> std::process::Child {
-    spawn(workshop, &[&BASINS[..], &["out", "--jobs", "1"]].concat())
-}
-
-fn spawn(workshop: &Workshop, arguments: &[&str]) -> std::process::Child {
+fn spawn(workshop: &Workshop, arguments: &[&str]) -> Child {
     Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
         .args(arguments)
         .current_dir(workshop.path(""))
@@ -46,26 +42,54 @@ fn spawn(workshop: &Workshop, arguments: &[&str]) -> std::process::Child {
         .unwrap()
 }
 
-fn kill_after(workshop: &Workshop, wait: Duration) {
-    let mut child = start(workshop);
-    sleep(wait);
-    child.kill().unwrap();
-    child.wait().unwrap();
+/// Pieces of the only request in `out` that are stored, and all that it has; none as long as there is no request.
+fn stored(workshop: &Workshop) -> (i64, i64) {
+    let database = workshop.path("out/results.db");
+    let connection = Connection::open_with_flags(database, OpenFlags::SQLITE_OPEN_READ_ONLY);
+    let read = connection.and_then(|connection| {
+        connection.query_row("SELECT done, pieces FROM request", [], |row| Ok((row.get(0)?, row.get(1)?)))
+    });
+    read.unwrap_or((0, 0))
+}
+
+/// Waits until more than so many pieces are stored; the command must not come to its end before.
+fn wait_for_more(workshop: &Workshop, child: &mut Child, before: i64) {
+    while stored(workshop).0 <= before {
+        assert!(child.try_wait().unwrap().is_none(), "it ended with no more than {before} pieces stored");
+        sleep(Duration::from_millis(2));
+    }
+}
+
+/// Each time it has stored more than the time before, and not all; somewhere within the work on a piece, which is lost.
+///
+/// * `duration`: of the whole command, about.
+fn kill_three_times(workshop: &Workshop, arguments: &[&str], duration: Duration) {
+    let mut before = 0;
+    for _ in 0..3 {
+        let mut child = spawn(workshop, arguments);
+        wait_for_more(workshop, &mut child, before);
+        sleep(duration.mul_f64(0.03));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let (done, all) = stored(workshop);
+        assert!(before < done && done < all, "{arguments:?}: {done} of {all} after {before}");
+        before = done;
+    }
 }
 
 #[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
     let workshop = Workshop::with(DUFFING);
-    let child = start(&workshop);
-    while !workshop.path("out/results.db").exists() {
-        sleep(Duration::from_millis(2));
-    }
-    sleep(Duration::from_millis(150));
+    let mut child = spawn(&workshop, &[&BASINS[..], &["out", "--jobs", "1"]].concat());
+    wait_for_more(&workshop, &mut child, 0);
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
-    assert!(stderr(&output).contains("cells are kept in out"), "{}", stderr(&output));
+    let (done, all) = stored(&workshop);
+    assert!(0 < done && done < all, "{done} of {all}");
+    let told = format!("interrupted; {done} of {all} cells are kept in out");
+    assert!(stderr(&output).contains(&told), "{}", stderr(&output));
 }
 
 /// A long motion of any kind ends with what is finished, too.
@@ -120,12 +144,7 @@ fn sweeps_and_exponents_go_on_after_a_kill_with_the_same_bytes() {
         assert_success(&whole.hammerbeam(arguments));
         let duration = begun.elapsed();
         let workshop = Workshop::with(DUFFING);
-        for _ in 0..3 {
-            let mut child = spawn(&workshop, arguments);
-            sleep(duration.mul_f64(0.3));
-            child.kill().unwrap();
-            child.wait().unwrap();
-        }
+        kill_three_times(&workshop, arguments, duration);
         assert_success(&workshop.hammerbeam(arguments));
         for name in names {
             let of = |workshop: &Workshop| fs::read(workshop.path("out").join(name)).unwrap();
@@ -148,12 +167,7 @@ fn a_sweep_within_contacts_that_remember_goes_on_with_the_same_bytes() {
     let samples = column(&table(&whole, "out/sweep_samples.csv"), "displacement_m");
     assert!(samples.iter().filter(|displacement| **displacement > 0.0).count() > 10, "some are in contact");
     let workshop = Workshop::with(&study);
-    for _ in 0..3 {
-        let mut child = spawn(&workshop, &sweep);
-        sleep(duration.mul_f64(0.3));
-        child.kill().unwrap();
-        child.wait().unwrap();
-    }
+    kill_three_times(&workshop, &sweep, duration);
     assert_success(&workshop.hammerbeam(&sweep));
     for name in ["sweep.csv", "sweep_samples.csv"] {
         let of = |workshop: &Workshop| fs::read(workshop.path("out").join(name)).unwrap();

@@ -2,10 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod basins;
+mod closed;
+mod coexisting;
 #[path = "../common/mod.rs"]
 mod common;
 mod ended;
 mod exponents;
+mod exported;
+mod folders;
+mod initial;
 mod refused;
 mod simulate;
 mod sweep;

@@ -209,3 +209,68 @@ fn faulty_studies_are_refused() {
     }
     assert_eq!(workshop.listing(), before);
 }
+
+/// One beyond each end of what an option allows, and options that exclude one another.
+#[test]
+fn options_beyond_their_limits_are_refused() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let sweep = ["sweep", "study.toml"];
+    let basins = ["basins", "study.toml", "--frequency", "5", "--x", "q1=0..1", "--y", "v1=0..1"];
+    let before = workshop.listing();
+    for (command, options, part) in [
+        (
+            &sweep[..],
+            &["--starts", "3", "--initial", "rest"][..],
+            "'--starts <N>' cannot be used with '--initial",
+        ),
+        (&sweep, &["--starts", "100001"], "100001 is not in 1..=100000"),
+        (&sweep, &["--samples", "0"], "'0' for '--samples <N>': 0 is not in 1..=100000"),
+        (&sweep, &["--samples", "100001"], "100001 is not in 1..=100000"),
+        (&sweep, &["--patience-periods", "0"], "'0' for '--patience-periods <N>': 0 is not in 1..=100000000"),
+        (&sweep, &["--longest-period", "1025"], "1025 is not in 1..=1024"),
+        (&sweep, &["--jobs", "0"], "'0' for '--jobs <N>': 0 is not in 1..="),
+        (&basins, &["--grid", "10001"], "10001 is not in 1..=10000"),
+        (&basins, &["--patience-periods", "0"], "0 is not in 1..=100000000"),
+        (
+            &basins,
+            &["--longest-period", "1025"],
+            "'1025' for '--longest-period <N>': 1025 is not in 1..=1024",
+        ),
+        (&basins, &["--jobs", "0"], "'0' for '--jobs <N>': 0 is not in 1..="),
+    ] {
+        assert_bad_input(&workshop.hammerbeam(&[command, options].concat()), &[part]);
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
+}
+
+/// Two masses of their own: the response is that of the second, and the first mode is that of the first.
+#[test]
+fn displacement_is_refused_as_a_coordinate_where_the_first_mode_does_not_move_the_response_point() {
+    let workshop = Workshop::driven_mass("frequency_hz = [0.1, 0.2]\n[response]\npoint = \"other\"");
+    let study = std::fs::read_to_string(workshop.path("study.toml")).unwrap();
+    let other = "mass = [{ name = \"other\", mass_kg = 1.0 }, ";
+    let held = "spring = [{ between = [\"other\", \"ground\"], stiffness_n_m = 9.0 }, ";
+    let study = study.replace("mass = [", other).replace("spring = [", held);
+    std::fs::write(workshop.path("study.toml"), study).unwrap();
+    let basins = |x: &str, y: &str| {
+        workshop.hammerbeam(&[
+            "basins",
+            "study.toml",
+            "--frequency",
+            "0.1",
+            "--grid",
+            "1",
+            "--x",
+            x,
+            "--y",
+            y,
+        ])
+    };
+    for (x, y, flag) in [("displacement=0..1", "q2=0..1", "--x"), ("q1=0..1", "velocity=0..1", "--y")] {
+        let part =
+            format!("{flag}: the first mode does not move the response point; allowed: q1 to q2, v1 to v2");
+        assert_bad_input(&basins(x, y), &[&part]);
+    }
+    // The coordinates that are allowed are.
+    assert_success(&basins("q2=0..1", "v2=0..1"));
+}

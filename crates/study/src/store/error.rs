@@ -55,7 +55,13 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// What stands in the way is told in words where it is a file.
     pub(super) fn folder(folder: &Path, source: io::Error) -> Self {
+        let source = if folder.is_file() {
+            io::Error::new(io::ErrorKind::NotADirectory, "it is a file, not a folder")
+        } else {
+            source
+        };
         Self::Folder { folder: folder.to_owned(), source }
     }
 

@@ -1,0 +1,56 @@
+//! What `--initial` refuses, command by command.
+
+use crate::{
+    IMPACT_OSCILLATOR,
+    common::{Workshop, assert_bad_input, short_run, stderr},
+    remembering,
+};
+
+/// Behind a rigid stop, or within a contact that remembers its impact; of `simulate` see `refused.rs`.
+#[test]
+fn lyapunov_and_sweep_refuse_states_in_which_no_motion_begins() {
+    let rigid = Workshop::with(IMPACT_OSCILLATOR);
+    let memory = Workshop::with(&remembering());
+    for (workshop, initial, part) in [
+        (
+            &rigid,
+            "1.5,0",
+            "--initial 1.5,0, at 0.3 Hz: the state lies 5.000e-1 m behind the rigid stop \"stop\"",
+        ),
+        (&memory, "0.1,0", "the state lies 1.000e-1 m within the contact of \"stop\""),
+    ] {
+        for command in [
+            &["lyapunov", "study.toml", "--frequency", "0.3"][..],
+            &["sweep", "study.toml", "--from", "0.3", "--to", "0.4"],
+        ] {
+            let arguments = [command, &["--initial", initial, "--out", "out"]].concat();
+            assert_bad_input(&workshop.hammerbeam(&arguments), &[part]);
+            assert!(!workshop.path("out").exists(), "something was written");
+        }
+    }
+}
+
+/// The run has one branch, which ends at 14 Hz.
+#[test]
+fn branches_that_are_not_there_are_refused_by_every_command() {
+    let workshop = short_run("");
+    let before = workshop.listing();
+    for command in [
+        &["simulate", "study.toml", "--frequency", "15"][..],
+        &["lyapunov", "study.toml", "--frequency", "15"],
+        &["sweep", "study.toml", "--from", "15", "--to", "16"],
+    ] {
+        let of = |branch: &str| {
+            workshop.hammerbeam(&[command, &["--initial", branch, "--results", "results"]].concat())
+        };
+        for branch in ["branch:2", "branch:0", "branch:x", "branch:"] {
+            let name = &branch["branch:".len()..];
+            let part = format!("--initial: there is no branch {name:?}; allowed: 1 to 1");
+            assert_bad_input(&of(branch), &[&part]);
+        }
+        let output = of("branch:1");
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("branch 1 does not cross 15 Hz"), "{}", stderr(&output));
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
+}
