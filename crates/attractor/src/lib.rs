@@ -16,7 +16,7 @@
 //! | file | idea |
 //! |---|---|
 //! | `section.rs`, `part.rs` | motions, advanced section by section; parts of sections |
-//! | `simulate.rs`, `poincare.rs` | motion in time with every contact; sections at a phase and at touches |
+//! | `simulate.rs`, `poincare.rs` | motion in time with every contact, and what it needs to go on; sections at a phase and at touches |
 //! | `sweep.rs` | stepped sweeps with the state carried over, diagrams from many states |
 //! | `grid.rs`, `basins.rs` | where the motions from a grid of states lead |
 //! | `parallel.rs`, `random.rs` | work on many threads with the same results; numbers from a seed |
@@ -68,7 +68,7 @@ pub use part::Part;
 pub use poincare::{Section, SectionPoint, poincare};
 pub use section::{FieldMap, SectionMap, StepMap, SystemMap, WATCHED_PERIODS, state_scales};
 pub use settle::{Patience, Settled, distance, settle};
-pub use simulate::{ContactRecord, Sample, Simulation};
+pub use simulate::{ContactRecord, Sample, Simulation, SimulationCheckpoint};
 pub use sweep::{Observable, SweepPoint, SweepSettings, Sweeper, frequencies};
 pub use tangents::Tangents;
 pub use zero_one::zero_one;

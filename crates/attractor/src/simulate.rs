@@ -49,6 +49,21 @@ pub struct ContactRecord {
     pub energy_lost: f64,
 }
 
+/// Where a motion is at the end of a period: what it needs to go on with the same bits.
+///
+/// The state and the contacts are not all of it: a law that remembers the speed of its impact goes on with that. What sticks to a rigid stop, the state tells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SimulationCheckpoint {
+    /// `[q; q']` at phase 0, length 2n.
+    pub state: Vec<f64>,
+    /// Periods observed so far.
+    pub periods: u64,
+    /// Contacts that are closed, as far as they were seen.
+    pub open: Vec<ContactRecord>,
+    /// The speed of the impact that the law of each element remembers [m/s], infinite where it remembers none; empty if no law of the system does.
+    pub impact_speeds: Vec<f64>,
+}
+
 /// A motion under way.
 #[derive(Debug)]
 pub struct Simulation {
@@ -82,6 +97,48 @@ impl Simulation {
         }
         let integrator = ExactIntegrator::new(system, settings)?;
         Ok(Self { integrator, frequency_hz, state: state.to_vec(), periods: 0, open: vec![None; elements] })
+    }
+
+    /// Goes on where a motion of the same system, frequency and settings was.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`], or the checkpoint is that of a system with other elements.
+    pub fn resume(
+        system: System,
+        frequency_hz: f64,
+        checkpoint: SimulationCheckpoint,
+        settings: ExactSettings,
+    ) -> Result<Self, AttractorError> {
+        let SimulationCheckpoint { state, periods, open, impact_speeds } = checkpoint;
+        let mut simulation = Self::new(system, frequency_hz, &state, settings)?;
+        let elements = simulation.open.len();
+        let speeds = impact_speeds.len();
+        ensure(
+            "remembered impacts",
+            speeds as f64,
+            "none, or one of each element",
+            [0, elements].contains(&speeds),
+        )?;
+        for record in open {
+            let element = record.element;
+            ensure("the element of a contact", element as f64, "one of the system", element < elements)?;
+            simulation.open[element] = Some(record);
+        }
+        if !impact_speeds.is_empty() {
+            simulation.integrator.set_impact_speeds(0.0, &state, &impact_speeds);
+        }
+        Ok(Self { periods, ..simulation })
+    }
+
+    /// Where the motion is at the end of the last period.
+    #[must_use]
+    pub fn checkpoint(&self) -> SimulationCheckpoint {
+        SimulationCheckpoint {
+            state: self.state.clone(),
+            periods: self.periods,
+            open: self.unfinished(),
+            impact_speeds: self.integrator.memory().map_or_else(Vec::new, |memory| memory.impact_speeds()),
+        }
     }
 
     /// The state at the end of the last period.

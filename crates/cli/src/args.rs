@@ -314,11 +314,11 @@ pub enum Format {
     Csv,
 }
 
-/// A frequency of the excitation, as a study may have it.
+/// A frequency of the excitation: a time of its period is a number, and so is what follows from it.
 pub fn excitation_frequency(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(number) if number > 0.0 && number <= 1e10 => Ok(number),
-        _ => Err("must be a number of hertz, more than 0 and at most 1e10".to_owned()),
+        Ok(number) if (1e-10..=1e10).contains(&number) => Ok(number),
+        _ => Err("must be a number of hertz from 1e-10 to 1e10".to_owned()),
     }
 }
 

@@ -89,10 +89,11 @@ fn of_branch(
     };
     let known: Vec<u32> = branches.branches().iter().map(|branch| branch.record.id).collect();
     let Some(number) = text.parse::<u32>().ok().filter(|number| known.contains(number)) else {
-        let last = known.last().copied().unwrap_or(0);
-        return Err(Failure::BadInput(format!(
-            "--initial: there is no branch {text:?}; allowed: 1 to {last}"
-        )));
+        let allowed = known.last().map_or_else(
+            || "the folder of --results has no branches".to_owned(),
+            |last| format!("allowed: 1 to {last}"),
+        );
+        return Err(Failure::BadInput(format!("--initial: there is no branch {text:?}; {allowed}")));
     };
     let mut orbits = branches.crossings(model, frequency_hz, |record| record.id == number)?;
     orbits.sort_by_key(|(_, orbit)| !orbit.stable());

@@ -48,6 +48,11 @@ impl Kept {
         self.store.as_ref().map_or_else(|| Ok(T::default()), |store| read(store, self.request))
     }
 
+    /// The store and the number of the request, to read it piece by piece.
+    pub fn stored(&self) -> Option<(&Store, i64)> {
+        self.store.as_ref().map(|store| (store, self.request))
+    }
+
     /// Stores more of it.
     pub fn add(
         &mut self,

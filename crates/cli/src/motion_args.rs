@@ -1,6 +1,6 @@
 //! Options of the commands that follow motions: simulate, sweep, lyapunov, basins.
 
-use std::path::PathBuf;
+use std::{ops::RangeInclusive, path::PathBuf};
 
 use clap::Args;
 
@@ -21,15 +21,15 @@ pub struct SimulateOptions {
     pub frequency: f64,
 
     /// Excitation periods that are written down
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = whole(1_u64..=100_000_000), allow_negative_numbers = true)]
     pub periods: u64,
 
     /// Excitation periods that are run first and not written down
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
     pub transient_periods: u64,
 
     /// Samples in an excitation period
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole(1_u32..=1_000_000), allow_negative_numbers = true)]
     pub samples_per_period: u32,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
@@ -43,7 +43,7 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Folder for samples.csv, contacts.csv and stroboscopic.csv, made if it is not there
+    /// Results folder, made if it is not there: keeps the motion, so that the same command goes on after an interruption, with samples.csv, contacts.csv and stroboscopic.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -66,15 +66,15 @@ pub struct LyapunovOptions {
     pub step: Option<f64>,
 
     /// Excitation periods averaged over, rounded up to a multiple of 20
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(20..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole(20_u64..=100_000_000), allow_negative_numbers = true)]
     pub periods: u64,
 
     /// Excitation periods that are run first
-    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
     pub transient_periods: u64,
 
     /// Sections in a period to begin with; each is cut further where tangent vectors grow too differently
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole(1_u64..=1024), allow_negative_numbers = true)]
     pub sections_per_period: u64,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
@@ -93,19 +93,19 @@ pub struct LyapunovOptions {
 #[derive(Debug, Args)]
 pub struct EffortOptions {
     /// Excitation periods in which a motion is not looked at
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u64).range(0..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
     pub transient_periods: u64,
 
     /// Excitation periods after those in which a motion has to repeat
-    #[arg(long, value_name = "N", default_value_t = 500, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 500, value_parser = whole(1_u64..=100_000_000), allow_negative_numbers = true)]
     pub patience_periods: u64,
 
     /// Longest period looked for, in excitation periods
-    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = whole(1_u16..=1024), allow_negative_numbers = true)]
     pub longest_period: u16,
 
     /// Excitation periods over which exponents and the 0-1 test of a motion that does not repeat are taken
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(240..=10_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole(240_u64..=10_000_000), allow_negative_numbers = true)]
     pub averaged_periods: u64,
 }
 
@@ -143,14 +143,14 @@ pub struct SweepOptions {
     pub down: bool,
 
     /// Instead of a sweep: begin at N states at every frequency, the same ones each time
-    #[arg(long, value_name = "N", conflicts_with_all = ["down", "initial"], value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["down", "initial"], value_parser = whole(1_u32..=100_000), allow_negative_numbers = true)]
     pub starts: Option<u32>,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
     pub initial: String,
 
     /// Samples of a motion that does not repeat
-    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = whole(1_u32..=100_000), allow_negative_numbers = true)]
     pub samples: u32,
 
     #[command(flatten)]
@@ -165,7 +165,7 @@ pub struct SweepOptions {
     pub out: Option<PathBuf>,
 
     /// Number of threads with --starts [default: all cores]; the results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1_u16..=u16::MAX), allow_negative_numbers = true)]
     pub jobs: Option<u16>,
 }
 
@@ -187,7 +187,7 @@ pub struct BasinsOptions {
     pub y: AxisOption,
 
     /// Cells along each coordinate
-    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = whole(1_u32..=10_000), allow_negative_numbers = true)]
     pub grid: u32,
 
     #[command(flatten)]
@@ -202,7 +202,7 @@ pub struct BasinsOptions {
     pub out: Option<PathBuf>,
 
     /// Number of threads [default: all cores]; the results do not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1_u16..=u16::MAX), allow_negative_numbers = true)]
     pub jobs: Option<u16>,
 }
 
@@ -232,6 +232,21 @@ fn axis(text: &str) -> Result<AxisOption, String> {
         return Err(format!("the range {low}..{high} is empty; LOW must be below HIGH"));
     }
     Ok(AxisOption { name: name.trim().to_owned(), low, high })
+}
+
+/// A whole number in a range; a negative one is refused by that range as well.
+fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: Copy + Into<i128> + TryFrom<i128>,
+{
+    let [low, high]: [i128; 2] = [(*range.start()).into(), (*range.end()).into()];
+    move |text| match text.parse::<i128>() {
+        Ok(number) if (low..=high).contains(&number) => {
+            T::try_from(number).map_err(|_| format!("{number} is not in {low}..={high}"))
+        }
+        Ok(number) => Err(format!("{number} is not in {low}..={high}")),
+        Err(_) => Err(format!("must be a whole number from {low} to {high}")),
+    }
 }
 
 fn phase(text: &str) -> Result<f64, String> {

@@ -10,7 +10,7 @@
 //! | `orbit_solver` | these traits, served by the orbit crate |
 //! | [`varied`] | branches in other parameters and curves of bifurcations, after the diagram |
 //! | [`update`] | parameters of a study fitted to measured eigenfrequencies, damping ratios and responses |
-//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; sweeps, exponents and basins by request |
+//! | [`store`] | the results folder: one database in transactions, the checkpoint of each walk beside its rows; motions in time, sweeps, exponents and basins by request |
 //! | `crossings` | where stored branches cross a frequency, and which of them holds a periodic motion |
 //! | [`comparison`] | measured points held against stored branches |
 //! | [`rig`] | a measurement made with another model |

@@ -1,337 +1,228 @@
 //! `hammerbeam simulate`: a motion in time, with every contact.
+//!
+//! With `--out` it goes into the store chunk by chunk, and on from the last one if it is asked again. Tables and summary are made of the chunks alone, those
+//! of the store first, so that they have the same bytes however often the command was interrupted.
+
+mod observer;
+mod summary;
 
 use std::path::Path;
 
-use hammerbeam_attractor::{ContactRecord, Sample, Simulation, SystemMap};
-use hammerbeam_motion::{PointMotion, exact::ExactSettings};
+use hammerbeam_attractor::{AttractorError, Simulation, SimulationCheckpoint, SystemMap};
+use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, StudyFile,
-    export::{Table, number, word},
+    export::{SimulationLayout, SimulationTables},
+    store::{RequestKind, SimulatedChunk},
 };
-use serde_json::{Value, json};
 
 use crate::{
-    failure::Failure, initial, interrupt::Interrupt, motion_args::SimulateOptions, output::Output,
+    failure::Failure,
+    initial,
+    interrupt::Interrupt,
+    kept::{Kept, state_words},
+    motion_args::SimulateOptions,
+    output::Output,
     ticker::Ticker,
 };
+use observer::Observer;
+use summary::Summary;
 
-/// Samples in a table at most, some 500 GB of text.
-const MOST_SAMPLES: u64 = 10_000_000_000;
-/// Contacts that a document lists; all of them are in `contacts.csv`.
-const LISTED: usize = 1000;
+/// Samples that are kept at most: some 40 GB in the store and 150 GB of text, with one stop.
+const MOST_SAMPLES: u64 = 1_000_000_000;
+/// Numbers of a period that are kept at most: a chunk holds a whole period.
+const MOST_OF_A_PERIOD: u64 = 100_000_000;
 
 pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
-    let samples = options.periods * u64::from(options.samples_per_period);
-    if options.out.is_some() && samples > MOST_SAMPLES {
-        return Err(Failure::BadInput(format!(
-            "--periods {} times --samples-per-period {} is {samples} samples, must be {MOST_SAMPLES} at most with --out",
-            options.periods, options.samples_per_period
-        )));
-    }
-    let frequency_hz = options.frequency;
+    let layout = layout(options, &model);
+    check_size(options, &layout)?;
     let motion = ExactSettings::default();
-    let mut map = SystemMap::new(model.system.clone(), frequency_hz, 1, motion)?;
+    let mut map = SystemMap::new(model.system.clone(), options.frequency, 1, motion)?;
     let state = initial::state(&options.initial, &mut map, (&file, &model), options.results.as_deref())?;
-    let mut simulation = Simulation::new(model.system.clone(), frequency_hz, &state, motion)?;
+    let begin = |checkpoint: Option<SimulationCheckpoint>| match checkpoint {
+        Some(checkpoint) => Simulation::resume(model.system.clone(), options.frequency, checkpoint, motion),
+        None => Simulation::new(model.system.clone(), options.frequency, &state, motion),
+    };
+    if options.out.is_some() {
+        // A motion that cannot begin leaves no folder behind.
+        begin(None)?.skip_period()?;
+    }
     let interrupt = Interrupt::listen()?;
-    let mut ticker = Ticker::new(options.transient_periods + options.periods, "periods");
-    for period in 0..options.transient_periods {
-        if interrupt.raised() {
-            return Err(Failure::Interrupted("interrupted before anything was written down".to_owned()));
-        }
-        simulation.skip_period()?;
-        ticker.at(period, String::new);
-    }
-    let phases = Phases::of(options);
-    // A motion that cannot be computed leaves no tables.
-    let mut next = Some(simulation.period_at(&phases.all)?);
-    let mut record = Record::begin(options, &model)?;
-    let mut failure = None;
-    for period in 0..options.periods {
-        if interrupt.raised() {
-            break;
-        }
-        let (samples, contacts) = match next.take().map_or_else(|| simulation.period_at(&phases.all), Ok) {
-            Ok(observed) => observed,
-            Err(error) => {
-                failure = Some(error);
-                break;
-            }
-        };
-        record.take(&model, (options, &phases), &samples, &contacts)?;
-        ticker.at(options.transient_periods + period, String::new);
-    }
-    ticker.clear();
-    record.take(&model, (options, &phases), &[], &simulation.unfinished())?;
-    let periods = record.periods;
-    let summary = record.finish(&simulation)?;
-    let kept = if options.out.is_some() { "are kept" } else { "were computed" };
+    let words = words(options, &layout, &state);
+    let total = options.transient_periods + options.periods;
+    let kept = Kept::open(options.out.as_deref(), &file, (RequestKind::Simulation, &words), total)?;
+    let written =
+        Written { out: options.out.as_deref(), layout: &layout, tables: None, summary: Summary::default() };
+    let mut work = Work { options, interrupt: &interrupt, done: kept.done, kept, written };
+    let mut simulation = begin(work.read()?)?;
+    let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
+    let Work { mut kept, done, written, .. } = work;
+    kept.finish()?;
+    let summary = written.finish()?;
+    let periods = summary.periods;
     if let Some(error) = failure {
-        return Err(Failure::NoResult(format!("{error}; {periods} periods {kept}")));
+        return Err(failed(error, options, periods));
     }
-    if interrupt.raised() {
-        return Err(Failure::Interrupted(format!("interrupted; {periods} periods {kept}")));
+    if done < total {
+        let finished = if periods > 0 {
+            format!("{periods} periods")
+        } else {
+            format!("{done} periods of the transient")
+        };
+        return Err(Failure::Interrupted(format!("interrupted; {finished} {}", kept.fate())));
     }
     output.give(&summary.document(options), || summary.text(options));
     Ok(())
 }
 
-/// Phases of a period at which the state is wanted: equal steps, and that of the section.
-struct Phases {
-    all: Vec<f64>,
-    /// Index of that of the section,
-    section: usize,
-    /// and whether it is one of the equal steps.
-    shared: bool,
+/// What is asked of the study.
+fn words(options: &SimulateOptions, layout: &SimulationLayout, state: &[f64]) -> Vec<String> {
+    let mut words = vec![
+        format!("transient_periods = {}", options.transient_periods),
+        format!("periods = {}", options.periods),
+    ];
+    words.extend(layout.words());
+    words.extend(state_words(state));
+    words
 }
 
-impl Phases {
-    fn of(options: &SimulateOptions) -> Self {
-        let samples = f64::from(options.samples_per_period);
-        let mut all: Vec<f64> = (0..options.samples_per_period).map(|k| f64::from(k) / samples).collect();
-        let section = all.partition_point(|phase| *phase < options.section_phase);
-        let shared = all.get(section) == Some(&options.section_phase);
-        if !shared {
-            all.insert(section, options.section_phase);
-        }
-        Self { all, section, shared }
+fn layout(options: &SimulateOptions, model: &Model) -> SimulationLayout {
+    SimulationLayout {
+        frequency_hz: options.frequency,
+        samples_per_period: options.samples_per_period,
+        section_phase: options.section_phase,
+        dof: model.system.dof(),
+        elements: model.system.elements().iter().map(|element| element.name.clone()).collect(),
     }
 }
 
-/// What is written down.
-struct Record {
-    response: PointMotion,
-    samples: Option<Table>,
-    contacts: Option<Table>,
-    section: Option<Table>,
-    summary: Summary,
-    periods: u64,
+fn check_size(options: &SimulateOptions, layout: &SimulationLayout) -> Result<(), Failure> {
+    let in_a_period = u64::from(options.samples_per_period);
+    let samples = options.periods * in_a_period;
+    let numbers = in_a_period * layout.numbers_of_sample() as u64;
+    if options.out.is_some() && samples > MOST_SAMPLES {
+        return Err(Failure::BadInput(format!(
+            "--periods {} times --samples-per-period {in_a_period} is {samples} samples, must be {MOST_SAMPLES} at most with --out",
+            options.periods
+        )));
+    }
+    if options.out.is_some() && numbers > MOST_OF_A_PERIOD {
+        return Err(Failure::BadInput(format!(
+            "--samples-per-period {in_a_period} with {} local elements is {numbers} numbers in a period, must be {MOST_OF_A_PERIOD} at most with --out",
+            layout.elements.len()
+        )));
+    }
+    Ok(())
 }
 
-/// A motion in few numbers.
-#[derive(Default)]
-struct Summary {
-    samples: u64,
-    contacts: u64,
-    largest_displacement: f64,
-    largest_force: f64,
-    largest_impact: f64,
-    impulse: f64,
-    energy_lost: f64,
-    listed: Vec<Value>,
-    state: Vec<f64>,
-    seconds: f64,
+/// A motion that ends early.
+fn failed(error: AttractorError, options: &SimulateOptions, periods: u64) -> Failure {
+    if periods == 0 {
+        return error.into();
+    }
+    let kept = if options.out.is_some() { "are kept" } else { "were computed" };
+    Failure::NoResult(format!("{error}; {periods} periods {kept}"))
 }
 
-impl Record {
-    fn begin(options: &SimulateOptions, model: &Model) -> Result<Self, Failure> {
-        let table = |name: &str, header: Vec<String>| match &options.out {
-            Some(folder) => Table::begin(folder, name, &header).map(Some),
-            None => Ok(None),
-        };
-        Ok(Self {
-            response: model.response_motion(options.frequency),
-            samples: table("samples.csv", sample_header(model))?,
-            contacts: table("contacts.csv", contact_header())?,
-            section: table("stroboscopic.csv", section_header(model))?,
-            summary: Summary::default(),
-            periods: 0,
-        })
+struct Work<'a> {
+    options: &'a SimulateOptions,
+    interrupt: &'a Interrupt,
+    kept: Kept,
+    written: Written<'a>,
+    /// Periods that are done, with those of the transient.
+    done: u64,
+}
+
+impl Work<'_> {
+    /// Takes over what is stored.
+    ///
+    /// # Returns
+    /// Where the motion is, if it has begun.
+    fn read(&mut self) -> Result<Option<SimulationCheckpoint>, Failure> {
+        let Some((store, request)) = self.kept.stored() else { return Ok(None) };
+        let (written, mut last) = (&mut self.written, None);
+        store.each_simulated::<Failure>(request, |chunk| {
+            if self.interrupt.raised() {
+                let message = "interrupted before the tables were written; everything is kept";
+                return Err(Failure::Interrupted(message.to_owned()));
+            }
+            written.take(&chunk)?;
+            last = Some(chunk.checkpoint);
+            Ok(())
+        })?;
+        Ok(last)
     }
 
-    fn take(
+    /// Goes on to the end.
+    ///
+    /// # Returns
+    /// Why the motion ends early, if it does.
+    fn simulate(
         &mut self,
-        model: &Model,
-        (options, phases): (&SimulateOptions, &Phases),
-        samples: &[Sample],
-        contacts: &[ContactRecord],
-    ) -> Result<(), Failure> {
-        for (index, sample) in samples.iter().enumerate() {
-            if index != phases.section || phases.shared {
-                self.sample(model, options.frequency, sample)?;
+        simulation: &mut Simulation,
+        mut observer: Observer<'_>,
+    ) -> Result<Option<AttractorError>, Failure> {
+        let transient = self.options.transient_periods;
+        let total = transient + self.options.periods;
+        let mut ticker = Ticker::new(total, "periods");
+        let mut failure = None;
+        while self.done < total && failure.is_none() && !self.interrupt.raised() {
+            let period =
+                if self.done < transient { observer.skip(simulation) } else { observer.period(simulation) };
+            match period {
+                Ok(()) => self.done += 1,
+                Err(error) => failure = Some(error),
             }
-            if index == phases.section
-                && let Some(table) = &mut self.section
-            {
-                table.row(&section_row(&self.response, sample))?;
+            if observer.is_due() {
+                self.add(observer.take(simulation))?;
             }
+            ticker.at(self.done, String::new);
         }
-        for contact in contacts {
-            self.contact(model, options.frequency, contact)?;
-        }
-        self.periods += u64::from(!samples.is_empty());
-        Ok(())
+        ticker.clear();
+        self.add(observer.take(simulation))?;
+        Ok(failure)
     }
 
-    fn sample(&mut self, model: &Model, frequency_hz: f64, sample: &Sample) -> Result<(), Failure> {
-        let row = sample_row(model, (&self.response, frequency_hz), sample);
-        let summary = &mut self.summary;
-        summary.samples += 1;
-        summary.largest_displacement = summary.largest_displacement.max(row[2].abs());
-        if let Some(table) = &mut self.samples {
-            table.row(&row.into_iter().map(number).collect::<Vec<_>>())?;
-        }
-        Ok(())
-    }
-
-    fn contact(&mut self, model: &Model, frequency_hz: f64, contact: &ContactRecord) -> Result<(), Failure> {
-        let summary = &mut self.summary;
-        summary.contacts += 1;
-        summary.largest_force = summary.largest_force.max(contact.peak_force);
-        let speed = contact.begin.as_ref().map_or(0.0, |touch| touch.velocity.abs());
-        summary.largest_impact = summary.largest_impact.max(speed);
-        summary.impulse += contact.impulse;
-        summary.energy_lost += contact.energy_lost;
-        if summary.listed.len() < LISTED {
-            summary.listed.push(contact_document(model, contact));
-        }
-        if let Some(table) = &mut self.contacts {
-            table.row(&contact_row(model, (&self.response, frequency_hz), contact))?;
-        }
-        Ok(())
-    }
-
-    fn finish(self, simulation: &Simulation) -> Result<Summary, Failure> {
-        for table in [self.samples, self.contacts, self.section].into_iter().flatten() {
-            table.finish()?;
-        }
-        Ok(Summary { state: simulation.state().to_vec(), seconds: simulation.time(), ..self.summary })
+    /// Stores the periods that have been done last, and writes them down.
+    fn add(&mut self, chunk: Option<SimulatedChunk>) -> Result<(), Failure> {
+        let Some(chunk) = chunk else { return Ok(()) };
+        let first = self.done - chunk.periods;
+        self.kept.add(|store, request| store.append_simulated(request, first, &chunk))?;
+        self.written.take(&chunk)
     }
 }
 
-impl Summary {
-    fn document(&self, options: &SimulateOptions) -> Value {
-        json!({
-            "frequency_hz": options.frequency,
-            "transient_periods": options.transient_periods,
-            "periods": options.periods,
-            "time_s": self.seconds,
-            "samples": self.samples,
-            "max_abs_sampled_displacement_m": self.largest_displacement,
-            "contacts": self.contacts,
-            "max_contact_force_n": self.largest_force,
-            "max_impact_velocity_m_s": self.largest_impact,
-            "impulse_n_s": self.impulse,
-            "energy_lost_j": self.energy_lost,
-            "contact_list": self.listed,
-            "contact_list_complete": self.listed.len() as u64 == self.contacts,
-            "final_modal_state": self.state,
-            "results": folder(options.out.as_deref()),
-        })
+/// The tables, and the motion in few numbers.
+struct Written<'a> {
+    out: Option<&'a Path>,
+    layout: &'a SimulationLayout,
+    /// Begun with the first period that is written down: a transient leaves no tables.
+    tables: Option<SimulationTables>,
+    summary: Summary,
+}
+
+impl Written<'_> {
+    fn take(&mut self, chunk: &SimulatedChunk) -> Result<(), Failure> {
+        self.summary.take(self.layout, chunk);
+        if let Some(folder) = self.out
+            && self.tables.is_none()
+            && !chunk.section.is_empty()
+        {
+            self.tables = Some(SimulationTables::begin(folder, "", self.layout.clone())?);
+        }
+        self.tables.as_mut().map_or(Ok(()), |tables| tables.take(chunk))?;
+        Ok(())
     }
 
-    fn text(&self, options: &SimulateOptions) -> String {
-        let mut lines = vec![
-            format!("{} periods at {} Hz, {:.6} s", options.periods, options.frequency, self.seconds),
-            format!(
-                "  largest sampled displacement  {:.6e} m ({} samples)",
-                self.largest_displacement, self.samples
-            ),
-            format!("  contacts                      {}", self.contacts),
-            format!("  largest contact force         {:.6e} N", self.largest_force),
-            format!("  largest impact velocity       {:.6e} m/s", self.largest_impact),
-            format!("  impulse of all contacts       {:.6e} N s", self.impulse),
-            format!("  energy lost in all contacts   {:.3e} J", self.energy_lost),
-        ];
-        if let Some(folder) = &options.out {
-            let folder = folder.display();
-            lines.push(format!("samples.csv, contacts.csv and stroboscopic.csv are in {folder}"));
-        }
-        lines.join("\n")
+    fn finish(mut self) -> Result<Summary, Failure> {
+        self.tables.map_or_else(|| Ok(Vec::new()), SimulationTables::finish)?;
+        self.summary.finish(self.layout);
+        Ok(self.summary)
     }
 }
 
 pub fn folder(path: Option<&Path>) -> Option<String> {
     path.map(|path| path.display().to_string())
-}
-
-fn sample_header(model: &Model) -> Vec<String> {
-    let mut header: Vec<String> =
-        ["time_s", "phase_cycles", "displacement_m", "velocity_m_s", "acceleration_m_s2"]
-            .map(str::to_owned)
-            .into();
-    for element in model.system.elements() {
-        let name = word(&element.name);
-        header.extend([format!("{name}_relative_displacement_m"), format!("{name}_force_n")]);
-    }
-    header
-}
-
-fn sample_row(model: &Model, (response, frequency_hz): (&PointMotion, f64), sample: &Sample) -> Vec<f64> {
-    let mut row = vec![sample.time, sample.phase];
-    row.extend(response.at(sample.phase, &sample.state, &sample.forces));
-    for (e, force) in sample.forces.iter().enumerate() {
-        let [r, ..] = model.system.relative_motion(e, frequency_hz, sample.phase, &sample.state);
-        row.extend([r, *force]);
-    }
-    row
-}
-
-fn section_header(model: &Model) -> Vec<String> {
-    let mut header: Vec<String> =
-        ["time_s", "phase_cycles", "displacement_m", "velocity_m_s"].map(str::to_owned).into();
-    let n = model.system.dof();
-    header.extend((1..=n).map(|i| format!("q{i}")));
-    header.extend((1..=n).map(|i| format!("v{i}")));
-    header
-}
-
-fn section_row(response: &PointMotion, sample: &Sample) -> Vec<String> {
-    let [displacement, velocity, _] = response.at(sample.phase, &sample.state, &sample.forces);
-    let first = [sample.time, sample.phase, displacement, velocity];
-    first.iter().chain(&sample.state).map(|value| number(*value)).collect()
-}
-
-fn contact_header() -> Vec<String> {
-    [
-        "element",
-        "begin_s",
-        "end_s",
-        "phase_cycles",
-        "impact_velocity_m_s",
-        "impulse_n_s",
-        "peak_force_n",
-        "energy_lost_j",
-        "displacement_m",
-        "velocity_m_s",
-    ]
-    .map(str::to_owned)
-    .into()
-}
-
-/// The row is also a point of the section at this contact: displacement and velocity of the response point as it closes.
-fn contact_row(
-    model: &Model,
-    (response, frequency_hz): (&PointMotion, f64),
-    contact: &ContactRecord,
-) -> Vec<String> {
-    let begin = contact.begin.as_ref();
-    let phase = begin.map(|touch| (touch.time * frequency_hz).fract());
-    let response = begin.zip(phase).map(|(touch, phase)| response.at(phase, &touch.state, &[]));
-    vec![
-        word(&model.system.elements()[contact.element].name),
-        number(begin.map(|touch| touch.time)),
-        number(contact.end),
-        number(phase),
-        number(begin.map(|touch| touch.velocity.abs())),
-        number(contact.impulse),
-        number(contact.peak_force),
-        number(contact.energy_lost),
-        number(response.map(|response| response[0])),
-        number(response.map(|response| response[1])),
-    ]
-}
-
-fn contact_document(model: &Model, contact: &ContactRecord) -> Value {
-    json!({
-        "element": model.system.elements()[contact.element].name,
-        "begin_s": contact.begin.as_ref().map(|touch| touch.time),
-        "end_s": contact.end,
-        "impact_velocity_m_s": contact.begin.as_ref().map(|touch| touch.velocity.abs()),
-        "impulse_n_s": contact.impulse,
-        "peak_force_n": contact.peak_force,
-        "energy_lost_j": contact.energy_lost,
-    })
 }

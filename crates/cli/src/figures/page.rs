@@ -56,6 +56,8 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
 fn has_more(store: &Store) -> Result<bool, StoreError> {
     for request in store.requests()? {
         let is_empty = match request.kind {
+            // Nothing is drawn of a motion in time.
+            RequestKind::Simulation => true,
             RequestKind::Sweep | RequestKind::Starts => store.settled(request.id)?.is_empty(),
             RequestKind::Exponents => store.exponents(request.id)?.is_empty(),
             RequestKind::Basins => store.basins(request.id)?.0.is_empty(),

@@ -97,10 +97,7 @@ fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
 #[test]
 fn ctrl_c_ends_every_command_with_130() {
     for (arguments, table) in [
-        (
-            &["simulate", "study.toml", "--frequency", "0.2", "--periods", "100000000"][..],
-            Some("samples.csv"),
-        ),
+        (&["simulate", "study.toml", "--frequency", "0.2", "--periods", "10000000"][..], Some("samples.csv")),
         (&["lyapunov", "study.toml", "--frequency", "0.2", "--periods", "10000000"], None),
         (&["sweep", "study.toml", "--step", "0.00001"], Some("sweep.csv")),
         (&["sweep", "study.toml", "--step", "0.0001", "--starts", "5"], Some("sweep.csv")),

@@ -11,6 +11,7 @@ mod exponents;
 mod exported;
 mod folders;
 mod initial;
+mod kept;
 mod refused;
 mod simulate;
 mod sweep;

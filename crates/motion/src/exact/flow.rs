@@ -24,8 +24,9 @@ impl ExactIntegrator {
         let end = self.modal_state(&run, stretch.duration());
         self.let_go();
         self.run = run;
+        result?;
         self.remember_end(stretch, &end);
-        result.map(|()| end)
+        Ok(end)
     }
 
     /// State of the steady motion without local forces at the start of a stretch (of the motion from rest, where resonant).

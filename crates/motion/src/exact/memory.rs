@@ -23,6 +23,14 @@ pub struct ContactMemory {
     speeds: Vec<Vec<f64>>,
 }
 
+impl ContactMemory {
+    /// The speed of the impact that the law of each element remembers [m/s]; infinite where there was none yet, and where the law remembers none.
+    #[must_use]
+    pub fn impact_speeds(&self) -> Vec<f64> {
+        self.laws.iter().map(Law::impact_speed).collect()
+    }
+}
+
 impl ExactIntegrator {
     /// Flow over a stretch that may start in a contact whose law remembers its impact, where it goes on from the end of the stretch before; else as [`ExactIntegrator::flow`].
     ///
@@ -47,6 +55,15 @@ impl ExactIntegrator {
     /// Goes back to the end of a stretch, of this integrator or another of the same system.
     pub fn set_memory(&mut self, memory: Option<ContactMemory>) {
         self.memory = memory;
+    }
+
+    /// Goes back to where a motion of this system was at a state and a phase, if its laws remembered impacts of these speeds then, see [`ContactMemory::impact_speeds`].
+    ///
+    /// * `phase`: [cycles], from 0 to less than 1; `state`: `[q; q']`, length 2n; `impact_speeds`: one of each element [m/s].
+    pub fn set_impact_speeds(&mut self, phase: f64, state: &[f64], impact_speeds: &[f64]) {
+        let elements = self.system.elements().iter().zip(impact_speeds);
+        let laws = elements.map(|(element, speed)| element.law.struck_at(*speed)).collect();
+        self.memory = Some(ContactMemory { phase, state: state.to_vec(), laws, speeds: Vec::new() });
     }
 
     /// Puts laws that remember an impact back to what they are before the first.

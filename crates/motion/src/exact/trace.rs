@@ -187,7 +187,6 @@ impl ExactIntegrator {
         let mut tracing = self.tracing.take().unwrap_or_default();
         tracing.end_open(&run);
         let end = self.modal_state(&run, stretch.duration());
-        self.remember_end(stretch, &end);
         // Samples at the very end, or within rounding of it.
         while tracing.trace.samples.len() < tracing.times.len() {
             tracing.trace.samples.push(end.clone());
@@ -195,6 +194,8 @@ impl ExactIntegrator {
         }
         self.let_go();
         self.run = run;
-        result.map(|()| Trace { state: end, ..tracing.trace })
+        result?;
+        self.remember_end(stretch, &end);
+        Ok(Trace { state: end, ..tracing.trace })
     }
 }

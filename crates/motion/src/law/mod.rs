@@ -195,6 +195,11 @@ impl Law {
         }
     }
 
+    /// The speed of the impact that the law remembers [m/s]; infinite before the first, and of a law that remembers none.
+    pub(crate) fn impact_speed(&self) -> f64 {
+        if let Self::Restitution(law) = self { law.impact_speed() } else { f64::INFINITY }
+    }
+
     /// Whether the law knows how its contact began, if it needs to.
     pub(crate) fn is_struck(&self) -> bool {
         if let Self::Restitution(law) = self { law.is_struck() } else { true }

@@ -106,6 +106,10 @@ impl RestitutionStop {
         Self { impact_speed, ..*self }
     }
 
+    pub(super) fn impact_speed(&self) -> f64 {
+        self.impact_speed
+    }
+
     pub(super) fn is_struck(&self) -> bool {
         self.impact_speed.is_finite()
     }

@@ -190,7 +190,9 @@ pub(crate) const GRAVITY: Quantity = Quantity::new("m/s^2", Including(-1e6), Inc
 /// Phase of a harmonic.
 pub(crate) const PHASE: Quantity = Quantity::new("rad", Including(-100.0), Including(100.0))
     .hints("is the unit rad?", "is the unit rad? it looks like degrees");
-/// Excitation frequency, cut-off frequency.
+/// Excitation frequency: its period and what follows from that are plain numbers.
+pub(crate) const EXCITATION_FREQUENCY: Quantity = Quantity::new("Hz", Including(1e-10), Including(1e10));
+/// Cut-off frequency, and whatever else has hertz.
 pub(crate) const FREQUENCY: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));
 /// Step along a branch.
 pub(crate) const STEP: Quantity = Quantity::new("Hz", Excluding(0.0), Including(1e10));

@@ -3,6 +3,7 @@
 mod ends;
 mod events;
 mod motions;
+mod simulation;
 mod table;
 mod varied;
 
@@ -15,6 +16,7 @@ use std::{
 pub use ends::END_COLUMNS;
 pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
+pub use simulation::{SimulationLayout, SimulationTables};
 pub use table::{Table, header, number, word};
 
 use ends::write_ends;
@@ -70,7 +72,7 @@ pub struct Exported {
     pub ends_path: PathBuf,
     /// `parameter_branches.csv`, `parameter_events.csv` and `curves.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
-    /// Tables of sweeps, exponents and basins, with the numbers of their requests.
+    /// Tables of motions, sweeps, exponents and basins, with the numbers of their requests.
     pub motion_paths: Vec<PathBuf>,
 }
 

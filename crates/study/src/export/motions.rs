@@ -1,4 +1,4 @@
-//! Motions that need not repeat as CSV: sweeps, exponents, basins.
+//! Motions that need not repeat as CSV: sweeps, exponents, basins; motions in time see `simulation.rs`.
 //!
 //! The commands write the tables of what they were asked; an export writes those of every request in the store, with its number in their names.
 
@@ -8,6 +8,7 @@ use hammerbeam_attractor::{Attractor, Axis, Grid, fractions};
 
 use super::{
     ExportError,
+    simulation::export_simulation,
     table::{Table, header, number, optional},
 };
 use crate::store::{ExponentRecord, RequestKind, RequestRecord, SettledMotion, Store, StoreError};
@@ -190,6 +191,7 @@ pub(super) fn export_motions(store: &Store, folder: &Path) -> Result<Vec<PathBuf
     for request in store.requests()? {
         let suffix = format!("-{}", request.id);
         files.extend(match request.kind {
+            RequestKind::Simulation => export_simulation(store, folder, (&request, &suffix))?,
             RequestKind::Sweep | RequestKind::Starts => {
                 write_sweep(folder, &suffix, &store.settled(request.id)?, &[])?
             }

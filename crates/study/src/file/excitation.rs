@@ -131,7 +131,7 @@ fn check_table(table: &Table<'_>, kind: &ExcitationKind, [low, high]: [f64; 2]) 
 }
 
 fn read_range(value: &Value<'_>) -> Option<[f64; 2]> {
-    let range = value.numbers::<2>(&quantity::FREQUENCY)?;
+    let range = value.numbers::<2>(&quantity::EXCITATION_FREQUENCY)?;
     if range[0] < range[1] {
         return Some(range);
     }

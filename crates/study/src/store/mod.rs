@@ -19,6 +19,7 @@ mod read;
 mod requests;
 mod schema;
 mod settled;
+mod simulated;
 mod varied;
 mod write;
 
@@ -41,6 +42,7 @@ pub use read::{BranchRecord, Row, StoredMemory, WalkRecord};
 pub use requests::{RequestKind, RequestRecord};
 pub use schema::SCHEMA_VERSION;
 pub use settled::SettledMotion;
+pub use simulated::{SimulatedChunk, SimulatedContact, SimulatedTouch};
 pub use varied::{Piece, PieceBranchRecord, PieceRecord, StoredVariedRow, VariedBranch, VariedRow};
 pub(crate) use write::{Continuation, Memory};
 

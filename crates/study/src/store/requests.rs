@@ -1,4 +1,4 @@
-//! Requests: what was asked of motions that need not repeat (`sweep`, `lyapunov`, `basins`), and how far it is done.
+//! Requests: what was asked of motions that need not repeat (`simulate`, `sweep`, `lyapunov`, `basins`), and how far it is done.
 //!
 //! A request is known by its kind and by its words, lines `key = value` with everything that its results depend on besides the study. Asked again it is
 //! found, and goes on where it was left: results and the number of pieces done are committed together.
@@ -10,6 +10,8 @@ use super::{Store, StoreError};
 /// What a request is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum RequestKind {
+    /// Motions in time; its pieces are periods, those of the transient first.
+    Simulation,
     /// Stepped sweeps with the state carried over; its pieces are motions.
     Sweep,
     /// Motions from several states at each frequency; its pieces are frequencies.
@@ -21,12 +23,13 @@ pub enum RequestKind {
 }
 
 impl RequestKind {
-    const ALL: [Self; 4] = [Self::Sweep, Self::Starts, Self::Exponents, Self::Basins];
+    const ALL: [Self; 5] = [Self::Simulation, Self::Sweep, Self::Starts, Self::Exponents, Self::Basins];
 
-    /// Its name: `sweep`, `starts`, `exponents`, `basins`.
+    /// Its name: `simulation`, `sweep`, `starts`, `exponents`, `basins`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Simulation => "simulation",
             Self::Sweep => "sweep",
             Self::Starts => "starts",
             Self::Exponents => "exponents",

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 4;
+pub const SCHEMA_VERSION: u32 = 5;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -77,11 +77,26 @@ CREATE TABLE solution (
 const TABLES_OF_MOTIONS: &str = "
 CREATE TABLE request (
     id INTEGER PRIMARY KEY,
-    kind TEXT NOT NULL CHECK (kind IN ('sweep', 'starts', 'exponents', 'basins')),
+    kind TEXT NOT NULL CHECK (kind IN ('simulation', 'sweep', 'starts', 'exponents', 'basins')),
     words TEXT NOT NULL,
     pieces INTEGER NOT NULL,
     done INTEGER NOT NULL DEFAULT 0,
     UNIQUE (kind, words)
+);
+CREATE TABLE simulated (
+    id INTEGER PRIMARY KEY,
+    request INTEGER NOT NULL REFERENCES request (id),
+    first INTEGER NOT NULL,
+    periods INTEGER NOT NULL,
+    samples BLOB NOT NULL,
+    section BLOB NOT NULL,
+    contacts BLOB NOT NULL,
+    unfinished BLOB NOT NULL,
+    observed INTEGER NOT NULL,
+    state BLOB NOT NULL,
+    open BLOB NOT NULL,
+    impact_speeds BLOB NOT NULL,
+    UNIQUE (request, first)
 );
 CREATE TABLE settled (
     request INTEGER NOT NULL REFERENCES request (id),

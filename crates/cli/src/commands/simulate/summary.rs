@@ -1,0 +1,124 @@
+//! A motion in few numbers.
+
+use hammerbeam_study::{
+    export::SimulationLayout,
+    store::{SimulatedChunk, SimulatedContact},
+};
+use serde_json::{Value, json};
+
+use super::folder;
+use crate::motion_args::SimulateOptions;
+
+/// Contacts that a document lists; all of them are in `contacts.csv`.
+const LISTED: usize = 1000;
+
+/// A motion in few numbers, gathered chunk by chunk.
+#[derive(Default)]
+pub struct Summary {
+    /// Periods written down.
+    pub periods: u64,
+    samples: u64,
+    contacts: u64,
+    largest_displacement: f64,
+    largest_force: f64,
+    largest_impact: f64,
+    impulse: f64,
+    energy_lost: f64,
+    listed: Vec<Value>,
+    state: Vec<f64>,
+    unfinished: Vec<SimulatedContact>,
+}
+
+impl Summary {
+    /// Adds the next chunk.
+    pub fn take(&mut self, layout: &SimulationLayout, chunk: &SimulatedChunk) {
+        for sample in chunk.samples.chunks_exact(layout.numbers_of_sample()) {
+            self.samples += 1;
+            self.largest_displacement = self.largest_displacement.max(sample[0].abs());
+        }
+        chunk.contacts.iter().for_each(|contact| self.contact(layout, contact));
+        self.unfinished.clone_from(&chunk.unfinished);
+        self.periods = chunk.checkpoint.periods;
+        self.state.clone_from(&chunk.checkpoint.state);
+    }
+
+    /// Adds the contacts that are still closed at the end.
+    pub fn finish(&mut self, layout: &SimulationLayout) {
+        for contact in std::mem::take(&mut self.unfinished) {
+            self.contact(layout, &contact);
+        }
+    }
+
+    fn contact(&mut self, layout: &SimulationLayout, contact: &SimulatedContact) {
+        self.contacts += 1;
+        self.largest_force = self.largest_force.max(contact.peak_force);
+        let speed = contact.touch.as_ref().map_or(0.0, |touch| touch.speed);
+        self.largest_impact = self.largest_impact.max(speed);
+        self.impulse += contact.impulse;
+        self.energy_lost += contact.energy_lost;
+        if self.listed.len() < LISTED {
+            self.listed.push(contact_document(layout, contact));
+        }
+    }
+
+    pub fn document(&self, options: &SimulateOptions) -> Value {
+        json!({
+            "frequency_hz": options.frequency,
+            "transient_periods": options.transient_periods,
+            "periods": options.periods,
+            "time_s": self.seconds(options),
+            "samples": self.samples,
+            "max_abs_sampled_displacement_m": self.largest_displacement,
+            "contacts": self.contacts,
+            "max_contact_force_n": self.largest_force,
+            "max_impact_velocity_m_s": self.largest_impact,
+            "impulse_n_s": self.impulse,
+            "energy_lost_j": self.energy_lost,
+            "contact_list": self.listed,
+            "contact_list_complete": self.listed.len() as u64 == self.contacts,
+            "final_modal_state": self.state,
+            "results": folder(options.out.as_deref()),
+        })
+    }
+
+    pub fn text(&self, options: &SimulateOptions) -> String {
+        let mut lines = vec![
+            format!(
+                "{} periods at {} Hz, {:.6} s",
+                options.periods,
+                options.frequency,
+                self.seconds(options)
+            ),
+            format!(
+                "  largest sampled displacement  {:.6e} m ({} samples)",
+                self.largest_displacement, self.samples
+            ),
+            format!("  contacts                      {}", self.contacts),
+            format!("  largest contact force         {:.6e} N", self.largest_force),
+            format!("  largest impact velocity       {:.6e} m/s", self.largest_impact),
+            format!("  impulse of all contacts       {:.6e} N s", self.impulse),
+            format!("  energy lost in all contacts   {:.3e} J", self.energy_lost),
+        ];
+        if let Some(folder) = &options.out {
+            let folder = folder.display();
+            lines.push(format!("samples.csv, contacts.csv and stroboscopic.csv are in {folder}"));
+        }
+        lines.join("\n")
+    }
+
+    fn seconds(&self, options: &SimulateOptions) -> f64 {
+        self.periods as f64 / options.frequency
+    }
+}
+
+fn contact_document(layout: &SimulationLayout, contact: &SimulatedContact) -> Value {
+    json!({
+        "element": layout.elements[contact.element],
+        "begin_s": contact.touch.as_ref().map(|touch| touch.time_s),
+        "end_s": contact.end_s,
+        "impact_velocity_m_s": contact.touch.as_ref().map(|touch| touch.speed),
+        "impulse_n_s": contact.impulse,
+        "peak_force_n": contact.peak_force,
+        "energy_lost_j": contact.energy_lost,
+    })
+}

@@ -1,0 +1,237 @@
+//! Motions in time: what `simulate` wrote down, in chunks of whole periods, each with what the motion needs to go on behind it with the same bits.
+//!
+//! Samples and sections are kept as numbers, so that tables are written without computing anything again. Where the chunks are cut changes nothing in what they hold together.
+
+use hammerbeam_attractor::{ContactRecord, SimulationCheckpoint};
+use hammerbeam_motion::exact::{Jump, Touchdown};
+use rusqlite::{Row as SqlRow, params};
+
+use super::{Store, StoreError, blob, requests};
+
+/// Periods of a motion that follow one another.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SimulatedChunk {
+    /// Their number; those of a transient leave only the checkpoint.
+    pub periods: u64,
+    /// Of each sample: displacement [m], velocity [m/s] and acceleration [m/s^2] of the response point, then relative displacement [m] and force [N] of every local element.
+    pub samples: Vec<f64>,
+    /// Of each period, at the phase of the section: displacement [m] and velocity [m/s] of the response point, then the modal state.
+    pub section: Vec<f64>,
+    /// Contacts that ended in these periods, in the order in which they ended.
+    pub contacts: Vec<SimulatedContact>,
+    /// Those that are closed at the end.
+    pub unfinished: Vec<SimulatedContact>,
+    /// Where the motion is at the end.
+    pub checkpoint: SimulationCheckpoint,
+}
+
+/// A contact of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedContact {
+    /// Number of the local element.
+    pub element: usize,
+    /// The touch; `None` if it was closed when the motion was begun to be written down.
+    pub touch: Option<SimulatedTouch>,
+    /// When it opened [s]; `None` if it was still closed.
+    pub end_s: Option<f64>,
+    /// Integral of the magnitude of the force [N s].
+    pub impulse: f64,
+    /// Largest magnitude of the force [N].
+    pub peak_force: f64,
+    /// Energy that the structure did not get back [J].
+    pub energy_lost: f64,
+}
+
+/// A touch: a point of the section at this contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulatedTouch {
+    /// When it was [s].
+    pub time_s: f64,
+    /// Phase of the excitation [cycles].
+    pub phase: f64,
+    /// Speed of the impact [m/s].
+    pub speed: f64,
+    /// Displacement [m] and velocity [m/s] of the response point.
+    pub response: [f64; 2],
+}
+
+/// Numbers of an open contact of a checkpoint, besides the states at its touch and right after that.
+const OF_OPEN: usize = 8;
+
+impl SimulatedContact {
+    /// Numbers that it takes in the store.
+    pub const NUMBERS: usize = 10;
+}
+
+impl Store {
+    /// Goes through the chunks of a request, in their order.
+    ///
+    /// # Errors
+    /// The database refuses, or something in it is damaged; or what `take` refuses with.
+    pub fn each_simulated<E: From<StoreError>>(
+        &self,
+        request: i64,
+        mut take: impl FnMut(SimulatedChunk) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let select =
+            "SELECT periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds
+            FROM simulated WHERE request = ?1 ORDER BY first";
+        let mut statement = self.connection.prepare(select).map_err(StoreError::from)?;
+        let mut rows = statement.query([request]).map_err(StoreError::from)?;
+        while let Some(row) = rows.next().map_err(StoreError::from)? {
+            take(chunk(row)?)?;
+        }
+        Ok(())
+    }
+
+    /// Adds periods to a request.
+    ///
+    /// * `first`: the number of periods before them, which are done.
+    ///
+    /// # Errors
+    /// The database refuses, or the periods before them are not done; nothing of them is there then.
+    pub fn append_simulated(
+        &mut self,
+        request: i64,
+        first: u64,
+        chunk: &SimulatedChunk,
+    ) -> Result<(), StoreError> {
+        let transaction = self.connection.transaction()?;
+        requests::advance(&transaction, request, (first, first + chunk.periods))?;
+        let SimulationCheckpoint { state, periods: observed, open, impact_speeds } = &chunk.checkpoint;
+        let insert = "INSERT INTO simulated (request, first, periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds)
+            VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)";
+        let values = params![
+            request,
+            first as i64,
+            chunk.periods as i64,
+            blob::pack(&chunk.samples),
+            blob::pack(&chunk.section),
+            blob::pack(chunk.contacts.iter().map(numbers_of).collect::<Vec<_>>().iter().flatten()),
+            blob::pack(chunk.unfinished.iter().map(numbers_of).collect::<Vec<_>>().iter().flatten()),
+            *observed as i64,
+            blob::pack(state),
+            blob::pack(&open.iter().flat_map(|record| open_numbers(record, state.len())).collect::<Vec<_>>()),
+            blob::pack(impact_speeds),
+        ];
+        transaction.execute(insert, values)?;
+        transaction.commit()?;
+        Ok(())
+    }
+}
+
+fn chunk(row: &SqlRow<'_>) -> Result<SimulatedChunk, StoreError> {
+    Ok(SimulatedChunk {
+        periods: row.get::<_, i64>(0)? as u64,
+        samples: numbers(row, 1, "samples of a motion", 1)?,
+        section: numbers(row, 2, "section of a motion", 1)?,
+        contacts: contacts(row, 3)?,
+        unfinished: contacts(row, 4)?,
+        checkpoint: checkpoint(row)?,
+    })
+}
+
+/// Numbers that come in rows of a width.
+fn numbers(row: &SqlRow<'_>, place: usize, what: &'static str, width: usize) -> Result<Vec<f64>, StoreError> {
+    let bytes: Vec<u8> = row.get(place)?;
+    blob::unpack(what, &bytes, bytes.len() / (8 * width) * width)
+}
+
+/// What is not there is stored as no number.
+fn numbers_of(contact: &SimulatedContact) -> [f64; SimulatedContact::NUMBERS] {
+    let of_touch = |read: fn(&SimulatedTouch) -> f64| contact.touch.as_ref().map_or(f64::NAN, read);
+    [
+        contact.element as f64,
+        of_touch(|touch| touch.time_s),
+        of_touch(|touch| touch.phase),
+        of_touch(|touch| touch.speed),
+        of_touch(|touch| touch.response[0]),
+        of_touch(|touch| touch.response[1]),
+        contact.end_s.unwrap_or(f64::NAN),
+        contact.impulse,
+        contact.peak_force,
+        contact.energy_lost,
+    ]
+}
+
+fn contacts(row: &SqlRow<'_>, place: usize) -> Result<Vec<SimulatedContact>, StoreError> {
+    let numbers = numbers(row, place, "contacts of a motion", SimulatedContact::NUMBERS)?;
+    let contact = |[
+        element,
+        time_s,
+        phase,
+        speed,
+        displacement,
+        velocity,
+        end_s,
+        impulse,
+        peak_force,
+        energy_lost,
+    ]: &[f64; SimulatedContact::NUMBERS]| {
+        let touch = SimulatedTouch {
+            time_s: *time_s,
+            phase: *phase,
+            speed: *speed,
+            response: [*displacement, *velocity],
+        };
+        SimulatedContact {
+            element: *element as usize,
+            touch: some(*time_s).map(|_| touch),
+            end_s: some(*end_s),
+            impulse: *impulse,
+            peak_force: *peak_force,
+            energy_lost: *energy_lost,
+        }
+    };
+    Ok(numbers.as_chunks().0.iter().map(contact).collect())
+}
+
+fn some(number: f64) -> Option<f64> {
+    (!number.is_nan()).then_some(number)
+}
+
+/// A contact that is open in a checkpoint: [`OF_OPEN`] numbers, the state at its touch, and that right after it.
+fn open_numbers(record: &ContactRecord, state_length: usize) -> Vec<f64> {
+    let nothing = vec![f64::NAN; state_length];
+    let (touch, jump) = (record.begin.as_ref(), record.jump.as_ref());
+    let mut numbers = vec![
+        record.element as f64,
+        record.contact as f64,
+        record.impulse,
+        record.peak_force,
+        record.energy_lost,
+        touch.map_or(f64::NAN, |touch| touch.time),
+        touch.map_or(f64::NAN, |touch| touch.velocity),
+        jump.map_or(f64::NAN, |jump| jump.impulse),
+    ];
+    numbers.extend(touch.map_or(&nothing, |touch| &touch.state));
+    numbers.extend(jump.map_or(&nothing, |jump| &jump.state));
+    numbers
+}
+
+fn checkpoint(row: &SqlRow<'_>) -> Result<SimulationCheckpoint, StoreError> {
+    let state = numbers(row, 6, "state of a motion", 1)?;
+    let width = OF_OPEN + 2 * state.len();
+    let open = numbers(row, 7, "open contacts of a motion", width)?;
+    Ok(SimulationCheckpoint {
+        periods: row.get::<_, i64>(5)? as u64,
+        open: open.chunks_exact(width).map(|numbers| open_record(numbers, state.len())).collect(),
+        impact_speeds: numbers(row, 8, "remembered impacts of a motion", 1)?,
+        state,
+    })
+}
+
+fn open_record(numbers: &[f64], state_length: usize) -> ContactRecord {
+    let (first, states) = numbers.split_at(OF_OPEN);
+    let (at, behind) = states.split_at(state_length);
+    ContactRecord {
+        element: first[0] as usize,
+        contact: first[1] as usize,
+        begin: some(first[5]).map(|time| Touchdown { time, velocity: first[6], state: at.to_vec() }),
+        jump: some(first[7]).map(|impulse| Jump { impulse, state: behind.to_vec() }),
+        end: None,
+        impulse: first[2],
+        peak_force: first[3],
+        energy_lost: first[4],
+    }
+}
