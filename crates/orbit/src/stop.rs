@@ -167,7 +167,8 @@ impl BranchWalk {
         // A correction on a wrong way may have been what cost so much.
         let earlier = self.work();
         evaluate(&mut self.problem, &present.point.point)?;
-        if !self.work().since(earlier).is_laborious(touches) {
+        let alone = Work { evaluations: 1, ..self.work().since(earlier) };
+        if !alone.is_laborious(touches) {
             return Ok(None);
         }
         let found = self.slow_begin_of(&present);

@@ -2,7 +2,7 @@
 //!
 //! Every accepted point is kept as a *sketch*, a projection of `√w_i z_i` to eight numbers (all of them when
 //! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average), with its
-//! tangent: 170 bytes a point whatever `n`. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so points of
+//! tangent: 170 bytes a point whatever `n`, and up to a hundred more of cells where steps are as long as they may be. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so points of
 //! the same path in other unknowns compare. Neighbouring points make a segment with its cubic Hermite
 //! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates.
 //!
@@ -17,7 +17,7 @@ use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings};
 const SKETCH: usize = 8;
 const NONE: u32 = u32::MAX;
 /// Cells along the longest step: in thickets, where steps are short, thousands of segments would lie in a cell as long as that.
-const CELLS_A_STEP: f64 = 8.0;
+const CELLS_A_STEP: f64 = 4.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
 

@@ -167,7 +167,7 @@ fn join(earlier: Observed, later: Observed) -> Observed {
 }
 
 /// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a direction that has all modes in it: along
-/// the worst direction the change is about `sqrt(2n)` times that along any one.
+/// the worst direction the change is about `sqrt(2n)` times that along any one. The larger one of both signs.
 pub(super) fn sensitivity(
     model: &Model,
     solution: &PeriodicSolution,
@@ -175,11 +175,16 @@ pub(super) fn sensitivity(
     (found, change): (&Recomputed, f64),
     settings: &GeneralSettings,
 ) -> Result<f64, Failed> {
-    let mut changed = solution.clone();
     let each = change / (scales.len() as f64).sqrt();
-    for (i, (entry, scale)) in changed.nodes[0].iter_mut().zip(scales).enumerate() {
-        *entry += if i % 2 == 0 { each * scale } else { -each * scale };
+    // Beside a border at which the motion changes its kind, the way towards it matters more than the way back.
+    let mut largest = 0.0_f64;
+    for side in [each, -each] {
+        let mut changed = solution.clone();
+        for (i, (entry, scale)) in changed.nodes[0].iter_mut().zip(scales).enumerate() {
+            *entry += if i % 2 == 0 { side * scale } else { -side * scale };
+        }
+        let other = recompute(model, &changed, scales, settings)?;
+        largest = largest.max(norm(&(&other.monodromy - &found.monodromy)));
     }
-    let other = recompute(model, &changed, scales, settings)?;
-    Ok(norm(&(&other.monodromy - &found.monodromy)) / each)
+    Ok(largest / each)
 }
