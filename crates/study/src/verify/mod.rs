@@ -25,7 +25,7 @@
 //! contact does depends on the velocity it begins with, which just behind grazing is `sqrt(2 W p)`, so shallow contacts are known less well, however hard another stop is struck. `g` is that of the element
 //! with the largest contact force, or, where none presses, of the one struck hardest. A rigid stop that holds the structure all the time has `1 + W / (m F)`, with the mobility m. A contact grazes where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
 //!
-//! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, the larger one of both signs of a unit vector d that holds all modes, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
+//! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, the larger one of both signs, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
 //! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b that a unit
