@@ -60,10 +60,11 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         }
     }
     ticker.clear();
+    // Under the lock of the folder: two commands do not write the same tables at once.
+    let written =
+        options.out.as_ref().map_or_else(|| Ok(vec![]), |folder| write_exponents(folder, "", &records));
     kept.finish()?;
-    if let Some(folder) = &options.out {
-        write_exponents(folder, "", &records)?;
-    }
+    written?;
     if whole_ones < frequencies.len() {
         let mut message =
             format!("interrupted; {whole_ones} of {} spectra {}", frequencies.len(), kept.fate());

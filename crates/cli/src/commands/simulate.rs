@@ -59,8 +59,10 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let mut simulation = begin(work.read()?)?;
     let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
     let Work { mut kept, done, written, .. } = work;
+    // Under the lock of the folder: two commands do not write the same tables at once.
+    let written = written.finish();
     kept.finish()?;
-    let summary = written.finish()?;
+    let summary = written?;
     let periods = summary.periods;
     if let Some(error) = failure {
         return Err(failed(error, options, periods));
