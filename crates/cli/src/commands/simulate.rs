@@ -12,8 +12,8 @@ use hammerbeam_attractor::{AttractorError, Simulation, SimulationCheckpoint, Sys
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, StudyFile,
-    export::{SimulationLayout, SimulationTables},
-    store::{RequestKind, SimulatedChunk},
+    export::SimulationTables,
+    store::{RequestKind, SimulatedChunk, SimulationLayout},
 };
 
 use crate::{
@@ -50,11 +50,13 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         begin(None)?.skip_period()?;
     }
     let interrupt = Interrupt::listen()?;
-    let words = words(options, &layout, &state);
+    // What is asked of the study.
+    let mut words = layout.words();
+    words.extend(state_words(&state));
     let total = options.transient_periods + options.periods;
     let kept = Kept::open(options.out.as_deref(), &file, (RequestKind::Simulation, &words), total)?;
-    let written =
-        Written { out: options.out.as_deref(), layout: &layout, tables: None, summary: Summary::default() };
+    let tables = options.out.as_deref().map(|folder| SimulationTables::new(folder, "", layout.clone()));
+    let written = Written { layout: &layout, tables, summary: Summary::default() };
     let mut work = Work { options, interrupt: &interrupt, done: kept.done, kept, written };
     let mut simulation = begin(work.read()?)?;
     let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
@@ -79,19 +81,10 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is asked of the study.
-fn words(options: &SimulateOptions, layout: &SimulationLayout, state: &[f64]) -> Vec<String> {
-    let mut words = vec![
-        format!("transient_periods = {}", options.transient_periods),
-        format!("periods = {}", options.periods),
-    ];
-    words.extend(layout.words());
-    words.extend(state_words(state));
-    words
-}
-
 fn layout(options: &SimulateOptions, model: &Model) -> SimulationLayout {
     SimulationLayout {
+        transient_periods: options.transient_periods,
+        periods: options.periods,
         frequency_hz: options.frequency,
         samples_per_period: options.samples_per_period,
         section_phase: options.section_phase,
@@ -145,7 +138,7 @@ impl Work<'_> {
     fn read(&mut self) -> Result<Option<SimulationCheckpoint>, Failure> {
         let Some((store, request)) = self.kept.stored() else { return Ok(None) };
         let (written, mut last) = (&mut self.written, None);
-        store.each_simulated::<Failure>(request, |chunk| {
+        store.each_simulated::<Failure>(request, written.layout, |chunk| {
             if self.interrupt.raised() {
                 let message = "interrupted before the tables were written; everything is kept";
                 return Err(Failure::Interrupted(message.to_owned()));
@@ -198,9 +191,7 @@ impl Work<'_> {
 
 /// The tables, and the motion in few numbers.
 struct Written<'a> {
-    out: Option<&'a Path>,
     layout: &'a SimulationLayout,
-    /// Begun with the first period that is written down: a transient leaves no tables.
     tables: Option<SimulationTables>,
     summary: Summary,
 }
@@ -208,12 +199,6 @@ struct Written<'a> {
 impl Written<'_> {
     fn take(&mut self, chunk: &SimulatedChunk) -> Result<(), Failure> {
         self.summary.take(self.layout, chunk);
-        if let Some(folder) = self.out
-            && self.tables.is_none()
-            && !chunk.section.is_empty()
-        {
-            self.tables = Some(SimulationTables::begin(folder, "", self.layout.clone())?);
-        }
         self.tables.as_mut().map_or(Ok(()), |tables| tables.take(chunk))?;
         Ok(())
     }

@@ -9,7 +9,7 @@ use std::{
 
 use hammerbeam_study::{
     Store,
-    store::{SimulatedChunk, StoreError},
+    store::{SimulatedChunk, SimulationLayout, StoreError},
 };
 
 use crate::{
@@ -33,7 +33,9 @@ fn last_chunk(workshop: &Workshop) -> SimulatedChunk {
         last = Some(chunk);
         Ok(())
     };
-    Store::open(&workshop.path("out")).unwrap().each_simulated::<StoreError>(1, take).unwrap();
+    let store = Store::open(&workshop.path("out")).unwrap();
+    let layout = SimulationLayout::of(&store.requests().unwrap()[0]).unwrap();
+    store.each_simulated::<StoreError>(1, &layout, take).unwrap();
     last.unwrap()
 }
 
