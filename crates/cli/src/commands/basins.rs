@@ -40,15 +40,16 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
         ticker.at(cells.len() as u64, || format!("{} attractor(s)", basins.attractors().len()));
     }
     ticker.clear();
+    let fate = format!("{} of {total} cells {}", cells.len(), kept.fate(cells.len() as u64));
     if cells.len() < total {
         kept.finish()?;
-        let fate = kept.fate();
-        return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {fate}", cells.len())));
+        return Err(Failure::Interrupted(format!("interrupted; {fate}")));
     }
     // Under the lock of the folder: two commands do not write the same tables at once.
     let numbers = numbered_and_written(options, (&file, &model), (&basins, &cells));
     kept.finish()?;
-    let result = Outcome { options, basins: &basins, cells: &cells, branches: numbers? };
+    let branches = numbers.map_err(|failure| failure.and(&fate))?;
+    let result = Outcome { options, basins: &basins, cells: &cells, branches };
     if result.lost() == total {
         return Err(Failure::NoResult(format!("no motion from any of the {total} cells: {NOT_COMPUTED}")));
     }

@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{Kept, branches, state_words},
+    kept::{Kept, branches, counted, state_words},
     motion_args::{EffortOptions, SweepOptions},
     output::Output,
     series::series,
@@ -70,9 +70,11 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     // Under the lock of the folder: two commands do not write the same tables at once.
     let on_branches = numbered_and_written(options, (&file, &model), &found);
     kept.finish()?;
-    let on_branches = on_branches?;
+    let number = found.len() as u64;
+    let fate = format!("{} {}", counted(number, "motion"), kept.fate(number));
+    let on_branches = on_branches.map_err(|failure| failure.and(&fate))?;
     if interrupt.raised() {
-        return Err(Failure::Interrupted(format!("interrupted; {} motions {}", found.len(), kept.fate())));
+        return Err(Failure::Interrupted(format!("interrupted; {fate}")));
     }
     if found.is_empty() {
         return Err(Failure::NoResult("no motion could be computed".to_owned()));

@@ -193,9 +193,56 @@ fn a_motion_that_ends_early_keeps_its_periods() {
     };
     let first = ended();
     let periods = done(&workshop);
-    assert!(periods > 0 && first.0.contains(&format!("; {periods} periods are kept")), "{}", first.0);
+    assert!(periods > 1, "{}", first.0);
+    let ends = (format!("period {}: ", periods + 1), format!("; {periods} periods are kept in out\n"));
+    assert!(first.0.contains(&ends.0) && first.0.ends_with(&ends.1), "{}", first.0);
     assert_eq!(first.1[2].split(|byte| *byte == b'\n').count() as u64, 1 + periods + 1);
     assert!(ended() == first);
+}
+
+/// The same mass escapes within the transient, or a period behind it.
+#[test]
+fn a_motion_that_ends_in_the_transient_tells_what_is_kept() {
+    let workshop = Workshop::changed(DUFFING, "stiffness_n_m3 = 1.0", "stiffness_n_m3 = -0.2");
+    let ended = |transient: u64| {
+        let transient = transient.to_string();
+        let motion = ["simulate", "study.toml", "--frequency", "0.13", "--transient-periods", &transient];
+        let output = workshop.hammerbeam(&[&motion[..], &["--out", "out"]].concat());
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let message = ended(1000);
+    let periods = done(&workshop);
+    let ends = format!("; {periods} periods of the transient are kept in out\n");
+    assert!(message.contains(&format!("period {} of the transient: ", periods + 1)), "{message}");
+    assert!(message.ends_with(&ends), "{message}");
+    assert!(!workshop.path("out/samples.csv").exists());
+    // Neither does an export write tables of it, nor the command when it is asked again.
+    assert!(ended(1000) == message);
+    assert_success(&workshop.hammerbeam(&["export", "out", "--format", "csv"]));
+    assert!(!workshop.path("out/export/samples-1.csv").exists());
+    let one = ended(periods - 1);
+    assert!(one.contains("period 2: ") && one.ends_with("; 1 period is kept in out\n"), "{one}");
+}
+
+/// A disk without room is not the user's mistake, and what is stored goes on from there.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_with_what_is_kept() {
+    let workshop = Workshop::with(BEAM);
+    let motion = ["simulate", "study.toml", "--frequency", "36", "--out", "out"];
+    fs::create_dir(workshop.path("out")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", workshop.path("out/samples.csv.part")).unwrap();
+    let output = workshop.hammerbeam(&motion);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("cannot write out/samples.csv: "), "{message}");
+    let ends = "; 10 periods are kept in out, the same command goes on from there\n";
+    assert!(message.ends_with(ends), "{message}");
+    assert_success(&workshop.hammerbeam(&motion));
+    let parts =
+        workshop.listing().into_iter().filter(|(path, _)| path.extension().is_some_and(|e| e == "part"));
+    assert_eq!(parts.count(), 0);
 }
 
 #[test]
