@@ -42,7 +42,7 @@ pub enum Command {
     Run(RunOptions),
     /// Compute the periodic solutions at one frequency
     Orbit(OrbitOptions),
-    /// Follow a motion in time, with every contact
+    /// Follow a motion in time, with every contact; started again, it goes on where it was
     Simulate(SimulateOptions),
     /// Settled motions over the frequency: stepped sweeps, or from many initial states
     Sweep(SweepOptions),

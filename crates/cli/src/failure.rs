@@ -1,6 +1,6 @@
 //! Why a command does not end well, and with which exit code.
 
-use std::process::ExitCode;
+use std::{io, process::ExitCode};
 
 use hammerbeam_signal::SignalError;
 use hammerbeam_study::{
@@ -29,6 +29,15 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// With what is kept all the same, if it is not the user's mistake.
+    pub fn and(self, kept: &str) -> Self {
+        match self {
+            Self::NoResult(message) => Self::NoResult(format!("{message}; {kept}")),
+            Self::Other(error) => Self::Other(anyhow::anyhow!("{error:#}; {kept}")),
+            other => other,
+        }
+    }
+
     /// Exit code, as a number.
     pub fn code(&self) -> u8 {
         match self {
@@ -85,10 +94,17 @@ impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
         match error {
             ExportError::Store(error) => error.into(),
+            ExportError::Write { ref source, .. } if is_full(source) => Self::NoResult(error.to_string()),
             // The user named the folder; the message has the cause already.
             other => Self::BadInput(other.to_string()),
         }
     }
+}
+
+/// Whether there is no room left, as opposed to a wrong folder.
+fn is_full(error: &io::Error) -> bool {
+    use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+    matches!(error.kind(), StorageFull | QuotaExceeded | FileTooLarge)
 }
 
 impl From<ComparisonError> for Failure {

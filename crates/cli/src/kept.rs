@@ -66,13 +66,28 @@ impl Kept {
         self.store.take().map_or(Ok(()), Store::finish)
     }
 
-    /// What becomes of the results of an interrupted command.
-    pub fn fate(&self) -> String {
+    /// What becomes of so many results of an interrupted command.
+    pub fn fate(&self, number: u64) -> String {
+        let be = if number == 1 { "is" } else { "are" };
         match &self.folder {
-            Some(folder) => format!("are kept in {}, the same command goes on from there", folder.display()),
-            None => "are lost without --out".to_owned(),
+            Some(_) => format!("{}, the same command goes on from there", self.place(number)),
+            None => format!("{be} lost without --out"),
         }
     }
+
+    /// Where so many results are, of a command that cannot go on.
+    pub fn place(&self, number: u64) -> String {
+        let [be, have_been] = if number == 1 { ["is", "was"] } else { ["are", "were"] };
+        match &self.folder {
+            Some(folder) => format!("{be} kept in {}", folder.display()),
+            None => format!("{have_been} computed"),
+        }
+    }
+}
+
+/// A number of things.
+pub fn counted(number: u64, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
 /// The words of a state.
@@ -82,7 +97,7 @@ pub fn state_words(state: &[f64]) -> impl Iterator<Item = String> {
 
 /// Branches of the folder given, else those of the results if there are some.
 ///
-/// They are read before the work, so that a wrong folder is told at once, and again after it: nobody may read the results while their store is closed.
+/// They are read before the work, so that a wrong folder is told at once, and again after it, when they are to be let go before the store is closed: nobody may read the results then.
 pub fn branches(
     results: Option<&Path>,
     out: Option<&Path>,

@@ -240,12 +240,11 @@ where
     T: Copy + Into<i128> + TryFrom<i128>,
 {
     let [low, high]: [i128; 2] = [(*range.start()).into(), (*range.end()).into()];
-    move |text| match text.parse::<i128>() {
-        Ok(number) if (low..=high).contains(&number) => {
-            T::try_from(number).map_err(|_| format!("{number} is not in {low}..={high}"))
-        }
-        Ok(number) => Err(format!("{number} is not in {low}..={high}")),
-        Err(_) => Err(format!("must be a whole number from {low} to {high}")),
+    move |text| {
+        let number =
+            text.parse::<i128>().map_err(|_| format!("must be a whole number from {low} to {high}"))?;
+        let inside = (low..=high).contains(&number).then(|| T::try_from(number).ok()).flatten();
+        inside.ok_or_else(|| format!("{number} is not in {low}..={high}"))
     }
 }
 

@@ -40,25 +40,41 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
         ticker.at(cells.len() as u64, || format!("{} attractor(s)", basins.attractors().len()));
     }
     ticker.clear();
-    kept.finish()?;
-    let branches = branches(results, out, &file)?;
+    let fate = format!("{} of {total} cells {}", cells.len(), kept.fate(cells.len() as u64));
     if cells.len() < total {
-        let fate = kept.fate();
-        return Err(Failure::Interrupted(format!("interrupted; {} of {total} cells {fate}", cells.len())));
+        kept.finish()?;
+        return Err(Failure::Interrupted(format!("interrupted; {fate}")));
     }
-    let numbers = match &branches {
-        Some(branches) => branch_numbers(branches, &model, options.frequency, basins.attractors())?,
-        None => vec![None; basins.attractors().len()],
-    };
-    let result = Outcome { options, basins: &basins, cells: &cells, branches: numbers };
-    if let Some(folder) = &options.out {
-        write_basins(folder, "", (basins.grid(), &cells), basins.attractors(), &result.branches)?;
-    }
+    // Under the lock of the folder: two commands do not write the same tables at once.
+    let numbers = numbered_and_written(options, (&file, &model), (&basins, &cells));
+    kept.finish()?;
+    let branches = numbers.map_err(|failure| failure.and(&fate))?;
+    let result = Outcome { options, basins: &basins, cells: &cells, branches };
     if result.lost() == total {
         return Err(Failure::NoResult(format!("no motion from any of the {total} cells: {NOT_COMPUTED}")));
     }
     output.give(&result.document(), || result.text());
     Ok(())
+}
+
+/// Writes the tables.
+///
+/// # Returns
+/// The branch that each attractor lies on. The branches are closed again here: a store that is read cannot be finished.
+fn numbered_and_written(
+    options: &BasinsOptions,
+    (file, model): (&StudyFile, &Model),
+    (basins, cells): (&Basins, &[u32]),
+) -> Result<Vec<Option<u32>>, Failure> {
+    let attractors = basins.attractors();
+    let numbers = match branches(options.results.as_deref(), options.out.as_deref(), file)? {
+        Some(branches) => branch_numbers(&branches, model, options.frequency, attractors)?,
+        None => vec![None; attractors.len()],
+    };
+    if let Some(folder) = &options.out {
+        write_basins(folder, "", (basins.grid(), cells), attractors, &numbers)?;
+    }
+    Ok(numbers)
 }
 
 /// Why a cell has no attractor.

@@ -60,13 +60,14 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         }
     }
     ticker.clear();
+    // Under the lock of the folder: two commands do not write the same tables at once.
+    let written =
+        options.out.as_ref().map_or_else(|| Ok(vec![]), |folder| write_exponents(folder, "", &records));
     kept.finish()?;
-    if let Some(folder) = &options.out {
-        write_exponents(folder, "", &records)?;
-    }
+    let fate = format!("{whole_ones} of {} spectra {}", frequencies.len(), kept.fate(whole_ones as u64));
+    written.map_err(|error| Failure::from(error).and(&fate))?;
     if whole_ones < frequencies.len() {
-        let mut message =
-            format!("interrupted; {whole_ones} of {} spectra {}", frequencies.len(), kept.fate());
+        let mut message = format!("interrupted; {fate}");
         if let Some(part) = records.get(whole_ones) {
             message +=
                 &format!("; the tables have what was averaged over {:.6} s of one more", part.spectrum.time);

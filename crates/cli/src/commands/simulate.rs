@@ -4,7 +4,9 @@
 //! of the store first, so that they have the same bytes however often the command was interrupted.
 
 mod observer;
+mod size;
 mod summary;
+mod told;
 
 use std::path::Path;
 
@@ -12,8 +14,8 @@ use hammerbeam_attractor::{AttractorError, Simulation, SimulationCheckpoint, Sys
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, StudyFile,
-    export::{SimulationLayout, SimulationTables},
-    store::{RequestKind, SimulatedChunk},
+    export::SimulationTables,
+    store::{RequestKind, SimulatedChunk, SimulationLayout},
 };
 
 use crate::{
@@ -28,16 +30,11 @@ use crate::{
 use observer::Observer;
 use summary::Summary;
 
-/// Samples that are kept at most: some 40 GB in the store and 150 GB of text, with one stop.
-const MOST_SAMPLES: u64 = 1_000_000_000;
-/// Numbers of a period that are kept at most: a chunk holds a whole period.
-const MOST_OF_A_PERIOD: u64 = 100_000_000;
-
 pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     let layout = layout(options, &model);
-    check_size(options, &layout)?;
+    size::check(&layout, options.out.is_some())?;
     let motion = ExactSettings::default();
     let mut map = SystemMap::new(model.system.clone(), options.frequency, 1, motion)?;
     let state = initial::state(&options.initial, &mut map, (&file, &model), options.results.as_deref())?;
@@ -50,80 +47,41 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         begin(None)?.skip_period()?;
     }
     let interrupt = Interrupt::listen()?;
-    let words = words(options, &layout, &state);
+    // What is asked of the study.
+    let mut words = layout.words();
+    words.extend(state_words(&state));
     let total = options.transient_periods + options.periods;
     let kept = Kept::open(options.out.as_deref(), &file, (RequestKind::Simulation, &words), total)?;
-    let written =
-        Written { out: options.out.as_deref(), layout: &layout, tables: None, summary: Summary::default() };
+    let tables = options.out.as_deref().map(|folder| SimulationTables::new(folder, "", layout.clone()));
+    let written = Written { layout: &layout, tables, summary: Summary::default() };
     let mut work = Work { options, interrupt: &interrupt, done: kept.done, kept, written };
     let mut simulation = begin(work.read()?)?;
     let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
     let Work { mut kept, done, written, .. } = work;
+    // Under the lock of the folder: two commands do not write the same tables at once.
+    let written = written.finish();
     kept.finish()?;
-    let summary = written.finish()?;
-    let periods = summary.periods;
+    let summary = written.map_err(|failure| failure.and(&told::fate(&layout, done, &kept)))?;
     if let Some(error) = failure {
-        return Err(failed(error, options, periods));
+        return Err(if done > 0 { told::ended(&error, &layout, (done, &kept)) } else { error.into() });
     }
     if done < total {
-        let finished = if periods > 0 {
-            format!("{periods} periods")
-        } else {
-            format!("{done} periods of the transient")
-        };
-        return Err(Failure::Interrupted(format!("interrupted; {finished} {}", kept.fate())));
+        return Err(Failure::Interrupted(format!("interrupted; {}", told::fate(&layout, done, &kept))));
     }
     output.give(&summary.document(options), || summary.text(options));
     Ok(())
 }
 
-/// What is asked of the study.
-fn words(options: &SimulateOptions, layout: &SimulationLayout, state: &[f64]) -> Vec<String> {
-    let mut words = vec![
-        format!("transient_periods = {}", options.transient_periods),
-        format!("periods = {}", options.periods),
-    ];
-    words.extend(layout.words());
-    words.extend(state_words(state));
-    words
-}
-
 fn layout(options: &SimulateOptions, model: &Model) -> SimulationLayout {
     SimulationLayout {
+        transient_periods: options.transient_periods,
+        periods: options.periods,
         frequency_hz: options.frequency,
         samples_per_period: options.samples_per_period,
         section_phase: options.section_phase,
         dof: model.system.dof(),
         elements: model.system.elements().iter().map(|element| element.name.clone()).collect(),
     }
-}
-
-fn check_size(options: &SimulateOptions, layout: &SimulationLayout) -> Result<(), Failure> {
-    let in_a_period = u64::from(options.samples_per_period);
-    let samples = options.periods * in_a_period;
-    let numbers = in_a_period * layout.numbers_of_sample() as u64;
-    if options.out.is_some() && samples > MOST_SAMPLES {
-        return Err(Failure::BadInput(format!(
-            "--periods {} times --samples-per-period {in_a_period} is {samples} samples, must be {MOST_SAMPLES} at most with --out",
-            options.periods
-        )));
-    }
-    if options.out.is_some() && numbers > MOST_OF_A_PERIOD {
-        return Err(Failure::BadInput(format!(
-            "--samples-per-period {in_a_period} with {} local elements is {numbers} numbers in a period, must be {MOST_OF_A_PERIOD} at most with --out",
-            layout.elements.len()
-        )));
-    }
-    Ok(())
-}
-
-/// A motion that ends early.
-fn failed(error: AttractorError, options: &SimulateOptions, periods: u64) -> Failure {
-    if periods == 0 {
-        return error.into();
-    }
-    let kept = if options.out.is_some() { "are kept" } else { "were computed" };
-    Failure::NoResult(format!("{error}; {periods} periods {kept}"))
 }
 
 struct Work<'a> {
@@ -143,12 +101,13 @@ impl Work<'_> {
     fn read(&mut self) -> Result<Option<SimulationCheckpoint>, Failure> {
         let Some((store, request)) = self.kept.stored() else { return Ok(None) };
         let (written, mut last) = (&mut self.written, None);
-        store.each_simulated::<Failure>(request, |chunk| {
+        let fate = told::fate(written.layout, self.done, &self.kept);
+        store.each_simulated::<Failure>(request, written.layout, |chunk| {
             if self.interrupt.raised() {
                 let message = "interrupted before the tables were written; everything is kept";
                 return Err(Failure::Interrupted(message.to_owned()));
             }
-            written.take(&chunk)?;
+            written.take(&chunk).map_err(|failure| failure.and(&fate))?;
             last = Some(chunk.checkpoint);
             Ok(())
         })?;
@@ -189,16 +148,17 @@ impl Work<'_> {
     fn add(&mut self, chunk: Option<SimulatedChunk>) -> Result<(), Failure> {
         let Some(chunk) = chunk else { return Ok(()) };
         let first = self.done - chunk.periods;
-        self.kept.add(|store, request| store.append_simulated(request, first, &chunk))?;
-        self.written.take(&chunk)
+        let fate = |done, kept: &Kept| told::fate(self.written.layout, done, kept);
+        let stored = self.kept.add(|store, request| store.append_simulated(request, first, &chunk));
+        stored.map_err(|error| Failure::from(error).and(&fate(first, &self.kept)))?;
+        let kept = fate(self.done, &self.kept);
+        self.written.take(&chunk).map_err(|failure| failure.and(&kept))
     }
 }
 
 /// The tables, and the motion in few numbers.
 struct Written<'a> {
-    out: Option<&'a Path>,
     layout: &'a SimulationLayout,
-    /// Begun with the first period that is written down: a transient leaves no tables.
     tables: Option<SimulationTables>,
     summary: Summary,
 }
@@ -206,12 +166,6 @@ struct Written<'a> {
 impl Written<'_> {
     fn take(&mut self, chunk: &SimulatedChunk) -> Result<(), Failure> {
         self.summary.take(self.layout, chunk);
-        if let Some(folder) = self.out
-            && self.tables.is_none()
-            && !chunk.section.is_empty()
-        {
-            self.tables = Some(SimulationTables::begin(folder, "", self.layout.clone())?);
-        }
         self.tables.as_mut().map_or(Ok(()), |tables| tables.take(chunk))?;
         Ok(())
     }

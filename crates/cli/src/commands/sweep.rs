@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     initial,
     interrupt::Interrupt,
-    kept::{Kept, branches, state_words},
+    kept::{Kept, branches, counted, state_words},
     motion_args::{EffortOptions, SweepOptions},
     output::Output,
     series::series,
@@ -67,19 +67,14 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
         None => work.sweep(&mut make()?, &pieces, state)?,
     }
     let Work { found, mut kept, .. } = work;
+    // Under the lock of the folder: two commands do not write the same tables at once.
+    let on_branches = numbered_and_written(options, (&file, &model), &found);
     kept.finish()?;
-    let branches = branches(results, out, &file)?;
-    let on_branches = match &branches {
-        Some(branches) => {
-            found.iter().map(|motion| branch(branches, &model, &motion.point)).collect::<Result<_, _>>()?
-        }
-        None => vec![None; found.len()],
-    };
-    if let Some(folder) = &options.out {
-        write_sweep(folder, "", &found, &on_branches)?;
-    }
+    let number = found.len() as u64;
+    let fate = format!("{} {}", counted(number, "motion"), kept.fate(number));
+    let on_branches = on_branches.map_err(|failure| failure.and(&fate))?;
     if interrupt.raised() {
-        return Err(Failure::Interrupted(format!("interrupted; {} motions {}", found.len(), kept.fate())));
+        return Err(Failure::Interrupted(format!("interrupted; {fate}")));
     }
     if found.is_empty() {
         return Err(Failure::NoResult("no motion could be computed".to_owned()));
@@ -87,6 +82,27 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let result = Outcome { options, found: &found, branches: &on_branches, dof: model.system.dof() };
     output.give(&result.document(), || result.text());
     Ok(())
+}
+
+/// Writes the tables.
+///
+/// # Returns
+/// The branch that each motion lies on. The branches are closed again here: a store that is read cannot be finished.
+fn numbered_and_written(
+    options: &SweepOptions,
+    (file, model): (&StudyFile, &Model),
+    found: &[SettledMotion],
+) -> Result<Vec<Option<u32>>, Failure> {
+    let numbers = match branches(options.results.as_deref(), options.out.as_deref(), file)? {
+        Some(branches) => {
+            found.iter().map(|motion| branch(&branches, model, &motion.point)).collect::<Result<_, _>>()?
+        }
+        None => vec![None; found.len()],
+    };
+    if let Some(folder) = &options.out {
+        write_sweep(folder, "", found, &numbers)?;
+    }
+    Ok(numbers)
 }
 
 /// Directions and frequencies, one after the other.

@@ -5,7 +5,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    process::Output,
+    process::{self, Child, Output, Stdio},
 };
 
 use assert_cmd::Command;
@@ -110,6 +110,17 @@ impl Workshop {
         command
     }
 
+    /// Begins the command in the folder; what it tells can be read when it has ended.
+    pub fn spawn(&self, arguments: &[&str]) -> Child {
+        process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
+            .args(arguments)
+            .current_dir(self.folder.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap()
+    }
+
     /// Exported branches of a results folder.
     pub fn csv(&self, results: &str) -> String {
         let export = self.hammerbeam(&["export", results, "--format", "csv", "--out", "exported"]);
@@ -144,6 +155,14 @@ pub fn stdout(output: &Output) -> String {
 
 pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// Presses Ctrl-C, and waits for the end.
+#[cfg(unix)]
+pub fn interrupted(child: Child) -> Output {
+    let kill = process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    child.wait_with_output().unwrap()
 }
 
 #[track_caller]

@@ -2,7 +2,7 @@
 
 use std::{
     fs,
-    process::{Child, Command, Stdio},
+    process::Child,
     thread::sleep,
     time::{Duration, Instant},
 };
@@ -13,7 +13,7 @@ use crate::{
     DUFFING,
     basins::BASINS,
     column,
-    common::{Workshop, assert_success, stderr},
+    common::{Workshop, assert_success, interrupted, stderr},
     remembering, table,
 };
 
@@ -30,16 +30,6 @@ fn basins_go_on_after_a_kill_with_the_same_bytes() {
     for name in ["out/basins.csv", "out/attractors.csv"] {
         assert!(fs::read(whole.path(name)).unwrap() == fs::read(workshop.path(name)).unwrap(), "{name}");
     }
-}
-
-fn spawn(workshop: &Workshop, arguments: &[&str]) -> Child {
-    Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
-        .args(arguments)
-        .current_dir(workshop.path(""))
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
 }
 
 /// Pieces of the only request in `out` that are stored, and all that it has; none as long as there is no request.
@@ -66,7 +56,7 @@ fn wait_for_more(workshop: &Workshop, child: &mut Child, before: i64) {
 fn kill_three_times(workshop: &Workshop, arguments: &[&str], duration: Duration) {
     let mut before = 0;
     for _ in 0..3 {
-        let mut child = spawn(workshop, arguments);
+        let mut child = workshop.spawn(arguments);
         wait_for_more(workshop, &mut child, before);
         sleep(duration.mul_f64(0.03));
         child.kill().unwrap();
@@ -81,10 +71,9 @@ fn kill_three_times(workshop: &Workshop, arguments: &[&str], duration: Duration)
 #[test]
 fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
     let workshop = Workshop::with(DUFFING);
-    let mut child = spawn(&workshop, &[&BASINS[..], &["out", "--jobs", "1"]].concat());
+    let mut child = workshop.spawn(&[&BASINS[..], &["out", "--jobs", "1"]].concat());
     wait_for_more(&workshop, &mut child, 0);
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    let output = interrupted(child);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     let (done, all) = stored(&workshop);
     assert!(0 < done && done < all, "{done} of {all}");
@@ -97,24 +86,16 @@ fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
 #[test]
 fn ctrl_c_ends_every_command_with_130() {
     for (arguments, table) in [
-        (&["simulate", "study.toml", "--frequency", "0.2", "--periods", "10000000"][..], Some("samples.csv")),
+        (&["simulate", "study.toml", "--frequency", "0.2", "--periods", "9000000"][..], Some("samples.csv")),
         (&["lyapunov", "study.toml", "--frequency", "0.2", "--periods", "10000000"], None),
         (&["sweep", "study.toml", "--step", "0.00001"], Some("sweep.csv")),
         (&["sweep", "study.toml", "--step", "0.0001", "--starts", "5"], Some("sweep.csv")),
     ] {
         let workshop = Workshop::with(DUFFING);
-        let child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
-            .args(arguments)
-            .args(["--out", "out"])
-            .current_dir(workshop.path(""))
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let child = workshop.spawn(&[arguments, &["--out", "out"]].concat());
         // Long enough for the command to listen; the work takes hours.
         sleep(Duration::from_millis(1500));
-        assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-        let output = child.wait_with_output().unwrap();
+        let output = interrupted(child);
         assert_eq!(output.status.code(), Some(130), "{arguments:?} {}", stderr(&output));
         assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
         if let Some(name) = table {

@@ -9,7 +9,7 @@ use crate::{
 };
 
 /// Commands in one folder, in the order of their numbers, with the tables of each.
-const REQUESTS: [(&[&str], &[&str]); 4] = [
+const REQUESTS: [(&[&str], &[&str]); 5] = [
     (&["sweep", "study.toml", "--step", "0.05", "--down"], &["sweep", "sweep_samples"]),
     (
         &["lyapunov", "study.toml", "--frequency", "0.1", "--to", "0.2", "--step", "0.1", "--periods", "40"],
@@ -22,6 +22,10 @@ const REQUESTS: [(&[&str], &[&str]); 4] = [
     (
         &["basins", "study.toml", "--frequency", "0.25", "--x", "q1=-2..2", "--y", "v1=-3..3", "--grid", "3"],
         &["basins", "attractors"],
+    ),
+    (
+        &["simulate", "study.toml", "--frequency", "0.25", "--periods", "3", "--transient-periods", "2"],
+        &["samples", "contacts", "stroboscopic"],
     ),
 ];
 
@@ -73,6 +77,9 @@ fn tables_have_what_was_asked(workshop: &Workshop) {
         column(&of("sweep_samples-3"), "displacement_m").len(),
         column(&of("sweep-3"), "frequency_hz").len()
     );
+    // 100 samples in each of three periods of a mass that touches nothing.
+    let rows = ["samples-5", "contacts-5", "stroboscopic-5"].map(|name| of(name).len() - 1);
+    assert_eq!(rows, [300, 0, 3]);
     // The fractions are counts among the nine cells.
     let cells = column(&of("basins-4"), "attractor");
     let attractors = of("attractors-4");

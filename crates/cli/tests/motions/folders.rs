@@ -1,11 +1,14 @@
 //! Folders that a command refuses: of another study, or none at all.
 
-use std::fs;
+use std::{fs, process::Command, thread::sleep, time::Duration};
+
+use hammerbeam_study::Store;
 
 use crate::common::{TWO_MASSES, Workshop, assert_bad_input, short_run};
 
 /// The commands that keep what they find, each with little to do.
-const COMMANDS: [&[&str]; 4] = [
+const COMMANDS: [&[&str]; 5] = [
+    &["simulate", "study.toml", "--frequency", "13.6", "--periods", "1"],
     &["sweep", "study.toml", "--from", "13.6", "--to", "13.6"],
     &["sweep", "study.toml", "--from", "13.6", "--to", "13.6", "--starts", "2"],
     &["lyapunov", "study.toml", "--frequency", "13.6", "--periods", "20"],
@@ -48,4 +51,30 @@ fn a_file_is_refused_as_a_folder() {
         assert_bad_input(&output, &["there are no results in notes"]);
     }
     assert_eq!(workshop.listing(), before, "something was written");
+}
+
+/// Two commands do not write the same tables at once: one that waits to write its first table, into a pipe that nobody reads, has the folder for itself still.
+#[cfg(unix)]
+#[test]
+fn a_folder_is_locked_until_the_tables_are_written() {
+    for (command, table) in COMMANDS.into_iter().zip(["samples", "sweep", "sweep", "spectra", "basins"]) {
+        let workshop = Workshop::with(TWO_MASSES);
+        fs::create_dir(workshop.path("out")).unwrap();
+        let pipe = workshop.path(&format!("out/{table}.csv.part"));
+        assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let command = [command, &["--out", "out"]].concat();
+        let mut child = workshop.spawn(&command);
+        let stored = || {
+            let requests = Store::open(&workshop.path("out")).and_then(|store| store.requests());
+            requests.is_ok_and(|requests| requests.first().is_some_and(|one| one.done == one.pieces))
+        };
+        while !stored() {
+            assert!(child.try_wait().unwrap().is_none(), "{command:?} ended before its tables");
+            sleep(Duration::from_millis(20));
+        }
+        sleep(Duration::from_millis(300));
+        assert_bad_input(&workshop.hammerbeam(&command), &["another run is writing to out"]);
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
 }

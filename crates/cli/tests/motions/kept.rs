@@ -1,20 +1,15 @@
 //! Motions in time are kept as what they are: killed, taken up again, asked twice, exported.
 
-use std::{
-    fs,
-    process::{Child, Command, Stdio},
-    thread::sleep,
-    time::Duration,
-};
+use std::{fs, thread::sleep, time::Duration};
 
 use hammerbeam_study::{
     Store,
-    store::{SimulatedChunk, StoreError},
+    store::{SimulatedChunk, SimulationLayout, StoreError},
 };
 
 use crate::{
     DUFFING, IMPACT_OSCILLATOR,
-    common::{BEAM, Workshop, assert_bad_input, assert_success, stderr, stdout},
+    common::{BEAM, DRIVEN_MASS, Workshop, assert_bad_input, assert_success, interrupted, stderr, stdout},
     remembering,
 };
 
@@ -33,35 +28,44 @@ fn last_chunk(workshop: &Workshop) -> SimulatedChunk {
         last = Some(chunk);
         Ok(())
     };
-    Store::open(&workshop.path("out")).unwrap().each_simulated::<StoreError>(1, take).unwrap();
+    let store = Store::open(&workshop.path("out")).unwrap();
+    let layout = SimulationLayout::of(&store.requests().unwrap()[0]).unwrap();
+    store.each_simulated::<StoreError>(1, &layout, take).unwrap();
     last.unwrap()
-}
-
-fn spawn(workshop: &Workshop, arguments: &[&str]) -> Child {
-    Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
-        .args(arguments)
-        .current_dir(workshop.path(""))
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
 }
 
 /// Kills the command as soon as it has stored more.
 ///
 /// # Returns
-/// The last chunk of what was stored.
-#[track_caller]
-fn kill_after_progress(workshop: &Workshop, arguments: &[&str]) -> SimulatedChunk {
+/// The last chunk of what was stored; nothing if the command has come to its end before, as it does where the test gets no time of the machine.
+fn kill_after_progress(workshop: &Workshop, arguments: &[&str]) -> Option<SimulatedChunk> {
     let before = done(workshop);
-    let mut child = spawn(workshop, arguments);
-    while done(workshop) == before {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before it could be killed");
+    let mut child = workshop.spawn(arguments);
+    while done(workshop) == before && child.try_wait().unwrap().is_none() {
         sleep(Duration::from_millis(5));
     }
-    child.kill().unwrap();
+    // A command that has ended cannot be killed any more.
+    child.kill().ok();
     child.wait().unwrap();
-    last_chunk(workshop)
+    let store = Store::open(&workshop.path("out")).unwrap();
+    let request = store.requests().unwrap().remove(0);
+    (before < request.done && request.done < request.pieces).then(|| last_chunk(workshop))
+}
+
+/// Kills the command three times in between, each time after it has stored more.
+///
+/// # Returns
+/// The last chunks before the kills.
+#[track_caller]
+fn kill_three_times(workshop: &Workshop, arguments: &[&str]) -> Vec<SimulatedChunk> {
+    for _ in 0..10 {
+        let chunks: Option<Vec<_>> = (0..3).map(|_| kill_after_progress(workshop, arguments)).collect();
+        if let Some(chunks) = chunks {
+            return chunks;
+        }
+        fs::remove_dir_all(workshop.path("out")).unwrap();
+    }
+    panic!("{arguments:?} ended before it could be killed, ten times");
 }
 
 /// Runs the command without a break and with three kills, and compares tables and documents.
@@ -74,12 +78,7 @@ fn assert_same_bytes(study: &str, arguments: &[&str]) -> Vec<SimulatedChunk> {
     let (whole, workshop) = (Workshop::with(study), Workshop::with(study));
     let expected = whole.hammerbeam(&arguments);
     assert_success(&expected);
-    let chunks = (0..3).map(|_| kill_after_progress(&workshop, &arguments)).collect();
-    let total: u64 = {
-        let store = Store::open(&workshop.path("out")).unwrap();
-        store.requests().unwrap()[0].pieces
-    };
-    assert!(done(&workshop) < total, "the last one was killed in between");
+    let chunks = kill_three_times(&workshop, &arguments);
     let found = workshop.hammerbeam(&arguments);
     assert_success(&found);
     assert!(found.stdout == expected.stdout, "{}\n{}", stdout(&found), stdout(&expected));
@@ -107,6 +106,23 @@ fn a_chaotic_beam_goes_on_after_kills_with_the_same_bytes() {
     let transient = ["--frequency", "53", "--transient-periods", "3000", "--periods", "6000"];
     let more = ["--samples-per-period", "50", "--section-phase", "0.33"];
     assert_same_bytes(BEAM, &[&transient[..], &more].concat());
+}
+
+/// Between two walls, each with columns of its own in the table of samples.
+#[test]
+fn a_motion_with_two_stops_goes_on_after_kills_with_the_same_bytes() {
+    let wall = |name: &str, side: &str| {
+        format!(
+            "[[stop]]\nname = \"{name}\"\nat = \"m\"\nside = \"{side}\"\ngap_m = 0.5\nlaw = \"linear\"\nstiffness_n_m = 30.0\n"
+        )
+    };
+    let walls = format!("frequency_hz = [0.1, 0.2]\n{}{}", wall("right", "above"), wall("left", "below"));
+    let study = format!("{DRIVEN_MASS}{walls}");
+    let motion = ["--frequency", "0.15", "--periods", "20000", "--samples-per-period", "20"];
+    for chunk in assert_same_bytes(&study, &motion) {
+        let elements: Vec<usize> = chunk.contacts.iter().map(|contact| contact.element).collect();
+        assert!(elements.contains(&0) && elements.contains(&1), "{elements:?}");
+    }
 }
 
 /// At the ends of periods the mass is in a contact whose law remembers the speed of its impact.
@@ -165,12 +181,11 @@ fn a_transient_is_kept_too() {
     let workshop = Workshop::with(BEAM);
     let motion =
         ["simulate", "study.toml", "--frequency", "53", "--transient-periods", "10000000", "--out", "out"];
-    let child = spawn(&workshop, &motion);
+    let child = workshop.spawn(&motion);
     while done(&workshop) == 0 {
         sleep(Duration::from_millis(5));
     }
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    let output = child.wait_with_output().unwrap();
+    let output = interrupted(child);
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     let done = done(&workshop);
     let message =
@@ -191,9 +206,56 @@ fn a_motion_that_ends_early_keeps_its_periods() {
     };
     let first = ended();
     let periods = done(&workshop);
-    assert!(periods > 0 && first.0.contains(&format!("; {periods} periods are kept")), "{}", first.0);
+    assert!(periods > 1, "{}", first.0);
+    let ends = (format!("period {}: ", periods + 1), format!("; {periods} periods are kept in out\n"));
+    assert!(first.0.contains(&ends.0) && first.0.ends_with(&ends.1), "{}", first.0);
     assert_eq!(first.1[2].split(|byte| *byte == b'\n').count() as u64, 1 + periods + 1);
     assert!(ended() == first);
+}
+
+/// The same mass escapes within the transient, or a period behind it.
+#[test]
+fn a_motion_that_ends_in_the_transient_tells_what_is_kept() {
+    let workshop = Workshop::changed(DUFFING, "stiffness_n_m3 = 1.0", "stiffness_n_m3 = -0.2");
+    let ended = |transient: u64| {
+        let transient = transient.to_string();
+        let motion = ["simulate", "study.toml", "--frequency", "0.13", "--transient-periods", &transient];
+        let output = workshop.hammerbeam(&[&motion[..], &["--out", "out"]].concat());
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        stderr(&output)
+    };
+    let message = ended(1000);
+    let periods = done(&workshop);
+    let ends = format!("; {periods} periods of the transient are kept in out\n");
+    assert!(message.contains(&format!("period {} of the transient: ", periods + 1)), "{message}");
+    assert!(message.ends_with(&ends), "{message}");
+    assert!(!workshop.path("out/samples.csv").exists());
+    // Neither does an export write tables of it, nor the command when it is asked again.
+    assert!(ended(1000) == message);
+    assert_success(&workshop.hammerbeam(&["export", "out", "--format", "csv"]));
+    assert!(!workshop.path("out/export/samples-1.csv").exists());
+    let one = ended(periods - 1);
+    assert!(one.contains("period 2: ") && one.ends_with("; 1 period is kept in out\n"), "{one}");
+}
+
+/// A disk without room is not the user's mistake, and what is stored goes on from there.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_with_what_is_kept() {
+    let workshop = Workshop::with(BEAM);
+    let motion = ["simulate", "study.toml", "--frequency", "36", "--out", "out"];
+    fs::create_dir(workshop.path("out")).unwrap();
+    std::os::unix::fs::symlink("/dev/full", workshop.path("out/samples.csv.part")).unwrap();
+    let output = workshop.hammerbeam(&motion);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    assert!(message.contains("cannot write out/samples.csv: "), "{message}");
+    let ends = "; 10 periods are kept in out, the same command goes on from there\n";
+    assert!(message.ends_with(ends), "{message}");
+    assert_success(&workshop.hammerbeam(&motion));
+    let parts =
+        workshop.listing().into_iter().filter(|(path, _)| path.extension().is_some_and(|e| e == "part"));
+    assert_eq!(parts.count(), 0);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::{
     DUFFING, column,
-    common::{BEAM, Workshop, assert_success},
+    common::{BEAM, Workshop, assert_bad_input, assert_success},
     document, table,
 };
 
@@ -58,4 +58,29 @@ fn simulate_begins_where_it_is_told() {
     }
     let linear = of(&["linear"]);
     assert!(linear["max_abs_sampled_displacement_m"].as_f64().unwrap() > 0.0);
+}
+
+/// A period is held in memory as a whole, whether it is kept or not: sixty masses in a row.
+#[test]
+fn samples_that_do_not_fit_into_memory_are_refused() {
+    let masses: Vec<String> = (1..=60).map(|k| format!("{{ name = \"m{k}\", mass_kg = 1.0 }}")).collect();
+    let spring = |k: u32| {
+        let next = if k < 60 { format!("m{}", k + 1) } else { "ground".to_owned() };
+        format!("{{ between = [\"m{k}\", \"{next}\"], stiffness_n_m = 1.0 }}")
+    };
+    let springs: Vec<String> = (1..=60).map(spring).collect();
+    let study = format!(
+        "[structure]\nkind = \"lumped\"\nmass = [{}]\nspring = [{}]\n[damping]\nmodal_ratio = 0.02\n[excitation]\nkind = \"force\"\nat = \"m1\"\namplitude_n = 0.4\nfrequency_hz = [0.1, 0.2]\n",
+        masses.join(", "),
+        springs.join(", ")
+    );
+    let workshop = Workshop::with(&study);
+    let before = workshop.listing();
+    let motion = ["simulate", "study.toml", "--frequency", "0.1", "--samples-per-period", "1000000"];
+    for more in [&["--periods", "1"][..], &["--periods", "1", "--out", "out"]] {
+        let message =
+            ["is 131000000 numbers in a period, must be 100000000 at most; allowed: 1 to 763358 samples"];
+        assert_bad_input(&workshop.hammerbeam(&[&motion[..], more].concat()), &message);
+    }
+    assert_eq!(workshop.listing(), before, "something was written");
 }

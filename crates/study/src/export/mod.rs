@@ -16,7 +16,7 @@ use std::{
 pub use ends::END_COLUMNS;
 pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
-pub use simulation::{SimulationLayout, SimulationTables};
+pub use simulation::SimulationTables;
 pub use table::{Table, header, number, word};
 
 use ends::write_ends;

@@ -8,88 +8,7 @@ use super::{
     ExportError,
     table::{Table, header, number, word},
 };
-use crate::store::{RequestRecord, SimulatedChunk, SimulatedContact, Store, StoreError};
-
-/// How a motion is written down.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SimulationLayout {
-    /// Excitation frequency [Hz].
-    pub frequency_hz: f64,
-    /// Samples in a period, at equal steps from its start.
-    pub samples_per_period: u32,
-    /// Phase of the section [cycles].
-    pub section_phase: f64,
-    /// Degrees of freedom n.
-    pub dof: usize,
-    /// Names of the local elements.
-    pub elements: Vec<String>,
-}
-
-impl SimulationLayout {
-    /// The layout as words of a request.
-    #[must_use]
-    pub fn words(&self) -> Vec<String> {
-        let mut words = vec![
-            format!("frequency_hz = {:e}", self.frequency_hz),
-            format!("samples_per_period = {}", self.samples_per_period),
-            format!("section_phase = {:e}", self.section_phase),
-            format!("dof = {}", self.dof),
-        ];
-        let named = self.elements.iter().enumerate();
-        words.extend(named.map(|(index, name)| format!("element[{index}] = {}", word(name))));
-        words
-    }
-
-    /// That of a request.
-    ///
-    /// # Errors
-    /// A word is missing or is no number.
-    pub fn of(request: &RequestRecord) -> Result<Self, StoreError> {
-        fn value<T: std::str::FromStr>(request: &RequestRecord, key: &str) -> Result<T, StoreError> {
-            let found = request.word(key).unwrap_or_default();
-            let unknown =
-                || StoreError::Unknown { what: "layout of a motion", found: format!("{key} = {found}") };
-            found.parse().map_err(|_| unknown())
-        }
-        let name = |index: usize| request.word(&format!("element[{index}]")).map(str::to_owned);
-        Ok(Self {
-            frequency_hz: value(request, "frequency_hz")?,
-            samples_per_period: value(request, "samples_per_period")?,
-            section_phase: value(request, "section_phase")?,
-            dof: value(request, "dof")?,
-            elements: (0..).map_while(name).collect(),
-        })
-    }
-
-    /// Phase of a sample of a period [cycles].
-    #[must_use]
-    pub fn phase(&self, sample: u32) -> f64 {
-        f64::from(sample) / f64::from(self.samples_per_period)
-    }
-
-    /// Numbers of a sample in the store.
-    #[must_use]
-    pub fn numbers_of_sample(&self) -> usize {
-        3 + 2 * self.elements.len()
-    }
-
-    fn sample_header(&self) -> Vec<String> {
-        let columns = ["time_s", "phase_cycles", "displacement_m", "velocity_m_s", "acceleration_m_s2"];
-        let mut columns = header(&columns);
-        for name in &self.elements {
-            let name = word(name);
-            columns.extend([format!("{name}_relative_displacement_m"), format!("{name}_force_n")]);
-        }
-        columns
-    }
-
-    fn section_header(&self) -> Vec<String> {
-        let mut columns = header(&["time_s", "phase_cycles", "displacement_m", "velocity_m_s"]);
-        columns.extend((1..=self.dof).map(|i| format!("q{i}")));
-        columns.extend((1..=self.dof).map(|i| format!("v{i}")));
-        columns
-    }
-}
+use crate::store::{RequestRecord, SimulatedChunk, SimulatedContact, SimulationLayout, Store};
 
 const CONTACT_COLUMNS: [&str; 10] = [
     "element",
@@ -104,37 +23,65 @@ const CONTACT_COLUMNS: [&str; 10] = [
     "velocity_m_s",
 ];
 
+fn sample_header(layout: &SimulationLayout) -> Vec<String> {
+    let columns = ["time_s", "phase_cycles", "displacement_m", "velocity_m_s", "acceleration_m_s2"];
+    let mut columns = header(&columns);
+    for name in &layout.elements {
+        let name = word(name);
+        columns.extend([format!("{name}_relative_displacement_m"), format!("{name}_force_n")]);
+    }
+    columns
+}
+
+fn section_header(layout: &SimulationLayout) -> Vec<String> {
+    let mut columns = header(&["time_s", "phase_cycles", "displacement_m", "velocity_m_s"]);
+    columns.extend((1..=layout.dof).map(|i| format!("q{i}")));
+    columns.extend((1..=layout.dof).map(|i| format!("v{i}")));
+    columns
+}
+
 /// `samples.csv`, one row per sample, `contacts.csv`, one per contact, and `stroboscopic.csv`, one per period, that are being written.
+///
+/// They are begun with the first period that is written down: a transient leaves no tables.
 #[derive(Debug)]
 pub struct SimulationTables {
     layout: SimulationLayout,
-    samples: Table,
-    contacts: Table,
-    section: Table,
+    folder: PathBuf,
+    suffix: String,
+    tables: Option<Tables>,
     /// Periods written so far.
     periods: u64,
     /// Contacts that were closed at the end of the last chunk.
     unfinished: Vec<SimulatedContact>,
 }
 
-impl SimulationTables {
-    /// Begins the tables of a motion in a folder.
-    ///
-    /// * `suffix`: follows the names of the files.
-    ///
-    /// # Errors
-    /// [`ExportError::Write`].
-    pub fn begin(folder: &Path, suffix: &str, layout: SimulationLayout) -> Result<Self, ExportError> {
+#[derive(Debug)]
+struct Tables {
+    samples: Table,
+    contacts: Table,
+    section: Table,
+}
+
+impl Tables {
+    fn begin(folder: &Path, suffix: &str, layout: &SimulationLayout) -> Result<Self, ExportError> {
         let table =
             |name: &str, header: &[String]| Table::begin(folder, &format!("{name}{suffix}.csv"), header);
         Ok(Self {
-            samples: table("samples", &layout.sample_header())?,
+            samples: table("samples", &sample_header(layout))?,
             contacts: table("contacts", &header(&CONTACT_COLUMNS))?,
-            section: table("stroboscopic", &layout.section_header())?,
-            layout,
-            periods: 0,
-            unfinished: Vec::new(),
+            section: table("stroboscopic", &section_header(layout))?,
         })
+    }
+}
+
+impl SimulationTables {
+    /// The tables of a motion in a folder, which are not begun yet.
+    ///
+    /// * `suffix`: follows the names of the files.
+    #[must_use]
+    pub fn new(folder: &Path, suffix: &str, layout: SimulationLayout) -> Self {
+        let (folder, suffix) = (folder.to_owned(), suffix.to_owned());
+        Self { layout, folder, suffix, tables: None, periods: 0, unfinished: Vec::new() }
     }
 
     /// Adds the next chunk.
@@ -142,23 +89,30 @@ impl SimulationTables {
     /// # Errors
     /// [`ExportError::Write`].
     pub fn take(&mut self, chunk: &SimulatedChunk) -> Result<(), ExportError> {
+        if chunk.section.is_empty() {
+            return Ok(());
+        }
         let layout = &self.layout;
+        let tables = match &mut self.tables {
+            Some(tables) => tables,
+            none => none.insert(Tables::begin(&self.folder, &self.suffix, layout)?),
+        };
         let per_period = layout.numbers_of_sample() * layout.samples_per_period as usize;
         let samples = chunk.samples.chunks_exact(per_period);
-        for (samples, section) in samples.zip(chunk.section.chunks_exact(2 + 2 * layout.dof)) {
+        for (samples, section) in samples.zip(chunk.section.chunks_exact(layout.numbers_of_section())) {
             let begun = self.periods as f64 / layout.frequency_hz;
             let row = |phase: f64, numbers: &[f64]| {
                 let first = [begun + phase / layout.frequency_hz, phase];
                 first.iter().chain(numbers).map(|value| number(*value)).collect::<Vec<_>>()
             };
             for (sample, numbers) in (0..).zip(samples.chunks_exact(layout.numbers_of_sample())) {
-                self.samples.row(&row(layout.phase(sample), numbers))?;
+                tables.samples.row(&row(layout.phase(sample), numbers))?;
             }
-            self.section.row(&row(layout.section_phase, section))?;
+            tables.section.row(&row(layout.section_phase, section))?;
             self.periods += 1;
         }
         for contact in &chunk.contacts {
-            self.contacts.row(&contact_row(layout, contact))?;
+            tables.contacts.row(&contact_row(layout, contact))?;
         }
         self.unfinished.clone_from(&chunk.unfinished);
         Ok(())
@@ -166,13 +120,16 @@ impl SimulationTables {
 
     /// Ends the tables with the contacts that are still closed.
     ///
+    /// # Returns
+    /// The files; none if no period was written down.
     /// # Errors
     /// [`ExportError::Write`].
-    pub fn finish(mut self) -> Result<Vec<PathBuf>, ExportError> {
+    pub fn finish(self) -> Result<Vec<PathBuf>, ExportError> {
+        let Some(Tables { samples, mut contacts, section }) = self.tables else { return Ok(Vec::new()) };
         for contact in &self.unfinished {
-            self.contacts.row(&contact_row(&self.layout, contact))?;
+            contacts.row(&contact_row(&self.layout, contact))?;
         }
-        [self.samples, self.contacts, self.section].into_iter().map(Table::finish).collect()
+        [samples, contacts, section].into_iter().map(Table::finish).collect()
     }
 }
 
@@ -199,7 +156,8 @@ pub(super) fn export_simulation(
     folder: &Path,
     (request, suffix): (&RequestRecord, &str),
 ) -> Result<Vec<PathBuf>, ExportError> {
-    let mut tables = SimulationTables::begin(folder, suffix, SimulationLayout::of(request)?)?;
-    store.each_simulated::<ExportError>(request.id, |chunk| tables.take(&chunk))?;
+    let layout = SimulationLayout::of(request)?;
+    let mut tables = SimulationTables::new(folder, suffix, layout.clone());
+    store.each_simulated::<ExportError>(request.id, &layout, |chunk| tables.take(&chunk))?;
     tables.finish()
 }

@@ -2,18 +2,19 @@
 
 use std::{
     fs::{self, File},
-    io::{BufWriter, Write},
+    io::{self, BufWriter, Write},
     path::{Path, PathBuf},
 };
 
 use super::ExportError;
 
-/// A file that is written beside its place and moved there when it is finished.
+/// A file that is written beside its place and moved there when it is finished; what is not finished leaves nothing behind.
 #[derive(Debug)]
 pub(super) struct WholeFile {
     path: PathBuf,
-    unfinished: PathBuf,
+    /// Closed before its part is removed, as fields are let go in their order.
     pub writer: BufWriter<File>,
+    part: Part,
 }
 
 impl WholeFile {
@@ -22,22 +23,45 @@ impl WholeFile {
         let unfinished = path.with_extension("csv.part");
         let folder = path.parent().unwrap_or_else(|| Path::new("."));
         match fs::create_dir_all(folder).and_then(|()| File::create(&unfinished)) {
-            Ok(file) => Ok(Self { path, unfinished, writer: BufWriter::new(file) }),
+            Ok(file) => Ok(Self { path, writer: BufWriter::new(file), part: Part(Some(unfinished)) }),
             Err(source) => Err(ExportError::Write { path, source }),
         }
     }
 
     /// Moves the file to its place.
     pub fn finish(self) -> Result<PathBuf, ExportError> {
-        let Self { path, unfinished, writer } = self;
+        let Self { path, writer, part } = self;
         let moved = writer
             .into_inner()
-            .map_err(std::io::IntoInnerError::into_error)
+            .map_err(io::IntoInnerError::into_error)
             .and_then(|file| file.sync_all())
-            .and_then(|()| fs::rename(&unfinished, &path));
+            .and_then(|()| part.rename(&path));
         match moved {
             Ok(()) => Ok(path),
             Err(source) => Err(ExportError::Write { path, source }),
+        }
+    }
+}
+
+/// A file that goes away unless it gets another name.
+#[derive(Debug)]
+struct Part(Option<PathBuf>);
+
+impl Part {
+    fn rename(mut self, to: &Path) -> io::Result<()> {
+        if let Some(from) = &self.0 {
+            fs::rename(from, to)?;
+        }
+        self.0 = None;
+        Ok(())
+    }
+}
+
+impl Drop for Part {
+    fn drop(&mut self) {
+        if let Some(path) = &self.0 {
+            // Nothing better can be done where that fails.
+            fs::remove_file(path).ok();
         }
     }
 }
@@ -107,4 +131,27 @@ pub fn header(words: &[&str]) -> Vec<String> {
 #[must_use]
 pub fn word(text: &str) -> String {
     text.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Neither a table that is given up nor one that cannot get its name.
+    #[test]
+    fn an_unfinished_table_leaves_nothing_behind() {
+        let folder = tempfile::tempdir().unwrap();
+        let begin = |name| Table::begin(folder.path(), name, &header(&["a"])).unwrap();
+        let names = || fs::read_dir(folder.path()).unwrap().count();
+        let given_up = begin("a.csv");
+        assert_eq!(names(), 1);
+        drop(given_up);
+        assert_eq!(names(), 0);
+        fs::create_dir(folder.path().join("b.csv")).unwrap();
+        fs::write(folder.path().join("b.csv/mine"), "").unwrap();
+        assert!(begin("b.csv").finish().is_err());
+        assert_eq!(names(), 1);
+        begin("c.csv").finish().unwrap();
+        assert_eq!(names(), 2);
+    }
 }

@@ -40,6 +40,11 @@ pub enum StoreError {
         place(*first, *last, side, branch), if first == last { "it" } else { "them" }
     )]
     MissingSolutions { branch: String, side: &'static str, first: u32, last: u32 },
+    /// Periods of a motion are not there, or there are some that were not counted.
+    #[error(
+        "the motion of request {request} is damaged: {done} periods are done, in results.db {found} follow one another; the same command into a new folder computes them again"
+    )]
+    DamagedMotion { request: i64, found: u64, done: u64 },
     /// Something stored has a name that this program does not know.
     #[error("the stored {what} {found} is unknown")]
     Unknown { what: &'static str, found: String },
@@ -80,6 +85,7 @@ impl StoreError {
                 | Self::Damaged { .. }
                 | Self::DamagedSolution { .. }
                 | Self::MissingSolutions { .. }
+                | Self::DamagedMotion { .. }
                 | Self::Unknown { .. }
                 | Self::OutOfOrder { .. }
         )

@@ -20,6 +20,7 @@ mod requests;
 mod schema;
 mod settled;
 mod simulated;
+mod simulation_layout;
 mod varied;
 mod write;
 
@@ -43,6 +44,7 @@ pub use requests::{RequestKind, RequestRecord};
 pub use schema::SCHEMA_VERSION;
 pub use settled::SettledMotion;
 pub use simulated::{SimulatedChunk, SimulatedContact, SimulatedTouch};
+pub use simulation_layout::SimulationLayout;
 pub use varied::{Piece, PieceBranchRecord, PieceRecord, StoredVariedRow, VariedBranch, VariedRow};
 pub(crate) use write::{Continuation, Memory};
 
@@ -286,5 +288,7 @@ fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {
 
 #[cfg(test)]
 mod motion_tests;
+#[cfg(test)]
+mod simulated_tests;
 #[cfg(test)]
 mod tests;

@@ -1,10 +1,6 @@
 //! Requests and what is stored for them.
 
-use hammerbeam_attractor::{
-    Attractor, Class, ContactRecord, Convergence, Doubt, Estimate, Round, SimulationCheckpoint, Spectrum,
-    SweepPoint,
-};
-use hammerbeam_motion::exact::{Jump, Touchdown};
+use hammerbeam_attractor::{Attractor, Class, Convergence, Doubt, Estimate, Round, Spectrum, SweepPoint};
 use tempfile::{TempDir, tempdir};
 
 use super::*;
@@ -14,14 +10,14 @@ fn study() -> StudyFile {
     StudyFile::parse("study.toml", text.to_owned()).unwrap()
 }
 
-fn new_store() -> (TempDir, Store) {
+pub(super) fn new_store() -> (TempDir, Store) {
     let folder = tempdir().unwrap();
     let store = Store::open_for_run(folder.path(), &study()).unwrap();
     (folder, store)
 }
 
 /// What comes out of a folder that was closed and opened again.
-fn reopened(folder: &TempDir, store: Store) -> Store {
+pub(super) fn reopened(folder: &TempDir, store: Store) -> Store {
     store.finish().unwrap();
     Store::open_for_run(folder.path(), &study()).unwrap()
 }
@@ -101,86 +97,6 @@ fn a_request_is_found_again_by_its_kind_and_words() {
     let mut store = reopened(&folder, store);
     assert_eq!(store.request(RequestKind::Sweep, "from = 1\nto = 2", 11).unwrap(), sweep);
     assert_eq!(store.requests().unwrap(), [sweep, other]);
-}
-
-/// Periods with numbers that are not whole, with contacts open on both sides; the last ones are of a motion that ends within an impact.
-fn chunks() -> [SimulatedChunk; 3] {
-    let touch = SimulatedTouch { time_s: 0.1, phase: 1.0 / 3.0, speed: 1e-310, response: [-0.0, 1.0 / 7.0] };
-    let contact = |touch, end_s| SimulatedContact {
-        element: 3,
-        touch,
-        end_s,
-        impulse: 0.3,
-        peak_force: 1e300,
-        energy_lost: -0.1,
-    };
-    let open = |element, begin, jump| ContactRecord {
-        element,
-        contact: 1,
-        begin,
-        jump,
-        end: None,
-        impulse: 0.7,
-        peak_force: 1.0 / 3.0,
-        energy_lost: -1e-310,
-    };
-    let state = vec![0.1, -0.0];
-    let begin = Touchdown { time: 0.3, velocity: -0.2, state: vec![1.0 / 7.0, 0.9] };
-    let jump = Jump { impulse: 0.6, state: vec![0.4, f64::MIN_POSITIVE] };
-    let transient = SimulatedChunk {
-        periods: 5,
-        checkpoint: SimulationCheckpoint { state: state.clone(), ..SimulationCheckpoint::default() },
-        ..SimulatedChunk::default()
-    };
-    let first = SimulatedChunk {
-        periods: 2,
-        samples: vec![0.1, -0.0, 1e-310, 1.0 / 3.0],
-        section: vec![1.0 / 7.0, 2.0],
-        contacts: vec![contact(None, Some(0.2)), contact(Some(touch.clone()), Some(0.3))],
-        unfinished: vec![contact(None, None), contact(Some(touch), None)],
-        checkpoint: SimulationCheckpoint {
-            state,
-            periods: 2,
-            open: vec![
-                open(0, None, None),
-                open(1, Some(begin.clone()), None),
-                open(4, Some(begin), Some(jump)),
-            ],
-            impact_speeds: vec![f64::INFINITY, 1.0 / 3.0],
-        },
-    };
-    let last = SimulatedChunk { periods: 1, unfinished: vec![], ..first.clone() };
-    [transient, first, last]
-}
-
-#[test]
-fn simulated_periods_come_back_bit_by_bit_and_apart_from_other_requests() {
-    let (folder, mut store) = new_store();
-    let request = store.request(RequestKind::Simulation, "periods = 3", 8).unwrap().id;
-    let other = store.request(RequestKind::Simulation, "periods = 9", 9).unwrap().id;
-    let [transient, first, last] = chunks();
-    store.append_simulated(request, 0, &transient).unwrap();
-    store.append_simulated(other, 0, &first).unwrap();
-    store.append_simulated(request, 5, &first).unwrap();
-    // Somebody else has gone on; nothing of it is stored.
-    let again = store.append_simulated(request, 5, &last);
-    assert!(matches!(again, Err(StoreError::OutOfOrder { found: 7, expected: 5, .. })), "{again:?}");
-    store.append_simulated(request, 7, &last).unwrap();
-    let store = reopened(&folder, store);
-    let of = |request| {
-        let mut found = Vec::new();
-        store
-            .each_simulated::<StoreError>(request, |chunk| {
-                found.push(chunk);
-                Ok(())
-            })
-            .unwrap();
-        found
-    };
-    // Texts tell zeros of both signs apart.
-    assert_eq!(format!("{:?}", of(request)), format!("{:?}", [transient, first.clone(), last]));
-    assert_eq!(of(other), [first]);
-    assert_eq!(store.requests().unwrap().iter().map(|request| request.done).collect::<Vec<_>>(), [8, 2]);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use hammerbeam_attractor::{ContactRecord, SimulationCheckpoint};
 use hammerbeam_motion::exact::{Jump, Touchdown};
 use rusqlite::{Row as SqlRow, params};
 
-use super::{Store, StoreError, blob, requests};
+use super::{SimulationLayout, Store, StoreError, blob, requests};
 
 /// Periods of a motion that follow one another.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -64,24 +64,37 @@ impl SimulatedContact {
 }
 
 impl Store {
-    /// Goes through the chunks of a request, in their order.
+    /// Goes through the chunks of a request, in their order; all is of one moment, even while a command writes.
     ///
     /// # Errors
-    /// The database refuses, or something in it is damaged; or what `take` refuses with.
+    /// The database refuses, or what is stored is damaged: periods that are done are missing, or something has not the length or the number that the layout
+    /// gives; or what `take` refuses with.
     pub fn each_simulated<E: From<StoreError>>(
         &self,
         request: i64,
+        layout: &SimulationLayout,
         mut take: impl FnMut(SimulatedChunk) -> Result<(), E>,
     ) -> Result<(), E> {
-        let select =
-            "SELECT periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds
-            FROM simulated WHERE request = ?1 ORDER BY first";
+        let select = "SELECT done, first, periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds
+            FROM request LEFT JOIN simulated ON simulated.request = request.id WHERE request.id = ?1 ORDER BY first";
         let mut statement = self.connection.prepare(select).map_err(StoreError::from)?;
         let mut rows = statement.query([request]).map_err(StoreError::from)?;
+        let (mut found, mut done) = (0_u64, 0);
+        let damaged = |found, done| E::from(StoreError::DamagedMotion { request, found, done });
         while let Some(row) = rows.next().map_err(StoreError::from)? {
-            take(chunk(row)?)?;
+            done = count(row, 0)?;
+            let first: Option<i64> = row.get(1).map_err(StoreError::from)?;
+            // A request without chunks has one row, without them.
+            let Some(first) = first else { break };
+            if u64::try_from(first) != Ok(found) {
+                return Err(damaged(found, done));
+            }
+            let chunk = chunk(row)?;
+            layout.check(found, &chunk)?;
+            found = found.saturating_add(chunk.periods);
+            take(chunk)?;
         }
-        Ok(())
+        if found == done { Ok(()) } else { Err(damaged(found, done)) }
     }
 
     /// Adds periods to a request.
@@ -122,19 +135,35 @@ impl Store {
 
 fn chunk(row: &SqlRow<'_>) -> Result<SimulatedChunk, StoreError> {
     Ok(SimulatedChunk {
-        periods: row.get::<_, i64>(0)? as u64,
-        samples: numbers(row, 1, "samples of a motion", 1)?,
-        section: numbers(row, 2, "section of a motion", 1)?,
-        contacts: contacts(row, 3)?,
-        unfinished: contacts(row, 4)?,
+        periods: count(row, 2)?,
+        samples: numbers(row, 3, "samples of a motion", 1)?,
+        section: numbers(row, 4, "section of a motion", 1)?,
+        contacts: contacts(row, 5)?,
+        unfinished: contacts(row, 6)?,
         checkpoint: checkpoint(row)?,
     })
+}
+
+/// A number of periods.
+fn count(row: &SqlRow<'_>, place: usize) -> Result<u64, StoreError> {
+    let number: i64 = row.get(place)?;
+    let unknown = |_| StoreError::Unknown { what: "number of periods", found: number.to_string() };
+    u64::try_from(number).map_err(unknown)
+}
+
+/// The number of an element or of a contact.
+fn index(number: f64) -> Result<usize, StoreError> {
+    let whole = number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number);
+    let unknown = || StoreError::Unknown { what: "number in a contact", found: number.to_string() };
+    whole.then_some(number as usize).ok_or_else(unknown)
 }
 
 /// Numbers that come in rows of a width.
 fn numbers(row: &SqlRow<'_>, place: usize, what: &'static str, width: usize) -> Result<Vec<f64>, StoreError> {
     let bytes: Vec<u8> = row.get(place)?;
-    blob::unpack(what, &bytes, bytes.len() / (8 * width) * width)
+    // Bytes of a part of a row are refused as one row more than there is.
+    let expected = bytes.len().div_ceil(8 * width) * width;
+    blob::unpack(what, &bytes, expected)
 }
 
 /// What is not there is stored as no number.
@@ -174,16 +203,16 @@ fn contacts(row: &SqlRow<'_>, place: usize) -> Result<Vec<SimulatedContact>, Sto
             speed: *speed,
             response: [*displacement, *velocity],
         };
-        SimulatedContact {
-            element: *element as usize,
+        Ok(SimulatedContact {
+            element: index(*element)?,
             touch: some(*time_s).map(|_| touch),
             end_s: some(*end_s),
             impulse: *impulse,
             peak_force: *peak_force,
             energy_lost: *energy_lost,
-        }
+        })
     };
-    Ok(numbers.as_chunks().0.iter().map(contact).collect())
+    numbers.as_chunks().0.iter().map(contact).collect()
 }
 
 fn some(number: f64) -> Option<f64> {
@@ -210,28 +239,31 @@ fn open_numbers(record: &ContactRecord, state_length: usize) -> Vec<f64> {
 }
 
 fn checkpoint(row: &SqlRow<'_>) -> Result<SimulationCheckpoint, StoreError> {
-    let state = numbers(row, 6, "state of a motion", 1)?;
+    let state = numbers(row, 8, "state of a motion", 1)?;
     let width = OF_OPEN + 2 * state.len();
-    let open = numbers(row, 7, "open contacts of a motion", width)?;
+    let open = numbers(row, 9, "open contacts of a motion", width)?;
     Ok(SimulationCheckpoint {
-        periods: row.get::<_, i64>(5)? as u64,
-        open: open.chunks_exact(width).map(|numbers| open_record(numbers, state.len())).collect(),
-        impact_speeds: numbers(row, 8, "remembered impacts of a motion", 1)?,
+        periods: count(row, 7)?,
+        open: open
+            .chunks_exact(width)
+            .map(|numbers| open_record(numbers, state.len()))
+            .collect::<Result<_, _>>()?,
+        impact_speeds: numbers(row, 10, "remembered impacts of a motion", 1)?,
         state,
     })
 }
 
-fn open_record(numbers: &[f64], state_length: usize) -> ContactRecord {
+fn open_record(numbers: &[f64], state_length: usize) -> Result<ContactRecord, StoreError> {
     let (first, states) = numbers.split_at(OF_OPEN);
     let (at, behind) = states.split_at(state_length);
-    ContactRecord {
-        element: first[0] as usize,
-        contact: first[1] as usize,
+    Ok(ContactRecord {
+        element: index(first[0])?,
+        contact: index(first[1])?,
         begin: some(first[5]).map(|time| Touchdown { time, velocity: first[6], state: at.to_vec() }),
         jump: some(first[7]).map(|impulse| Jump { impulse, state: behind.to_vec() }),
         end: None,
         impulse: first[2],
         peak_force: first[3],
         energy_lost: first[4],
-    }
+    })
 }

@@ -6,8 +6,7 @@ use hammerbeam_attractor::{AttractorError, ContactRecord, Sample, Simulation};
 use hammerbeam_motion::PointMotion;
 use hammerbeam_study::{
     Model,
-    export::SimulationLayout,
-    store::{SimulatedChunk, SimulatedContact, SimulatedTouch},
+    store::{SimulatedChunk, SimulatedContact, SimulatedTouch, SimulationLayout},
 };
 
 /// A chunk goes into the store after this time, which is what a kill loses at most, besides the period under way,

@@ -1,9 +1,6 @@
 //! A motion in few numbers.
 
-use hammerbeam_study::{
-    export::SimulationLayout,
-    store::{SimulatedChunk, SimulatedContact},
-};
+use hammerbeam_study::store::{SimulatedChunk, SimulatedContact, SimulationLayout};
 use serde_json::{Value, json};
 
 use super::folder;
@@ -113,7 +110,7 @@ impl Summary {
 
 fn contact_document(layout: &SimulationLayout, contact: &SimulatedContact) -> Value {
     json!({
-        "element": layout.elements[contact.element],
+        "element": layout.elements.get(contact.element),
         "begin_s": contact.touch.as_ref().map(|touch| touch.time_s),
         "end_s": contact.end_s,
         "impact_velocity_m_s": contact.touch.as_ref().map(|touch| touch.speed),
