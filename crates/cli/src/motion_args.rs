@@ -3,6 +3,7 @@
 use std::{ops::RangeInclusive, path::PathBuf};
 
 use clap::Args;
+use hammerbeam_attractor::{Effort, Patience};
 
 use crate::args::excitation_frequency;
 
@@ -107,6 +108,17 @@ pub struct EffortOptions {
     /// Excitation periods over which exponents and the 0-1 test of a motion that does not repeat are taken
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = whole(240_u64..=10_000_000), allow_negative_numbers = true)]
     pub averaged_periods: u64,
+}
+
+impl From<&EffortOptions> for Effort {
+    fn from(options: &EffortOptions) -> Self {
+        let patience = Patience {
+            skipped: options.transient_periods,
+            periods: options.patience_periods,
+            longest: usize::from(options.longest_period),
+        };
+        Self { patience, averaged: options.averaged_periods, ..Self::default() }
+    }
 }
 
 impl EffortOptions {

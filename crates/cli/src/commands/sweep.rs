@@ -1,8 +1,7 @@
 //! `hammerbeam sweep`: settled motions over the frequency.
 
 use hammerbeam_attractor::{
-    AttractorError, Class, Effort, Observable, Patience, SweepPoint, SweepSettings, Sweeper, SystemMap,
-    in_order,
+    AttractorError, Class, Observable, SweepPoint, SweepSettings, Sweeper, SystemMap, in_order,
 };
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
@@ -18,22 +17,11 @@ use crate::{
     initial,
     interrupt::Interrupt,
     kept::{Kept, branches, counted, state_words},
-    motion_args::{EffortOptions, SweepOptions},
+    motion_args::SweepOptions,
     output::Output,
     series::series,
     ticker::Ticker,
 };
-
-impl From<&EffortOptions> for Effort {
-    fn from(options: &EffortOptions) -> Self {
-        let patience = Patience {
-            skipped: options.transient_periods,
-            periods: options.patience_periods,
-            longest: usize::from(options.longest_period),
-        };
-        Self { patience, averaged: options.averaged_periods, ..Self::default() }
-    }
-}
 
 pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;

@@ -107,8 +107,8 @@ impl SimulationLayout {
             return Err(StoreError::Unknown { what: "number of periods of a checkpoint", found });
         }
         let contacts = chunk.contacts.iter().chain(&chunk.unfinished).map(|contact| contact.element);
-        let elements = contacts.chain(checkpoint.open.iter().map(|record| record.element));
-        elements.map(|element| self.element(element)).collect()
+        let mut elements = contacts.chain(checkpoint.open.iter().map(|record| record.element));
+        elements.try_for_each(|element| self.element(element))
     }
 
     fn element(&self, number: usize) -> Result<(), StoreError> {
