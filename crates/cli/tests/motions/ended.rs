@@ -77,7 +77,8 @@ fn ctrl_c_keeps_finished_cells_and_exits_with_130() {
     assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
     let (done, all) = stored(&workshop);
     assert!(0 < done && done < all, "{done} of {all}");
-    let told = format!("interrupted; {done} of {all} cells are kept in out");
+    let verb = if done == 1 { "is" } else { "are" };
+    let told = format!("interrupted; {done} of {all} cells {verb} kept in out");
     assert!(stderr(&output).contains(&told), "{}", stderr(&output));
 }
 
