@@ -6,7 +6,8 @@
 //!
 //! **Their sum** is the mean of `ln |det P|/h`. The flow of `z' = g(t, z)` changes volumes at the rate `tr dg/dz`, so for a structure with contacts whose
 //! force depends on the displacement alone it is `-tr(M^-1 C)`, whatever the motion: an invariant, which says how good the fundamental matrices are. A contact whose force depends on the velocity adds the mean
-//! of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e` (the determinant of its jump is `e^2`). A law that remembers the speed of its impact has no such rule. Where a rigid stop sticks, what the motion was relative to it is forgotten: two
+//! of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e` (the determinant of its jump is `e^2`). A law that remembers the speed `v` of its impact adds the mean of `phi^T df/dv . dv/dq'` besides, where `dv/dz` is how the speed
+//! of neighbours that were struck at other speeds goes with their present state. Where a rigid stop sticks, what the motion was relative to it is forgotten: two
 //! exponents are minus infinity for each stop that is held at once, and so is the sum; one is where an impact without restitution does not stick. The others are those of the motion that is left.
 //!
 //! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the motion their means are

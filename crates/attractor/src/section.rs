@@ -236,9 +236,8 @@ impl SectionMap for SystemMap {
     fn flow(&mut self, part: Part, state: &[f64]) -> Result<(Vec<f64>, Mat<f64>), AttractorError> {
         self.memory_before = self.integrator.memory();
         let flow = self.integrator.flow_onwards(&self.stretch(part), state)?;
-        let known = !self.integrator.system().remembers_impacts();
         let of_damping = self.divergence() * self.duration() * part.share();
-        self.growth_of_volume = known.then(|| of_damping + self.integrator.contraction());
+        self.growth_of_volume = Some(of_damping + self.integrator.contraction());
         Ok((flow.state, flow.by_state))
     }
 
@@ -267,7 +266,7 @@ impl SectionMap for SystemMap {
         self.integrator.directions_lost()
     }
 
-    /// `-tr(M^-1 C)` times the duration, and what contacts contribute. Of laws that remember their impacts it is not known.
+    /// `-tr(M^-1 C)` times the duration, and what contacts contribute.
     fn growth_of_volume(&self) -> Option<f64> {
         self.growth_of_volume
     }

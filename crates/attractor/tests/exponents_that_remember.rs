@@ -1,8 +1,8 @@
 //! Exponents in chaos with laws that remember the speed of their impacts, by the exact integrator and by a second method that shares nothing with it: the general integrator's variational
 //! equations, and Gram and Schmidt instead of reflections.
 //!
-//! These laws have no rule for the sum of the exponents, so it is held here, too. Neither integrator begins within such a contact: the second method goes from one excitation period at whose
-//! start the contact is open to the next such one, which is a *leg*.
+//! The rule for the sum of the exponents, which has a part that these laws alone have, is held to the determinants of the second method, too. Neither integrator begins within such a contact: that
+//! method goes from one excitation period at whose start the contact is open to the next such one, which is a *leg*.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod common;
@@ -131,15 +131,19 @@ fn both_methods_give_the_same_growth_along_one_motion() {
         while periods < 150 {
             let mut matrices = VecDeque::new();
             let mut end = state.clone();
+            let mut volume = 0.0;
             while matrices.is_empty() || !is_open(&system, &end) {
                 let (next, matrix) = map.flow(Part::whole(periods), &end).unwrap();
                 (end, periods) = (next, periods + 1);
+                volume += map.growth_of_volume().unwrap();
                 matrices.push_front(matrix);
             }
             let (other, of_general) = general(&system, &state, matrices.len());
             let exact = matrices.into_iter().reduce(|later, earlier| later * earlier).unwrap();
             assert!(distance(&frames[0].scales, &end, &other) < 1e-8, "{name}: {end:?} {other:?}");
             let growth = [frames[0].carry(&exact), frames[1].carry(&of_general)];
+            let of_general = growth[1].iter().sum::<f64>();
+            assert!((volume / of_general - 1.0).abs() < 1e-6, "{name}, leg {legs}: {volume} {of_general}");
             for i in 0..state.len() {
                 let difference = growth[0][i] - growth[1][i];
                 assert!(difference.abs() < 1e-6, "{name}, leg {legs}: {growth:?}");
@@ -224,7 +228,8 @@ fn long_averages_of_both_methods_are_within_their_intervals() {
         let (mut map, start) = on_the_attractor(&system);
         let settings = LyapunovSettings { aligning: 30, averaged: 2000 };
         let found: Spectrum = lyapunov(&mut map, &start, settings).unwrap();
-        assert_eq!(found.expected_sum, None, "{name} has no rule for the sum");
+        let expected = found.expected_sum.unwrap();
+        assert!((found.sum / expected - 1.0).abs() < 1e-6, "{name}: {} against {expected}", found.sum);
         assert!(found.exponents[0].low() > 0.0, "{name}: {:?}", found.exponents);
         let other = by_general(&system, &start, 20, 60);
         for (exponent, (value, half_width)) in found.exponents.iter().zip(other) {

@@ -10,7 +10,7 @@ use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, Ta
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, System,
     exact::ExactSettings,
-    law::{HertzStop, HuntCrossleyStop, LinearStop, RigidStop},
+    law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop},
 };
 
 fn rigid(restitution: f64, gap: f64) -> Law {
@@ -58,14 +58,20 @@ fn every_impact_takes_two_logarithms_of_its_restitution() {
     }
 }
 
-/// The beam in contact with laws that lose energy: `-tr(M^-1 C)` plus the mean divergence of the contact.
+/// The beam in contact with laws that lose energy: `-tr(M^-1 C)` plus the mean divergence of the contact, with that of its memory.
 #[test]
 fn sums_are_those_of_the_divergence_for_laws_that_lose_energy() {
     let hertz = HertzStop::with_gap(4.5e9, 0.0).unwrap();
-    let laws = [
-        ("hunt-crossley", Law::HuntCrossley(HuntCrossleyStop::new(hertz, 0.3).unwrap())),
-        ("damped", Law::Linear(LinearStop::with_gap(1e5, 0.0).unwrap().with_damping(8.0).unwrap())),
+    let mut laws = vec![
+        ("hunt-crossley".to_owned(), Law::HuntCrossley(HuntCrossleyStop::new(hertz, 0.3).unwrap())),
+        (
+            "damped".to_owned(),
+            Law::Linear(LinearStop::with_gap(1e5, 0.0).unwrap().with_damping(8.0).unwrap()),
+        ),
     ];
+    for model in RestitutionModel::ALL {
+        laws.push((format!("{model:?}"), Law::Restitution(RestitutionStop::new(hertz, model, 0.7).unwrap())));
+    }
     for (name, law) in laws {
         let (found, divergence) = spectrum(beam_with(0.015, law), 53.0, 60);
         let expected = found.expected_sum.unwrap();

@@ -16,7 +16,7 @@ use super::{
     ExactIntegrator, MotionError,
     aim::{Aim, SAME},
     clearance::ClearanceBounds,
-    collocation::{Grading, NODES},
+    collocation::Grading,
     event::{Event, Solved},
     flight::{Boundary, Touch, clearance_of},
     run::Run,
@@ -203,9 +203,10 @@ impl ExactIntegrator {
             return free(shorter);
         }
         let error = error.max(self.sensitivity_error(run).unwrap_or(f64::INFINITY));
-        if error > 1.0 {
+        let accurate = length * self.growth(error).clamp(0.1, MOST_KEPT);
+        if let Some(shorter) = (error > 1.0).then_some(accurate).or_else(|| self.shorter_for_volume(run)) {
             run.release = release.map(|(end, time)| (end, run.time + time)).or(run.release);
-            return free(length * self.growth(error).clamp(0.1, MOST_KEPT));
+            return free(shorter);
         }
         Tried::Accepted { error, event }
     }
@@ -270,20 +271,6 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Integral over the solved step of the divergence `phi^T phi df/dr'` of its forces.
-    fn divergence_in_step(&self) -> f64 {
-        let step = &self.step;
-        let weights = &step.grading().rule().at_end[0];
-        let of_active = |(a, &element): (usize, &usize)| {
-            let at = |k: usize| {
-                let (r, v) = (step.displacement[a * NODES + k], step.velocity[a * NODES + k]);
-                weights[k] * self.laws[element].pressing_force(r, v).damping
-            };
-            self.mobility[element][element] * (0..NODES).map(at).sum::<f64>()
-        };
-        step.length * step.active.iter().enumerate().map(of_active).sum::<f64>()
-    }
-
     /// Moves the run to the end of the solved step.
     fn accept(&mut self, run: &mut Run, end: f64, error: f64) {
         let length = self.step.length;
@@ -292,9 +279,7 @@ impl ExactIntegrator {
         }
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
-            if self.step.damped {
-                self.contraction += self.divergence_in_step();
-            }
+            self.count_contraction(sensitivity);
         }
         self.counts.steps += 1;
         if self.notes_course {

@@ -13,7 +13,7 @@
 //! | `weights.rs`, `series.rs`, `moments.rs`, `quadrature.rs` | the matrices of a step |
 //! | `force_step.rs`, `newton.rs`, `attempt.rs`, `step_error.rs` | one step with forces, and its error |
 //! | `damped_step.rs`, `onset.rs` | forces that depend on the velocity; sensitivities where they set in with a jump |
-//! | `memory.rs` | laws that remember the speed of an impact |
+//! | `memory.rs`, `volume.rs` | laws that remember the speed of an impact; what contacts do to volumes of states |
 //! | `impact.rs`, `velocity_jump.rs`, `stick.rs` | impacts on rigid stops, the forces that jump with them; chatter, stops that stick and lift |
 //! | `held.rs`, `hold.rs`, `structure.rs` | the structure that is left while rigid stops are held; going over to it and back |
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
@@ -88,6 +88,7 @@ mod touching;
 mod trace;
 mod tracing;
 mod velocity_jump;
+mod volume;
 mod weights;
 
 #[cfg(test)]
@@ -329,8 +330,8 @@ impl ExactIntegrator {
     }
 
     /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow
-    /// with sensitivities, the integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. Of a law that remembers its impact that is not all: its flow depends on the
-    /// speed of the impact besides.
+    /// with sensitivities, the integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. What the memory of an impact does besides is counted by
+    /// [`ExactIntegrator::flow_onwards`] alone (mathematics in `volume.rs`).
     #[must_use]
     pub fn contraction(&self) -> f64 {
         self.contraction

@@ -141,6 +141,21 @@ impl Sensitivity {
         self.impact_speeds.get(element).map(Vec::as_slice).filter(|row| !row.is_empty())
     }
 
+    /// With nothing but a unit, in the first column, in the speed with which the present contact of an element began.
+    pub fn by_impact_speed_alone(&self, element: usize) -> Self {
+        let values = vec![0.0; self.values.len()];
+        let mut alone = Self { values, impact_speeds: Vec::new(), has_parameter: false, ..*self };
+        let mut unit = vec![0.0; self.columns];
+        unit[0] = 1.0;
+        alone.remember_impact(element, unit);
+        alone
+    }
+
+    /// The columns by initial states, 2n x 2n.
+    pub fn by_initial_state(&self) -> Mat<f64> {
+        Mat::from_fn(self.rows, self.rows, |i, j| self.values[i * self.columns + j])
+    }
+
     /// `row V`, one entry per column.
     pub fn combined(&self, row: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.columns];
