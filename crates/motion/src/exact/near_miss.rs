@@ -22,20 +22,35 @@ const MOST_PLACES: usize = 256;
 /// Steps of Newton's method from a node to the turn of a contact, behind which a parabola does the rest.
 const POLISHES: usize = 3;
 
-/// How near a motion is to other contacts.
+/// How many of each kind are told: where one of them stays small the next ones show what happens elsewhere in the orbit.
+pub const NEAREST: usize = 4;
+
+/// How near a motion is to other contacts: the smallest values of each kind, ascending, infinite where there are not so many.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearMisses {
-    /// Least clearance of a turn in flight towards a contact [m]; infinite where there is none.
-    pub clearance: f64,
-    /// Least squared speed of a touch [m^2/s^2]; infinite without touches.
-    pub touch_speed_squared: f64,
-    /// Least penetration of a turn between two presses of one contact [m]; infinite where there is none.
-    pub penetration: f64,
+    /// Clearance of the highest turn of a flight towards a contact [m].
+    pub clearances: [f64; NEAREST],
+    /// Squared speed of a touch [m^2/s^2].
+    pub squared_touch_speeds: [f64; NEAREST],
+    /// Penetration of the lowest turn between two presses of one contact [m].
+    pub penetrations: [f64; NEAREST],
 }
 
 impl NearMisses {
-    const NONE: Self =
-        Self { clearance: f64::INFINITY, touch_speed_squared: f64::INFINITY, penetration: f64::INFINITY };
+    const NONE: Self = Self {
+        clearances: [f64::INFINITY; NEAREST],
+        squared_touch_speeds: [f64::INFINITY; NEAREST],
+        penetrations: [f64::INFINITY; NEAREST],
+    };
+}
+
+/// Puts a value among the smallest ones.
+fn put_among(smallest: &mut [f64; NEAREST], mut value: f64) {
+    for place in smallest {
+        if value < *place {
+            std::mem::swap(place, &mut value);
+        }
+    }
 }
 
 impl ExactIntegrator {
@@ -49,11 +64,11 @@ impl ExactIntegrator {
             for passage in course.of_stretch(piece) {
                 match *passage {
                     Passage::Touch { speed } => {
-                        least.touch_speed_squared = least.touch_speed_squared.min(speed * speed);
+                        put_among(&mut least.squared_touch_speeds, speed * speed);
                     }
                     Passage::Flight { start, duration, state, held, .. } if course.held(held).is_empty() => {
                         let flown = Flown { piece, start, duration, state: course.numbers(state), held: &[] };
-                        least.clearance = least.clearance.min(self.clearance_of_turns(&flown));
+                        self.put_turns(&flown, &mut least.clearances);
                     }
                     _ => {}
                 }
@@ -64,7 +79,7 @@ impl ExactIntegrator {
         valleys
             .retain(|valley| valley.is_some_and(|valley| !self.laws[valley.element].contacts().is_empty()));
         for valley in valleys.into_iter().flatten() {
-            least.penetration = least.penetration.min(self.penetration_of_turn(&course, &valley));
+            put_among(&mut least.penetrations, self.penetration_of_turn(&course, &valley));
         }
         self.let_go();
         self.course = course;
@@ -91,19 +106,20 @@ impl ExactIntegrator {
         contacts.fold(0.0, |most, contact| most.max(contact.sign * (turn - contact.level)))
     }
 
-    /// Least clearance of the turns of a flight over all contacts.
-    fn clearance_of_turns(&self, flown: &Flown) -> f64 {
-        let mut least = f64::INFINITY;
+    /// Puts the clearance of the highest turn towards each contact in a flight among the smallest ones.
+    fn put_turns(&self, flown: &Flown, smallest: &mut [f64; NEAREST]) {
         for (element, law) in self.laws.iter().enumerate().filter(|(_, law)| !law.contacts().is_empty()) {
             let flight = FlightFunction::new(self, flown, (element, 0));
             let size = self.flight_bound(flown, (element, 0));
             let values = flight.on_grid(flight.places(EXCESS * size).min(MOST_PLACES));
             for contact in law.contacts() {
-                let clearances = values.iter().map(|r| contact.sign * (contact.level - r));
-                least = least.min(nearest_turn(&flight, contact.sign, clearances.collect()).unwrap_or(least));
+                let clearances: Vec<f64> =
+                    values.iter().map(|r| contact.sign * (contact.level - r)).collect();
+                if let Some(clearance) = nearest_turn(&flight, contact.sign, &clearances) {
+                    put_among(smallest, clearance);
+                }
             }
         }
-        least
     }
 }
 
@@ -118,10 +134,10 @@ struct Valley {
     force: f64,
 }
 
-/// The lowest valley of each element's force, among the nodes of the steps that one contact lasts.
+/// The lowest valley of each element's force, among the nodes of the steps that one contact lasts. An orbit begins as it ends: its first stretch is looked at once more behind the last.
 fn lowest_valleys(course: &Course, elements: usize) -> Vec<Option<Valley>> {
     let (mut lowest, mut latest) = (vec![None; elements], vec![(f64::NAN, None::<Valley>); elements]);
-    let pieces = 0..course.stretches.len();
+    let pieces = (0..course.stretches.len()).chain(0..course.stretches.len().min(1));
     let passages =
         pieces.flat_map(|piece| course.of_stretch(piece).iter().map(move |passage| (piece, passage)));
     for (piece, passage) in passages {
@@ -152,22 +168,58 @@ fn lowest_valleys(course: &Course, elements: usize) -> Vec<Option<Valley>> {
     lowest
 }
 
+/// A turn of a flight towards a contact, as the grid shows it.
+#[derive(Debug, Clone, Copy)]
+struct Turn {
+    /// Place on the grid beside which it lies.
+    node: usize,
+    /// Clearance at its bottom by a parabola, and how far that is from the place, in intervals of the grid.
+    clearance: f64,
+    shift: f64,
+}
+
 /// Clearance of the turn that comes nearest, from the clearances on a grid over the flight.
-fn nearest_turn(flight: &FlightFunction, sign: f64, clearances: Vec<f64>) -> Option<f64> {
-    let is_turn = |k: &usize| clearances[*k] <= clearances[k - 1] && clearances[*k] < clearances[k + 1];
-    let turns = (1..clearances.len().saturating_sub(1)).filter(is_turn);
-    let nearest = turns.min_by(|a, b| clearances[*a].total_cmp(&clearances[*b]))?;
-    let [before, at, after] = [clearances[nearest - 1], clearances[nearest], clearances[nearest + 1]];
-    let (slope, bend) = (0.5 * (after - before), after - 2.0 * at + before);
-    let on_parabola = at - 0.5 * slope * slope / bend;
-    let largest = clearances.iter().fold(0.0_f64, |largest, clearance| largest.max(*clearance));
-    if on_parabola > NEAR * largest {
-        return Some(on_parabola);
-    }
+fn nearest_turn(flight: &FlightFunction, sign: f64, clearances: &[f64]) -> Option<f64> {
     let width = flight.duration() / (clearances.len() - 1) as f64;
-    let (place, value) = flight.turn((nearest as f64 - slope / bend) * width);
-    let inside = ((nearest - 1) as f64 * width..=(nearest + 1) as f64 * width).contains(&place);
-    Some(if inside { at + sign * (flight.at(nearest as f64 * width).0 - value) } else { on_parabola })
+    let inner = (1..clearances.len().saturating_sub(1)).filter_map(|node| inner_turn(clearances, node));
+    let outer = [0, clearances.len() - 1].into_iter().filter_map(|node| {
+        let (_, slope, curvature) = flight.at(node as f64 * width);
+        end_turn(clearances, node, (-sign * slope * width, -sign * curvature * width * width))
+    });
+    let nearest = inner.chain(outer).min_by(|a, b| a.clearance.total_cmp(&b.clearance))?;
+    let largest = clearances.iter().fold(0.0_f64, |largest, clearance| largest.max(*clearance));
+    if nearest.clearance > NEAR * largest {
+        return Some(nearest.clearance);
+    }
+    let node = nearest.node as f64;
+    let (place, value) = flight.turn((node + nearest.shift) * width);
+    let inside = ((node - 1.0) * width..=(node + 1.0) * width).contains(&place);
+    let closed_in = || clearances[nearest.node] + sign * (flight.at(node * width).0 - value);
+    Some(if inside { closed_in() } else { nearest.clearance })
+}
+
+/// A place whose neighbours are both farther from the contact.
+fn inner_turn(clearances: &[f64], node: usize) -> Option<Turn> {
+    let [before, at, after] = [clearances[node - 1], clearances[node], clearances[node + 1]];
+    if at > before || at >= after {
+        return None;
+    }
+    let (slope, bend) = (0.5 * (after - before), after - 2.0 * at + before);
+    Some(Turn { node, clearance: at - 0.5 * slope * slope / bend, shift: -slope / bend })
+}
+
+/// A turn in the first or the last interval, where a flight begins or ends with its stretch: one whose end is nearer to the contact than the next place, and approaches it inwards.
+///
+/// * `slope`, `curvature`: of the clearance at that end, by intervals of the grid.
+fn end_turn(clearances: &[f64], node: usize, (slope, curvature): (f64, f64)) -> Option<Turn> {
+    let (next, inwards) = if node == 0 { (1, slope) } else { (node - 1, -slope) };
+    let turns = inwards < 0.0 && clearances.get(next).is_some_and(|next| *next >= clearances[node]);
+    let shift = -slope / curvature;
+    (turns && shift.abs() <= 1.0).then(|| Turn {
+        node,
+        clearance: clearances[node] + 0.5 * slope * shift,
+        shift,
+    })
 }
 
 #[cfg(test)]
@@ -218,8 +270,8 @@ mod tests {
     fn a_flight_that_turns_before_the_stop_misses_it_by_the_rest_of_the_gap() {
         for (amplitude, tolerance) in [(0.3, 1e-4), (1.0, 1e-4), (1.49, 1e-14), (1.5 - 1e-9, 1e-14)] {
             let found = of_amplitude(amplitude);
-            assert!((found.clearance - (1.5 - amplitude)).abs() < tolerance, "{amplitude}: {found:?}");
-            assert_eq!(found.touch_speed_squared, f64::INFINITY);
+            assert!((found.clearances[0] - (1.5 - amplitude)).abs() < tolerance, "{amplitude}: {found:?}");
+            assert_eq!(found.squared_touch_speeds[0], f64::INFINITY);
         }
     }
 
@@ -229,10 +281,10 @@ mod tests {
             let found = of_amplitude(amplitude);
             let expected = amplitude * amplitude - 2.25;
             assert!(
-                (found.touch_speed_squared - expected).abs() < 1e-9 * amplitude,
+                (found.squared_touch_speeds[0] - expected).abs() < 1e-9 * amplitude,
                 "{amplitude}: {found:?}"
             );
-            assert_eq!(found.clearance, f64::INFINITY, "{amplitude}");
+            assert_eq!(found.clearances[0], f64::INFINITY, "{amplitude}");
         }
     }
 
@@ -244,14 +296,14 @@ mod tests {
         for least in [1e-9, 1e-6, 5e-4] {
             let amplitude = 0.001 - least;
             let found = from(stop, -0.099 + amplitude, 0.5 * std::f64::consts::PI);
-            assert!((found.penetration - least).abs() < 1e-12, "{least}: {found:?}");
-            assert_eq!([found.clearance, found.touch_speed_squared], [f64::INFINITY; 2], "{least}");
+            assert!((found.penetrations[0] - least).abs() < 1e-12, "{least}: {found:?}");
+            assert_eq!([found.clearances[0], found.squared_touch_speeds[0]], [f64::INFINITY; 2], "{least}");
         }
     }
 
     #[test]
     fn presses_with_a_flight_between_them_have_no_turn() {
         let found = of_amplitude(1.6);
-        assert_eq!(found.penetration, f64::INFINITY);
+        assert_eq!(found.penetrations[0], f64::INFINITY);
     }
 }

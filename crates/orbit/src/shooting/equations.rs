@@ -120,9 +120,9 @@ impl PathProblem for ShootingProblem {
             values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
         }
         // Never negative: between two grazings with the same contacts on both sides they come near zero.
-        let NearMisses { clearance, touch_speed_squared, penetration } = self.integrator.near_misses();
-        values
-            .extend([clearance, touch_speed_squared, penetration].map(|value| TestValue { value, count: 0 }));
+        let NearMisses { clearances, squared_touch_speeds, penetrations } = self.integrator.near_misses();
+        let near = [clearances, squared_touch_speeds, penetrations].concat();
+        values.extend(near.into_iter().map(|value| TestValue { value, count: 0 }));
     }
 
     fn outside(&mut self, events: Events) -> Option<Outside> {

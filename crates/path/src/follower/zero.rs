@@ -2,7 +2,8 @@
 //!
 //! A step over which a test function changes its sign ends at the zero instead, found by few probes (`bracket.rs`). A function may also jump
 //! through zero (when what it is made of changes its kind); then the bracket shrinks and the value does not, and nothing is recorded.
-//! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt.
+//! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt. So is one at whose end a function has no
+//! value any more (it is infinite) and would have met zero by the line through its last two, and a long one at whose end a function has a value that it had not before: where that came from is not known.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket};
@@ -20,6 +21,8 @@ const LEFT: f64 = 1e-3;
 const DIP: f64 = 0.5;
 /// Lowest points this close to an end of the step (share of the step) belong to that end.
 const EDGE: f64 = 0.02;
+/// Steps over which a function begins to have a value are at most so many times `signature_step` long.
+const BEGINNING: f64 = 1000.0;
 /// Share of `signature_step` within which a change of signature is located.
 const CHANGE_WIDTH: f64 = 1e-3;
 
@@ -39,8 +42,9 @@ impl Follower {
         arrival.zeros_near = self.stay_behind_zeros();
         for index in 0..self.trial.tests.len() {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
-            let hides_zeros = apart >= 2 || apart == 0 && self.dips(index);
-            if hides_zeros && step > self.settings.signature_step {
+            let hides_zeros = apart >= 2 || apart == 0 && (self.dips(index) || self.vanishes_at_zero(index));
+            let may_hide_zeros = self.begins(index) && step > BEGINNING * self.settings.signature_step;
+            if hides_zeros && step > self.settings.signature_step || may_hide_zeros {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
@@ -72,6 +76,27 @@ impl Follower {
         let place = 0.5 * (behind - slope / bend);
         let inside = bend > 0.0 && (EDGE * ahead..=(1.0 - EDGE) * ahead).contains(&place);
         inside && second + place * (slope + bend * (place - behind)) < DIP * second.min(third)
+    }
+
+    /// Whether a test function has no value at the trial, and the line through those of the last two points has met zero before.
+    fn vanishes_at_zero(&self, index: usize) -> bool {
+        let history = &self.state.history;
+        let Some(earlier) = self.state.tests_before.get(index).filter(|_| history.used >= 2) else {
+            return false;
+        };
+        let before = self.state.tests[index];
+        if self.trial.tests[index].value.is_finite() || !before.value.is_finite() {
+            return false;
+        }
+        let base = history.base();
+        let behind = progress(&self.weights, &base.tangent, &history.nodes[1].point, &base.point);
+        let slope = (before.value - earlier.value) / -behind;
+        before.value + slope * self.trial_progress() < 0.0
+    }
+
+    /// Whether a test function has a value at the trial, and none at the last point.
+    fn begins(&self, index: usize) -> bool {
+        self.trial.tests[index].value.is_finite() && !self.state.tests[index].value.is_finite()
     }
 
     /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was found to be behind the zero.
