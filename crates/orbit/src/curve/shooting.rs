@@ -13,6 +13,13 @@ use crate::state_scale::StateScale;
 
 /// Step of central differences along a vector, relative to the orbit.
 const DIFFERENCE: f64 = 1e-4;
+/// Shortest such step: rounding of the matrices, 1e-11, is a thousandth of the quotient then where that is as large as they are.
+const LEAST_DIFFERENCE: f64 = 1e-8;
+/// Part of a difference that its second difference may be. Beside a grazing at the distance D matrices go like `sqrt(D)`: then the step is `4 BEND D`, and the quotient off by `2 BEND^2`.
+const BEND: f64 = 0.01;
+/// By how much a step is shortened at most at once, and which change of the quotients by that is none.
+const SHORTENING: f64 = 0.05;
+const SAME: f64 = 2.0 * BEND * BEND;
 
 /// Where the equations are evaluated; nodes are scaled, one after the other.
 #[derive(Debug, Clone)]
@@ -152,28 +159,55 @@ impl Shooting {
         place: &Place,
         directions: &[Vec<f64>],
     ) -> Result<Vec<Segment>, MotionError> {
-        let size = self.size();
         let mut found = Vec::new();
         for (k, direction) in directions.iter().enumerate() {
             let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-            let step = DIFFERENCE / length;
-            let node = &place.nodes[k * size..(k + 1) * size];
-            let moved = |sign: f64| -> Vec<f64> {
-                node.iter().zip(direction).map(|(z, d)| z + sign * step * d).collect()
-            };
-            let (above, below) = (self.flow(k, place, &moved(1.0))?, self.flow(k, place, &moved(-1.0))?);
-            let quotient = |a: &[f64], b: &[f64]| -> Vec<f64> {
-                a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect()
-            };
-            found.push(Segment {
-                end: Vec::new(),
-                touches: Vec::new(),
-                matrix: quotient(&above.matrix, &below.matrix),
-                by_frequency: quotient(&above.by_frequency, &below.by_frequency),
-                by_parameter: quotient(&above.by_parameter, &below.by_parameter),
-            });
+            let mut step = DIFFERENCE;
+            let mut before: Option<Segment> = None;
+            loop {
+                let (quotients, bend) = self.quotients(k, place, direction, step / length)?;
+                let same = |before: &Segment| largest_change(before, &quotients) <= SAME;
+                if bend <= BEND || step <= LEAST_DIFFERENCE || before.as_ref().is_some_and(same) {
+                    found.push(quotients);
+                    break;
+                }
+                step = (step * (BEND / bend).max(SHORTENING)).max(LEAST_DIFFERENCE);
+                before = Some(quotients);
+            }
         }
         Ok(found)
+    }
+
+    /// Central quotients of differences along a direction at the node of a segment, and the second difference of its matrix relative to the first.
+    fn quotients(
+        &mut self,
+        segment: usize,
+        place: &Place,
+        direction: &[f64],
+        step: f64,
+    ) -> Result<(Segment, f64), MotionError> {
+        let size = self.size();
+        let node = &place.nodes[segment * size..(segment + 1) * size];
+        let moved = |sign: f64| -> Vec<f64> {
+            node.iter().zip(direction).map(|(z, d)| z + sign * step * d).collect()
+        };
+        let above = self.flow(segment, place, &moved(1.0))?;
+        let below = self.flow(segment, place, &moved(-1.0))?;
+        let quotient = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+        };
+        let ends = above.matrix.iter().zip(&below.matrix);
+        let second = ends.zip(&self.segments[segment].matrix).map(|((a, b), at)| a - 2.0 * at + b);
+        let quotients = Segment {
+            end: Vec::new(),
+            touches: Vec::new(),
+            matrix: quotient(&above.matrix, &below.matrix),
+            by_frequency: quotient(&above.by_frequency, &below.by_frequency),
+            by_parameter: quotient(&above.by_parameter, &below.by_parameter),
+        };
+        let first = 2.0 * step * largest(&quotients.matrix);
+        let second = second.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        Ok((quotients, second / first.max(f64::MIN_POSITIVE)))
     }
 
     /// `v_k = A_k v`, the vector carried to the node of each segment.
@@ -213,6 +247,16 @@ impl Shooting {
         let rate = self.integrator.system().rate(place.frequency_hz, phase, &state);
         rate.iter().zip(scales).map(|(r, s)| r / s).collect()
     }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest, x| largest.max(x.abs()))
+}
+
+/// Largest difference of the matrices of quotients, relative to their largest entry.
+fn largest_change(a: &Segment, b: &Segment) -> f64 {
+    let differences: Vec<f64> = a.matrix.iter().zip(&b.matrix).map(|(a, b)| a - b).collect();
+    largest(&differences) / largest(&b.matrix).max(f64::MIN_POSITIVE)
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
