@@ -5,15 +5,16 @@
 //!
 //! | indicator | regular | chaotic | else |
 //! |---|---|---|---|
-//! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N` | `L - half width > 10/N` | undecided, or below: still settling |
+//! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N`, not surely below zero | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
 //! and, of a motion that both call regular, its returns (`returns.rs`): the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is
-//! no period, and falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of the N periods to the last, for any n, the motion is still settling. Weak chaos in narrow bands
+//! no period, and falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of the N periods to the last, for any n, or for all n together by about the same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow bands
 //! looks regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in its spectrum. So a motion is quasi-periodic only if its returns are those on a torus:
 //! that of n periods which is closest is three times as far after `3 n`.
 //!
-//! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink). Where both agree the motion is quasi-periodic or
+//! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink. What they gain on one part of the torus they lose on another, so that the half width is
+//! larger than what is left over; where it is not, and `L` is below zero with all of its interval, the motion settles, however slowly.) Where both agree the motion is quasi-periodic or
 //! chaotic; where they do not it is doubtful, with the reason. A motion whose largest exponent is below zero is on its way to a periodic one: it is given
 //! time once more, and then called doubtful.
 
@@ -261,7 +262,7 @@ fn liveliest(states: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {
 fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) -> Class {
     let zero = ZERO / periods as f64;
     let (value, low) = (largest.value * period, largest.low() * period);
-    if value < -SHRINKING / periods as f64 {
+    if value < -SHRINKING / periods as f64 || largest.high() < 0.0 {
         return Class::Doubtful(Doubt::NotSettled);
     }
     let known = largest.half_width * period <= WIDTH / periods as f64;
@@ -297,5 +298,7 @@ mod tests {
         assert_eq!(judge(0.003, 0.021, 0.03), Class::Doubtful(Doubt::ExponentUndecided));
         assert_eq!(judge(0.3, 0.02, 0.5), Class::Doubtful(Doubt::ZeroOneUndecided));
         assert_eq!(judge(-0.3, 0.02, 0.5), Class::Doubtful(Doubt::NotSettled));
+        assert_eq!(judge(-1e-4, 1e-3, 0.03), Class::QuasiPeriodic);
+        assert_eq!(judge(-1e-4, 1e-5, 0.03), Class::Doubtful(Doubt::NotSettled));
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! With `D(n)` the mean distance of the states at the start of periods k and `k + n`:
 //!
-//! - A motion that still settles comes back closer and closer: `D(n)` falls from the first quarter of the periods to the last, for some n.
+//! - A motion that still settles comes back closer and closer: `D(n)` falls from the first quarter of the periods to the last, for some n. Where little is left to fall within these periods, it falls by the same factor from
+//!   each quarter to the next, for all n alike; on a torus the quarters differ either way.
 //! - On a torus the map turns every angle by the same amount, so that the shift of n periods is a turn, and that of `3 n` periods three times that turn. Of many n one turns by little; there
 //!   `D(3 n)` is about `3 D(n)`, whatever the shape of the torus and the speed along it, as a short way is gone three times. In chaos, in bands that are visited in a fixed order as well, the closest n
 //!   keeps the order of the bands and says nothing of the place in them: `D(3 n)` is about `D(n)`.
@@ -11,6 +12,9 @@ use crate::settle::distance;
 
 /// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks by `1/N` in a period has 0.5.
 const STEADY: f64 = 0.8;
+/// Least part by which returns fall from each quarter to the next in a motion that settles slowly, and by how much that part differs between quarters at most.
+const LEAST_FALL: f64 = 0.002;
+const EVEN: f64 = 2.0;
 /// `D(3 n)/D(n)` from which on the shift is a turn: half-way between three and one.
 const TURNS: f64 = 2.0;
 /// Part of the periods up to which n is looked for,
@@ -20,17 +24,28 @@ const MOST: usize = 1024;
 /// Pairs of states of a mean.
 const PAIRS: usize = 512;
 
-/// Whether the returns after some number of periods, up to the longest, come closer and closer.
+/// Whether the returns after some number of periods, up to the longest, come closer and closer, or those after all of them slowly and evenly.
 pub(crate) fn settles(states: &[Vec<f64>], scales: &[f64], longest: usize) -> bool {
-    let mean = |pairs: &[Vec<f64>], n: usize| {
-        let all = pairs.iter().zip(&pairs[n..]).map(|(before, now)| distance(scales, before, now));
+    let mean = |pairs: &[Vec<f64>], n: usize, apart: fn(&[f64], &[f64], &[f64]) -> f64| {
+        let all = pairs.iter().zip(&pairs[n..]).map(|(before, now)| apart(scales, before, now));
         all.sum::<f64>() / (pairs.len() - n) as f64
     };
     let quarter = states.len() / 4;
-    (1..=longest.min(quarter / 2)).any(|n| {
-        let last = mean(&states[states.len() - quarter..], n);
-        last < STEADY * mean(&states[..quarter], n)
-    })
+    let shifts = 1..=longest.min(quarter / 2);
+    let falls = shifts.clone().any(|n| {
+        let last = mean(&states[states.len() - quarter..], n, distance);
+        last < STEADY * mean(&states[..quarter], n, distance)
+    });
+    let of_quarter = |pairs: &[Vec<f64>]| shifts.clone().map(|n| mean(pairs, n, apart)).sum::<f64>();
+    falls || quarter > 0 && falls_evenly(states.chunks_exact(quarter).take(4).map(of_quarter).collect())
+}
+
+/// Whether values fall by about the same factor from each to the next.
+fn falls_evenly(values: Vec<f64>) -> bool {
+    let falls = values.windows(2).map(|pair| 1.0 - pair[1] / pair[0]);
+    let (least, most) = falls
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), fall| (least.min(fall), most.max(fall)));
+    least >= LEAST_FALL && most <= EVEN * least
 }
 
 /// Whether the closest of the shifts by up to an eighth of the periods turns the states as a torus is turned.
@@ -71,6 +86,27 @@ mod tests {
         let golden = 0.5 * (5f64.sqrt() - 1.0);
         for rotations in [vec![golden], vec![2f64.sqrt() / 1000.0], vec![golden, 2f64.sqrt() - 1.0]] {
             assert!(turns(&torus(&rotations), &vec![1.0; 2 * rotations.len()]), "{rotations:?}");
+        }
+    }
+
+    #[test]
+    fn spirals_settle_however_slowly_and_tori_do_not() {
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        for rotation in [golden, 0.36, 2f64.sqrt() / 50.0, 0.2501] {
+            for decay in [1e-3, 1e-4, 1.5e-5] {
+                let spiral = |k: usize| {
+                    let (angle, size) = (TAU * rotation * k as f64, (-decay * k as f64).exp());
+                    vec![2.0 + size * angle.cos(), size * angle.sin()]
+                };
+                let states: Vec<Vec<f64>> = (0..1000).map(spiral).collect();
+                assert!(settles(&states, &[1.0; 2], 64), "{rotation}, {decay}");
+            }
+        }
+        for first in 1..200 {
+            let rotation = golden / f64::from(first);
+            let rotations = if first % 2 == 0 { vec![rotation] } else { vec![rotation, 2f64.sqrt() - 1.0] };
+            let settling = settles(&torus(&rotations), &vec![1.0; 2 * rotations.len()], 64);
+            assert!(!settling || first > 100, "{rotations:?}");
         }
     }
 

@@ -237,7 +237,8 @@ impl SectionMap for SystemMap {
         self.memory_before = self.integrator.memory();
         let flow = self.integrator.flow_onwards(&self.stretch(part), state)?;
         let of_damping = self.divergence() * self.duration() * part.share();
-        self.growth_of_volume = Some(of_damping + self.integrator.contraction());
+        self.growth_of_volume =
+            Some(of_damping + self.integrator.contraction()).filter(|growth| !growth.is_nan());
         Ok((flow.state, flow.by_state))
     }
 
@@ -266,7 +267,7 @@ impl SectionMap for SystemMap {
         self.integrator.directions_lost()
     }
 
-    /// `-tr(M^-1 C)` times the duration, and what contacts contribute.
+    /// `-tr(M^-1 C)` times the duration, and what contacts contribute; not known where a contact that remembers its impact swallows nearly all of it.
     fn growth_of_volume(&self) -> Option<f64> {
         self.growth_of_volume
     }

@@ -73,6 +73,7 @@ impl ExactIntegrator {
         self.let_go();
         self.stretch = *stretch;
         self.contraction = 0.0;
+        self.cuts_for_volume = 0;
         self.directions_lost = 0;
         let n = self.blocks.count();
         self.drive_over(stretch);

@@ -239,6 +239,7 @@ pub struct ExactIntegrator {
     holding: Option<Box<hold::Holding>>,
     known_held: Vec<held::Held>,
     contraction: f64,
+    cuts_for_volume: u32,
     /// Directions that neighbours lost in the last stretch, at one instant at most.
     directions_lost: usize,
 }
@@ -306,6 +307,7 @@ impl ExactIntegrator {
             holding: None,
             known_held: Vec::new(),
             contraction: 0.0,
+            cuts_for_volume: 0,
             directions_lost: 0,
         })
     }
@@ -331,7 +333,7 @@ impl ExactIntegrator {
 
     /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow
     /// with sensitivities, the integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. What the memory of an impact does besides is counted by
-    /// [`ExactIntegrator::flow_onwards`] alone (mathematics in `volume.rs`).
+    /// [`ExactIntegrator::flow_onwards`] alone; not a number where that cannot be told (mathematics in `volume.rs`).
     #[must_use]
     pub fn contraction(&self) -> f64 {
         self.contraction

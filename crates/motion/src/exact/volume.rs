@@ -15,7 +15,8 @@
 //! the exponents of such laws).
 //!
 //! **Cancellation.** A contact that begins slowly and is pressed on loses energy as if it were drowned: one direction of P shrinks by e^-40 in a contact, and `1 - w p` with it, while that of V does not.
-//! Of `1 - w p` the error of p is left, over it. So steps in which it would shrink by more than [`MOST_SHRINKING`] are made shorter, and the error of a step is amplified by e^4 at most.
+//! Of `1 - w p` the error of p is left, over it. So steps in which it would shrink by more than [`MOST_SHRINKING`] are made shorter, and the error of a step is amplified by e^8, three thousand, at most. After [`MOST_CUTS`] such steps in a stretch
+//! (a contact of small restitution that is pressed on for long) they are taken as they are, and what happens to volumes is not told: it is not a number.
 //!
 //! A touch and a release add nothing, since forces that jump there do so with a determinant of one (`onset.rs`); for impacts see `impact.rs` and `stick.rs`.
 
@@ -24,17 +25,23 @@ use faer::{Mat, linalg::solvers::Solve};
 use super::{ExactIntegrator, collocation::NODES, run::Run, sensitivity::Sensitivity};
 
 /// Most that a direction may shrink by in a step whose `1 - w p` is asked for, as a logarithm.
-const MOST_SHRINKING: f64 = 4.0;
+const MOST_SHRINKING: f64 = 8.0;
+/// So many steps of a stretch are made shorter for that.
+const MOST_CUTS: u32 = 100;
 
 impl ExactIntegrator {
     /// A length for the solved step with which what it does to volumes can be told, if it is too long for that.
-    pub(super) fn shorter_for_volume(&self, run: &Run) -> Option<f64> {
+    pub(super) fn shorter_for_volume(&mut self, run: &Run) -> Option<f64> {
         let sensitivity = run.sensitivity.as_ref().filter(|_| self.goes_on && self.step.damped)?;
         if !self.step.active.iter().any(|&e| sensitivity.impact_speed(e).is_some()) {
             return None;
         }
         let shrinking = -self.divergence_in_step();
-        (shrinking > MOST_SHRINKING).then(|| self.step.length * (0.8 * MOST_SHRINKING / shrinking).max(0.1))
+        if shrinking <= MOST_SHRINKING || self.cuts_for_volume == MOST_CUTS || !self.contraction.is_finite() {
+            return None;
+        }
+        self.cuts_for_volume += 1;
+        Some(self.step.length * (0.8 * MOST_SHRINKING / shrinking).max(0.1))
     }
 
     /// Adds what the solved step does to volumes.
@@ -44,11 +51,14 @@ impl ExactIntegrator {
         if !self.step.damped {
             return;
         }
-        self.contraction += self.divergence_in_step();
+        let divergence = self.divergence_in_step();
+        self.contraction += divergence;
         let remembering: Vec<usize> =
             self.step.active.iter().copied().filter(|&e| sensitivity.impact_speed(e).is_some()).collect();
         if self.goes_on && self.contraction.is_finite() && !remembering.is_empty() {
-            self.contraction += self.growth_by_memory(sensitivity, &remembering);
+            let told = -divergence <= MOST_SHRINKING;
+            self.contraction +=
+                if told { self.growth_by_memory(sensitivity, &remembering) } else { f64::NAN };
         }
     }
 

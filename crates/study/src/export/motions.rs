@@ -138,7 +138,7 @@ fn spectrum_row(record: &ExponentRecord) -> [String; 11] {
     ]
 }
 
-/// Writes `basins.csv`, one row per cell, and `attractors.csv`, one per attractor.
+/// Writes `basins.csv`, one row per cell, and `attractors.csv`, one per attractor, with its first state (modal displacements and velocities at phase 0).
 ///
 /// * `suffix`: follows the names of the files.
 /// * `cells`: number of the attractor of each cell of the grid, counted from 1; 0 where the motion cannot be computed.
@@ -158,7 +158,7 @@ pub fn write_basins(
         let [x, y] = grid.place(cell);
         table.row(&[number(x), number(y), attractor.to_string()])?;
     }
-    let columns = [
+    let mut columns = header(&[
         "attractor",
         "class",
         "period",
@@ -167,11 +167,14 @@ pub fn write_basins(
         "largest_exponent_per_s",
         "zero_one_k",
         "branch",
-    ];
-    let mut list = Table::begin(folder, &format!("attractors{suffix}.csv"), &header(&columns))?;
+    ]);
+    let dof = attractors.first().map_or(0, |attractor| attractor.states[0].len() / 2);
+    columns
+        .extend(["q", "v"].into_iter().flat_map(|name| (1..=dof).map(move |mode| format!("{name}{mode}"))));
+    let mut list = Table::begin(folder, &format!("attractors{suffix}.csv"), &columns)?;
     let shares = fractions(cells, attractors.len());
     for (index, (attractor, fraction)) in attractors.iter().zip(shares.into_iter().skip(1)).enumerate() {
-        list.row(&[
+        let mut row = vec![
             (index + 1).to_string(),
             attractor.class.name().to_owned(),
             optional(attractor.class.period()),
@@ -180,7 +183,9 @@ pub fn write_basins(
             number(attractor.largest_exponent.map(|exponent| exponent.value)),
             number(attractor.zero_one),
             optional(branches.get(index).copied().flatten()),
-        ])?;
+        ];
+        row.extend(attractor.states[0].iter().map(|value| number(*value)));
+        list.row(&row)?;
     }
     Ok(vec![table.finish()?, list.finish()?])
 }
