@@ -21,6 +21,8 @@ pub(crate) struct Run {
     pub proposal: f64,
     /// Length that the error allows a step that is graded towards an end of the contact [s]; 0 if nothing is known.
     pub graded: f64,
+    /// Length of the longest step of this contact, or of the last bold one [s], and steps since then.
+    pub longest: (f64, u32),
     /// Element that has just touched, whose force sets in now.
     pub touched: Option<usize>,
     /// Element that has just come to press again after it had parted.

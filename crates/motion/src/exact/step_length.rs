@@ -7,6 +7,9 @@
 //! The error is relative to a bound that goes like the root of the tolerance (`step_error.rs`): two halves are enough for sensitivities down to a tolerance of 2.5e-10 ([`HALF_WITH_SENSITIVITIES`]). Below that a contact takes three steps: one from the touch that is as much shorter as the tolerance asks for, one
 //! through the middle, and one to the release, for which as much is left as the first step bore. Where the middle one does not reach so far there are more. The forecast of the release comes up to a tenth too early as a rule
 //! (`forecast.rs`), so the step before the last goes somewhat farther than it says.
+//!
+//! **Rounding.** A contact that swallows nearly all of its impact is stiff: its damper may be 1e6 times as strong as what it rests on, and what rounding leaves of the velocity makes errors that do not depend on the length of the
+//! step. Shortening step after step then leads nowhere: thousands were taken where long ones have no larger error. So where steps have halved over [`MANY`] of them a bold one is tried, and taken if its error is within its bound.
 
 use super::{
     ExactIntegrator,
@@ -31,6 +34,10 @@ const STEEPNESS: f64 = 6.0;
 const GRADED_POWER: f64 = 8.0;
 /// How much longer a step through the middle of a contact may be than a graded one.
 const SMOOTH_BEARS: f64 = 1.6;
+/// Steps over which lengths halve before a bold one is tried,
+const MANY: u32 = 8;
+/// and how much longer that is.
+const BOLD: f64 = 4.0;
 /// Part of the length of the step from the touch that one to the release bears at the same error.
 const BACKWARDS: f64 = 0.94;
 
@@ -85,6 +92,9 @@ impl ExactIntegrator {
     /// Notes what an accepted step tells of the lengths of the next ones.
     pub(super) fn plan_next(&self, run: &mut Run, length: f64, error: f64) {
         let mut growth = self.growth(error);
+        if is_bold_one_due(run, length) {
+            growth = BOLD;
+        }
         if self.step.grading() == Grading::Touch {
             let longest = BACKWARDS * length * allowed(error, Grading::Touch).min(LONGEST_GROWTH);
             run.graded = self.resolved_length(longest);
@@ -92,6 +102,21 @@ impl ExactIntegrator {
         }
         run.proposal = self.resolved_length(length * growth.clamp(0.3, LONGEST_GROWTH));
     }
+}
+
+/// Notes the length of an accepted step, and says whether steps have become so much shorter that a bold one is due.
+fn is_bold_one_due(run: &mut Run, length: f64) -> bool {
+    let (longest, since) = run.longest;
+    if run.proposal == 0.0 || length >= longest {
+        run.longest = (length, 0);
+        return false;
+    }
+    run.longest.1 = since + 1;
+    let due = run.longest.1 >= MANY && length < 0.5 * longest;
+    if due {
+        run.longest = (length, 0);
+    }
+    due
 }
 
 /// By how much the length of a step of that grading may change until its error has reached its bound.
