@@ -183,6 +183,9 @@ fn nearest_turn(flight: &FlightFunction, sign: f64, clearances: &[f64]) -> Optio
     let width = flight.duration() / (clearances.len() - 1) as f64;
     let inner = (1..clearances.len().saturating_sub(1)).filter_map(|node| inner_turn(clearances, node));
     let outer = [0, clearances.len() - 1].into_iter().filter_map(|node| {
+        if !may_turn_at_end(clearances, node) {
+            return None;
+        }
         let (_, slope, curvature) = flight.at(node as f64 * width);
         end_turn(clearances, node, (-sign * slope * width, -sign * curvature * width * width))
     });
@@ -206,6 +209,17 @@ fn inner_turn(clearances: &[f64], node: usize) -> Option<Turn> {
     }
     let (slope, bend) = (0.5 * (after - before), after - 2.0 * at + before);
     Some(Turn { node, clearance: at - 0.5 * slope * slope / bend, shift: -slope / bend })
+}
+
+/// Whether a parabola through an end of the grid and the two places next to it says, about, that the clearance turns between the first two.
+fn may_turn_at_end(clearances: &[f64], end: usize) -> bool {
+    let inwards = |k: usize| if end == 0 { k } else { end - k };
+    if clearances.len() < 3 || clearances[inwards(1)] < clearances[end] {
+        return clearances.len() == 2;
+    }
+    let [first, second] = [0, 1].map(|k| clearances[inwards(k + 1)] - clearances[inwards(k)]);
+    // The slope of the parabola at the end is that of the first interval less half of what the next one adds.
+    first - 0.5 * (second - first) < 0.25 * first
 }
 
 /// A turn in the first or the last interval, where a flight begins or ends with its stretch: one whose end is nearer to the contact than the next place, and approaches it inwards.
