@@ -167,7 +167,7 @@ fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
     let text = stdout(&output);
     assert_eq!(text.matches("s opens and is pressed on again at once").count(), 2, "{text}");
     // Where rows crowd beside the border, multipliers are good to 1.1e-9; those of the other sheet would be off by far more.
-    let found = workshop.hammerbeam(&["verify", "results", "--all", "--tolerance", "1e-8"]);
+    let found = workshop.hammerbeam(&["verify", "results", "--all", "--tolerance", "2e-9"]);
     assert_success(&found);
     // On no sheet does the number of contacts change.
     let table = workshop.csv("results");

@@ -30,6 +30,12 @@ fn basins_go_on_after_a_kill_with_the_same_bytes() {
     for name in ["out/basins.csv", "out/attractors.csv"] {
         assert!(fs::read(whole.path(name)).unwrap() == fs::read(workshop.path(name)).unwrap(), "{name}");
     }
+    // What tells two attractors on one branch apart.
+    let table = fs::read_to_string(whole.path("out/attractors.csv")).unwrap();
+    let mut lines = table.lines();
+    assert!(lines.next().unwrap().ends_with(",branch,q1,v1"), "{table}");
+    let states: Vec<&str> = lines.map(|line| line.rsplitn(3, ',').next().unwrap()).collect();
+    assert!(states.len() > 1 && states.iter().all(|velocity| velocity.parse::<f64>().is_ok()), "{table}");
 }
 
 /// Pieces of the only request in `out` that are stored, and all that it has; none as long as there is no request.

@@ -257,6 +257,10 @@ mod tests {
 
     /// Near misses of a mass with `x'' = -x` beside a stop, let go at `displacement`.
     fn from(stop: LinearStop, displacement: f64, end: f64) -> NearMisses {
+        from_state(stop, [displacement, 0.0], end)
+    }
+
+    fn from_state(stop: LinearStop, state: [f64; 2], end: f64) -> NearMisses {
         let model = ReducedModel {
             natural_frequencies: vec![1.0],
             damping: Mat::zeros(1, 1),
@@ -274,7 +278,7 @@ mod tests {
         let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end };
         integrator.begin_course();
-        integrator.advance(&stretch, &[displacement, 0.0]).unwrap();
+        integrator.advance(&stretch, &state).unwrap();
         integrator.end_course();
         integrator.near_misses()
     }
@@ -286,6 +290,19 @@ mod tests {
             let found = of_amplitude(amplitude);
             assert!((found.clearances[0] - (1.5 - amplitude)).abs() < tolerance, "{amplitude}: {found:?}");
             assert_eq!(found.squared_touch_speeds[0], f64::INFINITY);
+        }
+    }
+
+    /// The turn at half a period, in a flight that ends just behind it or begins just before it.
+    #[test]
+    fn a_turn_beside_an_end_of_a_flight_is_seen() {
+        let stop = || LinearStop::with_gap(100.0, 1.5).unwrap();
+        let half = std::f64::consts::PI;
+        for beside in [0.1, 0.01, 1e-4] {
+            let ending = from(stop(), -1.4, half + beside);
+            assert!((ending.clearances[0] - 0.1).abs() < 1e-14, "{beside}: {ending:?}");
+            let beginning = from_state(stop(), [1.4 * f64::cos(beside), 1.4 * f64::sin(beside)], half);
+            assert!((beginning.clearances[0] - 0.1).abs() < 1e-14, "{beside}: {beginning:?}");
         }
     }
 
