@@ -35,6 +35,8 @@ const ZERO: f64 = 10.0;
 const WIDTH: f64 = 20.0;
 /// The same below zero.
 const SHRINKING: f64 = 2.0;
+/// The high end of its interval below which it is surely negative, times the number of periods: rounding makes 1e-13 of it.
+const SURELY: f64 = 0.01;
 
 /// How much is spent on a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -262,7 +264,8 @@ fn liveliest(states: &[Vec<f64>], scales: &[f64]) -> Vec<f64> {
 fn judge(largest: Estimate, period: f64, periods: usize, zero_one: Option<f64>) -> Class {
     let zero = ZERO / periods as f64;
     let (value, low) = (largest.value * period, largest.low() * period);
-    if value < -SHRINKING / periods as f64 || largest.high() < 0.0 {
+    let surely_shrinks = largest.high() * period * (periods as f64) < -SURELY;
+    if value < -SHRINKING / periods as f64 || surely_shrinks {
         return Class::Doubtful(Doubt::NotSettled);
     }
     let known = largest.half_width * period <= WIDTH / periods as f64;
