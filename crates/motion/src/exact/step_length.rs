@@ -9,7 +9,8 @@
 //! (`forecast.rs`), so the step before the last goes somewhat farther than it says.
 //!
 //! **Rounding.** A contact that swallows nearly all of its impact is stiff: its damper may be 1e6 times as strong as what it rests on, and what rounding leaves of the velocity makes errors that do not depend on the length of the
-//! step. Shortening step after step then leads nowhere: thousands were taken where long ones have no larger error. So where steps have halved over [`MANY`] of them a bold one is tried, and taken if its error is within its bound.
+//! step. Shortening step after step then leads nowhere: thousands were taken where long ones have no larger error. So where steps have halved over [`MANY`] of them a bold one is tried, and taken if its error is within its bound;
+//! in motions that carry tangent vectors along, which cannot avoid such contacts. A branch that comes to one ends there, where its contact splits, and is told to by the number of steps.
 
 use super::{
     ExactIntegrator,
@@ -92,7 +93,7 @@ impl ExactIntegrator {
     /// Notes what an accepted step tells of the lengths of the next ones.
     pub(super) fn plan_next(&self, run: &mut Run, length: f64, error: f64) {
         let mut growth = self.growth(error);
-        if is_bold_one_due(run, length) {
+        if self.goes_on && is_bold_one_due(run, length) {
             growth = BOLD;
         }
         if self.step.grading() == Grading::Touch {
