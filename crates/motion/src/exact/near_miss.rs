@@ -1,10 +1,12 @@
 //! How near a motion is to touching once more or once less: what tells two grazings between neighbouring orbits that have the same contacts.
 //!
-//! * The least clearance `min s (level - r)` over the turns of a flight towards a contact, the highest of each flight: where a new contact appears it vanishes, linearly in whatever varies.
-//! * The least squared speed of a touch: where a contact vanishes so does it, linearly too, since the penetration is `v^2/2a` there. Where a contact stops opening for an instant, the touch behind that instant vanishes.
-//! * The least penetration of a turn between two presses of one contact: where the contact begins to open there it vanishes, linearly.
+//! The [`NEAREST`] smallest values of each kind:
 //!
-//! Turns of a flight are found on a grid as fine as its curvature asks for, and the highest of them is closed in by Newton's method where it is near. Turns of a contact that stays closed are
+//! * The clearance `min s (level - r)` over the turns of a flight towards a contact, the highest of each flight: where a new contact appears it vanishes, linearly in whatever varies.
+//! * The squared speed of a touch: where a contact vanishes so does it, linearly too, since the penetration is `v^2/2a` there. Where a contact stops opening for an instant, the touch behind that instant vanishes.
+//! * The penetration of a turn between two presses of one contact: where the contact begins to open there it vanishes, linearly.
+//!
+//! Turns of a flight are found on a grid as fine as its curvature asks for, and the highest of them is closed in by Newton's method where it is near; in the intervals at its ends, where it may begin or end with its stretch, by its slope there. Turns of a contact that stays closed are
 //! the valleys of its force at the nodes of its steps; the lowest one is closed in.
 
 use super::{

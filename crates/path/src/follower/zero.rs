@@ -7,7 +7,12 @@
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket};
-use crate::{error::Doubt, point::Events, problem::PathProblem, product::progress};
+use crate::{
+    error::Doubt,
+    point::Events,
+    problem::{PathProblem, TestValue},
+    product::progress,
+};
 
 const MOST_PROBES: u32 = 60;
 /// Value relative to the ends of the step at which a zero counts as reached.
@@ -59,18 +64,13 @@ impl Follower {
     /// Whether a test function may have two zeros within the step to the trial, though its count is the same on both sides: the parabola through its values at the last
     /// two points and the trial comes closer to zero inside the step than [`DIP`] of both ends.
     fn dips(&self, index: usize) -> bool {
-        let history = &self.state.history;
-        let Some(earlier) = self.state.tests_before.get(index).filter(|_| history.used >= 2) else {
-            return false;
-        };
+        let Some((earlier, behind)) = self.test_before(index) else { return false };
         let (before, after) = (self.state.tests[index], self.trial.tests[index]);
         if earlier.count != before.count {
             return false;
         }
-        let base = history.base();
-        let behind = progress(&self.weights, &base.tangent, &history.nodes[1].point, &base.point);
         let ahead = self.trial_progress();
-        let [first, second, third] = [*earlier, before, after].map(|test| test.value.abs());
+        let [first, second, third] = [earlier, before, after].map(|test| test.value.abs());
         let slope = (second - first) / -behind;
         let bend = ((third - second) / ahead - slope) / (ahead - behind);
         let place = 0.5 * (behind - slope / bend);
@@ -78,18 +78,22 @@ impl Follower {
         inside && second + place * (slope + bend * (place - behind)) < DIP * second.min(third)
     }
 
+    /// A test function at the point before the last one, and how far that lies behind it, which is negative; `None` where it is not known.
+    fn test_before(&self, index: usize) -> Option<(TestValue, f64)> {
+        let history = &self.state.history;
+        let earlier = self.state.tests_before.get(index).filter(|_| history.used >= 2)?;
+        let base = history.base();
+        let behind = progress(&self.weights, &base.tangent, &history.nodes[1].point, &base.point);
+        Some((*earlier, behind))
+    }
+
     /// Whether a test function has no value at the trial, and the line through those of the last two points has met zero before.
     fn vanishes_at_zero(&self, index: usize) -> bool {
-        let history = &self.state.history;
-        let Some(earlier) = self.state.tests_before.get(index).filter(|_| history.used >= 2) else {
-            return false;
-        };
+        let Some((earlier, behind)) = self.test_before(index) else { return false };
         let before = self.state.tests[index];
         if self.trial.tests[index].value.is_finite() || !before.value.is_finite() {
             return false;
         }
-        let base = history.base();
-        let behind = progress(&self.weights, &base.tangent, &history.nodes[1].point, &base.point);
         let slope = (before.value - earlier.value) / -behind;
         before.value + slope * self.trial_progress() < 0.0
     }
