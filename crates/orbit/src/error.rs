@@ -38,7 +38,9 @@ pub enum OrbitError {
     #[error("no other branch was found beside the crossing at {frequency_hz} Hz")]
     NoCrossing { frequency_hz: f64 },
     /// The orbit does not have what a curve is to follow.
-    #[error("the orbit at {frequency_hz} Hz has no such contact or pair of multipliers to follow")]
+    #[error(
+        "the orbit at {frequency_hz} Hz has no such touch of a contact or pair of multipliers to follow; a contact with damping that opens, in the midst of its penetration, is none"
+    )]
     NoEvent { frequency_hz: f64 },
     /// The period asked for is not one that is looked for.
     #[error("the period multiple is {found}, must be from 1 to {most}")]

@@ -16,7 +16,8 @@
 //!
 //! where T is also that of what held stops press with (`pressing.rs`),
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
-//! divided by the eigenfrequency).
+//! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own. Before the first contact the motion does not depend on its stiffness, so there that column has no other scale than
+//! what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the rounding `e` of a displacement. Of its tail [`ROUNDING`] times that is taken off.
 
 use std::sync::Arc;
 
@@ -62,6 +63,8 @@ struct Response {
     fast_share: f64,
 }
 
+/// What rounding of the displacements leaves in the tail of a column of a contact, in parts of the column times rounding over depth.
+const ROUNDING: f64 = 32.0;
 const HIGHEST: (i32, f64) = degree(NODES - 1);
 const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
 /// Largest factor from one step to the next.
@@ -202,6 +205,15 @@ impl ExactIntegrator {
         length
     }
 
+    /// Rounding of the displacement of the a-th active element, relative to the depth of its contact in the solved step; 0 where it always acts.
+    fn relative_rounding(&self, run: &Run, a: usize) -> f64 {
+        let element = self.step.active[a];
+        let Some(contact) = self.closed_contact(run, element) else { return 0.0 };
+        let nodes = &self.step.displacement[a * NODES..(a + 1) * NODES];
+        let depth = nodes.iter().fold(0.0_f64, |depth, r| depth.max((r - contact.level).abs()));
+        run.start[element].margin / depth.max(f64::MIN_POSITIVE)
+    }
+
     /// Solves for the sensitivities of the forces of the solved step; their error, 0 if none are wanted, `None` if the step is singular.
     pub(super) fn sensitivity_error(&mut self, run: &Run) -> Option<f64> {
         let Some(sensitivity) = &run.sensitivity else { return Some(0.0) };
@@ -222,15 +234,20 @@ impl ExactIntegrator {
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
+            let rounding = ROUNDING * self.relative_rounding(run, a);
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let size = found.velocity + impulse * found.largest;
+                let mut highest = found.tail.highest;
                 let (scale, into) = if column >= sensitivity.frequency_column() {
+                    if sensitivity.parameter_column() == Some(column) {
+                        highest = (highest - rounding * found.largest).max(0.0);
+                    }
                     (size.max(f64::MIN_POSITIVE), &mut further[column - sensitivity.frequency_column()])
                 } else {
                     norm = norm.max(size / scale(column));
                     (scale(column), &mut errors)
                 };
-                let tail = impulse * found.tail.highest / scale;
+                let tail = impulse * highest / scale;
                 into.tail = into.tail.max(tail);
                 into.slow = into.slow.max(tail * found.tail.decay());
                 into.fast_share = into.fast_share.max(response.fast_share);

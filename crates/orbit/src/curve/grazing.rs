@@ -2,6 +2,9 @@
 //!
 //! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit. Their derivatives: by the state `phi`; by the phase `r'/f` and
 //! `r''/f` as far as `u` has them; by the frequency those of `s u` and `s u'` at a fixed phase; by the excitation scale `a` those of `u` over `a`; by the gap `-1` in the first.
+//!
+//! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its penetration is. A law whose force depends on the velocity opens
+//! where its force vanishes, with penetration: the touch from inside is none of its grazings.
 
 use hammerbeam_motion::{Parameter, Stretch};
 
@@ -13,12 +16,16 @@ use crate::OrbitError;
 
 /// Looks for the touch per excitation period.
 const LOOKS: usize = 2000;
+/// Farthest from grazing that the contact of a grazing orbit is, as it was located before, in parts of the orbit.
+const FARTHEST: f64 = 1e-2;
 
 /// The contact that is touched.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     pub element: usize,
     pub contact: usize,
+    /// Whether the contact is closed beside the touch.
+    pub from_inside: bool,
 }
 
 /// Where the clearance of a contact turns.
@@ -27,17 +34,18 @@ pub(super) struct Turn {
     pub phase: f64,
     pub state: Vec<f64>,
     /// How far that is from grazing [m].
-    pub distance: f64,
+    distance: f64,
+    from_inside: bool,
 }
 
 impl Touch {
     /// The contact of that number, in the order of the elements and their contacts.
-    pub fn of_contact(shooting: &Shooting, number: usize) -> Option<Self> {
+    fn of_contact(shooting: &Shooting, number: usize) -> Option<Self> {
         let elements = shooting.integrator.system().elements().iter().enumerate();
         elements
             .flat_map(|(e, element)| (0..element.law.contacts().len()).map(move |contact| (e, contact)))
             .nth(number)
-            .map(|(element, contact)| Self { element, contact })
+            .map(|(element, contact)| Self { element, contact, from_inside: false })
     }
 
     /// Its number in the order of the elements and their contacts.
@@ -84,29 +92,27 @@ impl Touch {
         Linear { values, rows, tests: vec![sign * acceleration / (unit * std::f64::consts::TAU * f)] }
     }
 
-    /// The contact of that number, or the one that comes nearest to grazing.
+    /// The contact of that number, or the one that comes nearest to grazing, and where.
     pub fn choose(
         shooting: &mut Shooting,
         number: Option<usize>,
-        (begin, state): (f64, &[f64]),
+        orbit: (f64, &[f64]),
         frequency_hz: f64,
-    ) -> Result<Option<Self>, OrbitError> {
-        if let Some(number) = number {
-            return Ok(Self::of_contact(shooting, number));
-        }
-        let mut nearest: Option<(f64, Self)> = None;
-        for touch in (0..).map_while(|number| Self::of_contact(shooting, number)).collect::<Vec<_>>() {
-            if let Some(turn) = touch.find(shooting, (begin, state), frequency_hz)?
-                && nearest.is_none_or(|(least, _)| turn.distance < least)
+    ) -> Result<Option<(Self, Turn)>, OrbitError> {
+        let mut nearest: Option<(Self, Turn)> = None;
+        for number in number.map_or(0..usize::MAX, |number| number..number + 1) {
+            let Some(touch) = Self::of_contact(shooting, number) else { break };
+            if let Some(turn) = touch.find(shooting, orbit, frequency_hz)?
+                && nearest.as_ref().is_none_or(|(_, least)| turn.distance < least.distance)
             {
-                nearest = Some((turn.distance, touch));
+                nearest = Some((Self { from_inside: turn.from_inside, ..touch }, turn));
             }
         }
-        Ok(nearest.map(|(_, touch)| touch))
+        Ok(nearest)
     }
 
-    /// Where the contact of the orbit from `state` at the phase `begin` is reached with the least clearance and turns.
-    pub fn find(
+    /// Where the contact of the orbit from `state` at the phase `begin` turns nearest to its level, if that is near enough for a grazing.
+    fn find(
         self,
         shooting: &mut Shooting,
         (begin, state): (f64, &[f64]),
@@ -122,26 +128,32 @@ impl Touch {
             .zip(&samples)
             .map(|(phase, state)| self.clearance(shooting, frequency_hz, *phase, state))
             .collect();
-        let mut turns = Vec::new();
-        for (phases, rates) in phases.windows(2).zip(clearances.windows(2)) {
-            let [before, after] = [rates[0][1], rates[1][1]];
-            if before <= 0.0 && after > 0.0 {
-                // Clearance turns: a step of the secant method on its rate.
+        let element = &shooting.integrator.system().elements()[self.element];
+        let opens_at_its_level = !element.law.depends_on_velocity();
+        let entries = element.shape.iter().zip(shooting.scale.values());
+        let farthest = FARTHEST * entries.map(|(shape, scale)| (shape * scale).abs()).sum::<f64>();
+        let (mut turns, mut from_inside) = (Vec::new(), Vec::new());
+        for (phases, looks) in phases.windows(2).zip(clearances.windows(2)) {
+            let [before, after] = [looks[0][1], looks[1][1]];
+            let [is_least, is_most] = [before <= 0.0 && after > 0.0, before >= 0.0 && after < 0.0];
+            if is_least || (is_most && opens_at_its_level) {
+                // A step of the secant method on the rate.
                 turns.push(phases[0] + before / (before - after) * (phases[1] - phases[0]));
+                from_inside.push(is_most);
             }
         }
         if turns.is_empty() {
             return Ok(None);
         }
         let places = shooting.integrator.trace(&orbit, state, &turns)?.samples;
-        let turn = |(phase, state): (f64, Vec<f64>)| {
+        let turn = |((phase, state), from_inside): ((f64, Vec<f64>), bool)| {
             // At an impact the rate jumps: it does not vanish near the turn.
             let [clearance, rate] = self.clearance(shooting, frequency_hz, phase, &state);
             let distance = clearance.abs() + rate.abs() / (std::f64::consts::TAU * frequency_hz);
-            Turn { phase, state, distance }
+            Turn { phase, state, distance, from_inside }
         };
-        let found = turns.into_iter().zip(places).map(turn);
-        Ok(found.min_by(|a, b| a.distance.total_cmp(&b.distance)))
+        let found = turns.into_iter().zip(places).zip(from_inside).map(turn);
+        Ok(found.filter(|turn| turn.distance < farthest).min_by(|a, b| a.distance.total_cmp(&b.distance)))
     }
 
     /// Clearance and its rate.

@@ -4,6 +4,8 @@
 //! motion back, with a fundamental matrix that is like the root of the depth. A grazing orbit is the end of those that pass without contact. So for a short time after the begin and before the end the touched element is left out, its gap opened
 //! wide: the equations are those of the motions that pass, smooth on both sides of the touch, and on the curve, where the clearance and its rate vanish, those of the system itself.
 //!
+//! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
+//!
 //! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
 
 use hammerbeam_motion::{

@@ -13,10 +13,13 @@ use super::{
 use crate::{OrbitError, PeriodicSolution};
 
 /// The condition at the start, and where that is; `None` if the orbit has nothing to follow.
+///
+/// * `touch`: what is touched and where, on a curve of grazing orbits.
 pub(super) fn first_condition(
     shooting: &mut Shooting,
     start: &PeriodicSolution,
     (kind, value): (CurveKind, f64),
+    touch: Option<(Touch, Turn)>,
 ) -> Result<Option<(Condition, Place)>, OrbitError> {
     let scaled = |nodes: &[Vec<f64>], scales: &[f64]| -> Vec<f64> {
         nodes.iter().flat_map(|node| node.iter().zip(scales).map(|(z, s)| z / s)).collect()
@@ -24,14 +27,7 @@ pub(super) fn first_condition(
     let frequency_hz = start.frequency_hz;
     let scales = shooting.scale.values().to_vec();
     let mut place = Place { nodes: scaled(&start.nodes, &scales), frequency_hz, phase: start.phase, value };
-    if let CurveKind::Grazing { contact } = kind {
-        let orbit = (start.phase, &start.nodes[0][..]);
-        let Some(touch) = contact.and_then(|number| Touch::of_contact(shooting, number)) else {
-            return Ok(None);
-        };
-        let Some(Turn { phase, state, .. }) = touch.find(shooting, orbit, frequency_hz)? else {
-            return Ok(None);
-        };
+    if let Some((touch, Turn { phase, state, .. })) = touch {
         let mut nodes = vec![state];
         shooting.fit_passing(frequency_hz, phase, &nodes[0])?;
         for k in 1..shooting.count {

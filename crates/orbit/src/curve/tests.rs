@@ -73,7 +73,7 @@ fn jacobians_agree_with_differences_of_the_residual() {
             |shooting| Condition::Multiplier(Bordered::new(1.0, shooting)),
             |shooting| Condition::Multiplier(Bordered::new(-1.0, shooting)),
             |shooting| Condition::Pair(Pair::new(shooting).unwrap()),
-            |_| Condition::Touch(Touch { element: 1, contact: 0 }),
+            |_| Condition::Touch(Touch { element: 1, contact: 0, from_inside: false }),
         ];
         for (kind, make) in make.into_iter().enumerate() {
             let mut shooting = shooting(parameter);

@@ -59,15 +59,19 @@ impl CurveWalk {
             passing: None,
         };
         let none = OrbitError::NoEvent { frequency_hz: start.frequency_hz };
+        let mut touch = None;
         if let CurveKind::Grazing { contact } = kind {
             let orbit = (start.phase, &start.nodes[0][..]);
-            let touch =
+            let (found, turn) =
                 Touch::choose(&mut shooting, contact, orbit, start.frequency_hz)?.ok_or(none.clone())?;
-            kind = CurveKind::Grazing { contact: Some(touch.number(&shooting)) };
-            let range = (start, settings.range);
-            shooting.passing = Passing::new((&shooting, touch.element), response, range, orbits)?;
+            kind = CurveKind::Grazing { contact: Some(found.number(&shooting)) };
+            if !found.from_inside {
+                let range = (start, settings.range);
+                shooting.passing = Passing::new((&shooting, found.element), response, range, orbits)?;
+            }
+            touch = Some((found, turn));
         }
-        let (condition, place) = first_condition(&mut shooting, start, (kind, value))?.ok_or(none)?;
+        let (condition, place) = first_condition(&mut shooting, start, (kind, value), touch)?.ok_or(none)?;
         let width = |(low, high): (f64, f64)| (high - low) / 100.0;
         let units = [width(settings.range_hz), width(settings.range)];
         let mut problem = CurveProblem::new(shooting, condition, start.phase, units);

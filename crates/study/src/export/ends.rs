@@ -1,15 +1,33 @@
-//! Ends of branches as CSV, each with its last state.
+//! Ends of branches and curves as CSV, each with its last state.
 
-use std::{io::Write, path::Path};
+use std::{
+    fs::File,
+    io::{BufWriter, Write},
+    path::Path,
+};
 
 use hammerbeam_orbit::Side;
 
-use super::{ExportError, table::quoted};
-use crate::store::Store;
+use super::{ExportError, table::quoted, varied::start_of_row};
+use crate::store::{PieceRecord, Store};
 
 /// Columns of `ends.csv`.
 pub const END_COLUMNS: [&str; 8] =
     ["branch", "period_multiple", "side", "end", "frequency_hz", "message", "phase_cycles", "state"];
+
+/// Columns of `parameter_ends.csv`, and of `curve_ends.csv` behind `of`.
+pub const PARAMETER_END_COLUMNS: [&str; 10] = [
+    "piece",
+    "branch",
+    "period_multiple",
+    "parameter_name",
+    "side",
+    "parameter",
+    "frequency_hz",
+    "message",
+    "phase_cycles",
+    "state",
+];
 
 /// One row per side of a branch: how it ended, and the state `[q; q']` of its last solution at the phase at which that begins.
 pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
@@ -27,7 +45,6 @@ pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) ->
                 Some(reason) => (reason.kind.as_str(), quoted(&reason.message)),
                 None => ("", String::new()),
             };
-            let state: Vec<String> = last.nodes[0].iter().map(|entry| format!("{entry:?}")).collect();
             writeln!(
                 writer,
                 "{},{},{name},{kind},{:?},{message},{:?},{}",
@@ -35,10 +52,41 @@ pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) ->
                 branch.period_multiple,
                 last.frequency_hz,
                 last.phase,
-                state.join(" ")
+                entries(&last.nodes[0])
             )
             .map_err(failed)?;
         }
     }
     Ok(())
+}
+
+/// One row per side of a branch in a parameter or of a curve: how it ended, in words, and the state of its last orbit.
+pub(super) fn write_varied_ends(
+    store: &Store,
+    pieces: &[&PieceRecord],
+    writer: &mut BufWriter<File>,
+    path: &Path,
+) -> Result<(), ExportError> {
+    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let front = if pieces.iter().any(|piece| piece.is_curve) { "of," } else { "" };
+    writeln!(writer, "{front}{}", PARAMETER_END_COLUMNS.join(",")).map_err(failed)?;
+    for piece in pieces {
+        for branch in &piece.branches {
+            let start = start_of_row(piece, branch);
+            for (name, end, place) in [("down", &branch.down, 0), ("up", &branch.up, branch.rows - 1)] {
+                let last = store.varied_orbit((piece.id, branch.branch), place)?;
+                let message = quoted(end);
+                let (value, frequency_hz, phase) = (last.parameter, last.frequency_hz, last.phase);
+                let state = entries(&last.state);
+                writeln!(writer, "{start},{name},{value:?},{frequency_hz:?},{message},{phase:?},{state}")
+                    .map_err(failed)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn entries(state: &[f64]) -> String {
+    let entries: Vec<String> = state.iter().map(|entry| format!("{entry:?}")).collect();
+    entries.join(" ")
 }

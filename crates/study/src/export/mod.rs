@@ -13,7 +13,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub use ends::END_COLUMNS;
+pub use ends::{END_COLUMNS, PARAMETER_END_COLUMNS};
 pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
 pub use simulation::SimulationTables;
@@ -70,7 +70,7 @@ pub struct Exported {
     pub events_path: PathBuf,
     /// How branches ended.
     pub ends_path: PathBuf,
-    /// `parameter_branches.csv`, `parameter_events.csv` and `curves.csv`, where the study asks for them.
+    /// `parameter_branches.csv`, `parameter_events.csv` and `parameter_ends.csv`, `curves.csv` and `curve_ends.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
     /// Tables of motions, sweeps, exponents and basins, with the numbers of their requests.
     pub motion_paths: Vec<PathBuf>,

@@ -6,7 +6,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::{ExportError, events::write_parameter_events, table::quoted, write_whole};
+use super::{
+    ExportError, ends::write_varied_ends, events::write_parameter_events, table::quoted, write_whole,
+};
 use crate::store::{PieceBranchRecord, PieceRecord, Store};
 
 /// Columns of `parameter_branches.csv`.
@@ -31,19 +33,21 @@ pub const PARAMETER_COLUMNS: [&str; 18] = [
     "event",
 ];
 
-/// Writes `parameter_branches.csv` with `parameter_events.csv`, and `curves.csv`, into a folder, each only if there is something in it.
+/// Writes `parameter_branches.csv` with `parameter_events.csv` and `parameter_ends.csv`, and `curves.csv` with `curve_ends.csv`, into a folder, each only if there is something in it.
 ///
-/// `curves.csv` has a further column `of` in front, which says what the curve is of.
+/// Tables of curves have a further column `of` in front, which says what the curve is of.
 pub(crate) fn export_varied(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {
     let pieces = store.pieces()?;
     let of_kind = |curves: bool| -> Vec<&PieceRecord> {
         pieces.iter().filter(|piece| piece.is_curve == curves && !piece.branches.is_empty()).collect()
     };
     let (branches, curves) = (of_kind(false), of_kind(true));
-    let tables: [(&str, &[&PieceRecord], TableWriter); 3] = [
+    let tables: [(&str, &[&PieceRecord], TableWriter); 5] = [
         ("parameter_branches.csv", &branches, write_rows),
         ("parameter_events.csv", &branches, write_parameter_events),
+        ("parameter_ends.csv", &branches, write_varied_ends),
         ("curves.csv", &curves, write_rows),
+        ("curve_ends.csv", &curves, write_varied_ends),
     ];
     let mut files = Vec::new();
     for (name, pieces, write) in tables {

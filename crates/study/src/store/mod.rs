@@ -45,7 +45,9 @@ pub use schema::SCHEMA_VERSION;
 pub use settled::SettledMotion;
 pub use simulated::{SimulatedChunk, SimulatedContact, SimulatedTouch};
 pub use simulation_layout::SimulationLayout;
-pub use varied::{Piece, PieceBranchRecord, PieceRecord, StoredVariedRow, VariedBranch, VariedRow};
+pub use varied::{
+    Piece, PieceBranchRecord, PieceRecord, StoredVariedOrbit, StoredVariedRow, VariedBranch, VariedRow,
+};
 pub(crate) use write::{Continuation, Memory};
 
 use crate::file::StudyFile;

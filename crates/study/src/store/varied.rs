@@ -145,6 +145,19 @@ pub struct StoredVariedRow {
     pub event: String,
 }
 
+/// Where the orbit of a stored row begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredVariedOrbit {
+    /// Value of the parameter.
+    pub parameter: f64,
+    /// Excitation frequency [Hz].
+    pub frequency_hz: f64,
+    /// Phase at which the orbit is cut [cycles].
+    pub phase: f64,
+    /// The state there, `[q; q']`.
+    pub state: Vec<f64>,
+}
+
 impl Store {
     /// Whether a piece is stored.
     ///
@@ -265,6 +278,33 @@ impl Store {
             })
         })?;
         Ok(branches.collect::<Result<_, _>>()?)
+    }
+
+    /// The orbit of a row of a branch of a piece.
+    ///
+    /// # Errors
+    /// The database refuses, or has no such row, or its nodes are damaged.
+    pub fn varied_orbit(
+        &self,
+        (piece, branch): (u32, u32),
+        place: u32,
+    ) -> Result<StoredVariedOrbit, StoreError> {
+        let select =
+            "SELECT parameter, frequency_hz, phase_cycles, segments * state_length, state_length, nodes
+            FROM piece_row WHERE piece = ?1 AND branch = ?2 AND place = ?3";
+        let (orbit, entries, length, nodes) =
+            self.connection.query_row(select, [piece, branch, place], |row| {
+                let orbit = StoredVariedOrbit {
+                    parameter: row.get(0)?,
+                    frequency_hz: row.get(1)?,
+                    phase: row.get(2)?,
+                    state: Vec::new(),
+                };
+                Ok((orbit, row.get::<_, u32>(3)?, row.get::<_, u32>(4)?, row.get::<_, Vec<u8>>(5)?))
+            })?;
+        let mut state = blob::unpack("nodes", &nodes, entries as usize)?;
+        state.truncate(length as usize);
+        Ok(StoredVariedOrbit { state, ..orbit })
     }
 
     /// Hands over the rows of a branch of a piece.

@@ -1,0 +1,176 @@
+//! Curves of bifurcations beside grazings, and of grazings from both sides, with the real command.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use std::fs;
+
+use common::{Workshop, assert_success, stdout};
+
+const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
+
+/// A bilinear oscillator under a force, whose stop is a gap away.
+const BILINEAR: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "mass", mass_kg = 1.0 }]
+spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.0 }]
+damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.1 }]
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 1.0
+frequency_hz = [0.05, 0.4]
+[[stop]]
+name = "stop"
+at = "mass"
+law = "linear"
+stiffness_n_m = 10.0
+side = "above"
+gap_m = 1.0
+[response]
+point = "mass"
+[search]
+frequencies = 0
+trials = 0
+"#;
+
+/// One whose stop is reached at rest, so that the size of the response is that of the force.
+const WITHOUT_A_GAP: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "mass", mass_kg = 0.864 }]
+spring = [{ between = ["mass", "ground"], stiffness_n_m = 2.033 }]
+damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.2 }]
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 0.613
+frequency_hz = [0.0598, 0.0603]
+[[stop]]
+name = "stop"
+at = "mass"
+law = "linear"
+stiffness_n_m = 6.29
+side = "below"
+gap_m = 0.0
+[response]
+point = "mass"
+[search]
+frequencies = 0
+trials = 0
+"#;
+
+fn curve(of: &str, near_hz: f64, parameter: &str, range: [f64; 2]) -> String {
+    format!("[[curve]]\nof = \"{of}\"\nnear_hz = {near_hz}\nparameter = \"{parameter}\"\nrange = {range:?}\n")
+}
+
+/// Runs the study and exports it.
+fn results(study: &str) -> Workshop {
+    let workshop = Workshop::with(study);
+    assert_success(&workshop.hammerbeam(&RUN));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    workshop
+}
+
+/// The columns of that name of an exported table.
+fn columns<const N: usize>(workshop: &Workshop, table: &str, names: [&str; N]) -> Vec<[String; N]> {
+    let text = fs::read_to_string(workshop.path(&format!("results/export/{table}"))).unwrap();
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let places = names.map(|name| header.iter().position(|column| *column == name).unwrap());
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        places.map(|place| cells[place].to_owned())
+    };
+    lines.map(row).collect()
+}
+
+/// On the way the depth of a contact becomes smaller than the steps of differences: motions that barely touch took thousands of steps once, with derivatives by a parameter of their stop, and the curves ended.
+#[test]
+fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
+    let curve = |of, near_hz| curve(of, near_hz, "stop.stop.stiffness_n_m", [2.0, 60.0]);
+    let workshop = results(&format!("{BILINEAR}{}{}", curve("fold", 0.0990914), curve("flip", 0.082927)));
+    let ends = columns(&workshop, "curve_ends.csv", ["of", "side", "parameter", "message", "state"]);
+    assert_eq!(ends.len(), 4);
+    for [of, side, parameter, message, state] in ends {
+        assert_eq!(message, "end of the range of the parameter", "{of}, {side}");
+        // Both curves turn at the least stiffness that has such points.
+        assert_eq!(parameter, "60.0", "{of}, {side}");
+        assert_eq!(state.split(' ').count(), 2);
+    }
+}
+
+/// A contact that is closed, opens for an instant and closes: without a gap the motion is proportional to the force, so the curve over it is a straight line.
+#[test]
+fn a_grazing_from_inside_is_followed() {
+    let curve = curve("grazing", 0.06005, "excitation.amplitude_n", [0.1, 2.5]);
+    let workshop = results(&format!("{WITHOUT_A_GAP}{curve}"));
+    let events = columns(&workshop, "events.csv", ["event", "frequency_hz"]);
+    let [[_, grazing]] = &events.iter().filter(|row| row[0] == "grazing").collect::<Vec<_>>()[..] else {
+        panic!("{events:?}")
+    };
+    let rows = columns(&workshop, "curves.csv", ["parameter", "frequency_hz", "max_abs_displacement_m"]);
+    let rows: Vec<[f64; 3]> =
+        rows.iter().map(|row| row.each_ref().map(|cell| cell.parse().unwrap())).collect();
+    let [first, last] = [rows[0], rows[rows.len() - 1]];
+    assert_eq!([first[0], last[0]], [0.1, 2.5]);
+    let grazing: f64 = grazing.parse().unwrap();
+    for [force, frequency_hz, displacement] in rows {
+        assert!((frequency_hz / grazing - 1.0).abs() < 1e-8, "{force} N: {frequency_hz} Hz, {grazing} Hz");
+        assert!(
+            (displacement / force * first[0] / first[2] - 1.0).abs() < 1e-8,
+            "{force} N: {displacement} m"
+        );
+    }
+}
+
+/// A Neimark-Sacker point 2e-5 Hz from a grazing, behind which multipliers go like the root of the distance: its curve over the damping reaches the end of the range of frequency on one side and that of the damping on the other, in
+/// steps of its own bend and not of that distance (18 000 rows once).
+#[test]
+fn a_curve_beside_a_grazing_goes_on_in_long_steps() {
+    let study = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 1.0 }, { name = "b", mass_kg = 0.5 }, { name = "c", mass_kg = 0.25 }]
+spring = [
+    { between = ["a", "ground"], stiffness_n_m = 2000.0 },
+    { between = ["a", "b"], stiffness_n_m = 1500.0 },
+    { between = ["b", "c"], stiffness_n_m = 800.0 },
+]
+[damping]
+modal_ratio = 0.02
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 6.0
+frequency_hz = [3.6, 4.6]
+[[stop]]
+name = "floor"
+at = "c"
+law = "linear"
+stiffness_n_m = 2.0e4
+side = "below"
+gap_m = 0.004
+[response]
+point = "c"
+period_multiples = [1]
+[search]
+frequencies = 12
+trials = 0
+[[curve]]
+of = "neimark-sacker"
+near_hz = 4.504
+parameter = "damping.modal_ratio"
+range = [0.005, 0.1]
+"#;
+    let workshop = Workshop::with(study);
+    let found = workshop.hammerbeam(&RUN);
+    assert_success(&found);
+    let text = stdout(&found);
+    let curve = text.split("neimark-sacker curve").nth(1).unwrap_or_else(|| panic!("no curve: {text}"));
+    let rows: u64 = curve.split(" solutions").next().unwrap().rsplit(' ').next().unwrap().parse().unwrap();
+    assert!(rows < 1000, "{curve}");
+    assert!(curve.contains("end of the frequency range"), "{curve}");
+    assert!(curve.contains("end of the range of the parameter"), "{curve}");
+}
