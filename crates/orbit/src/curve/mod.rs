@@ -29,7 +29,7 @@
 //!
 //! # Limits
 //! All matrices are dense and the orbit keeps its segments and its units. Grazing of a stop without a single gap (preloaded, or two-sided with two gaps, or a rigid one that holds the structure at rest) is followed with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
-//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply, and where thousands of steps lead nowhere, as where a fold has met a grazing and lies within rounding of it: the place is not marked.
+//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply. Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located.
 
 mod bordered;
 mod condition;

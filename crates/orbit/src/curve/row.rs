@@ -115,7 +115,6 @@ pub struct CurveRow {
 
 /// Why a curve ended.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub enum CurveEnd {
     /// End of the range of the second parameter.
     RangeEnd,
@@ -125,6 +124,8 @@ pub enum CurveEnd {
     Closed,
     /// A Neimark-Sacker curve ends at a resonance 1:1 or 1:2.
     Resonance,
+    /// The bifurcation has met a grazing: so near to one, where matrices jump or go like the root of the distance, it could not be followed further, or rounding did not tell them apart.
+    Grazing,
     /// The budget of rows is used up.
     Budget,
     /// It could not be followed further.

@@ -13,10 +13,12 @@ use crate::state_scale::StateScale;
 
 /// Step of central differences along a vector, relative to the orbit.
 const DIFFERENCE: f64 = 1e-4;
-/// Shortest such step: rounding of the matrices, 1e-11, is a thousandth of the quotient then where that is as large as they are.
-const LEAST_DIFFERENCE: f64 = 1e-8;
+/// Shortest such step.
+const LEAST_DIFFERENCE: f64 = 1e-11;
 /// Part of a difference that its second difference may be. Beside a grazing at the distance D matrices go like `sqrt(D)`: then the step is `4 BEND D`, and the quotient off by `2 BEND^2`.
-const BEND: f64 = 0.01;
+const BEND: f64 = 0.001;
+/// Second difference, relative to the matrix, that is rounding.
+const ROUNDING: f64 = 1e-10;
 /// By how much a step is shortened at most at once, and which change of the quotients by that is none.
 const SHORTENING: f64 = 0.05;
 const SAME: f64 = 2.0 * BEND * BEND;
@@ -70,6 +72,8 @@ pub(super) struct Shooting {
     /// `A_k`, the products of the first k matrices, `k = 0..=m`.
     pub products: Vec<Vec<f64>>,
     pub touches: Vec<u32>,
+    /// About how far the orbit is from grazing a contact, relative to its size, as far as the last differences have seen it: 0 if they were bent down to the shortest step, infinite if the longest served.
+    pub grazing_distance: f64,
     /// Where the orbit touches a contact at its ends.
     pub passing: Option<Passing>,
 }
@@ -159,6 +163,7 @@ impl Shooting {
         place: &Place,
         directions: &[Vec<f64>],
     ) -> Result<Vec<Segment>, MotionError> {
+        self.grazing_distance = f64::INFINITY;
         let mut found = Vec::new();
         for (k, direction) in directions.iter().enumerate() {
             let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
@@ -167,7 +172,12 @@ impl Shooting {
             loop {
                 let (quotients, bend) = self.quotients(k, place, direction, step / length)?;
                 let same = |before: &Segment| largest_change(before, &quotients) <= SAME;
-                if bend <= BEND || step <= LEAST_DIFFERENCE || before.as_ref().is_some_and(same) {
+                let is_bent = bend > BEND && !before.as_ref().is_some_and(same);
+                if !is_bent || step <= LEAST_DIFFERENCE {
+                    let distance = if is_bent { 0.0 } else { step / (4.0 * BEND) };
+                    if step < DIFFERENCE {
+                        self.grazing_distance = self.grazing_distance.min(distance);
+                    }
                     found.push(quotients);
                     break;
                 }
@@ -207,7 +217,8 @@ impl Shooting {
         };
         let first = 2.0 * step * largest(&quotients.matrix);
         let second = second.fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        Ok((quotients, second / first.max(f64::MIN_POSITIVE)))
+        let rounding = ROUNDING * largest(&self.segments[segment].matrix);
+        Ok((quotients, (second - rounding).max(0.0) / first.max(f64::MIN_POSITIVE)))
     }
 
     /// `v_k = A_k v`, the vector carried to the node of each segment.

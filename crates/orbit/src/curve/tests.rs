@@ -56,6 +56,7 @@ fn shooting(parameter: Parameter) -> Shooting {
         segments: Vec::new(),
         products: Vec::new(),
         touches: vec![0; 1],
+        grazing_distance: f64::INFINITY,
         passing: None,
     }
 }

@@ -17,6 +17,11 @@ use crate::{
     solve::integrator,
 };
 
+/// Rows at a grazing after which the curve has met it.
+const ROWS_AT_GRAZING: u32 = 10;
+/// A curve that cannot be followed further this near to a grazing has met it.
+const AT_GRAZING: f64 = 1e-6;
+
 /// One side of a curve.
 #[derive(Debug)]
 pub struct CurveWalk {
@@ -24,6 +29,10 @@ pub struct CurveWalk {
     pub(super) follower: Follower,
     settings: CurveSettings,
     kind: CurveKind,
+    /// How far the last orbit is from grazing a contact.
+    grazing_distance: f64,
+    /// Rows one after the other whose orbits graze one, to rounding.
+    rows_at_grazing: u32,
     end: Option<CurveEnd>,
 }
 
@@ -56,6 +65,7 @@ impl CurveWalk {
             segments: Vec::new(),
             products: Vec::new(),
             touches: vec![0; contacts],
+            grazing_distance: f64::INFINITY,
             passing: None,
         };
         let none = OrbitError::NoEvent { frequency_hz: start.frequency_hz };
@@ -83,7 +93,15 @@ impl CurveWalk {
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
-        Ok(Self { problem, follower, settings: *settings, kind, end: None })
+        Ok(Self {
+            problem,
+            follower,
+            settings: *settings,
+            kind,
+            grazing_distance: f64::INFINITY,
+            rows_at_grazing: 0,
+            end: None,
+        })
     }
 
     /// The row of the start, to be taken before the first step.
@@ -114,6 +132,7 @@ impl CurveWalk {
             StopReason::RangeEnd => CurveEnd::RangeEnd,
             StopReason::Closed => CurveEnd::Closed,
             StopReason::Budget => CurveEnd::Budget,
+            _ if self.grazing_distance < AT_GRAZING => CurveEnd::Grazing,
             other => CurveEnd::Stopped {
                 parameter: self.follower.current().parameter(),
                 message: match self.problem.failure() {
@@ -133,6 +152,10 @@ impl CurveWalk {
         if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             self.end = Some(CurveEnd::Resonance);
         }
+        self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
+        if self.rows_at_grazing >= ROWS_AT_GRAZING {
+            self.end = Some(CurveEnd::Grazing);
+        }
         Ok(row)
     }
 
@@ -145,6 +168,7 @@ impl CurveWalk {
             let none = OrbitError::NoEvent { frequency_hz: place.frequency_hz };
             return Err(failure.map_or(none, OrbitError::Motion));
         }
+        self.grazing_distance = self.problem.shooting.grazing_distance;
         let residual = self.problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
         let events = CurveEvents::of(self.kind, current.events);
         let shooting = &mut self.problem.shooting;

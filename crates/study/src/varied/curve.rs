@@ -1,8 +1,8 @@
 //! Curves of bifurcations, from the events of stored branches.
 
 use hammerbeam_orbit::{
-    CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, Events, LocatedEvent, OrbitError, PathError,
-    PeriodicSolution, Side,
+    CurveEnd, CurveKind, CurveRow, CurveSettings, CurveWalk, EventStatus, Events, LocatedEvent, OrbitError,
+    PathError, PeriodicSolution, Side,
 };
 
 use super::{
@@ -25,11 +25,18 @@ pub(super) fn start(
     store: &Store,
     curve: &Curve,
 ) -> Result<Result<(PeriodicSolution, LocatedEvent), String>, StoreError> {
-    let none = || {
+    let Some((solution, event)) = nearest_event(store, curve)? else {
         let (multiple, of) = (curve.period_multiple, curve.of.name());
-        format!("no branch of period multiple {multiple} has an event \"{of}\" to begin at")
+        return Ok(Err(format!("no branch of period multiple {multiple} has an event \"{of}\" to begin at")));
     };
-    Ok(nearest_event(store, curve)?.ok_or_else(none))
+    let is_corner = event.status == EventStatus::Bracketed && event.contact.is_some();
+    if is_corner && curve.of != CurveOf::Grazing {
+        let (of, hz) = (curve.of.name(), solution.frequency_hz);
+        return Ok(Err(format!(
+            "the {of} nearest to it, at {hz} Hz, is a corner of the branch at a grazing, where multipliers jump: ask for the curve of the grazing"
+        )));
+    }
+    Ok(Ok((solution, event)))
 }
 
 /// The curve through that event.
@@ -165,10 +172,10 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
         CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
         CurveEnd::Closed => "the curve came back to its start".to_owned(),
         CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
+        CurveEnd::Grazing => "it has met a grazing".to_owned(),
         CurveEnd::Budget => "the budget of solutions is used up".to_owned(),
         CurveEnd::Stopped { parameter: value, message } => {
             format!("ended early at {}: {message}", named(*value, curve, parameter))
         }
-        other => format!("{other:?}"),
     }
 }
