@@ -35,7 +35,7 @@ impl Square {
 ///
 /// # Errors
 /// [`NoEigenvalues`] if the matrix is not finite or the iteration does not converge.
-pub(crate) fn eigenvalues(size: usize, by_rows: &[f64]) -> Result<Vec<[f64; 2]>, NoEigenvalues> {
+pub fn eigenvalues(size: usize, by_rows: &[f64]) -> Result<Vec<[f64; 2]>, NoEigenvalues> {
     if !by_rows.iter().all(|value| value.is_finite()) {
         return Err(NoEigenvalues);
     }

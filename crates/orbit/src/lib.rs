@@ -105,7 +105,7 @@ mod walk;
 
 pub use continuation_parameter::ContinuationParameter;
 pub use curve::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings, CurveWalk};
-pub use eigenvalues::NoEigenvalues;
+pub use eigenvalues::{NoEigenvalues, eigenvalues};
 pub use error::OrbitError;
 pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};

@@ -93,7 +93,7 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
     })
 }
 
-/// The multiplier that makes an event, and its distance from its place; none at mere grazing.
+/// The multiplier that makes an event, and its distance from its place, squared at a mere branch point; none at mere grazing.
 fn critical(events: hammerbeam_path::Events, multipliers: &[[f64; 2]]) -> (Option<[f64; 2]>, f64) {
     let distance: fn(&[f64; 2]) -> f64 = if events.zeros & 1 != 0 {
         |[re, im]| (1.0 + re).hypot(*im)
@@ -105,10 +105,9 @@ fn critical(events: hammerbeam_path::Events, multipliers: &[[f64; 2]]) -> (Optio
         return (None, 0.0);
     };
     let nearest = multipliers.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+    let off = nearest.map_or(f64::INFINITY, distance);
     // A branch point is known to the root of the tolerance, and its multiplier no better.
-    let off =
-        if events.zeros == 0 && events.branch_point { 0.0 } else { nearest.map_or(f64::INFINITY, distance) };
-    (nearest.copied(), off)
+    (nearest.copied(), if events.zeros == 0 && events.branch_point { off * off } else { off })
 }
 
 /// Interval of the frequency, of this size, within which the event lies.

@@ -2,7 +2,8 @@
 //!
 //! Runs each study once with one thread and once with all cores and prints solutions per second; then, on a sample of the stored solutions, what
 //! one of each kind of work costs (an orbit, its sensitivities, its maxima), and the shares of flight, contact, linear algebra and storage in the time
-//! of a solution. Flight is what the parts of an orbit without contact take on their own, contact the rest of an evaluation. With `-- --test` only a small study runs.
+//! of a solution. Flight is what the parts of an orbit without contact take on their own, without what beginning and ending them takes, contact the rest of an evaluation; linear algebra is a bordered system factorised and solved
+//! twice with each evaluation and the multipliers with each solution; what is left are maxima and the path's own checks. With `-- --test` only a small study runs.
 #![allow(clippy::unwrap_used, reason = "a benchmark ends where its study is wrong")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
@@ -12,7 +13,8 @@ use hammerbeam_motion::{
     Stretch,
     exact::{ExactIntegrator, ExactSettings},
 };
-use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side};
+use hammerbeam_orbit::{BranchWalk, OrbitSettings, PeriodicSolution, Side, eigenvalues};
+use hammerbeam_path::DenseLu;
 use hammerbeam_study::{
     Model, OrbitSolver, Store, StudyFile,
     run::{Plan, Quiet, run},
@@ -82,6 +84,10 @@ struct Costs {
     /// and what of it falls to free flight.
     flight: f64,
     maxima: f64,
+    /// A bordered system, factorised and solved twice,
+    system: f64,
+    /// and the multipliers of a monodromy matrix.
+    multipliers: f64,
     /// A solution of a walk, with everything but storage,
     walked: f64,
     /// and the evaluations that it takes.
@@ -90,13 +96,14 @@ struct Costs {
 }
 
 impl Costs {
-    /// Shares of a solution's time, in percent: flight, contact, what is done with the evaluations (maxima, linear algebra, checks of the path), storage.
-    fn shares(&self) -> [f64; 4] {
+    /// Shares of a solution's time, in percent: flight, contact, linear algebra, the rest (maxima, checks of the path), storage.
+    fn shares(&self) -> [f64; 5] {
         let flight = self.evaluations * self.flight;
         let contact = self.evaluations * (self.evaluation - self.flight);
-        let others = self.walked - flight - contact;
+        let algebra = self.evaluations * self.system + self.multipliers;
+        let others = self.walked - flight - contact - algebra;
         let whole = self.walked + self.storage;
-        [flight, contact, others, self.storage].map(|part| 100.0 * part / whole)
+        [flight, contact, algebra, others, self.storage].map(|part| 100.0 * part / whole)
     }
 }
 
@@ -112,9 +119,9 @@ fn print_costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) {
         microseconds(costs.flight),
         microseconds(costs.maxima)
     );
-    let [flight, contact, others, storage] = costs.shares();
+    let [flight, contact, algebra, others, storage] = costs.shares();
     println!(
-        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, maxima, linear algebra and path {others:.0} %, storage {storage:.0} %",
+        "  a solution of a walk, {:.2} evaluations: {:.0} us: flight {flight:.0} %, contact {contact:.0} %, linear algebra {algebra:.1} %, maxima and path {others:.0} %, storage {storage:.0} %",
         costs.evaluations,
         microseconds(costs.walked + costs.storage)
     );
@@ -137,16 +144,60 @@ fn costs(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) -> Costs 
     let evaluation = time(&mut |integrator, index| {
         black_box(integrator.flow(&stretch(&orbits[index]), &orbits[index].nodes[0]).unwrap());
     });
-    let flight = time(&mut |integrator, index| {
-        for (stretch, state) in &flights[index] {
-            black_box(integrator.flow(stretch, state).unwrap());
-        }
-    });
+    let mut flights_over = |part: f64| {
+        time(&mut |integrator, index| {
+            for (stretch, state) in &flights[index] {
+                let end = stretch.start + part * (stretch.end - stretch.start);
+                black_box(integrator.flow(&Stretch { end, ..*stretch }, state).unwrap());
+            }
+        })
+    };
+    // Beginning and ending a stretch is no flight: an evaluation does that once.
+    let flight = (flights_over(1.0) - flights_over(1e-6)).max(0.0);
     let maxima = time(&mut |integrator, index| {
         black_box(integrator.observe(&[(stretch(&orbits[index]), &orbits[index].nodes[0])]).unwrap());
     });
+    let matrices: Vec<Vec<f64>> = orbits.iter().map(|orbit| monodromy(&mut integrator, orbit)).collect();
+    let [system, multipliers] = linear_algebra(&matrices);
     let (walked, evaluations) = walk(model, file, orbits);
-    Costs { state, evaluation, flight, maxima, walked, evaluations, storage: store(file, orbits) }
+    let storage = store(file, orbits);
+    Costs { state, evaluation, flight, maxima, system, multipliers, walked, evaluations, storage }
+}
+
+/// Monodromy matrix of an orbit, by rows.
+fn monodromy(integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Vec<f64> {
+    let by_state = integrator.flow(&stretch(orbit), &orbit.nodes[0]).unwrap().by_state;
+    let size = by_state.nrows();
+    (0..size * size).map(|k| by_state[(k / size, k % size)]).collect()
+}
+
+/// Times [s] of a bordered system of `A - I`, factorised and solved twice, and of the eigenvalues of `A`, on average over these.
+fn linear_algebra(matrices: &[Vec<f64>]) -> [f64; 2] {
+    let count = matrices.len().max(1) as f64;
+    let mut lu = DenseLu::new();
+    let begun = Instant::now();
+    for matrix in matrices {
+        let size = matrix.len().isqrt();
+        // One row and one column more, as for the frequency.
+        let entry = |i: usize, j: usize| match (i < size, j < size) {
+            (true, true) => matrix[i * size + j] - f64::from(i == j),
+            _ => 1.0 / (1 + i + j) as f64,
+        };
+        let bordered: Vec<f64> =
+            (0..(size + 1) * (size + 1)).map(|k| entry(k / (size + 1), k % (size + 1))).collect();
+        lu.factorise(size + 1, &bordered).unwrap();
+        for _ in 0..2 {
+            let mut right_hand_side = vec![1.0; size + 1];
+            lu.solve(&mut right_hand_side);
+            black_box(right_hand_side);
+        }
+    }
+    let system = begun.elapsed().as_secs_f64() / count;
+    let begun = Instant::now();
+    for matrix in matrices {
+        black_box(eigenvalues(matrix.len().isqrt(), matrix).unwrap());
+    }
+    [system, begun.elapsed().as_secs_f64() / count]
 }
 
 fn stretch(orbit: &PeriodicSolution) -> Stretch {

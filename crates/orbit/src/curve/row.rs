@@ -126,6 +126,13 @@ pub enum CurveEnd {
     Resonance,
     /// The bifurcation has met a grazing: so near to one, where matrices jump or go like the root of the distance, it could not be followed further, or rounding did not tell them apart.
     Grazing,
+    /// Thousands of rows did not get anywhere.
+    Crawls {
+        /// Value of the second parameter at the last row, in its unit.
+        parameter: f64,
+        /// So many rows.
+        rows: u32,
+    },
     /// The budget of rows is used up.
     Budget,
     /// It could not be followed further.

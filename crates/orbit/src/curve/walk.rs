@@ -22,6 +22,10 @@ const ROWS_AT_GRAZING: u32 = 10;
 /// A curve that cannot be followed further this near to a grazing has met it.
 const AT_GRAZING: f64 = 1e-6;
 
+/// So many rows that have got no further than this, in hundredths of the ranges, crawl: two hundred go over a whole range else.
+const MANY_ROWS: u32 = 2000;
+const CRAWLING: f64 = 0.5;
+
 /// One side of a curve.
 #[derive(Debug)]
 pub struct CurveWalk {
@@ -33,6 +37,8 @@ pub struct CurveWalk {
     grazing_distance: f64,
     /// Rows one after the other whose orbits graze one, to rounding.
     rows_at_grazing: u32,
+    /// Rows since the walk was last asked whether it crawls, and the arc length then.
+    since: (u32, f64),
     end: Option<CurveEnd>,
 }
 
@@ -100,6 +106,7 @@ impl CurveWalk {
             kind,
             grazing_distance: f64::INFINITY,
             rows_at_grazing: 0,
+            since: (0, 0.0),
             end: None,
         })
     }
@@ -156,7 +163,22 @@ impl CurveWalk {
         if self.rows_at_grazing >= ROWS_AT_GRAZING {
             self.end = Some(CurveEnd::Grazing);
         }
+        if self.crawls() {
+            self.end = Some(CurveEnd::Crawls { parameter: row.parameter, rows: MANY_ROWS });
+        }
         Ok(row)
+    }
+
+    /// Whether the last rows led nowhere, asked once in [`MANY_ROWS`].
+    fn crawls(&mut self) -> bool {
+        self.since.0 += 1;
+        if self.since.0 < MANY_ROWS {
+            return false;
+        }
+        let arc_length = self.follower.current().arc_length;
+        let way = arc_length - self.since.1;
+        self.since = (0, arc_length);
+        way < CRAWLING
     }
 
     /// The row of the present point; the condition is adapted to it.

@@ -173,6 +173,9 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
         CurveEnd::Closed => "the curve came back to its start".to_owned(),
         CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
         CurveEnd::Grazing => "it has met a grazing".to_owned(),
+        CurveEnd::Crawls { parameter: value, rows } => {
+            format!("ended early at {}: the last {rows} rows led nowhere", named(*value, curve, parameter))
+        }
         CurveEnd::Budget => "the budget of solutions is used up".to_owned(),
         CurveEnd::Stopped { parameter: value, message } => {
             format!("ended early at {}: {message}", named(*value, curve, parameter))
