@@ -40,6 +40,14 @@ pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
     signed(pairs().map(|square| (1.0 - square).abs()).fold(1.0, f64::min), count)
 }
 
+/// Whether the complex pair nearest to the unit circle is nearer to the real axis: [`neimark_sacker`] jumps there, since the pair becomes two real multipliers, and does not vanish.
+pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
+    let off_circle = |[re, im]: &[f64; 2]| (1.0 - re.hypot(*im)).abs();
+    let pairs = multipliers.iter().filter(|[_, im]| *im > 0.0);
+    let nearest = pairs.min_by(|a, b| off_circle(a).total_cmp(&off_circle(b)));
+    nearest.is_some_and(|pair| pair[1] < off_circle(pair))
+}
+
 /// How many multipliers lie outside the circle, without those that are critical at these events of a path with the test functions [`flip`] and
 /// [`neimark_sacker`] in this order.
 pub(crate) fn outside(multipliers: &[[f64; 2]], events: Events) -> Outside {
@@ -95,6 +103,9 @@ mod tests {
         let on = neimark_sacker(&[[0.6, 0.8], [0.6, -0.8]]).value;
         assert!(on.abs() < 1e-15, "{on}");
         assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue { value: -1.0, count: 1 });
+        assert!(pair_turns_real(&[[1.016, 5e-4], [1.016, -5e-4], [0.2, 0.0]]));
+        assert!(!pair_turns_real(&[[0.9999, 0.0141], [0.9999, -0.0141], [0.01, 0.0]]));
+        assert!(!pair_turns_real(&[[4.0, 0.0], [0.25, 0.0]]), "there is no pair");
         // A real pair with product one is a neutral saddle, which is no bifurcation.
         assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue { value: 1.0, count: 0 });
     }

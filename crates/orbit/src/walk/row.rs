@@ -6,6 +6,7 @@ use super::{BranchWalk, settings::hertz_per_norm};
 use crate::{
     BranchRow, Crossing, Events, OrbitError, located,
     solve::{evaluate, solution},
+    stability,
 };
 
 impl BranchWalk {
@@ -34,7 +35,11 @@ impl BranchWalk {
 
     /// The row of the point at which the problem was evaluated last.
     pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
-        let current = self.follower.current().clone();
+        let mut current = self.follower.current().clone();
+        let has_pair = current.events.zeros & 2 != 0;
+        if has_pair && stability::pair_turns_real(self.problem.multipliers().unwrap_or_default()) {
+            current.events.zeros &= !2;
+        }
         let settings = self.follower.settings();
         // Beside a rigid stop speeds that the tolerance leaves are no longer told from none.
         let at_corners =
