@@ -58,6 +58,13 @@ impl Aim {
         })
     }
 
+    /// The same, knowing that its event was located not to come before the end of the step at `length`, which is that of the stretch.
+    pub(super) fn refuted(&self, length: f64) -> Self {
+        let mut aim = self.clone();
+        aim.rivals.extend(self.event.map(|event| Rival { event, sought: self.length, located: length }));
+        aim
+    }
+
     /// To an event that comes before `located`, with which the step ends at `length`.
     pub(super) fn rather(&self, event: Event, time: f64, located: Option<Event>, length: f64) -> Self {
         let (mut rivals, sought) = (self.rivals.clone(), self.length);

@@ -185,6 +185,9 @@ impl ExactIntegrator {
             }
             return free(if event.is_some() { 0.5 * time } else { shorter.min(0.5 * time) });
         }
+        // One that was located behind the stretch is not looked for again where the search for it went out from.
+        let refuted = (aim.event.is_some() && !at_event).then(|| aim.refuted(length));
+        let aim = refuted.as_ref().unwrap_or(aim);
         let Ok(earlier) = self.earlier_event(run, aim, (event, length)) else {
             // Undecided: in a shorter step the search goes further.
             return free(0.5 * length);

@@ -17,7 +17,8 @@
 //! where T is also that of what held stops press with (`pressing.rs`),
 //! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
 //! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own. Before the first contact the motion does not depend on its stiffness, so there that column has no other scale than
-//! what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the rounding `e` of a displacement. Of its tail [`ROUNDING`] times that is taken off.
+//! what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times the largest such part of the
+//! elements that act is taken off.
 
 use std::sync::Arc;
 
@@ -231,10 +232,11 @@ impl ExactIntegrator {
         let (mut errors, mut norm) = (Errors::default(), f64::MIN_POSITIVE);
         // By the frequency and by a parameter.
         let mut further = [Errors::default(); 2];
+        let elements = 0..self.step.active.len();
+        let rounding = ROUNDING * elements.map(|a| self.relative_rounding(run, a)).fold(0.0, f64::max);
         for (a, &element) in self.step.active.iter().enumerate() {
             let response = self.response(element);
             let impulse = self.step.length * response.mobility.sqrt();
-            let rounding = ROUNDING * self.relative_rounding(run, a);
             for (column, found) in self.step.sensitivity_tails(a, sensitivity).iter().enumerate() {
                 let size = found.velocity + impulse * found.largest;
                 let mut highest = found.tail.highest;

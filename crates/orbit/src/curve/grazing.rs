@@ -4,7 +4,7 @@
 //! `r''/f` as far as `u` has them; by the frequency those of `s u` and `s u'` at a fixed phase; by the excitation scale `a` those of `u` over `a`; by the gap `-1` in the first.
 //!
 //! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its penetration is. A law whose force depends on the velocity opens
-//! where its force vanishes, with penetration: the touch from inside is none of its grazings.
+//! where its force vanishes, with penetration: the touch from inside is none of its grazings. A rigid stop is never closed for a while without holding.
 
 use hammerbeam_motion::{Parameter, Stretch};
 
@@ -129,7 +129,7 @@ impl Touch {
             .map(|(phase, state)| self.clearance(shooting, frequency_hz, *phase, state))
             .collect();
         let element = &shooting.integrator.system().elements()[self.element];
-        let opens_at_its_level = !element.law.depends_on_velocity();
+        let opens_at_its_level = !element.law.depends_on_velocity() && element.law.rigid().is_none();
         let entries = element.shape.iter().zip(shooting.scale.values());
         let farthest = FARTHEST * entries.map(|(shape, scale)| (shape * scale).abs()).sum::<f64>();
         let (mut turns, mut from_inside) = (Vec::new(), Vec::new());

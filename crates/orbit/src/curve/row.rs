@@ -124,8 +124,13 @@ pub enum CurveEnd {
     Closed,
     /// A Neimark-Sacker curve ends at a resonance 1:1 or 1:2.
     Resonance,
-    /// The bifurcation has met a grazing: so near to one, where matrices jump or go like the root of the distance, it could not be followed further, or rounding did not tell them apart.
-    Grazing,
+    /// The bifurcation has met a grazing, where matrices jump or go like the root of the distance: no step led on, or rows one after the other were at it as far as can be told.
+    Grazing {
+        /// Value of the second parameter at the last row, in its unit.
+        parameter: f64,
+        /// Why no step led on.
+        cause: Option<String>,
+    },
     /// Thousands of rows did not get anywhere.
     Crawls {
         /// Value of the second parameter at the last row, in its unit.

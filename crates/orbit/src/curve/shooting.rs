@@ -13,12 +13,14 @@ use crate::state_scale::StateScale;
 
 /// Step of central differences along a vector, relative to the orbit.
 const DIFFERENCE: f64 = 1e-4;
-/// Shortest such step.
+/// Shortest such step: there rounding outweighs what is left of the bend in general ([`Quotients::error`]).
 const LEAST_DIFFERENCE: f64 = 1e-11;
-/// Part of a difference that its second difference may be. Beside a grazing at the distance D matrices go like `sqrt(D)`: then the step is `4 BEND D`, and the quotient off by `2 BEND^2`.
+/// Part of a difference that its second difference may be. Beside a grazing at the distance D matrices go like `sqrt(D)`: then the bend of a step h is `h/(4 D)`, and the quotient off by twice its square.
 const BEND: f64 = 0.001;
-/// Second difference, relative to the matrix, that is rounding.
-const ROUNDING: f64 = 1e-10;
+/// A bend that is left at the shortest step and says that the orbit grazes, as far as can be told.
+const BREAK: f64 = 0.1;
+/// Rounding of a matrix, relative to its largest entry.
+const ROUNDING: f64 = 1e-11;
 /// By how much a step is shortened at most at once, and which change of the quotients by that is none.
 const SHORTENING: f64 = 0.05;
 const SAME: f64 = 2.0 * BEND * BEND;
@@ -59,6 +61,23 @@ impl Segment {
     }
 }
 
+/// Quotients of differences, and how good they are.
+#[derive(Debug)]
+struct Quotients {
+    segment: Segment,
+    /// Second difference of the matrix, relative to the first.
+    bend: f64,
+    /// Rounding of the matrix, relative to the first.
+    rounding: f64,
+}
+
+impl Quotients {
+    /// Relative error, about.
+    fn error(&self) -> f64 {
+        2.0 * self.bend * self.bend + self.rounding
+    }
+}
+
 /// The shooting equations.
 #[derive(Debug)]
 pub(super) struct Shooting {
@@ -72,7 +91,7 @@ pub(super) struct Shooting {
     /// `A_k`, the products of the first k matrices, `k = 0..=m`.
     pub products: Vec<Vec<f64>>,
     pub touches: Vec<u32>,
-    /// About how far the orbit is from grazing a contact, relative to its size, as far as the last differences have seen it: 0 if they were bent down to the shortest step, infinite if the longest served.
+    /// About how far the orbit is from grazing a contact, relative to its size, as far as the differences at the last evaluated place have seen it: 0 if one broke off at the shortest step, infinite if the longest served.
     pub grazing_distance: f64,
     /// Where the orbit touches a contact at its ends.
     pub passing: Option<Passing>,
@@ -140,6 +159,7 @@ impl Shooting {
     pub fn evaluate(&mut self, place: &Place) -> Result<(), MotionError> {
         self.set_parameter(place.value)?;
         let size = self.size();
+        self.grazing_distance = f64::INFINITY;
         self.touches.fill(0);
         self.segments.clear();
         let mut identity = vec![0.0; size * size];
@@ -163,39 +183,44 @@ impl Shooting {
         place: &Place,
         directions: &[Vec<f64>],
     ) -> Result<Vec<Segment>, MotionError> {
-        self.grazing_distance = f64::INFINITY;
-        let mut found = Vec::new();
-        for (k, direction) in directions.iter().enumerate() {
-            let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-            let mut step = DIFFERENCE;
-            let mut before: Option<Segment> = None;
-            loop {
-                let (quotients, bend) = self.quotients(k, place, direction, step / length)?;
-                let same = |before: &Segment| largest_change(before, &quotients) <= SAME;
-                let is_bent = bend > BEND && !before.as_ref().is_some_and(same);
-                if !is_bent || step <= LEAST_DIFFERENCE {
-                    let distance = if is_bent { 0.0 } else { step / (4.0 * BEND) };
-                    if step < DIFFERENCE {
-                        self.grazing_distance = self.grazing_distance.min(distance);
-                    }
-                    found.push(quotients);
-                    break;
-                }
-                step = (step * (BEND / bend).max(SHORTENING)).max(LEAST_DIFFERENCE);
-                before = Some(quotients);
-            }
-        }
-        Ok(found)
+        let by_segment = directions.iter().enumerate();
+        by_segment.map(|(k, direction)| self.difference(k, place, direction)).collect()
     }
 
-    /// Central quotients of differences along a direction at the node of a segment, and the second difference of its matrix relative to the first.
+    /// That of one segment, with a step that is shortened as long as the difference is bent and rounding allows it.
+    fn difference(&mut self, k: usize, place: &Place, direction: &[f64]) -> Result<Segment, MotionError> {
+        let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+        let mut step = DIFFERENCE;
+        let mut found = self.quotients(k, place, direction, step / length)?;
+        while found.bend > BEND && step > LEAST_DIFFERENCE {
+            let shorter = (step * (BEND / found.bend).max(SHORTENING)).max(LEAST_DIFFERENCE);
+            let next = self.quotients(k, place, direction, shorter / length)?;
+            let is_same = largest_change(&found.segment, &next.segment) <= SAME;
+            if next.error() < found.error() {
+                (found, step) = (next, shorter);
+            } else {
+                break;
+            }
+            if is_same {
+                return Ok(found.segment);
+            }
+        }
+        if step < DIFFERENCE {
+            let breaks = step == LEAST_DIFFERENCE && found.bend > BREAK;
+            let distance = if breaks { 0.0 } else { step / (4.0 * found.bend.max(BEND)) };
+            self.grazing_distance = self.grazing_distance.min(distance);
+        }
+        Ok(found.segment)
+    }
+
+    /// Central quotients of differences along a direction at the node of a segment.
     fn quotients(
         &mut self,
         segment: usize,
         place: &Place,
         direction: &[f64],
         step: f64,
-    ) -> Result<(Segment, f64), MotionError> {
+    ) -> Result<Quotients, MotionError> {
         let size = self.size();
         let node = &place.nodes[segment * size..(segment + 1) * size];
         let moved = |sign: f64| -> Vec<f64> {
@@ -206,8 +231,9 @@ impl Shooting {
         let quotient = |a: &[f64], b: &[f64]| -> Vec<f64> {
             a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect()
         };
+        let here = &self.segments[segment].matrix;
         let ends = above.matrix.iter().zip(&below.matrix);
-        let second = ends.zip(&self.segments[segment].matrix).map(|((a, b), at)| a - 2.0 * at + b);
+        let second = ends.zip(here).fold(0.0_f64, |most, ((a, b), at)| most.max((a - 2.0 * at + b).abs()));
         let quotients = Segment {
             end: Vec::new(),
             touches: Vec::new(),
@@ -215,10 +241,9 @@ impl Shooting {
             by_frequency: quotient(&above.by_frequency, &below.by_frequency),
             by_parameter: quotient(&above.by_parameter, &below.by_parameter),
         };
-        let first = 2.0 * step * largest(&quotients.matrix);
-        let second = second.fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        let rounding = ROUNDING * largest(&self.segments[segment].matrix);
-        Ok((quotients, (second - rounding).max(0.0) / first.max(f64::MIN_POSITIVE)))
+        let first = (2.0 * step * largest(&quotients.matrix)).max(f64::MIN_POSITIVE);
+        let rounding = ROUNDING * largest(here) / first;
+        Ok(Quotients { segment: quotients, bend: second / first, rounding })
     }
 
     /// `v_k = A_k v`, the vector carried to the node of each segment.

@@ -19,11 +19,11 @@ use crate::{
 
 /// Rows at a grazing after which the curve has met it.
 const ROWS_AT_GRAZING: u32 = 10;
-/// A curve that cannot be followed further this near to a grazing has met it.
+/// A curve that no step leads on from this near to a grazing has met it.
 const AT_GRAZING: f64 = 1e-6;
-
-/// So many rows that have got no further than this, in hundredths of the ranges, crawl: two hundred go over a whole range else.
+/// So many rows that have got no further than [`CRAWLING`] crawl: two hundred go over a whole range else.
 const MANY_ROWS: u32 = 2000;
+/// A way of next to nothing, in hundredths of the ranges.
 const CRAWLING: f64 = 0.5;
 
 /// One side of a curve.
@@ -99,12 +99,13 @@ impl CurveWalk {
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
+        let grazing_distance = problem.shooting.grazing_distance;
         Ok(Self {
             problem,
             follower,
             settings: *settings,
             kind,
-            grazing_distance: f64::INFINITY,
+            grazing_distance,
             rows_at_grazing: 0,
             since: (0, 0.0),
             end: None,
@@ -139,33 +140,42 @@ impl CurveWalk {
             StopReason::RangeEnd => CurveEnd::RangeEnd,
             StopReason::Closed => CurveEnd::Closed,
             StopReason::Budget => CurveEnd::Budget,
-            _ if self.grazing_distance < AT_GRAZING => CurveEnd::Grazing,
-            other => CurveEnd::Stopped {
-                parameter: self.follower.current().parameter(),
-                message: match self.problem.failure() {
+            other => {
+                let parameter = self.follower.current().parameter();
+                let message = match self.problem.failure() {
                     Some(failure) => format!("{other}: {failure}"),
                     None => other.to_string(),
-                },
-            },
+                };
+                let no_step = matches!(other, StopReason::StepTooShort { .. });
+                if no_step && self.grazing_distance < AT_GRAZING {
+                    CurveEnd::Grazing { parameter, cause: Some(message) }
+                } else {
+                    CurveEnd::Stopped { parameter, message }
+                }
+            }
         }))
     }
 
     fn accepted(&mut self) -> Result<CurveRow, OrbitError> {
         let row = self.row()?;
         let (low, high) = self.settings.range_hz;
-        if !(low..=high).contains(&row.solution.frequency_hz) {
-            self.end = Some(CurveEnd::FrequencyRangeEnd);
-        }
-        if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
-            self.end = Some(CurveEnd::Resonance);
-        }
+        let parameter = row.parameter;
         self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
-        if self.rows_at_grazing >= ROWS_AT_GRAZING {
-            self.end = Some(CurveEnd::Grazing);
-        }
-        if self.crawls() {
-            self.end = Some(CurveEnd::Crawls { parameter: row.parameter, rows: MANY_ROWS });
-        }
+        let crawls = self.crawls();
+        self.end = if !(low..=high).contains(&row.solution.frequency_hz) {
+            Some(CurveEnd::FrequencyRangeEnd)
+        } else if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
+            Some(CurveEnd::Resonance)
+        } else if self.follower.stop_reason().is_some() {
+            // The next step tells it.
+            None
+        } else if self.rows_at_grazing >= ROWS_AT_GRAZING {
+            Some(CurveEnd::Grazing { parameter, cause: None })
+        } else if crawls {
+            Some(CurveEnd::Crawls { parameter, rows: MANY_ROWS })
+        } else {
+            None
+        };
         Ok(row)
     }
 

@@ -36,8 +36,11 @@ impl BranchWalk {
     /// The row of the point at which the problem was evaluated last.
     pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
         let mut current = self.follower.current().clone();
+        // At a corner multipliers jump, also from inside the circle to far outside.
+        let is_smooth = !current.events.corner && !current.events.signature_change;
         let has_pair = current.events.zeros & 2 != 0;
-        if has_pair && stability::pair_turns_real(self.problem.multipliers().unwrap_or_default()) {
+        if is_smooth && has_pair && stability::pair_turns_real(self.problem.multipliers().unwrap_or_default())
+        {
             current.events.zeros &= !2;
         }
         let settings = self.follower.settings();

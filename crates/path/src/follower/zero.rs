@@ -27,7 +27,7 @@ const DIP: f64 = 0.5;
 /// Lowest points this close to an end of the step (share of the step) belong to that end.
 const EDGE: f64 = 0.02;
 /// Steps over which a function begins to have a value are at most so many times `signature_step` long.
-const BEGINNING: f64 = 100.0;
+const BEGINNING: f64 = 1000.0;
 /// Share of `signature_step` within which a change of signature is located.
 const CHANGE_WIDTH: f64 = 1e-3;
 

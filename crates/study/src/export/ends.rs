@@ -9,7 +9,10 @@ use std::{
 use hammerbeam_orbit::Side;
 
 use super::{ExportError, table::quoted, varied::start_of_row};
-use crate::store::{PieceRecord, Store};
+use crate::{
+    store::{PieceRecord, Store},
+    varied::is_closed,
+};
 
 /// Columns of `ends.csv`.
 pub const END_COLUMNS: [&str; 8] =
@@ -73,7 +76,9 @@ pub(super) fn write_varied_ends(
     for piece in pieces {
         for branch in &piece.branches {
             let start = start_of_row(piece, branch);
-            for (name, end, place) in [("down", &branch.down, 0), ("up", &branch.up, branch.rows - 1)] {
+            // A closed curve was walked down, and ends with its first row, at its start.
+            let up = if is_closed(&branch.down) { 0 } else { branch.rows - 1 };
+            for (name, end, place) in [("down", &branch.down, 0), ("up", &branch.up, up)] {
                 let last = store.varied_orbit((piece.id, branch.branch), place)?;
                 let message = quoted(end);
                 let (value, frequency_hz, phase) = (last.parameter, last.frequency_hz, last.phase);

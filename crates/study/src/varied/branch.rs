@@ -6,7 +6,7 @@ use hammerbeam_orbit::{
 };
 
 use super::{
-    Failed, Found,
+    CAME_BACK, Failed, Found,
     watch::{Watch, Way},
 };
 use crate::{
@@ -149,7 +149,7 @@ fn in_words(reason: &StopReason, varied: &VariedParameter, parameter: &StudyPara
     let at = |value: f64| format!("{name} = {}", parameter.in_range(value, range));
     match reason {
         StopReason::RangeEnd { frequency_hz } => format!("end of the range at {}", at(*frequency_hz)),
-        StopReason::Closed => "the branch came back to its start".to_owned(),
+        StopReason::Closed => format!("the branch {CAME_BACK}"),
         StopReason::ShorterPeriod { frequency_hz } => {
             format!("flip of a branch of shorter period at {}", at(*frequency_hz))
         }

@@ -6,7 +6,7 @@ use hammerbeam_orbit::{
 };
 
 use super::{
-    Failed, Found,
+    CAME_BACK, Failed, Found,
     watch::{Watch, Way},
 };
 use crate::{
@@ -170,9 +170,12 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
     match end {
         CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
         CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
-        CurveEnd::Closed => "the curve came back to its start".to_owned(),
+        CurveEnd::Closed => format!("the curve {CAME_BACK}"),
         CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
-        CurveEnd::Grazing => "it has met a grazing".to_owned(),
+        CurveEnd::Grazing { parameter: value, cause } => {
+            let cause = cause.as_ref().map_or(String::new(), |cause| format!(" ({cause})"));
+            format!("met a grazing at {}{cause}", named(*value, curve, parameter))
+        }
         CurveEnd::Crawls { parameter: value, rows } => {
             format!("ended early at {}: the last {rows} rows led nowhere", named(*value, curve, parameter))
         }

@@ -19,6 +19,14 @@ use crate::{
     store::{Piece, Store, StoreError, VariedBranch},
 };
 
+/// What is said of a branch or curve that is closed, on both sides.
+const CAME_BACK: &str = "came back to its start";
+
+/// Whether that is how a side ended, in words.
+pub(crate) fn is_closed(end: &str) -> bool {
+    end.ends_with(CAME_BACK)
+}
+
 /// What came of the pieces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VariedOutcome {
