@@ -61,6 +61,33 @@ frequencies = 0
 trials = 0
 "#;
 
+/// One whose stop has a damper: where it is grazed, multipliers jump.
+const DAMPED_STOP: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "mass", mass_kg = 1.758 }]
+spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.881 }]
+damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.05 }]
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 1.696
+frequency_hz = [0.06, 0.08]
+[[stop]]
+name = "stop"
+at = "mass"
+law = "linear"
+stiffness_n_m = 29.19
+damping_n_s_m = 0.784
+side = "below"
+gap_m = 1.0
+[response]
+point = "mass"
+[search]
+frequencies = 0
+trials = 0
+"#;
+
 fn curve(of: &str, near_hz: f64, parameter: &str, range: [f64; 2]) -> String {
     format!("[[curve]]\nof = \"{of}\"\nnear_hz = {near_hz}\nparameter = \"{parameter}\"\nrange = {range:?}\n")
 }
@@ -99,6 +126,27 @@ fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
         assert_eq!(parameter, "60.0", "{of}, {side}");
         assert_eq!(state.split(' ').count(), 2);
     }
+}
+
+/// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it crawled there for thousands of rows once.
+#[test]
+fn a_curve_ends_where_it_meets_a_grazing() {
+    let flip = curve("flip", 0.071713, "excitation.amplitude_n", [0.4, 6.8]);
+    let workshop = results(&format!("{DAMPED_STOP}{flip}"));
+    let ends = columns(&workshop, "curve_ends.csv", ["parameter", "frequency_hz", "message"]);
+    assert_eq!(ends.len(), 2);
+    let grazing = |end: &[String; 3]| {
+        assert!(end[2].starts_with("met a grazing at excitation.amplitude_n = "), "{}", end[2]);
+        // The branch at that force grazes there.
+        let (old, new) = (format!("amplitude_n = {}", 1.696), format!("amplitude_n = {}", end[0]));
+        let workshop = results(&DAMPED_STOP.replace(&old, &new));
+        let frequency_hz: f64 = end[1].parse().unwrap();
+        let events = columns(&workshop, "events.csv", ["event", "frequency_hz"]);
+        let is_near = |hz: &String| (hz.parse::<f64>().unwrap() / frequency_hz - 1.0).abs() < 1e-6;
+        assert!(events.iter().any(|[event, hz]| event.contains("grazing") && is_near(hz)), "{events:?}");
+    };
+    ends.iter().for_each(grazing);
+    assert!(columns(&workshop, "curves.csv", ["parameter"]).len() < 2000);
 }
 
 /// A contact that is closed, opens for an instant and closes: without a gap the motion is proportional to the force, so the curve over it is a straight line.

@@ -196,11 +196,11 @@ impl Shooting {
             let shorter = (step * (BEND / found.bend).max(SHORTENING)).max(LEAST_DIFFERENCE);
             let next = self.quotients(k, place, direction, shorter / length)?;
             let is_same = largest_change(&found.segment, &next.segment) <= SAME;
-            if next.error() < found.error() {
-                (found, step) = (next, shorter);
-            } else {
+            // Across a grazing the bend stays about one, however short the step, until it is short against the distance.
+            if next.rounding > found.error() {
                 break;
             }
+            (found, step) = (next, shorter);
             if is_same {
                 return Ok(found.segment);
             }
