@@ -12,7 +12,7 @@
 //! `g` and `ln d` have gradients `-w^T (dA) v` and `tr(A_c^-1 L^T (dA) R)`, with left and right vectors. Second derivatives of the flow are symmetric, so
 //! `w^T (dA/dz_j) v` for all `j` at once is the derivative of `w^T A` along `v`: a central difference of exact fundamental matrices, two evaluations for each
 //! vector, whatever the number of unknowns. Beside a grazing at the distance `D` the matrices go like `sqrt(D)`, so steps of the differences are shortened where the second difference says that they are not
-//! small against `D` (`shooting.rs`). The residual is exact; only the convergence depends on the difference, of relative accuracy 1e-6 or so.
+//! small against `D` (`differences.rs`). The residual is exact; only the convergence depends on the difference, of relative accuracy 1e-6 or so, less within 1e-9 of a grazing.
 //!
 //! The grazing orbit is cut at its touch, so no force acts at its ends, and both conditions are linear in the unknowns. Beside its ends the touched element is left out, so that its equations are smooth (`passing.rs`): it is the end of the
 //! orbits that pass the contact, and its multipliers are theirs.
@@ -33,6 +33,7 @@
 
 mod bordered;
 mod condition;
+mod differences;
 mod grazing;
 mod null;
 mod pair;

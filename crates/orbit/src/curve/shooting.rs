@@ -1,4 +1,4 @@
-//! The shooting equations with two parameters and a phase, and differences of their fundamental matrices.
+//! The shooting equations with two parameters and a phase.
 //!
 //! `R_k = Z_k(z_k, f, x, p) - z_{k+1}`, where segment k runs from the phase `x + k N/m` to `x + (k + 1) N/m`. By the phase at which it is cut a
 //! segment has the derivative `(F(end) - G_k F(start))/f`, with the rate `F` of the state.
@@ -10,20 +10,6 @@ use hammerbeam_motion::{
 
 use super::passing::Passing;
 use crate::state_scale::StateScale;
-
-/// Step of central differences along a vector, relative to the orbit.
-const DIFFERENCE: f64 = 1e-4;
-/// Shortest such step: there rounding outweighs what is left of the bend in general ([`Quotients::error`]).
-const LEAST_DIFFERENCE: f64 = 1e-11;
-/// Part of a difference that its second difference may be. Beside a grazing at the distance D matrices go like `sqrt(D)`: then the bend of a step h is `h/(4 D)`, and the quotient off by twice its square.
-const BEND: f64 = 0.001;
-/// A bend that is left at the shortest step and says that the orbit grazes, as far as can be told.
-const BREAK: f64 = 0.1;
-/// Rounding of a matrix, relative to its largest entry.
-const ROUNDING: f64 = 1e-11;
-/// By how much a step is shortened at most at once, and which change of the quotients by that is none.
-const SHORTENING: f64 = 0.05;
-const SAME: f64 = 2.0 * BEND * BEND;
 
 /// Where the equations are evaluated; nodes are scaled, one after the other.
 #[derive(Debug, Clone)]
@@ -58,23 +44,6 @@ impl Segment {
             by_parameter: sum(&self.by_parameter, &next.by_parameter),
             touches: self.touches.iter().zip(&next.touches).map(|(a, b)| a + b).collect(),
         }
-    }
-}
-
-/// Quotients of differences, and how good they are.
-#[derive(Debug)]
-struct Quotients {
-    segment: Segment,
-    /// Second difference of the matrix, relative to the first.
-    bend: f64,
-    /// Rounding of the matrix, relative to the first.
-    rounding: f64,
-}
-
-impl Quotients {
-    /// Relative error, about.
-    fn error(&self) -> f64 {
-        2.0 * self.bend * self.bend + self.rounding
     }
 }
 
@@ -113,7 +82,7 @@ impl Shooting {
         Stretch { frequency_hz, start: cycle(segment), end: cycle(segment + 1) }
     }
 
-    fn flow(&mut self, segment: usize, place: &Place, node: &[f64]) -> Result<Segment, MotionError> {
+    pub fn flow(&mut self, segment: usize, place: &Place, node: &[f64]) -> Result<Segment, MotionError> {
         let stretch = self.stretch(segment, place.frequency_hz, place.phase);
         let mut parts = self.parts(stretch, place.phase).into_iter();
         let whole = parts.next().unwrap_or((stretch, false));
@@ -177,75 +146,6 @@ impl Shooting {
         Ok(())
     }
 
-    /// Derivative along the direction `v_k` at the node of each segment: of `G_k`, `dZ_k/df` and `dZ_k/dp`, by central differences.
-    pub fn differences(
-        &mut self,
-        place: &Place,
-        directions: &[Vec<f64>],
-    ) -> Result<Vec<Segment>, MotionError> {
-        let by_segment = directions.iter().enumerate();
-        by_segment.map(|(k, direction)| self.difference(k, place, direction)).collect()
-    }
-
-    /// That of one segment, with a step that is shortened as long as the difference is bent and rounding allows it.
-    fn difference(&mut self, k: usize, place: &Place, direction: &[f64]) -> Result<Segment, MotionError> {
-        let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-        let mut step = DIFFERENCE;
-        let mut found = self.quotients(k, place, direction, step / length)?;
-        while found.bend > BEND && step > LEAST_DIFFERENCE {
-            let shorter = (step * (BEND / found.bend).max(SHORTENING)).max(LEAST_DIFFERENCE);
-            let next = self.quotients(k, place, direction, shorter / length)?;
-            let is_same = largest_change(&found.segment, &next.segment) <= SAME;
-            // Across a grazing the bend stays about one, however short the step, until it is short against the distance.
-            if next.rounding > found.error() {
-                break;
-            }
-            (found, step) = (next, shorter);
-            if is_same {
-                return Ok(found.segment);
-            }
-        }
-        if step < DIFFERENCE {
-            let breaks = step == LEAST_DIFFERENCE && found.bend > BREAK;
-            let distance = if breaks { 0.0 } else { step / (4.0 * found.bend.max(BEND)) };
-            self.grazing_distance = self.grazing_distance.min(distance);
-        }
-        Ok(found.segment)
-    }
-
-    /// Central quotients of differences along a direction at the node of a segment.
-    fn quotients(
-        &mut self,
-        segment: usize,
-        place: &Place,
-        direction: &[f64],
-        step: f64,
-    ) -> Result<Quotients, MotionError> {
-        let size = self.size();
-        let node = &place.nodes[segment * size..(segment + 1) * size];
-        let moved = |sign: f64| -> Vec<f64> {
-            node.iter().zip(direction).map(|(z, d)| z + sign * step * d).collect()
-        };
-        let above = self.flow(segment, place, &moved(1.0))?;
-        let below = self.flow(segment, place, &moved(-1.0))?;
-        let quotient = |a: &[f64], b: &[f64]| -> Vec<f64> {
-            a.iter().zip(b).map(|(a, b)| (a - b) / (2.0 * step)).collect()
-        };
-        let here = &self.segments[segment].matrix;
-        let ends = above.matrix.iter().zip(&below.matrix);
-        let second = ends.zip(here).fold(0.0_f64, |most, ((a, b), at)| most.max((a - 2.0 * at + b).abs()));
-        let quotients = Segment {
-            end: Vec::new(),
-            touches: Vec::new(),
-            matrix: quotient(&above.matrix, &below.matrix),
-            by_frequency: quotient(&above.by_frequency, &below.by_frequency),
-            by_parameter: quotient(&above.by_parameter, &below.by_parameter),
-        };
-        let first = (2.0 * step * largest(&quotients.matrix)).max(f64::MIN_POSITIVE);
-        let rounding = ROUNDING * largest(here) / first;
-        Ok(Quotients { segment: quotients, bend: second / first, rounding })
-    }
-
     /// `v_k = A_k v`, the vector carried to the node of each segment.
     pub fn carried(&self, vector: &[f64]) -> Vec<Vec<f64>> {
         self.products[..self.count].iter().map(|product| times(product, vector)).collect()
@@ -283,16 +183,6 @@ impl Shooting {
         let rate = self.integrator.system().rate(place.frequency_hz, phase, &state);
         rate.iter().zip(scales).map(|(r, s)| r / s).collect()
     }
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |largest, x| largest.max(x.abs()))
-}
-
-/// Largest difference of the matrices of quotients, relative to their largest entry.
-fn largest_change(a: &Segment, b: &Segment) -> f64 {
-    let differences: Vec<f64> = a.matrix.iter().zip(&b.matrix).map(|(a, b)| a - b).collect();
-    largest(&differences) / largest(&b.matrix).max(f64::MIN_POSITIVE)
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
