@@ -76,7 +76,6 @@ fn spectrum<const N: usize>(field: Field<N>, duration: f64, parts: u64, averaged
 fn assert_published(found: &Spectrum, published: &[f64]) {
     let accuracy = if longer() > 1 { 1.5e-4 } else { 5e-3 };
     for (exponent, published) in found.exponents.iter().zip(published) {
-        println!("{} +- {}, published {published}", exponent.value, exponent.half_width);
         // The interval of 95 per cent fails once in twenty times; twice its width once in three thousand.
         let bound = 0.5e-4 + 2.0 * exponent.half_width;
         assert!((exponent.value - published).abs() <= bound, "{exponent:?}, published {published}");

@@ -91,6 +91,36 @@ fn every_event_of_a_solution_stands_in_the_table_of_events_with_what_is_known_of
     }
 }
 
+/// With one stop, what a grazing says of its contact is how their number changes from one row to the next, on both sides of where the branch began.
+#[test]
+fn contacts_appear_and_vanish_in_the_order_of_the_rows() {
+    let workshop = Workshop::with(BILINEAR);
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    let branches = workshop.csv("results");
+    let events = fs::read_to_string(workshop.path("exported/events.csv")).unwrap();
+    let rows = |text: &str, names: &[&str]| -> Vec<Vec<String>> {
+        let mut lines = text.lines().map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let header = lines.next().unwrap();
+        let places: Vec<usize> =
+            names.iter().map(|name| header.iter().position(|column| column == name).unwrap()).collect();
+        lines.map(|row| places.iter().map(|place| row[*place].clone()).collect()).collect()
+    };
+    let solutions = rows(&branches, &["branch", "contacts"]);
+    let mut seen = [0, 0];
+    for event in rows(&events, &["branch", "row", "event", "contact_change"]) {
+        if event[2] != "grazing" {
+            continue;
+        }
+        let contacts: Vec<i32> =
+            solutions.iter().filter(|row| row[0] == event[0]).map(|row| row[1].parse().unwrap()).collect();
+        let row: usize = event[1].parse().unwrap();
+        let change = contacts[row + 1] - contacts[row - 1];
+        assert_eq!(event[3], format!("{change:+}"), "branch {}, row {row}", event[0]);
+        seen[usize::from(change > 0)] += 1;
+    }
+    assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+}
+
 /// The motion from the state at an end of a branch comes back to it after its periods.
 #[test]
 fn the_states_at_ends_of_branches_repeat() {

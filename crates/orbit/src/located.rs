@@ -58,6 +58,17 @@ pub struct LocatedEvent {
     pub breaks_symmetry: bool,
 }
 
+impl LocatedEvent {
+    /// The event as it is passed the other way: what appeared vanishes.
+    #[must_use]
+    pub fn backwards(mut self) -> Self {
+        if let Some(change) = &mut self.contact {
+            change.appears = !change.appears;
+        }
+        self
+    }
+}
+
 /// What the walk knows of the points at and before the event.
 pub(crate) struct Place<'a> {
     pub point: &'a ContinuationPoint,

@@ -61,6 +61,8 @@ pub(super) fn write_events(store: &Store, writer: &mut impl Write, path: &Path) 
                 if place < down { (Side::Down, down - 1 - place) } else { (Side::Up, place - down) };
             let key = solution_key(branch.start, side, of_side as u32);
             let Some(event) = store.event(key)? else { return Ok(()) };
+            // It was walked the other way than rows are counted.
+            let event = if side == Side::Down { event.backwards() } else { event };
             let multipliers = store.multipliers(key)?;
             let name = Events { start: false, end: false, ..row.events }.label();
             let (id, multiple, frequency_hz) = (branch.id, branch.period_multiple, row.frequency_hz);

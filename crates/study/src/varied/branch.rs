@@ -93,6 +93,9 @@ fn both_sides(
         };
         if side == Side::Down {
             walked.reverse();
+            for row in &mut walked {
+                row.located = row.located.take().map(LocatedEvent::backwards);
+            }
         }
         rows.extend(walked.into_iter().map(|row| varied(row, parameter, vary.parameter.range)));
         let closed = end == StopReason::Closed;
