@@ -128,6 +128,42 @@ fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
     }
 }
 
+/// A mass between two stops touches both half a period apart as long as its motion is linear: the curve is that of the linear amplitude, whether they are one two-sided stop or two. Where one of two is moved away alone, the other is struck.
+#[test]
+fn a_symmetric_orbit_grazes_both_of_its_stops() {
+    let (structure, rest) = BILINEAR.split_once("[[stop]]").unwrap();
+    let (_, response) = rest.split_once("[response]").unwrap();
+    let stop = |name: &str, law: &str| {
+        format!("[[stop]]\nname = \"{name}\"\nat = \"mass\"\n{law}\nstiffness_n_m = 30.0\ngap_m = 0.6\n")
+    };
+    let two_sided = (stop("stop", "law = \"two-sided\""), "stop.stop.gap_m", [0.2, 1.0]);
+    let linear = |name: &str, side: &str| stop(name, &format!("law = \"linear\"\nside = \"{side}\""));
+    let pair = || linear("stop", "above") + &linear("other", "below");
+    let both = (pair(), "excitation.amplitude_n", [0.7, 2.0]);
+    let one_of_two = (pair(), "stop.stop.gap_m", [0.3, 0.7]);
+    for (number, (stops, parameter, range)) in [two_sided, both, one_of_two].into_iter().enumerate() {
+        let grazing = curve("grazing", 0.26, parameter, range);
+        let workshop = results(&format!("{structure}{stops}[response]{response}{grazing}"));
+        let rows = columns(&workshop, "curves.csv", ["parameter", "frequency_hz"]);
+        assert!(rows.len() > 20 && rows.len() < 1000, "{parameter}: {} rows", rows.len());
+        for row in rows {
+            let [value, frequency_hz] = row.each_ref().map(|cell| cell.parse::<f64>().unwrap());
+            if number == 2 && value > 0.6 {
+                continue;
+            }
+            let w = std::f64::consts::TAU * frequency_hz;
+            let amplitude = 1.0 / (1.0 - w * w).hypot(0.1 * w);
+            let expected = if parameter == "stop.stop.gap_m" { value } else { 0.6 / value };
+            assert!(
+                (amplitude / expected - 1.0).abs() < 1e-8,
+                "{parameter} {value}: {amplitude}, {expected}"
+            );
+        }
+        let ends = columns(&workshop, "curve_ends.csv", ["message"]);
+        assert!(ends.iter().all(|[message]| message.starts_with("end of the")), "{parameter}: {ends:?}");
+    }
+}
+
 /// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it crawled there for thousands of rows once.
 #[test]
 fn a_curve_ends_where_it_meets_a_grazing() {

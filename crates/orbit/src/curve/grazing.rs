@@ -16,6 +16,8 @@ use crate::OrbitError;
 
 /// Looks for the touch per excitation period.
 const LOOKS: usize = 2000;
+/// Distance from grazing within which the opposite contact of a symmetric orbit is touched as well, in parts of the orbit, and how well half a period is met [cycles].
+const OPPOSITE: f64 = 1e-6;
 /// Farthest from grazing that the contact of a grazing orbit is, as it was located before, in parts of the orbit.
 const FARTHEST: f64 = 1e-2;
 
@@ -111,6 +113,41 @@ impl Touch {
         Ok(nearest)
     }
 
+    /// The other contact that a symmetric orbit, which touches this one at `turn`, touches half a period later, and how long that is [cycles].
+    pub fn opposite(
+        self,
+        shooting: &mut Shooting,
+        orbit: (f64, &[f64]),
+        frequency_hz: f64,
+        turn: &Turn,
+    ) -> Result<Option<(Self, f64)>, OrbitError> {
+        let cycles = f64::from(shooting.period_multiple);
+        for number in 0.. {
+            let Some(touch) = Self::of_contact(shooting, number) else { break };
+            if number == self.number(shooting) {
+                continue;
+            }
+            let Some(other) = touch.find(shooting, orbit, frequency_hz)? else { continue };
+            let behind = (other.phase - turn.phase).rem_euclid(cycles);
+            let is_half = (behind - 0.5 * cycles).abs() < OPPOSITE;
+            if is_half && !other.from_inside && other.distance < OPPOSITE * touch.reach(shooting) {
+                return Ok(Some((touch, behind)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one of their two elements alone.
+    pub fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
+        let (Parameter::Gap { element }
+        | Parameter::Stiffness { element }
+        | Parameter::Restitution { element }) = parameter
+        else {
+            return true;
+        };
+        self.element == other.element || ![self.element, other.element].contains(&element)
+    }
+
     /// Where the contact of the orbit from `state` at the phase `begin` turns nearest to its level, if that is near enough for a grazing.
     fn find(
         self,
@@ -130,8 +167,7 @@ impl Touch {
             .collect();
         let element = &shooting.integrator.system().elements()[self.element];
         let opens_at_its_level = !element.law.depends_on_velocity() && element.law.rigid().is_none();
-        let entries = element.shape.iter().zip(shooting.scale.values());
-        let farthest = FARTHEST * entries.map(|(shape, scale)| (shape * scale).abs()).sum::<f64>();
+        let farthest = FARTHEST * self.reach(shooting);
         let (mut turns, mut from_inside) = (Vec::new(), Vec::new());
         for (phases, looks) in phases.windows(2).zip(clearances.windows(2)) {
             let [before, after] = [looks[0][1], looks[1][1]];
@@ -154,6 +190,12 @@ impl Touch {
         };
         let found = turns.into_iter().zip(places).zip(from_inside).map(turn);
         Ok(found.filter(|turn| turn.distance < farthest).min_by(|a, b| a.distance.total_cmp(&b.distance)))
+    }
+
+    /// How far an orbit of the size of the scale moves the element [m].
+    fn reach(self, shooting: &Shooting) -> f64 {
+        let shape = &shooting.integrator.system().elements()[self.element].shape;
+        shape.iter().zip(shooting.scale.values()).map(|(shape, scale)| (shape * scale).abs()).sum()
     }
 
     /// Clearance and its rate.

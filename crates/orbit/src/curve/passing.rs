@@ -6,6 +6,8 @@
 //!
 //! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
 //!
+//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well, and so it is as long as the curve goes.
+//!
 //! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
 
 use hammerbeam_motion::{
@@ -13,7 +15,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, Maxima, MotionError},
 };
 
-use super::shooting::Shooting;
+use super::{grazing::Touch, shooting::Shooting};
 use crate::{OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, solve};
 
 /// Longest time for which the element is left out [cycles].
@@ -26,64 +28,85 @@ const WIDE: f64 = 1e3;
 /// What is left out, and how long.
 #[derive(Debug)]
 pub(super) struct Passing {
-    /// Of the system with the opened gap.
+    /// Of the system with the opened gaps.
     pub integrator: ExactIntegrator,
-    pub element: usize,
-    /// How long the element is left out, at each end [cycles].
+    /// What is touched at the ends of the orbit, and what opposite.
+    touches: Vec<Touch>,
+    /// How long behind the begin of the orbit the opposite contact is touched [cycles].
+    opposite: Option<f64>,
+    /// How long elements are left out, at each side of a touch [cycles].
     pub width: f64,
 }
 
 impl Passing {
-    /// Leaves out an element beside the ends of an orbit; `None` if it has no gap.
+    /// Leaves out elements beside their touches; `None` if one has no gap.
     ///
+    /// * `opposite`: the contact that is touched half a period later, and how long after the first.
     /// * `range`: of the parameter that is followed.
     pub fn new(
-        (shooting, element): (&Shooting, usize),
+        shooting: &Shooting,
+        (touch, opposite): (Touch, Option<(Touch, f64)>),
         response: &Response,
         (start, range): (&PeriodicSolution, (f64, f64)),
         orbits: &OrbitSettings,
     ) -> Result<Option<Self>, OrbitError> {
-        let system = shooting.integrator.system();
-        let gap = Parameter::Gap { element };
-        let Some(level) = system.elements()[element].law.gap() else { return Ok(None) };
-        let largest = if shooting.parameter == gap { range.1.abs().max(range.0.abs()) } else { level };
-        let wide = WIDE * (largest + start.maxima.displacement);
-        let system = system.clone().with_parameter(gap, wide).map_err(MotionError::from)?;
+        let touches: Vec<Touch> = [touch].into_iter().chain(opposite.map(|(touch, _)| touch)).collect();
+        let mut system = shooting.integrator.system().clone();
+        let mut is_parameter = false;
+        for Touch { element, .. } in &touches {
+            let gap = Parameter::Gap { element: *element };
+            let Some(level) = shooting.integrator.system().elements()[*element].law.gap() else {
+                return Ok(None);
+            };
+            is_parameter |= shooting.parameter == gap;
+            let largest = if shooting.parameter == gap { range.1.abs().max(range.0.abs()) } else { level };
+            let wide = WIDE * (largest + start.maxima.displacement);
+            system = system.with_parameter(gap, wide).map_err(MotionError::from)?;
+        }
         let mut integrator = solve::integrator(&system, response, orbits)?;
-        if shooting.parameter != gap {
+        if !is_parameter {
             integrator.differentiate_by(Some(shooting.parameter))?;
         }
-        Ok(Some(Self { integrator, element, width: WIDEST }))
+        let opposite = opposite.map(|(_, behind)| behind);
+        Ok(Some(Self { integrator, touches, opposite, width: WIDEST }))
     }
 
     /// Gives the parameter that is followed another value.
     pub fn set_parameter(&mut self, parameter: Parameter, value: f64) -> Result<(), MotionError> {
-        if parameter == (Parameter::Gap { element: self.element }) {
+        if self.touches.iter().any(|touch| parameter == Parameter::Gap { element: touch.element }) {
             return Ok(());
         }
         self.integrator.set_parameter(parameter, value)
     }
+
+    /// Whether the contact of that number is one that is touched.
+    pub fn is_touched(&self, shooting: &Shooting, number: usize) -> bool {
+        self.touches.iter().any(|touch| touch.number(shooting) == number)
+    }
+
+    /// Where elements are left out, of an orbit from `begin` over `cycles`.
+    fn windows(&self, begin: f64, cycles: f64) -> Vec<[f64; 2]> {
+        let mut windows = vec![[begin, begin + self.width], [begin + cycles - self.width, begin + cycles]];
+        windows.extend(self.opposite.map(|o| [begin + o - self.width, begin + o + self.width]));
+        windows
+    }
 }
 
 impl Shooting {
-    /// The parts of a stretch of an orbit from `begin` on, and whether the touched element is left out in them.
+    /// The parts of a stretch of an orbit from `begin` on, and whether touched elements are left out in them.
     pub fn parts(&self, stretch: Stretch, begin: f64) -> Vec<(Stretch, bool)> {
         let Some(passing) = &self.passing else { return vec![(stretch, false)] };
-        let end = begin + f64::from(self.period_multiple);
-        let [low, high] = [begin + passing.width, end - passing.width];
-        let cuts = [
-            stretch.start,
-            low.clamp(stretch.start, stretch.end),
-            high.clamp(stretch.start, stretch.end),
-            stretch.end,
-        ];
-        let part =
-            |(k, passes): (usize, bool)| (Stretch { start: cuts[k], end: cuts[k + 1], ..stretch }, passes);
-        [(0, true), (1, false), (2, true)]
-            .map(part)
-            .into_iter()
-            .filter(|(part, _)| part.end > part.start)
-            .collect()
+        let windows = passing.windows(begin, f64::from(self.period_multiple));
+        let mut cuts: Vec<f64> = windows.iter().flatten().copied().collect();
+        cuts.retain(|cut| (stretch.start..stretch.end).contains(cut) && *cut > stretch.start);
+        cuts.extend([stretch.start, stretch.end]);
+        cuts.sort_by(f64::total_cmp);
+        let part = |cuts: &[f64]| {
+            let middle = 0.5 * (cuts[0] + cuts[1]);
+            let passes = windows.iter().any(|[from, to]| (*from..=*to).contains(&middle));
+            (Stretch { start: cuts[0], end: cuts[1], ..stretch }, passes)
+        };
+        cuts.windows(2).map(part).collect()
     }
 
     /// The state at the end of a stretch of the orbit that begins at the phase `begin`, in its own units.
@@ -103,24 +126,31 @@ impl Shooting {
         }
     }
 
-    /// Leaves the touched element out as long as its other contacts allow, over the orbit that begins with `state` at its touch.
+    /// Leaves touched elements out as long as their other contacts allow, over the orbit that begins with `state` at its touch.
     pub fn fit_passing(&mut self, frequency_hz: f64, begin: f64, state: &[f64]) -> Result<(), MotionError> {
-        let Some(element) = self.passing.as_ref().map(|passing| passing.element) else { return Ok(()) };
+        let Some(passing) = &self.passing else { return Ok(()) };
+        let (touches, opposite) = (passing.touches.clone(), passing.opposite);
         let cycles = f64::from(self.period_multiple);
         let first = Stretch { frequency_hz, start: begin, end: begin + TOUCH };
         let state = self.integrator_of(true).advance(&first, state)?;
         let rest = Stretch { frequency_hz, start: first.end, end: begin + cycles - TOUCH };
         let trace = self.integrator.trace(&rest, &state, &[])?;
         let length = (rest.end - rest.start) / frequency_hz;
-        let of_element = trace.contacts.iter().filter(|contact| contact.element == element);
-        let distances = of_element.map(|contact| {
-            let begin = contact.begin.as_ref().map_or(0.0, |begin| begin.time);
-            let end = contact.end.unwrap_or(length);
-            TOUCH + frequency_hz * begin.min(length - end)
+        let of_elements =
+            trace.contacts.iter().filter(|contact| touches.iter().any(|t| t.element == contact.element));
+        let distances = of_elements.filter_map(|contact| {
+            // Times behind the begin of the orbit [cycles].
+            let from = TOUCH + contact.begin.as_ref().map_or(0.0, |begin| begin.time) * frequency_hz;
+            let to = TOUCH + contact.end.unwrap_or(length) * frequency_hz;
+            let to_ends = from.min(cycles - to);
+            let Some(opposite) = opposite else { return Some(to_ends) };
+            let to_opposite = (from - opposite).max(opposite - to);
+            let is_it = from > opposite - TOUCH && to < opposite + TOUCH;
+            (!is_it).then_some(to_ends.min(to_opposite))
         });
         let nearest = distances.fold(f64::INFINITY, f64::min);
         if let Some(passing) = &mut self.passing {
-            passing.width = WIDEST.min(0.25 * nearest);
+            passing.width = WIDEST.min(0.25 * nearest.max(0.0));
         }
         Ok(())
     }

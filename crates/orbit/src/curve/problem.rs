@@ -209,14 +209,16 @@ impl PathProblem for CurveProblem {
         }
     }
 
-    /// Without the contact that is touched at the ends of a grazing orbit: whether it is counted there is rounding.
+    /// Without the contacts that a grazing orbit touches: whether they are counted is rounding.
     fn signature(&self) -> u64 {
-        let except = match &self.condition {
-            Condition::Touch(touch) => Some(touch.number(&self.shooting)),
-            _ => None,
+        let shooting = &self.shooting;
+        let is_touched = |number: usize| match (&self.condition, &shooting.passing) {
+            (Condition::Touch(_), Some(passing)) => passing.is_touched(shooting, number),
+            (Condition::Touch(touch), None) => touch.number(shooting) == number,
+            _ => false,
         };
-        let touches = self.shooting.touches.iter().enumerate();
-        let words = touches.map(|(k, &t)| if except == Some(k) { 0 } else { u64::from(t) });
+        let touches = shooting.touches.iter().enumerate();
+        let words = touches.map(|(k, &t)| if is_touched(k) { 0 } else { u64::from(t) });
         words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
     }
 }

@@ -82,8 +82,11 @@ impl CurveWalk {
                 Touch::choose(&mut shooting, contact, orbit, start.frequency_hz)?.ok_or(none.clone())?;
             kind = CurveKind::Grazing { contact: Some(found.number(&shooting)) };
             if !found.from_inside {
+                let opposite = found.opposite(&mut shooting, orbit, start.frequency_hz, &turn)?;
+                let touches =
+                    (found, opposite.filter(|(other, _)| found.stays_opposite(*other, settings.parameter)));
                 let range = (start, settings.range);
-                shooting.passing = Passing::new((&shooting, found.element), response, range, orbits)?;
+                shooting.passing = Passing::new(&shooting, touches, response, range, orbits)?;
             }
             touch = Some((found, turn));
         }
