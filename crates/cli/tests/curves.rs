@@ -9,84 +9,46 @@ use common::{Workshop, assert_success, stdout};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
-/// A bilinear oscillator under a force, whose stop is a gap away.
-const BILINEAR: &str = r#"
+/// A mass on a spring and a damper [kg, N/m, N s/m] beside stops, under a force [N] in a range of frequency [Hz].
+fn oscillator([mass, stiffness, damping]: [f64; 3], force: f64, range: [f64; 2], stops: &str) -> String {
+    format!(
+        r#"
 [structure]
 kind = "lumped"
-mass = [{ name = "mass", mass_kg = 1.0 }]
-spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.0 }]
-damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.1 }]
+mass = [{{ name = "mass", mass_kg = {mass} }}]
+spring = [{{ between = ["mass", "ground"], stiffness_n_m = {stiffness} }}]
+damper = [{{ between = ["mass", "ground"], damping_n_s_m = {damping} }}]
 [excitation]
 kind = "force"
 at = "mass"
-amplitude_n = 1.0
-frequency_hz = [0.05, 0.4]
-[[stop]]
-name = "stop"
-at = "mass"
-law = "linear"
-stiffness_n_m = 10.0
-side = "above"
-gap_m = 1.0
+amplitude_n = {force:?}
+frequency_hz = {range:?}
+{stops}
 [response]
 point = "mass"
 [search]
 frequencies = 0
 trials = 0
-"#;
+"#
+    )
+}
 
-/// One whose stop is reached at rest, so that the size of the response is that of the force.
-const WITHOUT_A_GAP: &str = r#"
-[structure]
-kind = "lumped"
-mass = [{ name = "mass", mass_kg = 0.864 }]
-spring = [{ between = ["mass", "ground"], stiffness_n_m = 2.033 }]
-damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.2 }]
-[excitation]
-kind = "force"
-at = "mass"
-amplitude_n = 0.613
-frequency_hz = [0.0598, 0.0603]
-[[stop]]
-name = "stop"
-at = "mass"
-law = "linear"
-stiffness_n_m = 6.29
-side = "below"
-gap_m = 0.0
-[response]
-point = "mass"
-[search]
-frequencies = 0
-trials = 0
-"#;
+/// A stop of the mass, with the rest of its keys.
+fn stop(name: &str, keys: &str) -> String {
+    format!("[[stop]]\nname = \"{name}\"\nat = \"mass\"\n{keys}\n")
+}
 
-/// One whose stop has a damper: where it is grazed, multipliers jump.
-const DAMPED_STOP: &str = r#"
-[structure]
-kind = "lumped"
-mass = [{ name = "mass", mass_kg = 1.758 }]
-spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.881 }]
-damper = [{ between = ["mass", "ground"], damping_n_s_m = 0.05 }]
-[excitation]
-kind = "force"
-at = "mass"
-amplitude_n = 1.696
-frequency_hz = [0.06, 0.08]
-[[stop]]
-name = "stop"
-at = "mass"
-law = "linear"
-stiffness_n_m = 29.19
-damping_n_s_m = 0.784
-side = "below"
-gap_m = 1.0
-[response]
-point = "mass"
-[search]
-frequencies = 0
-trials = 0
-"#;
+/// A bilinear oscillator beside stops.
+fn bilinear(stops: &str) -> String {
+    oscillator([1.0, 1.0, 0.1], 1.0, [0.05, 0.4], stops)
+}
+
+/// An oscillator whose stop has a damper, under a force: where it is grazed, multipliers jump.
+fn with_a_damped_stop(force: f64) -> String {
+    let keys =
+        "law = \"linear\"\nstiffness_n_m = 29.19\ndamping_n_s_m = 0.784\nside = \"below\"\ngap_m = 1.0";
+    oscillator([1.758, 1.881, 0.05], force, [0.06, 0.08], &stop("stop", keys))
+}
 
 fn curve(of: &str, near_hz: f64, parameter: &str, range: [f64; 2]) -> String {
     format!("[[curve]]\nof = \"{of}\"\nnear_hz = {near_hz}\nparameter = \"{parameter}\"\nrange = {range:?}\n")
@@ -117,7 +79,9 @@ fn columns<const N: usize>(workshop: &Workshop, table: &str, names: [&str; N]) -
 #[test]
 fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
     let curve = |of, near_hz| curve(of, near_hz, "stop.stop.stiffness_n_m", [2.0, 60.0]);
-    let workshop = results(&format!("{BILINEAR}{}{}", curve("fold", 0.0990914), curve("flip", 0.082927)));
+    let stop = stop("stop", "law = \"linear\"\nstiffness_n_m = 10.0\nside = \"above\"\ngap_m = 1.0");
+    let (fold, flip) = (curve("fold", 0.0990914), curve("flip", 0.082927));
+    let workshop = results(&format!("{}{fold}{flip}", bilinear(&stop)));
     let ends = columns(&workshop, "curve_ends.csv", ["of", "side", "parameter", "message", "state"]);
     assert_eq!(ends.len(), 4);
     for [of, side, parameter, message, state] in ends {
@@ -131,11 +95,7 @@ fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
 /// A mass between two stops touches both half a period apart as long as its motion is linear: the curve is that of the linear amplitude, whether they are one two-sided stop or two. Where one of two is moved away alone, the other is struck.
 #[test]
 fn a_symmetric_orbit_grazes_both_of_its_stops() {
-    let (structure, rest) = BILINEAR.split_once("[[stop]]").unwrap();
-    let (_, response) = rest.split_once("[response]").unwrap();
-    let stop = |name: &str, law: &str| {
-        format!("[[stop]]\nname = \"{name}\"\nat = \"mass\"\n{law}\nstiffness_n_m = 30.0\ngap_m = 0.6\n")
-    };
+    let stop = |name: &str, law: &str| stop(name, &format!("{law}\nstiffness_n_m = 30.0\ngap_m = 0.6"));
     let two_sided = (stop("stop", "law = \"two-sided\""), "stop.stop.gap_m", [0.2, 1.0]);
     let linear = |name: &str, side: &str| stop(name, &format!("law = \"linear\"\nside = \"{side}\""));
     let pair = || linear("stop", "above") + &linear("other", "below");
@@ -143,7 +103,7 @@ fn a_symmetric_orbit_grazes_both_of_its_stops() {
     let one_of_two = (pair(), "stop.stop.gap_m", [0.3, 0.7]);
     for (number, (stops, parameter, range)) in [two_sided, both, one_of_two].into_iter().enumerate() {
         let grazing = curve("grazing", 0.26, parameter, range);
-        let workshop = results(&format!("{structure}{stops}[response]{response}{grazing}"));
+        let workshop = results(&format!("{}{grazing}", bilinear(&stops)));
         let rows = columns(&workshop, "curves.csv", ["parameter", "frequency_hz"]);
         assert!(rows.len() > 20 && rows.len() < 1000, "{parameter}: {} rows", rows.len());
         for row in rows {
@@ -168,14 +128,13 @@ fn a_symmetric_orbit_grazes_both_of_its_stops() {
 #[test]
 fn a_curve_ends_where_it_meets_a_grazing() {
     let flip = curve("flip", 0.071713, "excitation.amplitude_n", [0.4, 6.8]);
-    let workshop = results(&format!("{DAMPED_STOP}{flip}"));
+    let workshop = results(&format!("{}{flip}", with_a_damped_stop(1.696)));
     let ends = columns(&workshop, "curve_ends.csv", ["parameter", "frequency_hz", "message"]);
     assert_eq!(ends.len(), 2);
     let grazing = |end: &[String; 3]| {
         assert!(end[2].starts_with("met a grazing at excitation.amplitude_n = "), "{}", end[2]);
         // The branch at that force grazes there.
-        let (old, new) = (format!("amplitude_n = {}", 1.696), format!("amplitude_n = {}", end[0]));
-        let workshop = results(&DAMPED_STOP.replace(&old, &new));
+        let workshop = results(&with_a_damped_stop(end[0].parse().unwrap()));
         let frequency_hz: f64 = end[1].parse().unwrap();
         let events = columns(&workshop, "events.csv", ["event", "frequency_hz"]);
         let is_near = |hz: &String| (hz.parse::<f64>().unwrap() / frequency_hz - 1.0).abs() < 1e-6;
@@ -188,8 +147,10 @@ fn a_curve_ends_where_it_meets_a_grazing() {
 /// A contact that is closed, opens for an instant and closes: without a gap the motion is proportional to the force, so the curve over it is a straight line.
 #[test]
 fn a_grazing_from_inside_is_followed() {
+    let keys = "law = \"linear\"\nstiffness_n_m = 6.29\nside = \"below\"\ngap_m = 0.0";
+    let study = oscillator([0.864, 2.033, 0.2], 0.613, [0.0598, 0.0603], &stop("stop", keys));
     let curve = curve("grazing", 0.06005, "excitation.amplitude_n", [0.1, 2.5]);
-    let workshop = results(&format!("{WITHOUT_A_GAP}{curve}"));
+    let workshop = results(&format!("{study}{curve}"));
     let events = columns(&workshop, "events.csv", ["event", "frequency_hz"]);
     let [[_, grazing]] = &events.iter().filter(|row| row[0] == "grazing").collect::<Vec<_>>()[..] else {
         panic!("{events:?}")

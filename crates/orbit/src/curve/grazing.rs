@@ -113,7 +113,7 @@ impl Touch {
         Ok(nearest)
     }
 
-    /// The other contact that a symmetric orbit, which touches this one at `turn`, touches half a period later, and how long that is [cycles].
+    /// The other contact that a symmetric orbit, which touches this one at `turn`, touches half a period later, and how long that is [cycles]; `None` if it will not once the parameter changes.
     pub fn opposite(
         self,
         shooting: &mut Shooting,
@@ -130,7 +130,8 @@ impl Touch {
             let Some(other) = touch.find(shooting, orbit, frequency_hz)? else { continue };
             let behind = (other.phase - turn.phase).rem_euclid(cycles);
             let is_half = (behind - 0.5 * cycles).abs() < OPPOSITE;
-            if is_half && !other.from_inside && other.distance < OPPOSITE * touch.reach(shooting) {
+            let is_touched = !other.from_inside && other.distance < OPPOSITE * touch.reach(shooting);
+            if is_half && is_touched && self.stays_opposite(touch, shooting.parameter) {
                 return Ok(Some((touch, behind)));
             }
         }
@@ -138,7 +139,7 @@ impl Touch {
     }
 
     /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one of their two elements alone.
-    pub fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
+    fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
         let (Parameter::Gap { element }
         | Parameter::Stiffness { element }
         | Parameter::Restitution { element }) = parameter

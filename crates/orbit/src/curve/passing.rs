@@ -98,7 +98,7 @@ impl Shooting {
         let Some(passing) = &self.passing else { return vec![(stretch, false)] };
         let windows = passing.windows(begin, f64::from(self.period_multiple));
         let mut cuts: Vec<f64> = windows.iter().flatten().copied().collect();
-        cuts.retain(|cut| (stretch.start..stretch.end).contains(cut) && *cut > stretch.start);
+        cuts.retain(|cut| stretch.start < *cut && *cut < stretch.end);
         cuts.extend([stretch.start, stretch.end]);
         cuts.sort_by(f64::total_cmp);
         let part = |cuts: &[f64]| {

@@ -83,10 +83,8 @@ impl CurveWalk {
             kind = CurveKind::Grazing { contact: Some(found.number(&shooting)) };
             if !found.from_inside {
                 let opposite = found.opposite(&mut shooting, orbit, start.frequency_hz, &turn)?;
-                let touches =
-                    (found, opposite.filter(|(other, _)| found.stays_opposite(*other, settings.parameter)));
                 let range = (start, settings.range);
-                shooting.passing = Passing::new(&shooting, touches, response, range, orbits)?;
+                shooting.passing = Passing::new(&shooting, (found, opposite), response, range, orbits)?;
             }
             touch = Some((found, turn));
         }

@@ -8,7 +8,11 @@ use std::{
 
 use hammerbeam_orbit::Side;
 
-use super::{ExportError, table::quoted, varied::start_of_row};
+use super::{
+    ExportError,
+    table::quoted,
+    varied::{header, start_of_row},
+};
 use crate::{
     store::{PieceRecord, Store},
     varied::is_closed,
@@ -71,8 +75,7 @@ pub(super) fn write_varied_ends(
     path: &Path,
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::Write { path: path.to_owned(), source };
-    let front = if pieces.iter().any(|piece| piece.is_curve) { "of," } else { "" };
-    writeln!(writer, "{front}{}", PARAMETER_END_COLUMNS.join(",")).map_err(failed)?;
+    writeln!(writer, "{}", header(pieces, &PARAMETER_END_COLUMNS)).map_err(failed)?;
     for piece in pieces {
         for branch in &piece.branches {
             let start = start_of_row(piece, branch);

@@ -73,8 +73,7 @@ fn write_rows(
     path: &Path,
 ) -> Result<(), ExportError> {
     let failed = |source| ExportError::Write { path: path.to_owned(), source };
-    let front = if pieces.iter().any(|piece| piece.is_curve) { "of," } else { "" };
-    writeln!(writer, "{front}{}", PARAMETER_COLUMNS.join(",")).map_err(failed)?;
+    writeln!(writer, "{}", header(pieces, &PARAMETER_COLUMNS)).map_err(failed)?;
     for piece in pieces {
         for branch in &piece.branches {
             let start = start_of_row(piece, branch);
@@ -95,6 +94,12 @@ fn write_rows(
         }
     }
     Ok(())
+}
+
+/// Columns of a table of pieces; of curves with `of` in front.
+pub(super) fn header(pieces: &[&PieceRecord], columns: &[&str]) -> String {
+    let front = if pieces.iter().any(|piece| piece.is_curve) { "of," } else { "" };
+    format!("{front}{}", columns.join(","))
 }
 
 /// Piece, branch, period multiple and name of the parameter; what a curve is of in front.
