@@ -5,10 +5,13 @@
 //! | excitation scale `a` | 1 as built | all harmonics of order 1 and above: `b_m = a b_m(1)`, `U_m = a U_m(1)` |
 //! | gap `g` | [m] | the levels of the contacts of one element; of a two-sided stop both, which must be equal |
 //! | stiffness `k` | as the law has it | the force of one element, `f = k f(1)`, at the levels that its contacts have |
-//! | restitution `e` | [-] | the impacts of one rigid stop |
-//! | added damping ratio `z` | 0 as built | the modal damping matrix, `C = C(0) + diag(2 z w_i)` |
+//! | restitution `e` | [-] | the impacts of one rigid stop, or the loss of a contact that remembers its impacts |
+//! | contact damping `c` | as the law has it | the loss of one element whose force depends on the velocity |
+//! | added damping `z_k` | 0 as built | the damping, `C = C(0) + sum_k z_k D_k`, `d = d(0) + sum_k z_k d_k`; part 0 is a ratio to critical damping, `D_0 = diag(2 w_i)` |
 
-use crate::{Law, LawError, System, law::RigidStop};
+use faer::Mat;
+
+use crate::{LawError, System};
 
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -26,13 +29,37 @@ pub enum Parameter {
         /// Number of the element.
         element: usize,
     },
-    /// Coefficient of restitution of a rigid stop [-], 0 to 1.
+    /// Coefficient of restitution [-]: of a rigid stop, 0 to 1; of a contact that remembers its impacts, more than 0.
     Restitution {
         /// Number of the element.
         element: usize,
     },
-    /// Ratio to critical damping [-] that every mode has besides the damping as given; negative takes damping away.
-    AddedDampingRatio,
+    /// Constant of the damping of a contact whose force depends on the velocity, in the unit of its law (N s/m, s/m), > 0.
+    ContactDamping {
+        /// Number of the element.
+        element: usize,
+    },
+    /// How much of a part of the damping the structure has besides the damping as given; negative takes damping away.
+    AddedDamping {
+        /// Number of the part, see [`DampingPart`].
+        part: usize,
+    },
+}
+
+impl Parameter {
+    /// Ratio to critical damping [-] that every mode has besides the damping as given.
+    pub const ADDED_DAMPING_RATIO: Self = Self::AddedDamping { part: 0 };
+}
+
+/// A part of the damping that can be added: what a unit of it adds to the equations of motion.
+///
+/// Every system has part 0, a ratio to critical damping of all modes; [`System::with_damping_part`] gives it others, as a damper between two masses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DampingPart {
+    /// `D` [1/s per unit], n x n, symmetric.
+    pub matrix: Mat<f64>,
+    /// `d` [kg^1/2/s per unit], length n: how it transmits the velocity of the support; see [`SupportInput`](hammerbeam_structure::SupportInput).
+    pub support: Vec<f64>,
 }
 
 /// Why a parameter cannot have a value.
@@ -49,9 +76,21 @@ pub enum ParameterError {
     /// A rigid stop has no stiffness.
     #[error("{name} is rigid, it has no stiffness")]
     NoStiffness { name: String },
-    /// Only rigid stops have a coefficient of restitution as a parameter.
-    #[error("{name} is no rigid stop, it has no coefficient of restitution to vary")]
+    /// Only rigid stops and contacts that remember their impacts have a coefficient of restitution.
+    #[error("{name} has no coefficient of restitution to vary")]
     NoRestitution { name: String },
+    /// Only forces that depend on the velocity by a constant of their own have one.
+    #[error("{name} has no damping to vary")]
+    NoContactDamping { name: String },
+    /// Without damping a contact is of another kind: it ends where the penetration does.
+    #[error("{name}: the damping of a contact is {found}, must be finite and more than 0 to be varied")]
+    ContactDamping { name: String, found: f64 },
+    /// The part does not exist.
+    #[error("there is no part {part} of the damping, the system has {count}")]
+    NoDampingPart { part: usize, count: usize },
+    /// A part of the damping over another number of modes.
+    #[error("a part of the damping has {found} modes, the system has {expected}")]
+    DampingPartSize { found: usize, expected: usize },
     /// The law refuses the value.
     #[error("{name}: {source}")]
     Law { name: String, source: LawError },
@@ -59,22 +98,22 @@ pub enum ParameterError {
     #[error("the excitation scale is {found}, must be finite and positive")]
     ExcitationScale { found: f64 },
     /// Every mode keeps a damping that is not negative.
-    #[error("an added damping ratio of {found} makes the damping of a mode negative or not finite")]
-    DampingRatio { found: f64 },
-    /// The derivative by the damping of a force that depends on the velocity is not known.
-    #[error("{name} loses energy: there is no derivative by the damping with it")]
-    LossyLaw { name: String },
+    #[error("an added damping of {found} makes the damping of a mode negative or not finite")]
+    AddedDamping { found: f64 },
 }
 
 impl System {
     /// Value of a parameter.
     ///
     /// # Errors
-    /// [`ParameterError::NoElement`], [`ParameterError::NoGap`].
+    /// That the system does not have it, see [`ParameterError`].
     pub fn parameter(&self, parameter: Parameter) -> Result<f64, ParameterError> {
         match parameter {
             Parameter::ExcitationScale => Ok(self.excitation_scale()),
-            Parameter::AddedDampingRatio => Ok(self.added_damping_ratio()),
+            Parameter::AddedDamping { part } => {
+                let missing = ParameterError::NoDampingPart { part, count: self.added_damping().len() };
+                self.added_damping().get(part).copied().ok_or(missing)
+            }
             Parameter::Stiffness { element } => {
                 let element = self.element(element)?;
                 let stiffness = Some(element.law.stiffness()).filter(|stiffness| stiffness.is_finite());
@@ -83,7 +122,12 @@ impl System {
             Parameter::Restitution { element } => {
                 let element = self.element(element)?;
                 let missing = || ParameterError::NoRestitution { name: element.name.clone() };
-                element.law.rigid().map(RigidStop::restitution).ok_or_else(missing)
+                element.law.restitution().ok_or_else(missing)
+            }
+            Parameter::ContactDamping { element } => {
+                let element = self.element(element)?;
+                let missing = || ParameterError::NoContactDamping { name: element.name.clone() };
+                element.law.damping().filter(|damping| *damping > 0.0).ok_or_else(missing)
             }
             Parameter::Gap { element } => {
                 let element = self.element(element)?;
@@ -108,21 +152,27 @@ impl System {
     pub fn set_parameter(&mut self, parameter: Parameter, value: f64) -> Result<(), ParameterError> {
         match parameter {
             Parameter::ExcitationScale => self.set_excitation_scale(value),
-            Parameter::AddedDampingRatio => self.set_added_damping_ratio(value),
+            Parameter::AddedDamping { part } => {
+                self.parameter(parameter)?;
+                self.set_added_damping(part, value)
+            }
             Parameter::Stiffness { element }
             | Parameter::Gap { element }
-            | Parameter::Restitution { element } => {
+            | Parameter::Restitution { element }
+            | Parameter::ContactDamping { element } => {
                 // Says whether there is such an element, and such a gap.
                 self.parameter(parameter)?;
                 let element = &mut self.elements_mut()[element];
-                let law = match (parameter, &element.law) {
-                    (Parameter::Gap { .. }, law) => law.with_gap(value),
-                    (Parameter::Restitution { .. }, Law::Rigid(law)) => {
-                        law.with_restitution(value).map(Law::Rigid)
+                let (law, name) = (&element.law, element.name.clone());
+                let law = match parameter {
+                    Parameter::Gap { .. } => law.with_gap(value),
+                    Parameter::Restitution { .. } => law.with_restitution(value),
+                    Parameter::ContactDamping { .. } if !(value.is_finite() && value > 0.0) => {
+                        return Err(ParameterError::ContactDamping { name, found: value });
                     }
-                    (_, law) => law.with_stiffness(value),
+                    Parameter::ContactDamping { .. } => law.with_damping(value),
+                    _ => law.with_stiffness(value),
                 };
-                let name = element.name.clone();
                 element.law = law.map_err(|source| ParameterError::Law { name, source })?;
                 Ok(())
             }

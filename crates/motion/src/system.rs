@@ -6,10 +6,10 @@
 
 use std::f64::consts::TAU;
 
-use faer::c64;
+use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
 
-use crate::{AmplitudeCurve, Harmonic, Law, Load, ParameterError};
+use crate::{AmplitudeCurve, DampingPart, Harmonic, Law, Load, ParameterError};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -57,9 +57,11 @@ pub struct System {
     /// Harmonics whose amplitude depends on the frequency.
     driven: Option<Driven>,
     excitation_scale: f64,
-    added_damping_ratio: f64,
-    /// Diagonal of the damping matrix as given.
-    given_damping: Vec<f64>,
+    /// Parts that can be added to the damping, and how much of each is.
+    damping_parts: Vec<DampingPart>,
+    added_damping: Vec<f64>,
+    /// The damping as given.
+    given_damping: DampingPart,
 }
 
 /// Harmonics that a curve of the frequency is a factor of: support motion and forces, by the orders of the system.
@@ -96,7 +98,12 @@ impl System {
         orders.dedup();
         let (support, forces) = by_orders(&orders, load, model.dof());
         let unscaled = (support.clone(), forces.clone());
-        let given_damping = (0..model.dof()).map(|i| model.damping[(i, i)]).collect();
+        let ratio = Mat::from_fn(model.dof(), model.dof(), |i, j| {
+            if i == j { 2.0 * model.natural_frequencies[i] } else { 0.0 }
+        });
+        let given = model.support.as_ref().map_or(vec![0.0; model.dof()], |support| support.damping.clone());
+        let given_damping = DampingPart { matrix: model.damping.clone(), support: given };
+        let damping_parts = vec![DampingPart { matrix: ratio, support: vec![0.0; model.dof()] }];
         Ok(Self {
             model,
             elements,
@@ -106,7 +113,8 @@ impl System {
             unscaled,
             driven: None,
             excitation_scale: 1.0,
-            added_damping_ratio: 0.0,
+            damping_parts,
+            added_damping: vec![0.0],
             given_damping,
         })
     }
@@ -156,10 +164,32 @@ impl System {
         self.excitation_scale
     }
 
-    /// Damping ratio of every mode besides the damping as given.
+    /// Lets a further part of the damping vary, by the next number: [`Parameter::AddedDamping`](crate::Parameter::AddedDamping).
+    ///
+    /// # Errors
+    /// [`ParameterError::DampingPartSize`] if it is over another number of modes.
+    pub fn with_damping_part(mut self, part: DampingPart) -> Result<Self, ParameterError> {
+        let expected = self.dof();
+        for found in [part.matrix.nrows(), part.matrix.ncols(), part.support.len()] {
+            if found != expected {
+                return Err(ParameterError::DampingPartSize { found, expected });
+            }
+        }
+        self.damping_parts.push(part);
+        self.added_damping.push(0.0);
+        Ok(self)
+    }
+
+    /// The parts of the damping that can be added; the first is a ratio to critical damping of every mode.
     #[must_use]
-    pub fn added_damping_ratio(&self) -> f64 {
-        self.added_damping_ratio
+    pub fn damping_parts(&self) -> &[DampingPart] {
+        &self.damping_parts
+    }
+
+    /// How much of each part is added to the damping as given.
+    #[must_use]
+    pub fn added_damping(&self) -> &[f64] {
+        &self.added_damping
     }
 
     pub(crate) fn elements_mut(&mut self) -> &mut [LocalElement] {
@@ -180,15 +210,25 @@ impl System {
         Ok(())
     }
 
-    pub(crate) fn set_added_damping_ratio(&mut self, ratio: f64) -> Result<(), ParameterError> {
-        let frequencies = &self.model.natural_frequencies;
-        let damping: Vec<f64> =
-            self.given_damping.iter().zip(frequencies).map(|(given, w)| given + 2.0 * ratio * w).collect();
-        if !damping.iter().all(|value| value.is_finite() && *value >= 0.0) {
-            return Err(ParameterError::DampingRatio { found: ratio });
+    pub(crate) fn set_added_damping(&mut self, part: usize, value: f64) -> Result<(), ParameterError> {
+        let n = self.dof();
+        let added: Vec<f64> = (0..self.added_damping.len())
+            .map(|other| if other == part { value } else { self.added_damping[other] })
+            .collect();
+        let parts = || self.damping_parts.iter().zip(&added).filter(|(_, value)| **value != 0.0);
+        let given = &self.given_damping;
+        let sum = |i: usize, j: usize| parts().map(|(part, value)| value * part.matrix[(i, j)]).sum::<f64>();
+        let damping = Mat::from_fn(n, n, |i, j| given.matrix[(i, j)] + sum(i, j));
+        if !(0..n).all(|i| damping[(i, i)].is_finite() && damping[(i, i)] >= 0.0) {
+            return Err(ParameterError::AddedDamping { found: value });
         }
-        self.added_damping_ratio = ratio;
-        damping.iter().enumerate().for_each(|(i, value)| self.model.damping[(i, i)] = *value);
+        let transmitted = |i: usize| parts().map(|(part, value)| value * part.support[i]).sum::<f64>();
+        let support: Vec<f64> = (0..n).map(|i| given.support[i] + transmitted(i)).collect();
+        self.model.damping = damping;
+        if let Some(input) = &mut self.model.support {
+            input.damping = support;
+        }
+        self.added_damping = added;
         Ok(())
     }
 

@@ -105,7 +105,7 @@ impl VectorField for Damped<'_> {
 /// how often contacts closed.
 fn error(system: &System, stretch: &Stretch, state: &[f64]) -> (f64, u32) {
     let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-13 }).unwrap();
-    integrator.differentiate_by(Some(Parameter::AddedDampingRatio)).unwrap();
+    integrator.differentiate_by(Some(Parameter::ADDED_DAMPING_RATIO)).unwrap();
     let found = integrator.flow(stretch, state).unwrap().by_parameter;
     let contacts = integrator.touches().iter().sum();
     let mut field = Damped { system, frequency_hz: stretch.frequency_hz };
@@ -208,7 +208,7 @@ fn damping_takes_from_a_resonance_what_the_closed_form_says() {
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let system = System::new(model(&[w], modal_damping(&[w], 0.0)), &load, vec![]).unwrap();
     let mut integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
-    integrator.differentiate_by(Some(Parameter::AddedDampingRatio)).unwrap();
+    integrator.differentiate_by(Some(Parameter::ADDED_DAMPING_RATIO)).unwrap();
     for cycles in [0.3, 1.0, 7.25] {
         let flow =
             integrator.flow(&Stretch { frequency_hz: 2.0, start: 0.0, end: cycles }, &[0.0, 0.0]).unwrap();

@@ -184,9 +184,13 @@ fn sensitivities_through_held_force_steps_are_those_of_differences() {
                 Parameter::Gap { element: 0 },
                 Parameter::Restitution { element: 0 },
                 Parameter::Stiffness { element: 1 },
+                Parameter::ADDED_DAMPING_RATIO,
             ];
-            if !law.depends_on_velocity() {
-                parameters.push(Parameter::AddedDampingRatio);
+            if law.damping().is_some_and(|damping| damping > 0.0) {
+                parameters.push(Parameter::ContactDamping { element: 1 });
+            }
+            if law.restitution().is_some() {
+                parameters.push(Parameter::Restitution { element: 1 });
             }
             if name != "cubic" && name != "two-sided" {
                 parameters.push(Parameter::Gap { element: 1 });

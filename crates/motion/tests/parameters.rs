@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use common::{element, hertz, modal_damping, model, paper_beam, settled};
 use faer::Mat;
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, Parameter, ParameterError, Stretch, System,
+    DampingPart, Harmonic, HarmonicForce, Law, Load, Parameter, ParameterError, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
@@ -39,8 +39,18 @@ fn three_modes(laws: &[Law], coupled: bool) -> System {
         forces: vec![force(&[0.6, 0.2, 0.1], 0, -1.0, 0.0), force(&[0.3, -0.5, 0.4], 3, 0.5, 2.0)],
     };
     let elements = laws.iter().map(|law| element(&[-1.4, 1.1, -0.9], 0.3, *law)).collect();
-    System::new(model, &load, elements).unwrap()
+    // Another damper between two points, one of which the support moves with.
+    let other = [0.3, 0.8, -0.6];
+    let part = DampingPart {
+        matrix: Mat::from_fn(3, 3, |i, j| other[i] * other[j]),
+        support: other.iter().map(|entry| 0.7 * entry).collect(),
+    };
+    System::new(model, &load, elements).unwrap().with_damping_part(part).unwrap()
 }
+
+/// A ratio of all modes, and a damper.
+const DAMPINGS: [(Parameter, f64); 2] =
+    [(Parameter::ADDED_DAMPING_RATIO, 1e-5), (Parameter::AddedDamping { part: 1 }, 1e-3)];
 
 fn laws() -> Vec<Law> {
     vec![
@@ -79,7 +89,8 @@ fn error_by_differences(
 
 /// A parameter and the step of its differences, for the elements of [`laws`].
 fn parameters() -> Vec<(Parameter, f64)> {
-    let mut all = vec![(Parameter::ExcitationScale, 3e-4), (Parameter::AddedDampingRatio, 1e-5)];
+    let mut all = vec![(Parameter::ExcitationScale, 3e-4)];
+    all.extend(DAMPINGS);
     all.extend((0..3).map(|element| (Parameter::Gap { element }, 2e-7)));
     let stiffnesses = [5e5, 3e4, 8e3, 1e8].into_iter().enumerate();
     all.extend(stiffnesses.map(|(element, k)| (Parameter::Stiffness { element }, 1e-4 * k)));
@@ -97,7 +108,13 @@ fn lossy_laws() -> Vec<Law> {
 }
 
 fn lossy_parameters() -> Vec<(Parameter, f64)> {
-    let mut all = vec![(Parameter::ExcitationScale, 3e-4)];
+    let mut all = vec![
+        (Parameter::ExcitationScale, 3e-4),
+        (Parameter::ContactDamping { element: 0 }, 1e-4),
+        (Parameter::ContactDamping { element: 1 }, 1e-3),
+        (Parameter::Restitution { element: 2 }, 1e-4),
+    ];
+    all.extend(DAMPINGS);
     // Times of contacts move with the root of the gap where they are slow: the steps are small.
     all.extend((0..3).map(|element| (Parameter::Gap { element }, 2e-8)));
     let stiffnesses = [5e5, 3e4, 5e5].into_iter().enumerate();
@@ -105,11 +122,20 @@ fn lossy_parameters() -> Vec<(Parameter, f64)> {
     all
 }
 
+/// Every formula of a loss, at several coefficients of restitution.
 #[test]
-fn the_damping_is_no_parameter_beside_laws_that_lose_energy() {
-    let mut integrator = exact(&three_modes(&lossy_laws(), false), 1e-11);
-    let refused = integrator.differentiate_by(Some(Parameter::AddedDampingRatio)).unwrap_err();
-    assert!(refused.to_string().contains("loses energy"), "{refused}");
+fn derivatives_by_the_restitution_of_every_model_are_those_of_differences() {
+    let hertz = HertzStop::with_gap(5e5, 2e-4).unwrap();
+    for model in RestitutionModel::ALL {
+        for restitution in [0.35, 0.8] {
+            let law = Law::Restitution(RestitutionStop::new(hertz, model, restitution).unwrap());
+            let system = three_modes(&[law], false);
+            let parameter = Parameter::Restitution { element: 0 };
+            let motion = |system: &System| exact(system, 1e-14).advance(&STRETCH, &STATE).unwrap();
+            let error = error_by_differences((&system, &STRETCH, &STATE), parameter, 1e-4, motion);
+            assert!(error < 1e-7, "{model:?} {restitution}: {error:e}");
+        }
+    }
 }
 
 #[test]
@@ -145,7 +171,7 @@ fn derivatives_of_the_beam_agree_over_several_contacts() {
         let parameters = [
             (Parameter::ExcitationScale, 3e-5),
             (Parameter::Stiffness { element: 0 }, 1e-4 * 4.5e9),
-            (Parameter::AddedDampingRatio, 1e-6),
+            (Parameter::ADDED_DAMPING_RATIO, 1e-6),
         ];
         for (parameter, step) in parameters {
             let of_general = |system: &System| {
@@ -214,9 +240,26 @@ fn parameters_that_are_not_there_are_refused() {
     for (parameter, value) in [
         (Parameter::ExcitationScale, 0.0),
         (Parameter::ExcitationScale, f64::NAN),
-        (Parameter::AddedDampingRatio, -1.0),
+        (Parameter::ADDED_DAMPING_RATIO, -1.0),
         (Parameter::Stiffness { element: 0 }, -1.0),
+        (Parameter::AddedDamping { part: 1 }, -1e3),
+        (Parameter::AddedDamping { part: 2 }, 0.0),
+        (Parameter::ContactDamping { element: 0 }, 1.0),
+        (Parameter::Restitution { element: 0 }, 0.5),
     ] {
         assert!(system.clone().with_parameter(parameter, value).is_err(), "{parameter:?} {value}");
     }
+    let lossy = three_modes(&lossy_laws(), false);
+    for (parameter, value) in [
+        (Parameter::ContactDamping { element: 0 }, 0.0),
+        (Parameter::ContactDamping { element: 1 }, f64::INFINITY),
+        (Parameter::ContactDamping { element: 2 }, 1.0),
+        (Parameter::Restitution { element: 1 }, 0.5),
+        (Parameter::Restitution { element: 2 }, 0.0),
+        (Parameter::Restitution { element: 2 }, 1.1),
+    ] {
+        assert!(lossy.clone().with_parameter(parameter, value).is_err(), "{parameter:?} {value}");
+    }
+    let small = DampingPart { matrix: Mat::zeros(2, 2), support: vec![0.0; 3] };
+    assert!(matches!(lossy.with_damping_part(small), Err(ParameterError::DampingPartSize { .. })));
 }

@@ -8,7 +8,8 @@ use common::{
     rigid, settled,
 };
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, LawError, Load, LocalElement, Parameter, ParameterError, Stretch, System,
+    DampingPart, Harmonic, HarmonicForce, LawError, Load, LocalElement, Parameter, ParameterError, Stretch,
+    System,
     exact::{ContactPiece, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, observe},
     law::RigidStop,
@@ -86,16 +87,26 @@ fn chatter_ends_and_the_ball_rests() {
     }
 }
 
-const PARAMETERS: [Parameter; 4] = [
+const PARAMETERS: [Parameter; 5] = [
     Parameter::ExcitationScale,
-    Parameter::AddedDampingRatio,
+    Parameter::ADDED_DAMPING_RATIO,
+    Parameter::AddedDamping { part: 1 },
     Parameter::Gap { element: 0 },
     Parameter::Restitution { element: 0 },
 ];
 
+/// The system with a damper between two points as a further parameter; the support moves with one of them.
+fn with_damper(system: System) -> System {
+    let n = system.dof();
+    let row: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 5.0 } else { -5.0 } / (1 + i) as f64).collect();
+    let matrix = faer::Mat::from_fn(n, n, |i, j| row[i] * row[j]);
+    let support = row.iter().map(|entry| 0.8 * entry).collect();
+    system.with_damping_part(DampingPart { matrix, support }).unwrap()
+}
+
 #[test]
 fn sensitivities_through_impacts_are_those_of_differences() {
-    let system = beam_with(0.015, rigid(0.6, 1e-4));
+    let system = with_damper(beam_with(0.015, rigid(0.6, 1e-4)));
     for frequency_hz in [22.0, 30.0, 36.0, 47.0] {
         let state = settled(&system, frequency_hz, 20, 0.1);
         let stretch = Stretch { frequency_hz, start: 0.1, end: 1.1 };
@@ -121,7 +132,9 @@ fn pressed(restitution: f64, damping: faer::Mat<f64>, support_ratio: f64) -> Sys
     };
     let support = vec![Harmonic { order: 1, amplitude: 2e-3, phase: 0.4 }];
     let load = Load { support, forces: vec![force(0, 2.0, 0.0), force(1, 3.0, 0.3)] };
-    System::new(model, &load, vec![element(&shape, support_ratio, rigid(restitution, 1e-3))]).unwrap()
+    with_damper(
+        System::new(model, &load, vec![element(&shape, support_ratio, rigid(restitution, 1e-3))]).unwrap(),
+    )
 }
 
 #[test]
@@ -139,7 +152,7 @@ fn sensitivities_through_chatter_sticking_and_lift_off_are_those_of_differences(
                 let trace = integrator(&system).trace(&stretch, &state, &[]).unwrap();
                 let stuck = trace.contacts.last().unwrap();
                 assert!(stuck.peak_force > 1.0 && stuck.end.is_some() == (end > 1.0), "{stuck:?}");
-                let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..3] };
+                let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..4] };
                 assert_sensitivities(&system, &stretch, &state, parameters, 1e-6);
             }
         }
@@ -231,7 +244,7 @@ fn two_stops(restitution: f64, damping: faer::Mat<f64>, second: [f64; 3]) -> Sys
         element(&first, 1.0, rigid(restitution, 1e-3)),
         LocalElement { name: "second".into(), ..element(&second, 0.0, rigid(restitution, 5e-4)) },
     ];
-    System::new(model, &Load { support, forces }, elements).unwrap()
+    with_damper(System::new(model, &Load { support, forces }, elements).unwrap())
 }
 
 #[test]
@@ -253,7 +266,7 @@ fn several_stops_agree_with_the_general_integrator_and_differences() {
             // Stops that throw one another off chatter in cycles of chatter; each cycle leaves its end out, which the sensitivities feel to about 2e-7.
             assert_agreement(&system, &stretch, &state, 1e-6, &what);
             if trace.contacts.iter().all(|contact| contact.begin.is_some()) {
-                let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..3] };
+                let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..4] };
                 // Where chatter is cut a motion repeats to about 1e-13, over steps of 1e-7 in the damping.
                 assert_sensitivities(&system, &stretch, &state, parameters, 1e-5);
                 seen[3] += 1;

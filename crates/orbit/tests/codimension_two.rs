@@ -214,7 +214,7 @@ fn a_flip_curve_has_its_1_2_resonance_where_the_damper_passes_zero() {
     let mut walk = BranchWalk::new(&case.0, &case.1, &start, Side::Up, range_hz, &settings).unwrap();
     while walk.step(&mut rows).unwrap().is_none() {}
     let flip = rows.iter().find(|row| row.events.flip).unwrap();
-    let parameter = Parameter::AddedDampingRatio;
+    let parameter = Parameter::ADDED_DAMPING_RATIO;
     let settings =
         CurveSettings { parameter, range: (-0.0505, 0.01), range_hz, max_step: 0.5, max_rows: 3000 };
     let mut walk = CurveWalk::new(

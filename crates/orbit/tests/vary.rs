@@ -89,7 +89,8 @@ fn gap_and_damping_meet_their_closed_forms() {
         found.iter().filter(|row| row.events.grazing).map(|row| row.parameter.unwrap()).collect();
     assert_eq!(grazing.len(), 1);
     assert!((grazing[0] / reach - 1.0).abs() < 1e-6, "{grazing:?} {reach}");
-    let found = rows(&oscillator(9.0), (Parameter::AddedDampingRatio, frequency_hz), Side::Up, (-0.05, 0.3));
+    let found =
+        rows(&oscillator(9.0), (Parameter::ADDED_DAMPING_RATIO, frequency_hz), Side::Up, (-0.05, 0.3));
     for row in found {
         let ratio = row.parameter.unwrap();
         let expected = amplitude(frequency_hz, 0.2 + 2.0 * ratio);

@@ -1,8 +1,8 @@
-//! The column of the sensitivities that belongs to the added damping ratio: the damping acts on the whole motion.
+//! The column of the sensitivities that belongs to an added part of the damping, which acts on the whole motion.
 //!
-//! With `C = C(0) + diag(2 z w_i)` the sensitivity `s = dx/dz` in the fixed coordinates of the blocks obeys
+//! With `C = C(0) + z D` (and what the support transmits, `d = d(0) + z d_z`) the sensitivity `s = dx/dz` in the fixed coordinates of the blocks obeys
 //!
-//! `s' = A s + dA x + B f' C s`, `dA` by the change of the damping matrix, diag(2 w_i) (`change.rs`).
+//! `s' = A s + dA x + db + B f' C s`, `dA` by the change of the damping matrix, D (`change.rs`), `db = S^-1 [0; -d_z u']`.
 //!
 //! The motion x has three parts, and `dA x` drives one part of s with each:
 //!
@@ -12,26 +12,32 @@
 //!
 //! So a step solves `(I - W f') dr = X s + dX x + d r_particular + dW F` and ends with `s+ = E s + dE x + dP F + P f' dr`. For short steps `dX`, `dW` and `dP`
 //! come from the power series with the changed Markov parameters `d(C A^m B)`; for long ones x and s go through the step together, from node to
-//! node, the force by quadrature fine enough for every block.
+//! node, the force by quadrature fine enough for every block. Forces that depend on velocities need `dr'`, too: C reads displacements and `dA` acts on velocities, so `C dA = 0` and
+//! `d(r') = C A s`.
+
+use faer::c64;
 
 use super::{
     block::Blocks,
     change::Change,
     collocation::{Grading, NODES},
     drive::Drive,
+    force_step::Driven,
     output::Output,
     recurrence::gauss_sixteen,
     series::Series,
     structure::Structure,
 };
-use crate::System;
+use crate::{DampingPart, System};
 
 /// Radians of the fastest block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding.
 const RADIANS: f64 = 4.0;
 
-/// What the column by the damping ratio is made of.
+/// What the column by a part of the damping is made of.
 #[derive(Debug)]
 pub(crate) struct ByDamping {
+    /// Number of the part.
+    part: usize,
     change: Change,
     series: Series,
     /// Part of the sensitivity that the particular solution drives.
@@ -52,33 +58,33 @@ pub(crate) struct SolvedStep<'a> {
     pub state: &'a [f64],
 }
 
-/// Diagonal of the change of the modal damping matrix with the ratio.
-fn damping_of(system: &System) -> Vec<f64> {
-    system.model().natural_frequencies.iter().map(|w| 2.0 * w).collect()
-}
-
 impl ByDamping {
-    pub fn new(system: &System, blocks: &Blocks, series: &Series, drive: &Drive) -> Self {
-        let change = Change::of_damping(blocks, &damping_of(system));
-        Self::of_change(change, (blocks, series), drive.clone())
+    pub fn new((system, part): (&System, usize), blocks: &Blocks, series: &Series, drive: &Drive) -> Self {
+        let change = Change::of_damping(blocks, &system.damping_parts()[part].matrix, blocks.count());
+        Self::of_change((part, change), (blocks, series), drive.clone())
     }
 
     /// The same of a structure that is held on rigid stops, over the stretch of its particular solution.
-    pub fn of_held(system: &System, structure: &Structure, held: usize) -> Self {
+    pub fn of_held((system, part): (&System, usize), structure: &Structure, held: usize) -> Self {
         let Structure { blocks, series, drive, outputs, .. } = structure;
-        let change = Change::of_moving(blocks, &damping_of(system), blocks.count() - held);
-        let drive = drive.change(blocks, outputs, &change);
-        Self::of_change(change, (blocks, series), drive)
+        let change = Change::of_damping(blocks, &system.damping_parts()[part].matrix, blocks.count() - held);
+        let drive = drive.change(blocks, outputs, (&change, &transmitted(system, part, drive)));
+        Self::of_change((part, change), (blocks, series), drive)
     }
 
-    fn of_change(change: Change, (blocks, series): (&Blocks, &Series), drive: Drive) -> Self {
+    fn of_change(
+        (part, change): (usize, Change),
+        (blocks, series): (&Blocks, &Series),
+        drive: Drive,
+    ) -> Self {
         let fastest = blocks.rates().into_iter().fold(0.0, f64::max);
-        Self { series: series.change(blocks, &change), change, drive, fastest }
+        Self { part, series: series.change(blocks, &change), change, drive, fastest }
     }
 
     /// Prepares for a stretch with that particular solution.
-    pub fn start(&mut self, drive: &Drive, blocks: &Blocks, outputs: &[Output]) {
-        self.drive = drive.change(blocks, outputs, &self.change);
+    pub fn start(&mut self, system: &System, drive: &Drive, blocks: &Blocks, outputs: &[Output]) {
+        let loads = transmitted(system, self.part, drive);
+        self.drive = drive.change(blocks, outputs, (&self.change, &loads));
     }
 
     /// `dE x`.
@@ -86,26 +92,31 @@ impl ByDamping {
         self.change.over(time, state)
     }
 
-    /// Over a step: `dX x + dW F` at the nodes, `[a * NODES + k]`, into `nodes`, and `dE x + dP F` into `end`.
+    /// Over a step: `dX x + dW F` at the nodes, if `damped` with the rates, and `dE x + dP F` at the end.
     pub fn over_step(
         &self,
         step: &SolvedStep,
         (outputs, inputs): (&[Output], &[Vec<f64>]),
-        (nodes, end): (&mut Vec<f64>, &mut Vec<f64>),
+        damped: bool,
+        driven: &mut Driven,
     ) {
-        nodes.clear();
-        end.clear();
+        driven.clear();
         if step.length > self.series.reach() {
-            nodes.resize(step.active.len() * NODES, 0.0);
-            return self.by_quadrature(step, (outputs, inputs), (nodes, end));
+            let size = step.active.len() * NODES;
+            driven.nodes.resize(size, 0.0);
+            driven.rates.resize(if damped { size } else { 0 }, 0.0);
+            return self.by_quadrature(step, (outputs, inputs), driven);
         }
         let (shape, loads) = ((step.grading, step.length), (step.active, step.force));
         for &element in step.active {
-            nodes.extend(self.series.node_values((element, 0), shape, step.state, loads));
+            driven.nodes.extend(self.series.node_values((element, 0), shape, step.state, loads));
+            if damped {
+                driven.rates.extend(self.series.node_values((element, 1), shape, step.state, loads));
+            }
         }
-        end.extend(self.over_flight(step.length, step.state));
+        driven.end.extend(self.over_flight(step.length, step.state));
         for (&element, force) in step.active.iter().zip(step.force.chunks_exact(NODES)) {
-            self.series.add_force(element, shape, force, end);
+            self.series.add_force(element, shape, force, &mut driven.end);
         }
     }
 
@@ -113,12 +124,13 @@ impl ByDamping {
         &self,
         step: &SolvedStep,
         (outputs, inputs): (&[Output], &[Vec<f64>]),
-        (nodes, end): (&mut [f64], &mut Vec<f64>),
+        Driven { nodes, rates, end }: &mut Driven,
     ) {
         let (grading, length) = (step.grading, step.length);
         let rule = grading.rule();
         let mut state = step.state.to_vec();
         end.resize(state.len(), 0.0);
+        let read = |row: &[f64], end: &[f64]| row.iter().zip(end).map(|(r, s)| r * s).sum();
         let mut from = 0.0;
         for node in 0..=NODES {
             let to = rule.s.get(node).copied().unwrap_or(1.0);
@@ -130,8 +142,11 @@ impl ByDamping {
             }
             if node < NODES {
                 for (a, &element) in step.active.iter().enumerate() {
-                    nodes[a * NODES + node] =
-                        outputs[element].row.iter().zip(&*end).map(|(r, s)| r * s).sum();
+                    let place = a * NODES + node;
+                    nodes[place] = read(&outputs[element].row, end);
+                    if let Some(rate) = rates.get_mut(place) {
+                        *rate = read(&outputs[element].velocity_row, end);
+                    }
                 }
             }
             from = to;
@@ -164,4 +179,19 @@ impl ByDamping {
             change.iter_mut().zip(&changed).for_each(|(s, part)| *s += part);
         }
     }
+}
+
+/// What a unit of a part of the damping adds to the modal load of each order of the particular solution: `-i m W U_m d_z`; empty where the support transmits nothing.
+fn transmitted(system: &System, part: usize, drive: &Drive) -> Vec<Vec<c64>> {
+    let DampingPart { support, .. } = &system.damping_parts()[part];
+    if support.iter().all(|value| *value == 0.0) {
+        return Vec::new();
+    }
+    let frequency = drive.circular_frequency();
+    let of_order = |(index, &order): (usize, &u32)| {
+        let velocity =
+            system.support_amplitude(index, frequency).0 * c64::new(0.0, f64::from(order) * frequency);
+        support.iter().map(|value| -velocity * *value).collect()
+    };
+    system.orders().iter().enumerate().map(of_order).collect()
 }

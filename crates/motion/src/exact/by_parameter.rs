@@ -5,8 +5,8 @@
 //! - Excitation scale `a`: `f_p = 0`, and the particular solution of all orders above 0 is proportional to `a`.
 //! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V - level_g`. The gap of a rigid stop that holds the structure moves the particular
 //!   solution (`held.rs`).
-//! - Stiffness: `f_p = F/k`.
-//! - Added damping ratio: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
+//! - Stiffness: `f_p = F/k`. Damping and restitution of a contact: `f_p` by the law (`damped_step.rs`).
+//! - Added damping: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
 
 use super::{
     ExactIntegrator, MotionError,
@@ -18,7 +18,7 @@ use super::{
     run::Run,
     sensitivity::Sensitivity,
 };
-use crate::{Law, Parameter, ParameterError, System};
+use crate::{Law, Parameter, System};
 
 impl ForceStep {
     /// Adds what the parameter has in the equations for the displacements.
@@ -43,12 +43,10 @@ impl ForceStep {
                     let stiffness = laws[element].stiffness();
                     std::array::from_fn(|k| (0..NODES).map(|j| w[j][k] * force[j] / stiffness).sum())
                 }
-                Parameter::AddedDampingRatio | Parameter::Gap { .. } if !self.driven.nodes.is_empty() => {
+                Parameter::AddedDamping { .. } | Parameter::Gap { .. } if !self.driven.nodes.is_empty() => {
                     std::array::from_fn(|k| self.driven.nodes[a * NODES + k])
                 }
-                Parameter::AddedDampingRatio | Parameter::Gap { .. } | Parameter::Restitution { .. } => {
-                    continue;
-                }
+                _ => continue,
             };
             let rows = self.work[a * NODES * columns..].chunks_exact_mut(columns);
             rows.zip(values).for_each(|(row, value)| row[column] += value);
@@ -75,14 +73,10 @@ impl ExactIntegrator {
     /// Chooses the parameter by which flows are differentiated besides the frequency; `None` for none.
     ///
     /// # Errors
-    /// [`MotionError::Parameter`] if the system has no such parameter, or the damping together with a law that depends on the velocity.
+    /// [`MotionError::Parameter`] if the system has no such parameter.
     pub fn differentiate_by(&mut self, parameter: Option<Parameter>) -> Result<(), MotionError> {
         if let Some(parameter) = parameter {
             self.system.parameter(parameter)?;
-            let lossy = self.system.elements().iter().find(|element| element.law.depends_on_velocity());
-            if let (Parameter::AddedDampingRatio, Some(element)) = (parameter, lossy) {
-                return Err(ParameterError::LossyLaw { name: element.name.clone() }.into());
-            }
         }
         self.parameter = parameter;
         self.prepare_damping();
@@ -97,7 +91,7 @@ impl ExactIntegrator {
         if self.system.parameter(parameter)? == value {
             return Ok(());
         }
-        if parameter == Parameter::AddedDampingRatio {
+        if matches!(parameter, Parameter::AddedDamping { .. }) {
             return self.rebuild(self.system.clone().with_parameter(parameter, value)?);
         }
         self.system.set_parameter(parameter, value)?;
@@ -121,16 +115,24 @@ impl ExactIntegrator {
     }
 
     fn prepare_damping(&mut self) {
-        let wanted = self.parameter == Some(Parameter::AddedDampingRatio);
-        let make = || Box::new(ByDamping::new(&self.system, &self.blocks, &self.series, &self.drive));
-        self.by_damping = wanted.then(make);
+        let make =
+            |part| Box::new(ByDamping::new((&self.system, part), &self.blocks, &self.series, &self.drive));
+        self.by_damping = self.damping_part().map(make);
+    }
+
+    /// The part of the damping that is the parameter.
+    pub(super) fn damping_part(&self) -> Option<usize> {
+        match self.parameter {
+            Some(Parameter::AddedDamping { part }) => Some(part),
+            _ => None,
+        }
     }
 
     /// Column of the parameter at the start of a stretch: without the particular solution, which does not start from the given state.
     pub(super) fn parameter_column_at_start(&mut self) -> Option<Vec<f64>> {
         let parameter = self.parameter?;
         if let Some(by_damping) = &mut self.by_damping {
-            by_damping.start(&self.drive, &self.blocks, &self.outputs);
+            by_damping.start(&self.system, &self.drive, &self.blocks, &self.outputs);
         }
         let mut column = vec![0.0; 2 * self.blocks.count()];
         self.add_particular(parameter, 0.0, -1.0, &mut column);
@@ -143,7 +145,7 @@ impl ExactIntegrator {
         let by_damping = self.damping_in_use().map(|by_damping| &by_damping.drive);
         match (parameter, by_damping, held.and_then(|holding| holding.by_level.as_ref())) {
             (Parameter::ExcitationScale, ..) => self.drive.add_state_by_scale(time, factor, column),
-            (Parameter::AddedDampingRatio, Some(drive), _) | (Parameter::Gap { .. }, _, Some(drive)) => {
+            (Parameter::AddedDamping { .. }, Some(drive), _) | (Parameter::Gap { .. }, _, Some(drive)) => {
                 drive.add_state(time, factor, column);
             }
             _ => {}
@@ -170,10 +172,12 @@ impl ExactIntegrator {
         let (span, c) = ((step.start, length), &grading.rule().c);
         if let Some(by_damping) = self.damping_in_use() {
             let solved = SolvedStep { grading, length, active, force: &step.force, state: &run.state };
-            let into = (&mut driven.nodes, &mut driven.end);
-            by_damping.over_step(&solved, (&self.outputs, &self.inputs), into);
+            by_damping.over_step(&solved, (&self.outputs, &self.inputs), step.damped, &mut driven);
             for (values, &e) in driven.nodes.as_chunks_mut::<NODES>().0.iter_mut().zip(active) {
                 by_damping.drive.add_values(e, &self.outputs[e], span, c, values);
+            }
+            for (rates, &e) in driven.rates.as_chunks_mut::<NODES>().0.iter_mut().zip(active) {
+                by_damping.drive.add_rates(e, &self.outputs[e], span, c, rates);
             }
         } else if let Some(drive) = self.holding.as_ref().and_then(|holding| holding.by_level.as_ref()) {
             for &e in active {

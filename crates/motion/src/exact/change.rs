@@ -14,7 +14,7 @@
 //!
 //! So the derivative is exact for coupled modes too: the coordinates S are held, and need no derivative.
 
-use faer::c64;
+use faer::{Mat, c64};
 
 use super::{block::Blocks, propagator::Propagator, secular::exponential};
 
@@ -50,27 +50,25 @@ enum Kind {
 pub(crate) struct Change {
     blocks: Vec<(f64, f64)>,
     pairs: Vec<Pair>,
+    moving: usize,
 }
 
 impl Change {
-    /// The change by a diagonal change of the modal damping matrix.
-    ///
-    /// * `damping`: diagonal of `dC`, length n.
-    pub fn of_damping(blocks: &Blocks, damping: &[f64]) -> Self {
-        Self::of_moving(blocks, damping, blocks.count())
-    }
-
-    /// The same where only the first `moving` blocks obey the equations of motion; the others are prescribed and do not change.
-    pub fn of_moving(blocks: &Blocks, damping: &[f64], moving: usize) -> Self {
+    /// The change by a change `dC` of the modal damping matrix, n x n, where the first `moving` blocks obey the equations of motion; the others are prescribed and do not change.
+    pub fn of_damping(blocks: &Blocks, damping: &Mat<f64>, moving: usize) -> Self {
         let n = blocks.count();
-        let entry = |row: usize, column: usize| match &blocks.transform {
-            None if row == column && row >= n => -damping[row - n],
-            None => 0.0,
-            Some(transform) => (0..n)
-                .map(|m| {
-                    -transform.to_blocks[(row, n + m)] * damping[m] * transform.from_blocks[(n + m, column)]
-                })
-                .sum(),
+        // -dC times the rows of S that are velocities.
+        let damped = blocks.transform.as_ref().map(|transform| {
+            Mat::from_fn(n, 2 * n, |row, column| {
+                (0..n).map(|m| -damping[(row, m)] * transform.from_blocks[(n + m, column)]).sum::<f64>()
+            })
+        });
+        let entry = |row: usize, column: usize| match (&blocks.transform, &damped) {
+            (Some(transform), Some(damped)) => {
+                (0..n).map(|m| transform.to_blocks[(row, n + m)] * damped[(m, column)]).sum()
+            }
+            _ if row >= n && column >= n => -damping[(row - n, column - n)],
+            _ => 0.0,
         };
         let list: Vec<(f64, f64)> =
             blocks.stiffness.iter().copied().zip(blocks.damping.iter().copied()).collect();
@@ -85,7 +83,12 @@ impl Change {
                 }
             }
         }
-        Self { blocks: list, pairs }
+        Self { blocks: list, pairs, moving }
+    }
+
+    /// How many blocks obey the equations of motion; the others are prescribed.
+    pub fn moving(&self) -> usize {
+        self.moving
     }
 
     /// The pairs of blocks that are coupled by the change.
@@ -246,7 +249,7 @@ mod tests {
         let (blocks, j) = if own { (vec![to], 0) } else { (vec![to, from], 1) };
         let n = blocks.len();
         let pairs = vec![Pair { to: 0, from: j, coupling: COUPLING, kind }];
-        let change = Change { blocks, pairs };
+        let change = Change { blocks, pairs, moving: n };
         let column = |entry: usize| {
             let (mut state, mut changed) = (vec![0.0; 2 * n], vec![0.0; 2 * n]);
             state[entry] = 1.0;

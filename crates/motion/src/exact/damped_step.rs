@@ -216,6 +216,8 @@ fn by_parameter(parameter: Parameter, element: usize, law: &Law, (r, v): (f64, f
     match parameter {
         Parameter::Gap { element: other } if other == element => -slope * law.level_by_gap(r),
         Parameter::Stiffness { element: other } if other == element => law.by_stiffness(r, v),
+        Parameter::ContactDamping { element: other } if other == element => law.by_damping(r, v),
+        Parameter::Restitution { element: other } if other == element => law.by_restitution(r, v),
         _ => 0.0,
     }
 }

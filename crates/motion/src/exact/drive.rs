@@ -238,16 +238,24 @@ impl Drive {
         self.scaled_part().add_state(time, factor / self.scale, state);
     }
 
-    /// The part of the change `s' = A s + dA x` of the motion that the particular solution drives, for a change `dA` of the blocks: the steady
-    /// solution where there is one, from rest elsewhere. Of it only states and values are told.
-    pub fn change(&self, blocks: &Blocks, outputs: &[Output], change: &Change) -> Self {
+    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for a change `dA` of the blocks, and modal loads `db` of its orders (as many as
+    /// there are): the steady solution where there is one, from rest elsewhere. Of it only states, values and rates are told.
+    pub fn change(
+        &self,
+        blocks: &Blocks,
+        outputs: &[Output],
+        (change, loads): (&Change, &[Vec<c64>]),
+    ) -> Self {
         let n = blocks.count();
         let mut changed = Self { orders: Vec::new(), secular: Vec::new(), ..*self };
-        for order in &self.orders {
+        for (index, order) in self.orders.iter().enumerate() {
             let w = order.order * self.circular_frequency;
-            let input = change.times(&order.state);
+            let mut input = change.times(&order.state);
+            if let Some(load) = loads.get(index) {
+                input.iter_mut().zip(complex_input(blocks, load)).for_each(|(sum, part)| *sum += part);
+            }
             let mut state = vec![c64::new(0.0, 0.0); 2 * n];
-            for i in (0..n).filter(|&i| input[i].norm() + input[n + i].norm() > 0.0) {
+            for i in (0..change.moving()).filter(|&i| input[i].norm() + input[n + i].norm() > 0.0) {
                 let (k, c, beta, phi) = (blocks.stiffness[i], blocks.damping[i], input[i], input[n + i]);
                 let denominator = c64::new(k - w * w, w * c);
                 if denominator.norm() <= RESONANT * (k + w * w) {

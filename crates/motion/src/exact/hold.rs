@@ -47,9 +47,8 @@ impl ExactIntegrator {
                 .map(|j| held.by_level(&self.system, &self.stretch, j)),
             _ => None,
         };
-        let wanted = self.parameter == Some(Parameter::AddedDampingRatio);
-        let by_damping =
-            wanted.then(|| ByDamping::of_held(&self.system, &held.structure, held.elements.len()));
+        let of_held = |part| ByDamping::of_held((&self.system, part), &held.structure, held.elements.len());
+        let by_damping = self.damping_part().map(of_held);
         self.exchange(&mut held.structure);
         self.holding = Some(Box::new(Holding { held, by_level, by_damping }));
         Ok(())

@@ -31,6 +31,15 @@ impl HuntCrossleyStop {
         self.loss
     }
 
+    pub(super) fn with_loss(&self, loss: f64) -> Result<Self, LawError> {
+        Self::new(self.elastic, loss)
+    }
+
+    /// `df/da = -3/2 k p^1.5 p'`.
+    pub(super) fn by_loss(&self, displacement: f64, velocity: f64) -> f64 {
+        1.5 * self.elastic.force(displacement).value * velocity
+    }
+
     pub(super) fn stiffness(&self) -> f64 {
         self.elastic.stiffness()
     }

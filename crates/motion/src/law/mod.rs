@@ -224,6 +224,64 @@ impl Law {
         }
     }
 
+    /// The constant of the damping of a force that depends on the velocity, in its unit (N s/m, s/m); `None` where a law has none.
+    #[must_use]
+    pub fn damping(&self) -> Option<f64> {
+        match self {
+            Self::HuntCrossley(law) => Some(law.loss()),
+            Self::Linear(law) => Some(law.damping()),
+            _ => None,
+        }
+    }
+
+    /// The law with another constant of the damping; a law without one stays as it is.
+    ///
+    /// # Errors
+    /// [`LawError::Damping`].
+    pub fn with_damping(&self, damping: f64) -> Result<Self, LawError> {
+        Ok(match self {
+            Self::HuntCrossley(law) => Self::HuntCrossley(law.with_loss(damping)?),
+            Self::Linear(law) => Self::Linear(law.with_damping(damping)?),
+            law => *law,
+        })
+    }
+
+    /// Derivative of the force of a pressing contact by [`Law::damping`].
+    pub(crate) fn by_damping(&self, displacement: f64, velocity: f64) -> f64 {
+        match self {
+            Self::HuntCrossley(law) => law.by_loss(displacement, velocity),
+            Self::Linear(_) => -velocity,
+            _ => 0.0,
+        }
+    }
+
+    /// The coefficient of restitution [-] of a rigid stop, or of a contact that remembers its impacts; `None` where a law has none.
+    #[must_use]
+    pub fn restitution(&self) -> Option<f64> {
+        match self {
+            Self::Rigid(law) => Some(law.restitution()),
+            Self::Restitution(law) => Some(law.restitution()),
+            _ => None,
+        }
+    }
+
+    /// The law with another coefficient of restitution; a law without one stays as it is.
+    ///
+    /// # Errors
+    /// [`LawError::RigidRestitution`], [`LawError::Restitution`].
+    pub fn with_restitution(&self, restitution: f64) -> Result<Self, LawError> {
+        Ok(match self {
+            Self::Rigid(law) => Self::Rigid(law.with_restitution(restitution)?),
+            Self::Restitution(law) => Self::Restitution(law.with_restitution(restitution)?),
+            law => *law,
+        })
+    }
+
+    /// Derivative of the force of a pressing contact by [`Law::restitution`].
+    pub(crate) fn by_restitution(&self, displacement: f64, velocity: f64) -> f64 {
+        if let Self::Restitution(law) = self { law.by_restitution(displacement, velocity) } else { 0.0 }
+    }
+
     /// The contacts of the law; none for a law that is always active.
     #[must_use]
     pub fn contacts(&self) -> &[Contact] {

@@ -66,6 +66,22 @@ impl RestitutionModel {
             Self::HuGuo => 1.5 * (1.0 - e) / e,
         }
     }
+
+    /// `dc/de`.
+    fn slope(self, e: f64) -> f64 {
+        match self {
+            Self::HuntCrossley => -1.5,
+            Self::HerbertMcWhannell => {
+                let below = (2.0 * e - 1.0).powi(2) + 3.0;
+                -6.0 / below - 24.0 * (1.0 - e) * (2.0 * e - 1.0) / (below * below)
+            }
+            Self::LeeWang => -0.75,
+            Self::LankaraniNikravesh => -1.5 * e,
+            Self::Gonthier => -1.0 - 1.0 / (e * e),
+            Self::Flores => -1.6 / (e * e),
+            Self::HuGuo => -1.5 / (e * e),
+        }
+    }
 }
 
 /// One-sided Hertz stop with a coefficient of restitution; the law see the module.
@@ -73,6 +89,7 @@ impl RestitutionModel {
 pub struct RestitutionStop {
     elastic: HertzStop,
     model: RestitutionModel,
+    restitution: f64,
     factor: f64,
     /// Speed v with which the present contact began [m/s]; infinite before the first.
     impact_speed: f64,
@@ -93,13 +110,22 @@ impl RestitutionStop {
         if elastic.contacts()[0].level < 0.0 {
             return Err(LawError::MemoryOfPreload);
         }
-        Ok(Self { elastic, model, factor: model.factor(restitution), impact_speed: f64::INFINITY })
+        let factor = model.factor(restitution);
+        Ok(Self { elastic, model, restitution, factor, impact_speed: f64::INFINITY })
     }
 
     /// The model.
     #[must_use]
     pub fn model(&self) -> RestitutionModel {
         self.model
+    }
+
+    pub(super) fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    pub(super) fn with_restitution(&self, restitution: f64) -> Result<Self, LawError> {
+        Ok(Self { impact_speed: self.impact_speed, ..Self::new(self.elastic, self.model, restitution)? })
     }
 
     pub(super) fn struck_at(&self, impact_speed: f64) -> Self {
@@ -135,6 +161,12 @@ impl RestitutionStop {
     pub(super) fn by_impact_speed(&self, displacement: f64, velocity: f64) -> f64 {
         let speed = self.impact_speed;
         -self.elastic.force(displacement).value * self.factor * velocity / (speed * speed)
+    }
+
+    /// `df/de = -k p^1.5 c'(e) p'/v`.
+    pub(super) fn by_restitution(&self, displacement: f64, velocity: f64) -> f64 {
+        let force = self.elastic.force(displacement).value;
+        force * self.model.slope(self.restitution) * velocity / self.impact_speed
     }
 
     /// `1 + c p'/v`.

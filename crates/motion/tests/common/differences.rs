@@ -64,7 +64,9 @@ pub fn assert_sensitivities(
         let scale = match parameter {
             Parameter::Gap { .. } => 1e-3,
             Parameter::Restitution { .. } => 10.0,
-            Parameter::Stiffness { .. } => value,
+            Parameter::Stiffness { .. } | Parameter::ContactDamping { .. } => value,
+            // In 1/s, where a ratio is one.
+            Parameter::AddedDamping { part: 1.. } => 10.0,
             _ => 0.1,
         };
         let mut moved = |step: f64| {

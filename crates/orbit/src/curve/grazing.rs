@@ -142,7 +142,8 @@ impl Touch {
     fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
         let (Parameter::Gap { element }
         | Parameter::Stiffness { element }
-        | Parameter::Restitution { element }) = parameter
+        | Parameter::Restitution { element }
+        | Parameter::ContactDamping { element }) = parameter
         else {
             return true;
         };

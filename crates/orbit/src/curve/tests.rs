@@ -67,7 +67,7 @@ fn jacobians_agree_with_differences_of_the_residual() {
         Parameter::ExcitationScale,
         Parameter::Stiffness { element: 0 },
         Parameter::Gap { element: 1 },
-        Parameter::AddedDampingRatio,
+        Parameter::ADDED_DAMPING_RATIO,
     ];
     for parameter in parameters {
         let make: [fn(&Shooting) -> Condition; 4] = [

@@ -33,7 +33,7 @@ pub use excitation::{Excitation, ExcitationKind};
 pub use figures::{DrawnOrbit, Figures};
 pub use load::Load;
 pub use lumped::{Damper, Lumped, Mass, Spring};
-pub use parameter::{ParameterKind, VariedParameter};
+pub use parameter::{DampingKey, ParameterKind, VariedParameter};
 pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;
 pub use rig::Rig;

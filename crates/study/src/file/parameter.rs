@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Quantity, Table, Value, quantity};
 
-use super::{Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopLaw};
+use super::{Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopLaw, Structure};
 
 /// A parameter of the study and the range in which it varies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,18 +33,56 @@ pub enum ParameterKind {
         /// Number of the stop, from 0.
         stop: usize,
     },
-    /// Coefficient of restitution of a rigid stop.
+    /// Coefficient of restitution of a stop.
     Restitution {
+        /// Number of the stop, from 0.
+        stop: usize,
+    },
+    /// Constant of the damping of a stop: of its damper, or the loss of its law.
+    StopDamping {
         /// Number of the stop, from 0.
         stop: usize,
     },
     /// Ratio to critical damping of every mode.
     ModalRatio,
+    /// A part of the damping of the structure.
+    Damping(DampingKey),
+}
+
+/// A constant of the damping of the structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DampingKey {
+    /// Ratio to critical damping of a mode.
+    ModalRatio {
+        /// Number of the mode, from 0.
+        mode: usize,
+    },
+    /// Rayleigh damping in proportion to the mass.
+    RayleighMass,
+    /// Rayleigh damping in proportion to the stiffness.
+    RayleighStiffness,
+    /// A damper of a lumped structure.
+    Damper {
+        /// Its number, from 0.
+        damper: usize,
+    },
+    /// The damper at a point of a beam.
+    PointDamper {
+        /// Number of the point, from 0.
+        point: usize,
+    },
+    /// The rotational damper at a point of a beam.
+    RotationalDamper {
+        /// Number of the point, from 0.
+        point: usize,
+    },
 }
 
 /// What of a study can vary.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Variable<'a> {
+    pub structure: &'a Structure,
     pub excitation: &'a Excitation,
     pub damping: &'a Damping,
     pub loads: &'a [Load],
@@ -62,11 +100,8 @@ impl Variable<'_> {
             ExcitationKind::Force { .. } => ("excitation.amplitude_n", quantity::FORCE),
         };
         let mut known = vec![(amplitude.0.to_owned(), ParameterKind::Amplitude, amplitude.1)];
-        let loses = self.stops.iter().any(|stop| stop.law.loses_energy());
-        if matches!(self.damping, Damping::Modal(ModalRatio::Every(_))) && !loses {
-            let name = "damping.modal_ratio".to_owned();
-            known.push((name, ParameterKind::ModalRatio, quantity::DAMPING_RATIO));
-        }
+        known.extend(of_damping(self.damping));
+        known.extend(of_dampers(self.structure));
         for (number, stop) in self.stops.iter().enumerate() {
             let names = [stop.name.clone(), format!("{}", number + 1)];
             for (key, kind, quantity) in of_stop(number, &stop.law) {
@@ -81,6 +116,54 @@ impl Variable<'_> {
             Load::Gravity { .. } => false,
             Load::Force { order, .. } | Load::SupportMotion { order, .. } => *order > 0,
         })
+    }
+}
+
+fn of_damping(damping: &Damping) -> Vec<Known> {
+    let of = |name: &str, key, quantity| (format!("damping.{name}"), ParameterKind::Damping(key), quantity);
+    match damping {
+        Damping::Modal(ModalRatio::Every(_)) => {
+            vec![("damping.modal_ratio".to_owned(), ParameterKind::ModalRatio, quantity::DAMPING_RATIO)]
+        }
+        Damping::Modal(ModalRatio::Each(ratios)) => {
+            let of_mode = |mode: usize| {
+                let name = format!("modal_ratio.{}", mode + 1);
+                of(&name, DampingKey::ModalRatio { mode }, quantity::DAMPING_RATIO)
+            };
+            (0..ratios.len()).map(of_mode).collect()
+        }
+        Damping::Rayleigh { .. } => vec![
+            of("rayleigh.mass_per_s", DampingKey::RayleighMass, quantity::RAYLEIGH_MASS),
+            of("rayleigh.stiffness_s", DampingKey::RayleighStiffness, quantity::RAYLEIGH_STIFFNESS),
+        ],
+    }
+}
+
+fn of_dampers(structure: &Structure) -> Vec<Known> {
+    let of =
+        |name: String, key, quantity| (format!("structure.{name}"), ParameterKind::Damping(key), quantity);
+    match structure {
+        Structure::Lumped(lumped) => {
+            let of_damper = |damper: usize| {
+                let name = format!("damper.{}.damping_n_s_m", damper + 1);
+                of(name, DampingKey::Damper { damper }, quantity::DAMPER)
+            };
+            (0..lumped.dampers.len()).map(of_damper).collect()
+        }
+        Structure::Beam(beam) => {
+            let of_point = |(point, given): (usize, &super::BeamPoint)| {
+                let name = |key: &str| format!("point.{}.{key}", given.name);
+                [
+                    of(name("damper_n_s_m"), DampingKey::PointDamper { point }, quantity::DAMPER),
+                    of(
+                        name("rotational_damper_n_m_s_rad"),
+                        DampingKey::RotationalDamper { point },
+                        quantity::ROTATIONAL_DAMPER,
+                    ),
+                ]
+            };
+            beam.points.iter().enumerate().flat_map(of_point).collect()
+        }
     }
 }
 
@@ -102,6 +185,19 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
     };
     let first = if key == "restitution" { ParameterKind::Restitution { stop } } else { stiffness };
     let mut known = vec![(key, first, quantity)];
+    let damping = ParameterKind::StopDamping { stop };
+    match law {
+        StopLaw::Linear { damping_n_s_m, .. } if *damping_n_s_m > 0.0 => {
+            known.push(("damping_n_s_m", damping, quantity::DAMPER));
+        }
+        StopLaw::HuntCrossley { loss_s_m, .. } if *loss_s_m > 0.0 => {
+            known.push(("loss_s_m", damping, quantity::LOSS));
+        }
+        StopLaw::Restitution { .. } => {
+            known.push(("restitution", ParameterKind::Restitution { stop }, quantity::RESTITUTION));
+        }
+        _ => {}
+    }
     if has_gap {
         known.push(("gap_m", gap, quantity::GAP));
     }

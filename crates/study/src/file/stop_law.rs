@@ -154,16 +154,6 @@ pub enum Side {
 }
 
 impl StopLaw {
-    /// Whether a force depends on the velocity; a rigid stop has none.
-    #[must_use]
-    pub fn loses_energy(&self) -> bool {
-        match self {
-            Self::Linear { damping_n_s_m, .. } => *damping_n_s_m > 0.0,
-            Self::HuntCrossley { .. } | Self::Restitution { .. } => true,
-            Self::Hertz { .. } | Self::TwoSided { .. } | Self::Cubic { .. } | Self::Rigid { .. } => false,
-        }
-    }
-
     /// Its gap [m], if it has a single one.
     #[must_use]
     pub fn gap_m(&self) -> Option<f64> {

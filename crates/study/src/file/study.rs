@@ -156,7 +156,8 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
     let continuation = continuation::read(root, excitation.as_ref());
     let variable = (|| {
         let (excitation, damping) = (excitation.as_ref()?, damping.as_ref()?);
-        Some(Variable { excitation, damping, loads: loads.as_deref()?, stops: stops.as_deref()? })
+        let (structure, loads, stops) = (structure.as_ref()?, loads.as_deref()?, stops.as_deref()?);
+        Some(Variable { structure, excitation, damping, loads, stops })
     })();
     let varied = vary::read(root, reading, variable);
     let figures = figures::read(root, reading);

@@ -1,12 +1,13 @@
 //! From the study to the equations of motion.
 
+mod damping;
 mod drift;
 mod element;
 mod load;
 mod parameter;
 mod structure;
 
-use hammerbeam_motion::{PointMotion, System, SystemError};
+use hammerbeam_motion::{ParameterError, PointMotion, System, SystemError};
 use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureError};
 
@@ -14,7 +15,7 @@ pub use drift::Drift;
 pub use parameter::StudyParameter;
 pub(crate) use structure::beam_descriptor;
 
-use crate::file::{Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
+use crate::file::{DampingKey, Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
 
 /// A study made ready for computing.
 #[derive(Debug, Clone)]
@@ -27,6 +28,8 @@ pub struct Model {
     pub tables: ModeTables,
     /// The shape of the whole structure.
     pub outline: Vec<OutlinePoint>,
+    /// Constants of the damping that vary: parts 1, 2, ... of the damping of the system.
+    damping_keys: Vec<DampingKey>,
 }
 
 impl Model {
@@ -48,8 +51,16 @@ impl Model {
             Some((load, curve)) => system.with_amplitude_over_frequency(&load, curve),
             None => Ok(system),
         });
-        let system = system.map_err(|error| system_fault(file, &error))?;
-        let model = Self { system, response, tables: reduced.tables, outline: reduced.outline };
+        let mut system = system.map_err(|error| system_fault(file, &error))?;
+        let damping_keys = damping::varied_keys(study);
+        for &key in &damping_keys {
+            let part =
+                damping::part(study, key, &interface).map_err(|error| structure_fault(file, &error))?;
+            let fault = |error: ParameterError| file.fault("damping", error.to_string(), Vec::new());
+            system = system.with_damping_part(part).map_err(fault)?;
+        }
+        let (tables, outline) = (reduced.tables, reduced.outline);
+        let model = Self { system, response, tables, outline, damping_keys };
         model.check_varied(file)?;
         Ok(model)
     }

@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::Parameter;
 
-use super::Model;
+use super::{Model, damping};
 use crate::file::{Damping, ModalRatio, ParameterKind, Study, VariedParameter};
 
 /// A parameter of the system whose value in the study is `factor value + offset`.
@@ -59,7 +59,16 @@ impl Model {
                 let Damping::Modal(ModalRatio::Every(offset)) = study.damping else {
                     return Err(format!("{} is not the same for every mode", varied.name));
                 };
-                Ok(StudyParameter { offset, ..plain(Parameter::AddedDampingRatio) })
+                Ok(StudyParameter { offset, ..plain(Parameter::ADDED_DAMPING_RATIO) })
+            }
+            ParameterKind::Damping(key) => {
+                let place = self.damping_keys.iter().position(|other| *other == key);
+                let part = 1 + place.expect("parts of all damping that varies are built with the model");
+                let offset = damping::value(study, key);
+                Ok(StudyParameter { offset, ..plain(Parameter::AddedDamping { part }) })
+            }
+            ParameterKind::StopDamping { stop } => {
+                Ok(plain(Parameter::ContactDamping { element: self.element_of(study, stop)? }))
             }
             ParameterKind::Stiffness { stop } => {
                 Ok(plain(Parameter::Stiffness { element: self.element_of(study, stop)? }))

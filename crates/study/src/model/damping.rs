@@ -1,0 +1,79 @@
+//! Parts of the damping of the structure that vary: what a unit of each constant adds to the equations of motion.
+//!
+//! The damping is linear in its constants, and the modes do not depend on it. So the matrix of a part is that of the study in which this constant is one and all others are zero.
+
+use hammerbeam_motion::DampingPart;
+use hammerbeam_structure::StructureError;
+
+use super::structure::reduce;
+use crate::file::{Damping, DampingKey, ModalRatio, ParameterKind, Structure, Study};
+
+/// The constants of the damping that vary in a study, each once, in the order of their first appearance.
+pub(super) fn varied_keys(study: &Study) -> Vec<DampingKey> {
+    let of_varies = study.varies.iter().map(|vary| vary.parameter.kind);
+    let of_curves = study.curves.iter().map(|curve| curve.parameter.kind);
+    let mut keys = Vec::new();
+    for kind in of_varies.chain(of_curves) {
+        if let ParameterKind::Damping(key) = kind
+            && !keys.contains(&key)
+        {
+            keys.push(key);
+        }
+    }
+    keys
+}
+
+/// What a unit of a constant adds.
+///
+/// * `interface`: the points at which forces act, as for the reduction of the study.
+pub(super) fn part(
+    study: &Study,
+    key: DampingKey,
+    interface: &[String],
+) -> Result<DampingPart, StructureError> {
+    let mut alone = study.clone();
+    constants(&mut alone, |other, value| *value = if other == key { 1.0 } else { 0.0 });
+    let model = reduce(&alone, interface)?.model;
+    let support = model.support.map_or_else(|| vec![0.0; model.damping.nrows()], |support| support.damping);
+    Ok(DampingPart { matrix: model.damping, support })
+}
+
+/// The value that the study gives a constant.
+pub(super) fn value(study: &Study, key: DampingKey) -> f64 {
+    let (mut study, mut found) = (study.clone(), f64::NAN);
+    constants(&mut study, |other, value| {
+        if other == key {
+            found = *value;
+        }
+    });
+    found
+}
+
+/// Shows every constant of the damping of the structure; a ratio that all modes have in common is put to zero.
+fn constants(study: &mut Study, mut show: impl FnMut(DampingKey, &mut f64)) {
+    match &mut study.damping {
+        Damping::Modal(ModalRatio::Every(ratio)) => *ratio = 0.0,
+        Damping::Modal(ModalRatio::Each(ratios)) => {
+            for (mode, ratio) in ratios.iter_mut().enumerate() {
+                show(DampingKey::ModalRatio { mode }, ratio);
+            }
+        }
+        Damping::Rayleigh { mass_per_s, stiffness_s } => {
+            show(DampingKey::RayleighMass, mass_per_s);
+            show(DampingKey::RayleighStiffness, stiffness_s);
+        }
+    }
+    match &mut study.structure {
+        Structure::Lumped(lumped) => {
+            for (damper, given) in lumped.dampers.iter_mut().enumerate() {
+                show(DampingKey::Damper { damper }, &mut given.damping_n_s_m);
+            }
+        }
+        Structure::Beam(beam) => {
+            for (point, given) in beam.points.iter_mut().enumerate() {
+                show(DampingKey::PointDamper { point }, &mut given.damper_n_s_m);
+                show(DampingKey::RotationalDamper { point }, &mut given.rotational_damper_n_m_s_rad);
+            }
+        }
+    }
+}
