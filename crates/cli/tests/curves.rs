@@ -124,6 +124,51 @@ fn a_symmetric_orbit_grazes_both_of_its_stops() {
     }
 }
 
+/// Two rigid stops that a linear motion comes to touch at once: its branch turns the corner and goes on with impacts on both, and the corner moves on its curve. With a force F over a damped mass on a
+/// spring (1 kg, 1 N/m, c) the amplitude `F/((1 - w^2)^2 + c^2 w^2)^(1/2)` is the gap there.
+#[test]
+fn a_symmetric_branch_turns_the_corner_at_two_rigid_stops() {
+    const GAP: f64 = 0.6;
+    const DAMPING: f64 = 0.06;
+    let grazing_hz = |force: f64| {
+        let (half, rest) = (1.0 - 0.5 * DAMPING * DAMPING, 1.0 - (force / GAP).powi(2));
+        (half + (half * half - rest).sqrt()).sqrt() / std::f64::consts::TAU
+    };
+    let keys = |side: &str| format!("law = \"rigid\"\nrestitution = 0.7\nside = \"{side}\"\ngap_m = {GAP}");
+    let stops = stop("above", &keys("above")) + &stop("below", &keys("below"));
+    let study = oscillator([1.0, 1.0, DAMPING], 1.0, [0.24, 0.3], &stops)
+        .replace("frequencies = 0", "frequencies = 2");
+    let curve = curve("grazing", 0.26, "excitation.amplitude_n", [0.9, 1.2]);
+    let workshop = results(&format!("{study}[continuation]\nmax_step_hz = 0.0005\n{curve}"));
+    let events = columns(
+        &workshop,
+        "events.csv",
+        ["event", "frequency_hz", "uncertainty_hz", "contact_change", "branch"],
+    );
+    let corners: Vec<_> = events.iter().filter(|row| row[0].contains("grazing")).collect();
+    assert_eq!(corners.len(), 1, "{events:?}");
+    let [event, hz, uncertainty, change, branch] = corners[0];
+    let [hz, uncertainty]: [f64; 2] = [hz, uncertainty].map(|text| text.parse().unwrap());
+    assert_eq!(event, "fold+grazing");
+    assert!((hz - grazing_hz(1.0)).abs() < uncertainty && uncertainty < 1e-6, "{hz} {uncertainty}");
+    assert!(change == "+1 +2" || change == "-1 -2", "{change}");
+    // From the end of the range without contact to the same end with two.
+    for [of, end, message] in columns(&workshop, "ends.csv", ["branch", "end", "message"]) {
+        assert_eq!(end, "range-end", "branch {of}: {message}");
+    }
+    let rows = columns(&workshop, "branches.csv", ["branch", "contacts", "frequency_hz"]);
+    let of_branch: Vec<_> = rows.iter().filter(|row| row[0] == *branch).collect();
+    let ends = [of_branch[0], of_branch[of_branch.len() - 1]]
+        .map(|[_, contacts, hz]| (contacts.as_str(), hz.as_str()));
+    assert!(ends == [("0", "0.3"), ("2", "0.3")] || ends == [("2", "0.3"), ("0", "0.3")], "{ends:?}");
+    let curve = columns(&workshop, "curves.csv", ["parameter", "frequency_hz"]);
+    assert!(curve.len() > 30);
+    for row in curve {
+        let [force, hz]: [f64; 2] = row.map(|text| text.parse().unwrap());
+        assert!((hz / grazing_hz(force) - 1.0).abs() < 1e-8, "{force} N: {hz} Hz, not {}", grazing_hz(force));
+    }
+}
+
 /// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it crawled there for thousands of rows once.
 #[test]
 fn a_curve_ends_where_it_meets_a_grazing() {

@@ -7,9 +7,7 @@
 mod bytes;
 
 use hammerbeam_motion::{Parameter, System};
-use hammerbeam_path::{
-    Checkpoint, Counters, Follower, History, Node, ParameterRange, PathProblem, StopReason,
-};
+use hammerbeam_path::{Checkpoint, Counters, Follower, History, Node, ParameterRange, StopReason};
 
 use crate::{
     BranchWalk, OrbitError, OrbitSettings, Response,
@@ -107,7 +105,7 @@ impl BranchWalk {
         let Stored { mut problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
         let (touches, begins_with_present, origin) =
-            read_walk(&mut reader, problem.unknowns() + 1).ok_or(OrbitError::Checkpoint)?;
+            read_walk(&mut reader, problem.node_size() + 1).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -272,7 +270,7 @@ fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> 
     Some((word as u32, ContinuationParameter::Other { parameter, frequency_hz: reader.float()? }))
 }
 
-/// What a walk knows beside its follower; `None` if the bytes do not fit or are too many.
+/// What a walk knows beside its follower, the start as an orbit of one segment, of that length; `None` if the bytes do not fit or are too many.
 fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<(Vec<u32>, bool, Option<Origin>)> {
     let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
     let begins_with_present = reader.word()? != 0;

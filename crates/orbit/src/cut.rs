@@ -102,7 +102,7 @@ pub(crate) fn offset_to_clear(
 }
 
 /// Times since the begin of the segment in which they begin, in their order; what goes on beyond its end is that of the next one, too.
-fn folded(times: &[Gap], length: f64) -> Vec<Gap> {
+pub(crate) fn folded(times: &[Gap], length: f64) -> Vec<Gap> {
     let mut folded = Vec::new();
     for time in times {
         let begin = time.begin.rem_euclid(length);

@@ -52,8 +52,8 @@ pub struct LocatedEvent {
     /// Critical direction of the first node, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one relative to the orbit; at a
     /// Neimark-Sacker point its real part. Empty where there is none.
     pub direction: Vec<f64>,
-    /// The contact that changes at grazing.
-    pub contact: Option<ContactChange>,
+    /// The contacts that change at grazing: of a symmetric orbit two at once.
+    pub contacts: Vec<ContactChange>,
     /// Whether an orbit that is its own mirror image after half its period, `z(t + NT/2) = -z(t)`, loses that on the crossing branch.
     pub breaks_symmetry: bool,
 }
@@ -62,9 +62,7 @@ impl LocatedEvent {
     /// The event as it is passed the other way: what appeared vanishes.
     #[must_use]
     pub fn backwards(mut self) -> Self {
-        if let Some(change) = &mut self.contact {
-            change.appears = !change.appears;
-        }
+        self.contacts.iter_mut().for_each(|change| change.appears = !change.appears);
         self
     }
 }
@@ -99,7 +97,7 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
         uncertainty,
         multiplier,
         direction: direction.unwrap_or_default(),
-        contact: contact_change(place.touches_before, problem.touches()),
+        contacts: contact_changes(place.touches_before, problem.touches()),
         breaks_symmetry: events.branch_point && is_symmetric(problem, place.point),
     })
 }
@@ -146,9 +144,9 @@ fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> boo
     problem.scale().distance(&mirrored, &state) < MIRRORED
 }
 
-fn contact_change(before: &[u32], after: &[u32]) -> Option<ContactChange> {
-    let contact = before.iter().zip(after).position(|(before, after)| before != after)?;
-    Some(ContactChange { contact, appears: after[contact] > before[contact] })
+fn contact_changes(before: &[u32], after: &[u32]) -> Vec<ContactChange> {
+    let counts = before.iter().zip(after).enumerate().filter(|(_, (before, after))| before != after);
+    counts.map(|(contact, (before, after))| ContactChange { contact, appears: after > before }).collect()
 }
 
 /// Null vector of `A - mu I`, of the real part of `mu` and with its frequency zero, in states.

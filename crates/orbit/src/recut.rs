@@ -8,13 +8,13 @@
 //! The start of the walk is cut at the new phase, too, so that a loop still closes. Where it is in contact there, it is out of reach until the path comes back to its frequency.
 //!
 //! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew, so a stretch that was walked before the phase moved is not recognised if the
-//! path should run back into it. Orbits that are cut into more segments than one are not cut anew.
+//! path should run back into it. Orbits that are cut in two (`halves.rs`) are made one segment again first; where the study gives the number of segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
 
 use crate::{
-    BranchWalk, OrbitError,
+    BranchWalk, OrbitError, Segments,
     cut::{begins_with_care, contacts, longest_of_orbit},
     shooting::ShootingProblem,
 };
@@ -39,7 +39,13 @@ impl BranchWalk {
 
     /// Keeps the phase away from contacts, and brings back the start where it can be.
     pub(crate) fn keep_phase_clear(&mut self) {
-        if !self.moves_phase() || self.follower.stop_reason().is_some() {
+        if self.follower.stop_reason().is_some() {
+            return;
+        }
+        if self.is_cut_in_halves() {
+            self.join_halves_at_contacts();
+        }
+        if !self.moves_phase() {
             return;
         }
         if let Some(offset) = self.offset(false) {
@@ -68,7 +74,13 @@ impl BranchWalk {
         (moves && offset > 0.0).then_some(offset)
     }
 
-    fn is_near_lost_start(&self) -> bool {
+    /// Whether its orbits were cut in two (`halves.rs`).
+    fn is_cut_in_halves(&self) -> bool {
+        let is_given = matches!(self.settings.segments, Segments::Fixed(_));
+        begins_with_care(self.problem.system()) && self.problem.segments() == 2 && !is_given
+    }
+
+    pub(crate) fn is_near_lost_start(&self) -> bool {
         let near = STEPS_TO_START * self.settings.max_step_hz;
         let parameter = self.follower.current().parameter();
         let lost = self.origin.as_ref().filter(|_| !self.follower.has_start());

@@ -1,4 +1,4 @@
-//! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones; not where nodes have to keep clear of contacts (`cut.rs`).
+//! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones. Where nodes have to keep clear of contacts (`cut.rs`) there are two at most (`halves.rs`).
 //!
 //! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k + dZ/df t_f`. The present point and
 //! the start of the walk are cut anew, and the follower goes on in the new unknowns with all that it knows: a loop still closes
@@ -18,14 +18,16 @@ impl BranchWalk {
     /// Goes on from the present point with more segments; false if there are enough already, or if neither point is found with more.
     pub(crate) fn resegment(&mut self) -> Result<bool, OrbitError> {
         let segments = self.problem.segments();
-        // A node of its own would have to keep clear of contacts, too.
-        if segments * FACTOR > MOST || begins_with_care(self.problem.system()) {
+        if begins_with_care(self.problem.system()) {
+            return Ok(self.cut_in_halves());
+        }
+        if segments * FACTOR > MOST {
             return Ok(false);
         }
-        let current = refine(&mut self.problem, self.follower.current())?;
-        let start = refine(&mut self.problem, &self.follower.checkpoint().start)?;
+        let current = refine(&mut self.problem, self.follower.current(), FACTOR)?;
+        let start = refine(&mut self.problem, &self.follower.checkpoint().start, FACTOR)?;
         self.problem.set_segments(segments * FACTOR);
-        if self.follower.transfer(&mut self.problem, &current, &start).is_err() {
+        if self.follower.transfer(&mut self.problem, &current, Some(&start)).is_err() {
             // The walk stays where it was; its own reason to stop is told.
             self.problem.set_segments(segments);
             return Ok(false);
@@ -34,8 +36,12 @@ impl BranchWalk {
     }
 }
 
-/// Point and tangent with every segment cut into [`FACTOR`].
-fn refine(problem: &mut ShootingProblem, at: &ContinuationPoint) -> Result<Node, OrbitError> {
+/// Point and tangent with every segment cut into `factor`.
+pub(crate) fn refine(
+    problem: &mut ShootingProblem,
+    at: &ContinuationPoint,
+    factor: usize,
+) -> Result<Node, OrbitError> {
     let (point, tangent) = (&at.point, &at.tangent);
     let (size, old) = (problem.node_size(), problem.segments());
     let (frequency_hz, last_tangent) = (problem.frequency(point), tangent[old * size]);
@@ -47,10 +53,10 @@ fn refine(problem: &mut ShootingProblem, at: &ContinuationPoint) -> Result<Node,
         let stretch = problem.stretch(segment, frequency_hz);
         let place = segment * size..(segment + 1) * size;
         let (mut state, mut slope) = (unscaled(&point[place.clone()]), unscaled(&tangent[place]));
-        for part in 0..FACTOR {
+        for part in 0..factor {
             points.extend(state.iter().zip(&scales).map(|(z, s)| z / s));
             tangents.extend(slope.iter().zip(&scales).map(|(z, s)| z / s));
-            let phase = |k: usize| stretch.start + (stretch.end - stretch.start) * k as f64 / FACTOR as f64;
+            let phase = |k: usize| stretch.start + (stretch.end - stretch.start) * k as f64 / factor as f64;
             let piece = Stretch { frequency_hz, start: phase(part), end: phase(part + 1) };
             let flow = problem.integrator().flow(&piece, &state)?;
             let carried = |i: usize| (0..size).map(|j| flow.by_state[(i, j)] * slope[j]).sum::<f64>();

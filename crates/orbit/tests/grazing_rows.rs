@@ -47,7 +47,7 @@ fn contact_sets_in_and_ceases_where_the_linear_amplitude_is_the_gap() {
         assert_same(&found, &closed_form(), 1e-8, "grazing");
         for (row, appears) in rows.iter().zip([true, false]) {
             let event = row.located.as_ref().unwrap();
-            assert_eq!(event.contact, Some(ContactChange { contact: 0, appears }));
+            assert_eq!(event.contacts, [ContactChange { contact: 0, appears }]);
             assert_eq!(event.status, EventStatus::Located);
             assert_eq!(event.multiplier, None, "nothing else happens at mere grazing");
         }
@@ -64,8 +64,11 @@ fn a_contact_that_appears_upwards_vanishes_downwards() {
     let [low, high] = closed_form();
     let found: Vec<f64> = rows.iter().map(|row| row.solution.frequency_hz).collect();
     assert_same(&found, &[high, low], 1e-8, "grazing downwards");
-    let appears: Vec<bool> =
-        rows.iter().map(|row| row.located.as_ref().unwrap().contact.unwrap().appears).collect();
+    let appears: Vec<bool> = rows
+        .iter()
+        .flat_map(|row| row.located.clone().unwrap().contacts)
+        .map(|change| change.appears)
+        .collect();
     assert_eq!(appears, [true, false]);
 }
 
@@ -84,7 +87,7 @@ fn the_contact_is_the_one_that_grazes() {
         let found: Vec<f64> = rows.iter().map(|row| row.solution.frequency_hz).collect();
         assert_same(&found, &closed_form(), 1e-8, "grazing");
         let contacts: Vec<ContactChange> =
-            rows.iter().map(|row| row.located.as_ref().unwrap().contact.unwrap()).collect();
+            rows.iter().flat_map(|row| row.located.clone().unwrap().contacts).collect();
         let expected = [true, false].map(|appears| ContactChange { contact: 1, appears });
         assert_eq!(contacts, expected);
     }

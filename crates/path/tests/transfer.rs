@@ -68,7 +68,7 @@ fn transfer(follower: &mut Follower, copies: usize) -> Result<Circle, PathError>
     let start = &follower.checkpoint().start;
     let [current, start] = [follower.current(), start]
         .map(|point| Node { point: copied(&point.point, copies), tangent: copied(&point.tangent, copies) });
-    follower.transfer(&mut problem, &current, &start)?;
+    follower.transfer(&mut problem, &current, Some(&start))?;
     Ok(problem)
 }
 
@@ -110,7 +110,7 @@ fn other_equations_on_the_way_are_refused_and_change_nothing() {
     follower.step(&mut problem);
     let before = follower.checkpoint().clone();
     let node = Node { point: copied(&before.current.point, 2), tangent: copied(&before.current.tangent, 2) };
-    let found = follower.transfer(&mut Circle::new(3), &node, &node);
+    let found = follower.transfer(&mut Circle::new(3), &node, Some(&node));
     assert_eq!(found, Err(PathError::WrongLength { found: 3, expected: 4 }));
     assert_eq!(follower.checkpoint(), &before);
 }

@@ -98,7 +98,7 @@ impl Touch {
     pub fn choose(
         shooting: &mut Shooting,
         number: Option<usize>,
-        orbit: (f64, &[f64]),
+        orbit: (f64, &[Vec<f64>]),
         frequency_hz: f64,
     ) -> Result<Option<(Self, Turn)>, OrbitError> {
         let mut nearest: Option<(Self, Turn)> = None;
@@ -117,7 +117,7 @@ impl Touch {
     pub fn opposite(
         self,
         shooting: &mut Shooting,
-        orbit: (f64, &[f64]),
+        orbit: (f64, &[Vec<f64>]),
         frequency_hz: f64,
         turn: &Turn,
     ) -> Result<Option<(Self, f64)>, OrbitError> {
@@ -150,21 +150,21 @@ impl Touch {
         self.element == other.element || ![self.element, other.element].contains(&element)
     }
 
-    /// Where the contact of the orbit from `state` at the phase `begin` turns nearest to its level, if that is near enough for a grazing.
+    /// Where the contact of the orbit with these nodes, the first at the phase `begin`, turns nearest to its level, if that is near enough for a grazing.
     fn find(
         self,
         shooting: &mut Shooting,
-        (begin, state): (f64, &[f64]),
+        (begin, nodes): (f64, &[Vec<f64>]),
         frequency_hz: f64,
     ) -> Result<Option<Turn>, OrbitError> {
         let periods = f64::from(shooting.period_multiple);
         let looks = LOOKS * shooting.period_multiple as usize;
         let phases: Vec<f64> = (0..=looks).map(|k| begin + periods * k as f64 / looks as f64).collect();
         let orbit = Stretch { frequency_hz, start: begin, end: begin + periods };
-        let samples = shooting.integrator.trace(&orbit, state, &phases)?.samples;
+        let looked = samples(shooting, (&orbit, nodes), &phases)?;
         let clearances: Vec<[f64; 2]> = phases
             .iter()
-            .zip(&samples)
+            .zip(&looked)
             .map(|(phase, state)| self.clearance(shooting, frequency_hz, *phase, state))
             .collect();
         let element = &shooting.integrator.system().elements()[self.element];
@@ -183,7 +183,7 @@ impl Touch {
         if turns.is_empty() {
             return Ok(None);
         }
-        let places = shooting.integrator.trace(&orbit, state, &turns)?.samples;
+        let places = samples(shooting, (&orbit, nodes), &turns)?;
         let turn = |((phase, state), from_inside): ((f64, Vec<f64>), bool)| {
             // At an impact the rate jumps: it does not vanish near the turn.
             let [clearance, rate] = self.clearance(shooting, frequency_hz, phase, &state);
@@ -207,4 +207,23 @@ impl Touch {
         let [r, speed, _] = system.relative_motion(self.element, frequency_hz, phase, state);
         [contact.sign * (contact.level - r), -contact.sign * speed]
     }
+}
+
+/// States of an orbit at phases in their order, each from the node before it: what a slow impact makes of rounding does not go on.
+fn samples(
+    shooting: &mut Shooting,
+    (orbit, nodes): (&Stretch, &[Vec<f64>]),
+    phases: &[f64],
+) -> Result<Vec<Vec<f64>>, OrbitError> {
+    let length = (orbit.end - orbit.start) / nodes.len() as f64;
+    let mut samples = Vec::with_capacity(phases.len());
+    for (k, node) in nodes.iter().enumerate() {
+        let [start, end] = [k, k + 1].map(|k| orbit.start + k as f64 * length);
+        let from = samples.len();
+        let count = phases[from..].iter().take_while(|phase| **phase < end || k + 1 == nodes.len()).count();
+        let segment = Stretch { start, end, ..*orbit };
+        let of_segment = &phases[from..from + count];
+        samples.extend(shooting.integrator.trace(&segment, node, of_segment)?.samples);
+    }
+    Ok(samples)
 }

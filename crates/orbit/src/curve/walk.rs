@@ -77,7 +77,7 @@ impl CurveWalk {
         let none = OrbitError::NoEvent { frequency_hz: start.frequency_hz };
         let mut touch = None;
         if let CurveKind::Grazing { contact } = kind {
-            let orbit = (start.phase, &start.nodes[0][..]);
+            let orbit = (start.phase, &start.nodes[..]);
             let (found, turn) =
                 Touch::choose(&mut shooting, contact, orbit, start.frequency_hz)?.ok_or(none.clone())?;
             kind = CurveKind::Grazing { contact: Some(found.number(&shooting)) };

@@ -27,7 +27,7 @@ impl Follower {
     /// The sign of `det [R_x R_λ; (W t)ᵀ]` and the memory weights must be those of before. The predictor begins anew.
     ///
     /// * `current`, `start`: the present point and the start in the new unknowns, with the directions of travel there (any length). Both are
-    ///   corrected in the plane normal to the direction.
+    ///   corrected in the plane normal to the direction. Without a start no path closes, until a later transfer brings it back.
     ///
     /// # Errors
     /// [`PathError::Start`] if one of them is not near the path, [`PathError::OtherOrientation`], [`PathError::WrongLength`]; the follower is then as it was.
@@ -35,10 +35,11 @@ impl Follower {
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
         current: &Node,
-        start: &Node,
+        start: Option<&Node>,
     ) -> Result<(), PathError> {
         let memory = self.memory.clone();
-        self.transfer_afresh(problem, current, Some((start, &self.state.start.clone())))?;
+        let old = self.state.start.clone();
+        self.transfer_afresh(problem, current, start.map(|start| (start, &old)))?;
         self.memory = memory;
         Ok(())
     }

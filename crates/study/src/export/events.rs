@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use hammerbeam_orbit::{EventStatus, Events, LocatedEvent, Side};
+use hammerbeam_orbit::{ContactChange, EventStatus, Events, LocatedEvent, Side};
 
 use super::{ExportError, varied::start_of_row};
 use crate::store::{PieceRecord, Store, solution_key};
@@ -103,17 +103,18 @@ fn write_event(writer: &mut impl Write, event: &LocatedEvent, multipliers: &[[f6
         EventStatus::Located => "located",
         EventStatus::Bracketed => "bracketed",
     };
-    let change = event.contact.map_or(String::new(), |change| {
-        format!("{}{}", if change.appears { "+" } else { "-" }, change.contact + 1)
-    });
+    let change =
+        |change: &ContactChange| format!("{}{}", if change.appears { "+" } else { "-" }, change.contact + 1);
+    let changes: Vec<String> = event.contacts.iter().map(change).collect();
     let direction: Vec<String> = event.direction.iter().map(|entry| format!("{entry:?}")).collect();
     let multipliers: Vec<String> = multipliers.iter().map(|[re, im]| format!("{re:?}{im:+?}i")).collect();
     writeln!(
         writer,
-        "{status},{:?},{},{},{change},{},{},{}",
+        "{status},{:?},{},{},{},{},{},{}",
         event.uncertainty,
         number(event.multiplier.map(|[re, _]| re)),
         number(event.multiplier.map(|[_, im]| im)),
+        changes.join(" "),
         direction.join(" "),
         event.breaks_symmetry,
         multipliers.join(" "),

@@ -12,13 +12,12 @@ pub(super) const COLUMNS: &str = "
     multiplier_re REAL,
     multiplier_im REAL,
     direction BLOB NOT NULL,
-    contact INTEGER,
-    appears INTEGER,
+    contacts BLOB NOT NULL,
     breaks_symmetry INTEGER NOT NULL";
 
 /// Their names.
 const NAMES: &str =
-    "located, uncertainty, multiplier_re, multiplier_im, direction, contact, appears, breaks_symmetry";
+    "located, uncertainty, multiplier_re, multiplier_im, direction, contacts, breaks_symmetry";
 
 /// An event of a row of a branch in a parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,15 +43,19 @@ pub(super) fn insert_event(
     event: &LocatedEvent,
 ) -> Result<(), StoreError> {
     let number = |value: Option<f64>| value.map_or(Value::Null, Value::Real);
-    let whole = |value: Option<i64>| value.map_or(Value::Null, Value::Integer);
+    // The number from 1 of a contact that appears, negative of one that vanishes.
+    let signed = |change: &ContactChange| {
+        let number = (change.contact + 1) as f64;
+        if change.appears { number } else { -number }
+    };
+    let contacts: Vec<f64> = event.contacts.iter().map(signed).collect();
     let of_event = [
         Value::from(event.status == EventStatus::Located),
         Value::from(event.uncertainty),
         number(event.multiplier.map(|[re, _]| re)),
         number(event.multiplier.map(|[_, im]| im)),
         Value::from(blob::pack(&event.direction)),
-        whole(event.contact.map(|change| change.contact as i64)),
-        whole(event.contact.map(|change| i64::from(change.appears))),
+        Value::from(blob::pack(&contacts)),
         Value::from(event.breaks_symmetry),
     ];
     let values: Vec<Value> = key.iter().map(|key| Value::from(*key)).chain(of_event).collect();
@@ -65,15 +68,16 @@ pub(super) fn insert_event(
 fn read_event(row: &Row<'_>) -> Result<LocatedEvent, StoreError> {
     let multiplier: (Option<f64>, Option<f64>) = (row.get(2)?, row.get(3)?);
     let bytes: Vec<u8> = row.get(4)?;
-    let change: (Option<u32>, Option<bool>) = (row.get(5)?, row.get(6)?);
-    let contact = change.0.zip(change.1);
+    let contacts: Vec<u8> = row.get(5)?;
+    let of_number =
+        |number: &f64| ContactChange { contact: number.abs() as usize - 1, appears: *number > 0.0 };
     Ok(LocatedEvent {
         status: if row.get(0)? { EventStatus::Located } else { EventStatus::Bracketed },
         uncertainty: row.get(1)?,
         multiplier: multiplier.0.zip(multiplier.1).map(|(re, im)| [re, im]),
         direction: blob::unpack("direction", &bytes, bytes.len() / 8)?,
-        contact: contact.map(|(contact, appears)| ContactChange { contact: contact as usize, appears }),
-        breaks_symmetry: row.get(7)?,
+        contacts: blob::unpack("contacts", &contacts, contacts.len() / 8)?.iter().map(of_number).collect(),
+        breaks_symmetry: row.get(6)?,
     })
 }
 
@@ -119,12 +123,12 @@ impl Store {
         let mut events = Vec::new();
         while let Some(row) = rows.next()? {
             events.push(VariedEvent {
-                row: row.get(8)?,
-                parameter: row.get(9)?,
-                frequency_hz: row.get(10)?,
-                event: row.get(11)?,
+                row: row.get(7)?,
+                parameter: row.get(8)?,
+                frequency_hz: row.get(9)?,
+                event: row.get(10)?,
                 located: read_event(row)?,
-                multipliers: pairs(&row.get::<_, Vec<u8>>(12)?)?,
+                multipliers: pairs(&row.get::<_, Vec<u8>>(11)?)?,
             });
         }
         Ok(events)

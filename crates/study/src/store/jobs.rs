@@ -80,7 +80,7 @@ fn seen_from_new_branch(source: &LocatedEvent, root: &PeriodicSolution) -> Locat
     let from_one = |[re, im]: &[f64; 2]| (1.0 - re).hypot(*im);
     let multipliers = root.floquet_multipliers.iter().copied();
     let multiplier = multipliers.min_by(|a, b| from_one(a).total_cmp(&from_one(b)));
-    LocatedEvent { multiplier, contact: None, ..source.clone() }
+    LocatedEvent { multiplier, contacts: Vec::new(), ..source.clone() }
 }
 
 impl Store {

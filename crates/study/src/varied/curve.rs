@@ -29,7 +29,7 @@ pub(super) fn start(
         let (multiple, of) = (curve.period_multiple, curve.of.name());
         return Ok(Err(format!("no branch of period multiple {multiple} has an event \"{of}\" to begin at")));
     };
-    let is_corner = event.status == EventStatus::Bracketed && event.contact.is_some();
+    let is_corner = event.status == EventStatus::Bracketed && !event.contacts.is_empty();
     if is_corner && curve.of != CurveOf::Grazing {
         let (of, hz) = (curve.of.name(), solution.frequency_hz);
         return Ok(Err(format!(
@@ -62,7 +62,7 @@ pub(super) fn follow(
 }
 
 fn kind_of(of: CurveOf, event: &LocatedEvent) -> CurveKind {
-    match (of, event.contact) {
+    match (of, event.contacts.first()) {
         (CurveOf::Fold, _) => CurveKind::Fold,
         (CurveOf::Flip, _) => CurveKind::Flip,
         (CurveOf::NeimarkSacker, _) => CurveKind::NeimarkSacker,
