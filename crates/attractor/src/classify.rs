@@ -8,10 +8,10 @@
 //! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N`, not surely below zero | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
-//! and, of a motion that both call regular, its returns (`returns.rs`): the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is
-//! no period, and falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of the N periods to the last, for any n, or for all n together by about the same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow bands
+//! and, of a motion that both call regular, its returns over eight times as many periods (`returns.rs`): the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is
+//! no period, and falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of these periods to the last, for any n, or for all n together by about the same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow bands
 //! looks regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in its spectrum. So a motion is quasi-periodic only if its returns are those on a torus:
-//! that of n periods which is closest is three times as far after `3 n`.
+//! that of n periods which is closest is three times as far after `3 n`, is not rounding, and the last states lie between earlier ones, where those of a motion that creeps past an orbit are at the end of its way.
 //!
 //! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink. What they gain on one part of the torus they lose on another, so that the half width is
 //! larger than what is left over; where it is not, and `L` is below zero with all of its interval, the motion settles, however slowly.) Where both agree the motion is quasi-periodic or
@@ -20,9 +20,9 @@
 
 use crate::{
     AttractorError, Estimate, Lyapunov, LyapunovSettings, SectionMap,
-    returns::{settles, turns},
+    returns::{Returns, returns, settles},
     section::WATCHED_PERIODS,
-    settle::{Patience, Settled, settle},
+    settle::{Patience, Settled, advance_period, settle},
     zero_one,
 };
 
@@ -35,6 +35,8 @@ const ZERO: f64 = 10.0;
 const WIDTH: f64 = 20.0;
 /// The same below zero.
 const SHRINKING: f64 = 2.0;
+/// What both indicators call regular is followed for so many times as long: in the periods of the average a motion that creeps past an orbit shows too little of its way, and a torus too little of itself.
+const CONFIRMED: u64 = 7;
 /// The high end of its interval below which it is surely negative, times the number of periods: rounding makes 1e-13 of it.
 const SURELY: f64 = 0.01;
 
@@ -233,7 +235,12 @@ pub fn examine(
     let zero_one = zero_one(&liveliest(&states, &map.scales()));
     let mut class = judge(largest, period, states.len(), zero_one);
     if class == Class::QuasiPeriodic {
+        for _ in 0..CONFIRMED * effort.averaged {
+            let state = advance_period(map, parts, states.last().unwrap_or(&Vec::new()))?;
+            states.push(state);
+        }
         class = judge_returns(&states, &map.scales(), effort.patience.longest);
+        states.drain(..states.len() - effort.averaged as usize);
     }
     Ok(Classified { class, states, largest_exponent: Some(largest), zero_one })
 }
@@ -241,11 +248,12 @@ pub fn examine(
 /// What a motion is that both indicators call regular.
 fn judge_returns(states: &[Vec<f64>], scales: &[f64], longest: usize) -> Class {
     if settles(states, scales, longest) {
-        Class::Doubtful(Doubt::NotSettled)
-    } else if turns(states, scales) {
-        Class::QuasiPeriodic
-    } else {
-        Class::Doubtful(Doubt::NotTurning)
+        return Class::Doubtful(Doubt::NotSettled);
+    }
+    match returns(states, scales) {
+        Returns::Turning => Class::QuasiPeriodic,
+        Returns::Creeping => Class::Doubtful(Doubt::NotSettled),
+        Returns::Elsewhere => Class::Doubtful(Doubt::NotTurning),
     }
 }
 

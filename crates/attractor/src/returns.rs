@@ -7,8 +7,11 @@
 //! - On a torus the map turns every angle by the same amount, so that the shift of n periods is a turn, and that of `3 n` periods three times that turn. Of many n one turns by little; there
 //!   `D(3 n)` is about `3 D(n)`, whatever the shape of the torus and the speed along it, as a short way is gone three times. In chaos, in bands that are visited in a fixed order as well, the closest n
 //!   keeps the order of the bands and says nothing of the place in them: `D(3 n)` is about `D(n)`.
+//! - But so does what creeps past an orbit, or towards one whose period is longer than those looked for: it goes a short way three times, too. What tells it from a torus is that its last states lie at the end of what was
+//!   visited: states of the past are behind them, and nothing is ahead. On a torus that was seen whole the last states fall between earlier ones, with neighbours on opposite sides. On one near a resonance, of which these
+//!   periods show but a part, the way of n periods is as long at the end as at the beginning, where it grows or falls beside an orbit.
 
-use crate::settle::distance;
+use crate::settle::{REPEATED, distance};
 
 /// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks by `1/N` in a period has 0.5.
 const STEADY: f64 = 0.8;
@@ -23,6 +26,17 @@ const PART: usize = 8;
 const MOST: usize = 1024;
 /// Pairs of states of a mean.
 const PAIRS: usize = 512;
+/// A neighbour ahead is sought up to so many times the distance of the one behind (three at most where a turn is a golden section of the circle, more where it is nearer to a fraction),
+const AHEAD: f64 = 16.0;
+/// within a cone of that half angle, as its cosine.
+const CONE: f64 = 0.5;
+/// By how much the way of n periods may differ between the first quarter and the last on a torus of which a part is seen.
+const SAME: f64 = 0.03;
+/// Part of the last states that have to lie between earlier ones, and least number of states that are looked at.
+const BETWEEN: f64 = 0.5;
+const LAST: usize = 16;
+/// As many of them are enough.
+const MOST_LAST: usize = 64;
 
 /// Whether the returns after some number of periods, up to the longest, come closer and closer, or those after all of them slowly and evenly.
 pub(crate) fn settles(states: &[Vec<f64>], scales: &[f64], longest: usize) -> bool {
@@ -48,17 +62,64 @@ fn falls_evenly(values: Vec<f64>) -> bool {
     least >= LEAST_FALL && most <= EVEN * least
 }
 
-/// Whether the closest of the shifts by up to an eighth of the periods turns the states as a torus is turned.
-pub(crate) fn turns(states: &[Vec<f64>], scales: &[f64]) -> bool {
+/// How a motion that does not settle comes back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Returns {
+    /// As on a torus.
+    Turning,
+    /// To within rounding after a number of periods that is longer than those looked for, or it creeps by.
+    Creeping,
+    /// Neither.
+    Elsewhere,
+}
+
+/// What the closest of the shifts by up to an eighth of the periods does to the states.
+pub(crate) fn returns(states: &[Vec<f64>], scales: &[f64]) -> Returns {
     let most = (states.len() / PART).min(MOST);
-    let shift = |n: usize| {
+    let shift = |n: usize, apart: fn(&[f64], &[f64], &[f64]) -> f64| {
         let count = states.len() - n;
         let step = count.div_ceil(PAIRS);
         let pairs = (0..count).step_by(step).map(|k| apart(scales, &states[k], &states[k + n]));
         pairs.sum::<f64>() / count.div_ceil(step) as f64
     };
-    let closest = (1..=most).map(|n| (shift(n), n)).min_by(|a, b| a.0.total_cmp(&b.0));
-    closest.is_some_and(|(near, n)| shift(3 * n) >= TURNS * near)
+    let closest = (1..=most).map(|n| (shift(n, apart), n)).min_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((near, n)) = closest else { return Returns::Elsewhere };
+    if shift(n, distance) < REPEATED {
+        return Returns::Creeping;
+    }
+    if shift(3 * n, apart) < TURNS * near {
+        return Returns::Elsewhere;
+    }
+    let quarter = states.len() / 4;
+    let of_part = |part: &[Vec<f64>]| {
+        let ways = part.iter().zip(&part[n..]).map(|(a, b)| apart(scales, a, b));
+        ways.sum::<f64>() / (part.len() - n) as f64
+    };
+    let [first, last] = [&states[..quarter], &states[states.len() - quarter..]].map(of_part);
+    let is_even = (last / first - 1.0).abs() <= SAME;
+    if is_even || end_between_earlier_ones(states, scales, n) { Returns::Turning } else { Returns::Creeping }
+}
+
+/// Whether most of the last states, one of each place that n periods come back to, have earlier states on opposite sides.
+fn end_between_earlier_ones(states: &[Vec<f64>], scales: &[f64], n: usize) -> bool {
+    let n = n.max(LAST).min(states.len());
+    let lies_between = |k: usize| {
+        let ways = states[..k].iter().map(|earlier| -> Vec<f64> {
+            earlier.iter().zip(&states[k]).zip(scales).map(|((a, b), scale)| (a - b) / scale).collect()
+        });
+        let ways: Vec<(f64, Vec<f64>)> =
+            ways.map(|way| (way.iter().map(|x| x * x).sum::<f64>().sqrt(), way)).collect();
+        let Some((near, behind)) = ways.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
+        let is_ahead = |(far, way): &(f64, Vec<f64>)| {
+            let along: f64 = way.iter().zip(behind).map(|(a, b)| a * b).sum();
+            *far <= AHEAD * near && along <= -CONE * near * far
+        };
+        ways.iter().any(is_ahead)
+    };
+    let last = (states.len() - n..states.len()).step_by(n.div_ceil(MOST_LAST));
+    let count = last.len();
+    let between = last.filter(|k| lies_between(*k)).count();
+    between as f64 >= BETWEEN * count as f64
 }
 
 /// Distance of two states in the scales: relative to states, which may be near zero, means would be those of few.
@@ -85,7 +146,26 @@ mod tests {
     fn tori_of_one_and_two_angles_turn() {
         let golden = 0.5 * (5f64.sqrt() - 1.0);
         for rotations in [vec![golden], vec![2f64.sqrt() / 1000.0], vec![golden, 2f64.sqrt() - 1.0]] {
-            assert!(turns(&torus(&rotations), &vec![1.0; 2 * rotations.len()]), "{rotations:?}");
+            let found = returns(&torus(&rotations), &vec![1.0; 2 * rotations.len()]);
+            assert_eq!(found, Returns::Turning, "{rotations:?}");
+        }
+    }
+
+    /// Towards an orbit of 36 points and away from one, on one side and from side to side, and at rest on it: none of it turns.
+    #[test]
+    fn what_creeps_past_an_orbit_of_long_period_does_not_turn() {
+        for rate in [-3e-3, -1e-3, -1e-4, -1e-5, 1e-5, 1e-4, 1e-3] {
+            for (side, start) in [(1.0, 1e-1), (-1.0, 1e-1), (1.0, 1e-4), (-1.0, 1e-4), (1.0, 0.0)] {
+                let state = |k: usize| {
+                    let off = start * f64::powi(side, k as i32) * (rate * k as f64).exp();
+                    let place = |j: usize| ((j * j) as f64).cos();
+                    vec![2.0 + place(k % 36) + 0.3 * off, place(k % 36 + 50) - 0.7 * off]
+                };
+                let states: Vec<Vec<f64>> = (0..8000).map(state).collect();
+                let found = returns(&states, &[1.0; 2]);
+                assert_ne!(found, Returns::Turning, "{rate} {side} {start}");
+                assert!(start > 0.0 || found == Returns::Creeping);
+            }
         }
     }
 
@@ -120,7 +200,7 @@ mod tests {
                 vec![x]
             };
             let states: Vec<Vec<f64>> = (0..1000).map(state).collect();
-            assert!(!turns(&states, &[1.0]), "{a}");
+            assert_ne!(returns(&states, &[1.0]), Returns::Turning, "{a}");
         }
     }
 }

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use crate::{AttractorError, SectionMap};
 
 /// Distance, relative to the motion, at which it counts as having repeated.
-const REPEATED: f64 = 1e-8;
+pub(crate) const REPEATED: f64 = 1e-8;
 /// Distance after a part of the period below which the motion may be creeping to an orbit of that period.
 const CREEPING: f64 = 1e-2;
 /// Part of that distance to which it has to fall until the next look for the motion to be creeping still.

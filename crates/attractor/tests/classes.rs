@@ -103,6 +103,23 @@ fn ueda_oscillator_is_chaotic() {
     assert_eq!(found.class, Class::Chaotic, "{:?} {:?}", found.largest_exponent, found.zero_one);
 }
 
+/// The beam at 34.2 Hz comes to an orbit of 36 periods, more than are looked for, and at 76.07 Hz creeps from an orbit of two periods to one of four just behind the flip: neither is a torus.
+#[test]
+fn orbits_of_long_periods_and_slow_flips_are_no_tori() {
+    for (frequency_hz, skipped, longest) in [(34.2, 10_000, 32), (34.2, 20_000, 64), (76.07, 50, 32)] {
+        let mut map = SystemMap::new(paper_beam(), frequency_hz, 1, ExactSettings::default()).unwrap();
+        let patience = Patience { skipped, longest, ..Patience::default() };
+        let effort = Effort { patience, ..Effort::default() };
+        let found = classify(&mut map, 1, &[0.0; 12], &effort).unwrap();
+        let expected = match (longest, frequency_hz) {
+            (32, 34.2) => Class::Doubtful(Doubt::NotSettled),
+            (_, 34.2) => Class::Periodic { period: 36 },
+            _ => Class::Periodic { period: 4 },
+        };
+        assert_eq!(found.class, expected, "{frequency_hz} {longest}: {:?}", found.largest_exponent);
+    }
+}
+
 /// The paper's beam: harmonic at 36 Hz beside its peak, chaos at 53 Hz.
 #[test]
 fn beam_is_periodic_at_36_and_chaotic_at_53_hz() {

@@ -230,6 +230,21 @@ fn the_force_of_a_contact_is_judged_by_its_own_depth() {
     assert_eq!(found.status.code(), Some(3), "{}", stdout(&found));
 }
 
+/// A stop with a damper, where its touch sets in with a jump: the located grazing has a touch or has none, and one branch has an orbit that is cut at its touch.
+#[test]
+fn touches_of_a_damper_that_graze_or_lie_at_the_cut_agree() {
+    for damping in [3.0, 12.0] {
+        let stop = format!(
+            "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 100.0\ndamping_n_s_m = {damping:?}\ngap_m = 0.3\nside = \"above\"\n"
+        );
+        let rest = "[response]\npoint = \"m\"\nperiod_multiples = [1]\nperiod_doubling_depth = 0\n";
+        let workshop = Workshop::driven_mass(&format!("frequency_hz = [0.1, 0.4]\n{stop}{rest}"));
+        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+        let output = workshop.hammerbeam(&["verify", "results", "--all"]);
+        assert!(output.status.success(), "{damping}:\n{}", stdout(&output));
+    }
+}
+
 /// The impact velocities of a table that are not zero [m/s].
 fn impact_velocities(table: &str) -> Vec<f64> {
     values(table, "max_impact_velocity_m_s")

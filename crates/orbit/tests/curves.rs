@@ -254,8 +254,7 @@ fn grazing_curves_beside_a_contact_that_remembers_its_impact_meet_the_branches()
     let case = oscillator(0.2, 1.0, &[(1.0, laws[0]), (-1.0, laws[1]), (1.0, laws[2])]);
     let range_hz = (0.25, 0.3);
     let rows = branch(&case, 0.29, range_hz);
-    let grazes =
-        |row: &&BranchRow| row.located.as_ref().and_then(|l| l.contact).is_some_and(|c| c.contact == 1);
+    let grazes = |row: &&BranchRow| row.located.iter().flat_map(|l| &l.contacts).any(|c| c.contact == 1);
     let start = rows.iter().find(grazes).unwrap();
     let gap = Parameter::Gap { element: 1 };
     for (side, range) in [(Side::Up, (0.75, 0.82)), (Side::Down, (0.75, 0.82))] {

@@ -7,6 +7,7 @@ use super::{
     Quantity,
     recompute::Recomputed,
     spectrum::{Multiplier, norm},
+    unknown::{Unknown, touches_at_nodes},
 };
 use crate::store::Row;
 
@@ -153,11 +154,14 @@ pub(super) fn compare(
     let measures = Measures::of((system, response), scales, solution.frequency_hz, found);
     let mut list = vec![plain(Quantity::Residual, solution.residual, found.residual, found.residual)];
     let margin = tolerance * found.gain * measures.contact[0];
-    maxima(row, found, (&measures, force_at(system, found, margin)), &mut list);
-    let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
-    list.push(contacts(row, found, grazing));
     let rigid = nearest(system, found, |law| law.rigid().is_some());
     let damped = nearest(system, found, |law| law.onset_damping() > 0.0);
+    let slow = if damped <= margin { (2.0 * measures.approach * margin).sqrt() } else { 0.0 };
+    let cut = touches_at_nodes(system, solution, margin);
+    let unknown = Unknown::of((system, response), found, (margin, slow), &cut);
+    maxima(row, (solution, found), (&measures, unknown), &mut list);
+    let grazing = found.extrema.iter().filter(|extremum| extremum.abs() <= margin).count();
+    list.push(contacts(row, found, grazing + cut.len()));
     let jump = rigid.min(damped);
     let of_multipliers = multipliers(solution, found, sensitivity).into_iter();
     list.extend(of_multipliers.map(|found| Comparison { grazing: jump <= margin, ..found }));
@@ -184,30 +188,10 @@ fn plain(quantity: Quantity, stored: f64, recomputed: f64, difference: f64) -> C
     Comparison { quantity, stored, recomputed, difference, grazing: false }
 }
 
-/// The largest force at a penetration of that depth, of the elements that come no deeper [N].
-fn force_at(system: &System, found: &Recomputed, depth: f64) -> f64 {
-    let of_element = |element: &LocalElement| {
-        let contacts = element.law.contacts().iter();
-        let forces =
-            contacts.map(|contact| element.law.force(contact.level + contact.sign * depth, 0.0).value.abs());
-        forces.fold(0.0, f64::max)
-    };
-    if found.of_elements.iter().any(|element| element.deepest > depth && element.contact_force > 0.0) {
-        return 0.0;
-    }
-    system
-        .elements()
-        .iter()
-        .filter(|element| element.law.rigid().is_none())
-        .map(of_element)
-        .fold(0.0, f64::max)
-}
-
-/// * `least_force`: that of a penetration which is not known from none [N].
 fn maxima(
     row: &Row,
-    found: &Recomputed,
-    (measures, least_force): (&Measures, f64),
+    (solution, found): (&PeriodicSolution, &Recomputed),
+    (measures, unknown): (&Measures, Unknown),
     list: &mut Vec<Comparison>,
 ) {
     let (stored, new) = (&row.maxima, &found.maxima);
@@ -227,16 +211,24 @@ fn maxima(
         new.displacement.max(measures.displacement),
     );
     let acceleration = (factor * new.acceleration).max(measures.acceleration);
-    push(Quantity::Acceleration, stored.acceleration, new.acceleration, acceleration);
-    let is_none = stored.contact_force.max(new.contact_force) <= least_force;
+    let is_known = (stored.acceleration - new.acceleration).abs() > unknown.acceleration;
+    let measure = if is_known { acceleration } else { f64::INFINITY };
+    push(Quantity::Acceleration, stored.acceleration, new.acceleration, measure);
+    let is_none = stored.contact_force.max(new.contact_force) <= unknown.force;
     let measure = if is_none { f64::INFINITY } else { factor * new.contact_force };
     push(Quantity::ContactForce, stored.contact_force, new.contact_force, measure);
-    let touch = if new.impact_velocity > 0.0 { measures.touch_factor(new.impact_velocity) } else { 1.0 };
-    push(Quantity::ImpactVelocity, stored.impact_velocity, new.impact_velocity, touch * new.impact_velocity);
-    push(Quantity::Impulse, stored.impulse, new.impulse, measures.impulse(found));
+    let [struck, touched] =
+        [stored.impact_velocity, new.impact_velocity].map(|speed| speed.max(unknown.touch_at_node));
+    let touch = if touched > 0.0 { measures.touch_factor(touched) } else { 1.0 };
+    let measure = if struck.max(touched) <= unknown.speed { f64::INFINITY } else { touch * touched };
+    push(Quantity::ImpactVelocity, struck, touched, measure);
+    let period = f64::from(solution.period_multiple) / solution.frequency_hz;
+    let is_none = is_none && stored.impulse.max(new.impulse) <= unknown.force * period;
+    let measure = if is_none { f64::INFINITY } else { measures.impulse(found) };
+    push(Quantity::Impulse, stored.impulse, new.impulse, measure);
 }
 
-/// As many contacts may come or go as graze.
+/// As many contacts may come or go as graze, or are touched where the orbit is cut.
 fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
     let (stored, new) = (row.maxima.contacts, found.maxima.contacts);
     let missing = stored.abs_diff(new);

@@ -15,7 +15,7 @@
 //! | impact velocity | `|v - v'| <= tau G g_v v'` |
 //! | impulse | `|J - J'| <= tau G sum_j g_j J'_j` |
 //! | contact force | `|F - F'| <= max(tau, 1e-9) G g F'` |
-//! | contacts | as many differ as contacts graze, at most |
+//! | contacts | as many differ as contacts graze or are touched within `tau G L_r` of a node, at most |
 //! | events | fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle; grazing: `|s| <= 1e-5 L_r` |
 //!
 //! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and elements by `L_r` with the
@@ -29,7 +29,8 @@
 //! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
 //!
 //! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b that a unit
-//! impulse gives: multipliers may differ there, and a fold, flip or Neimark-Sacker point on the row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops.
+//! impulse gives: multipliers may differ there, and a fold, flip or Neimark-Sacker point on the row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops. Such a touch may have a speed of up to `v_s = sqrt(2 W tau G L_r)` or not be there: speeds below it and forces below `c v_s` agree, and accelerations to what the response
+//! gets from that. A touch at a node belongs to either segment, or, by rounding, to none.
 //!
 //! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for. A force that is no larger than that of a penetration of `T G L_r`, and of an element that comes no deeper, agrees with none.
 //!
@@ -37,7 +38,7 @@
 //! |---|---|
 //! | `sample.rs` | which solutions |
 //! | `recompute.rs`, `spectrum.rs` | the motion over the orbit; multipliers and their conditions |
-//! | `compare.rs` | the table above |
+//! | `compare.rs`, `unknown.rs` | the table above, and what cannot be told from nothing |
 //! | `report.rs` | the worst of each quantity, and every disagreement |
 
 mod compare;
@@ -45,6 +46,7 @@ mod recompute;
 mod report;
 mod sample;
 mod spectrum;
+mod unknown;
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 

@@ -21,6 +21,8 @@ pub struct Summary {
     largest_impact: f64,
     impulse: f64,
     energy_lost: f64,
+    /// Whether a contact is closed at the begin or the end, so that it has stored energy there.
+    stores: bool,
     listed: Vec<Value>,
     state: Vec<f64>,
     unfinished: Vec<SimulatedContact>,
@@ -53,6 +55,7 @@ impl Summary {
         self.largest_impact = self.largest_impact.max(speed);
         self.impulse += contact.impulse;
         self.energy_lost += contact.energy_lost;
+        self.stores |= contact.touch.is_none() || contact.end_s.is_none();
         if self.listed.len() < LISTED {
             self.listed.push(contact_document(layout, contact));
         }
@@ -96,6 +99,9 @@ impl Summary {
             format!("  impulse of all contacts       {:.6e} N s", self.impulse),
             format!("  energy lost in all contacts   {:.3e} J", self.energy_lost),
         ];
+        if self.stores {
+            lines.push("    (with what a contact holds that is closed at the begin or the end)".to_owned());
+        }
         if let Some(folder) = &options.out {
             let folder = folder.display();
             lines.push(format!("samples.csv, contacts.csv and stroboscopic.csv are in {folder}"));
