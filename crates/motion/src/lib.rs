@@ -82,6 +82,7 @@
 
 mod amplitude;
 pub mod exact;
+mod family;
 pub mod general;
 mod in_front;
 mod instant;
@@ -93,6 +94,7 @@ mod stretch;
 mod system;
 
 pub use amplitude::{AmplitudeCurve, AmplitudeError};
+pub use family::{Family, Member};
 pub use law::{Contact, Force, Law, LawError};
 pub use load::{Harmonic, HarmonicForce, Load};
 pub use parameter::{DampingPart, Parameter, ParameterError};

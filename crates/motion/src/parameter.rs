@@ -7,11 +7,14 @@
 //! | stiffness `k` | as the law has it | the force of one element, `f = k f(1)`, at the levels that its contacts have |
 //! | restitution `e` | [-] | the impacts of one rigid stop, or the loss of a contact that remembers its impacts |
 //! | contact damping `c` | as the law has it | the loss of one element whose force depends on the velocity |
+//! | number of a family | in its unit | the whole structure, its modes and their coordinates ([`Family`]) |
 //! | added damping `z_k` | 0 as built | the damping, `C = C(0) + sum_k z_k D_k`, `d = d(0) + sum_k z_k d_k`; part 0 is a ratio to critical damping, `D_0 = diag(2 w_i)` |
+
+use std::sync::Arc;
 
 use faer::Mat;
 
-use crate::{LawError, System};
+use crate::{Family, LawError, Member, System};
 
 /// A parameter of a system that a branch can be followed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -38,6 +41,11 @@ pub enum Parameter {
     ContactDamping {
         /// Number of the element.
         element: usize,
+    },
+    /// A number that the structure depends on, in its unit.
+    OfFamily {
+        /// Number of the family, see [`System::with_family`].
+        family: usize,
     },
     /// How much of a part of the damping the structure has besides the damping as given; negative takes damping away.
     AddedDamping {
@@ -94,6 +102,12 @@ pub enum ParameterError {
     /// The law refuses the value.
     #[error("{name}: {source}")]
     Law { name: String, source: LawError },
+    /// The family does not exist.
+    #[error("there is no family {family}, the system has {count}")]
+    NoFamily { family: usize, count: usize },
+    /// A family has no such member.
+    #[error("{0}")]
+    NoMember(String),
     /// A factor of the excitation is finite and positive.
     #[error("the excitation scale is {found}, must be finite and positive")]
     ExcitationScale { found: f64 },
@@ -114,6 +128,7 @@ impl System {
                 let missing = ParameterError::NoDampingPart { part, count: self.added_damping().len() };
                 self.added_damping().get(part).copied().ok_or(missing)
             }
+            Parameter::OfFamily { family } => Ok(self.family(family)?.value),
             Parameter::Stiffness { element } => {
                 let element = self.element(element)?;
                 let stiffness = Some(element.law.stiffness()).filter(|stiffness| stiffness.is_finite());
@@ -156,6 +171,10 @@ impl System {
                 self.parameter(parameter)?;
                 self.set_added_damping(part, value)
             }
+            Parameter::OfFamily { family } => {
+                *self = self.member(family, value)?.system;
+                Ok(())
+            }
             Parameter::Stiffness { element }
             | Parameter::Gap { element }
             | Parameter::Restitution { element }
@@ -183,4 +202,44 @@ impl System {
         let missing = ParameterError::NoElement { element, count: self.elements().len() };
         self.elements().get(element).ok_or(missing)
     }
+
+    /// Makes a number that the structure depends on a parameter, by the next number: [`Parameter::OfFamily`].
+    ///
+    /// * `value`: of this system, which must be the member there.
+    /// * `size`: change of the number that counts as large, for differences.
+    #[must_use]
+    pub fn with_family(mut self, family: Arc<dyn Family>, value: f64, size: f64) -> Self {
+        self.families_mut().push(Kin { family, value, size });
+        self
+    }
+
+    /// The member of a family with a value; laws of elements that have been changed are so in it, too.
+    ///
+    /// # Errors
+    /// [`ParameterError::NoFamily`], [`ParameterError::NoMember`].
+    pub(crate) fn member(&self, family: usize, value: f64) -> Result<Member, ParameterError> {
+        let mut member = self.family(family)?.family.member(value).map_err(ParameterError::NoMember)?;
+        member.system.take_after(self);
+        member.system.families_mut()[family].value = value;
+        Ok(member)
+    }
+
+    /// The family of that number.
+    ///
+    /// # Errors
+    /// [`ParameterError::NoFamily`].
+    pub(crate) fn family(&self, family: usize) -> Result<&Kin, ParameterError> {
+        let missing = ParameterError::NoFamily { family, count: self.families().len() };
+        self.families().get(family).ok_or(missing)
+    }
+}
+
+/// A family that a system is a member of.
+#[derive(Debug, Clone)]
+pub(crate) struct Kin {
+    pub family: Arc<dyn Family>,
+    /// Value of the member.
+    pub value: f64,
+    /// Change that counts as large.
+    pub size: f64,
 }

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
 
-use crate::{AmplitudeCurve, DampingPart, Harmonic, Law, Load, ParameterError};
+use crate::{AmplitudeCurve, DampingPart, Harmonic, Law, Load, ParameterError, parameter::Kin};
 
 /// Why a model, a load and elements do not make a system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -62,6 +62,10 @@ pub struct System {
     added_damping: Vec<f64>,
     /// The damping as given.
     given_damping: DampingPart,
+    /// The laws as given.
+    given_laws: Vec<Law>,
+    /// Families of systems that it belongs to.
+    families: Vec<Kin>,
 }
 
 /// Harmonics that a curve of the frequency is a factor of: support motion and forces, by the orders of the system.
@@ -105,6 +109,8 @@ impl System {
         let given_damping = DampingPart { matrix: model.damping.clone(), support: given };
         let damping_parts = vec![DampingPart { matrix: ratio, support: vec![0.0; model.dof()] }];
         Ok(Self {
+            given_laws: elements.iter().map(|element| element.law).collect(),
+            families: Vec::new(),
             model,
             elements,
             orders,
@@ -190,6 +196,25 @@ impl System {
     #[must_use]
     pub fn added_damping(&self) -> &[f64] {
         &self.added_damping
+    }
+
+    pub(crate) fn families(&self) -> &[Kin] {
+        &self.families
+    }
+
+    pub(crate) fn families_mut(&mut self) -> &mut Vec<Kin> {
+        &mut self.families
+    }
+
+    /// Takes over the families of a relative, and its laws where they are not as given.
+    pub(crate) fn take_after(&mut self, other: &Self) {
+        self.families.clone_from(&other.families);
+        let laws = other.elements.iter().zip(&other.given_laws);
+        for (own, (theirs, given)) in self.elements.iter_mut().zip(laws) {
+            if theirs.law != *given {
+                own.law = theirs.law;
+            }
+        }
     }
 
     pub(crate) fn elements_mut(&mut self) -> &mut [LocalElement] {

@@ -247,6 +247,7 @@ fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationPara
         Some(Parameter::Stiffness { element }) => (4, element),
         Some(Parameter::Restitution { element }) => (5, element),
         Some(Parameter::ContactDamping { element }) => (6, element),
+        Some(Parameter::OfFamily { family }) => (7, family),
     };
     out.word(u64::from(period_multiple) | kind << 32 | (element as u64) << 40);
     if let ContinuationParameter::Other { frequency_hz, .. } = varied {
@@ -265,6 +266,7 @@ fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> 
         4 => Parameter::Stiffness { element },
         5 => Parameter::Restitution { element },
         6 => Parameter::ContactDamping { element },
+        7 => Parameter::OfFamily { family: element },
         _ => return None,
     };
     Some((word as u32, ContinuationParameter::Other { parameter, frequency_hz: reader.float()? }))

@@ -5,6 +5,7 @@
 //! | `document` | TOML tables that are asked for their keys, quantities with their ranges, all faults at once and where they stand |
 //! | [`file`] | one file per table of the study file: its keys and their meaning |
 //! | `model` | from what the file says to the equations of motion |
+//! | `number` | numbers in the text of a study by their key paths, and the text with others |
 //! | `identity` | what makes a study the same study, so that a results folder is continued or refused |
 //! | [`run`] | the plan of searches, following branches, progress; of the numerics it knows two traits |
 //! | `orbit_solver` | these traits, served by the orbit crate |
@@ -44,6 +45,7 @@ pub mod export;
 pub mod file;
 mod identity;
 mod model;
+mod number;
 mod orbit_solver;
 pub mod rig;
 pub mod run;

@@ -6,11 +6,13 @@
 //! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V - level_g`. The gap of a rigid stop that holds the structure moves the particular
 //!   solution (`held.rs`).
 //! - Stiffness: `f_p = F/k`. Damping and restitution of a contact: `f_p` by the law (`damped_step.rs`).
+//! - A number of a family: differences (`by_family.rs`).
 //! - Added damping: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
 
 use super::{
     ExactIntegrator, MotionError,
     by_damping::{ByDamping, SolvedStep},
+    by_family::ByFamily,
     collocation::NODES,
     drive::Drive,
     force_step::ForceStep,
@@ -78,7 +80,11 @@ impl ExactIntegrator {
         if let Some(parameter) = parameter {
             self.system.parameter(parameter)?;
         }
-        self.parameter = parameter;
+        self.by_family = match parameter {
+            Some(Parameter::OfFamily { family }) => Some(Box::new(ByFamily::new(family))),
+            _ => None,
+        };
+        self.parameter = parameter.filter(|_| self.by_family.is_none());
         self.prepare_damping();
         Ok(())
     }
@@ -91,8 +97,17 @@ impl ExactIntegrator {
         if self.system.parameter(parameter)? == value {
             return Ok(());
         }
-        if matches!(parameter, Parameter::AddedDamping { .. }) {
-            return self.rebuild(self.system.clone().with_parameter(parameter, value)?);
+        match parameter {
+            Parameter::AddedDamping { .. } => {
+                let system = self.system.clone().with_parameter(parameter, value)?;
+                return self.rebuild(system, self.response.clone());
+            }
+            Parameter::OfFamily { family } => {
+                let member = self.system.member(family, value)?;
+                let response = self.response.as_ref().map(|_| member.response);
+                return self.rebuild(member.system, response);
+            }
+            _ => {}
         }
         self.system.set_parameter(parameter, value)?;
         self.drive.forget();
@@ -104,12 +119,13 @@ impl ExactIntegrator {
     }
 
     /// Starts anew with a system whose structure has changed.
-    fn rebuild(&mut self, system: System) -> Result<(), MotionError> {
-        let response = self.response.as_ref().map(|(shape, ratio)| (shape.as_slice(), *ratio));
+    fn rebuild(&mut self, system: System, response: Option<(Vec<f64>, f64)>) -> Result<(), MotionError> {
+        let response = response.as_ref().map(|(shape, ratio)| (shape.as_slice(), *ratio));
         let rebuilt = Self::watching(system, self.settings, response)?;
         let before = std::mem::replace(self, rebuilt);
         self.counts = before.counts;
         self.parameter = before.parameter;
+        self.by_family = before.by_family.map(|by_family| Box::new(ByFamily::new(by_family.family)));
         self.prepare_damping();
         Ok(())
     }

@@ -56,7 +56,10 @@ impl ExactIntegrator {
         let flow = result.map(|()| self.flow_of(&mut run, stretch));
         self.let_go();
         self.run = run;
-        let flow = flow?;
+        let mut flow = flow?;
+        if let Some(column) = self.family_column((stretch, state), &flow.state)? {
+            flow.by_parameter = column;
+        }
         self.remember_end(stretch, &flow.state);
         if self.goes_on {
             self.remember_speeds(&flow.by_state);

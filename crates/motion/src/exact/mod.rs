@@ -22,7 +22,7 @@
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
-//! | `by_parameter.rs`; `by_damping.rs`, `change.rs` | the column of a parameter; of the damping, which is in every matrix |
+//! | `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs` | the column of a parameter; of the damping, which is in every matrix; of a number that the modes depend on |
 //! | `course.rs` | what a motion went through |
 //! | `near_miss.rs` | least clearance of flights, least speed of touches, least penetration between two presses: what vanishes at grazing |
 //! | `maxima.rs`, `flight_maximum.rs`, `step_maximum.rs`, `extremum.rs`, `sampling.rs`, `defect.rs` | maxima on the continuous motion, reading inside a step, and what its polynomials leave of a force there |
@@ -33,6 +33,7 @@ mod aim;
 mod attempt;
 mod block;
 mod by_damping;
+mod by_family;
 mod by_parameter;
 mod change;
 mod clearance;
@@ -230,6 +231,7 @@ pub struct ExactIntegrator {
     response: Option<(Vec<f64>, f64)>,
     parameter: Option<Parameter>,
     by_damping: Option<Box<by_damping::ByDamping>>,
+    by_family: Option<Box<by_family::ByFamily>>,
     memory: Option<ContactMemory>,
     /// Whether flows go on within contacts from the stretch before.
     goes_on: bool,
@@ -301,6 +303,7 @@ impl ExactIntegrator {
             response: response.map(|(shape, ratio)| (shape.to_vec(), ratio)),
             parameter: None,
             by_damping: None,
+            by_family: None,
             memory: None,
             goes_on: false,
             stretch,

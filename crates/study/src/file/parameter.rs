@@ -2,7 +2,10 @@
 
 use serde::Serialize;
 
-use crate::document::{Quantity, Table, Value, quantity};
+use crate::{
+    document::{Quantity, Table, Value, quantity},
+    number::numbers,
+};
 
 use super::{Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopLaw, Structure};
 
@@ -47,6 +50,8 @@ pub enum ParameterKind {
     ModalRatio,
     /// A part of the damping of the structure.
     Damping(DampingKey),
+    /// Another number of the model, by its key path.
+    Number,
 }
 
 /// A constant of the damping of the structure.
@@ -82,6 +87,8 @@ pub enum DampingKey {
 /// What of a study can vary.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Variable<'a> {
+    /// The text of the file.
+    pub text: &'a str,
     pub structure: &'a Structure,
     pub excitation: &'a Excitation,
     pub damping: &'a Damping,
@@ -212,18 +219,21 @@ pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<Var
     let text = name.text()?;
     let study = study?;
     let known = study.known();
-    let Some((_, kind, quantity)) = known.iter().find(|(known, ..)| known == text) else {
+    let is_number = || numbers(study.text).iter().any(|number| number.keys.iter().any(|key| key == text));
+    let found = known.iter().find(|(known, ..)| known == text).map(|(_, kind, quantity)| (*kind, *quantity));
+    let of_model = || is_number().then_some((ParameterKind::Number, quantity::ANY));
+    let Some((kind, quantity)) = found.or_else(of_model) else {
         let names: Vec<&str> = known.iter().map(|(name, ..)| name.as_str()).collect();
         name.unknown_word(text, "a parameter of this study", &names);
         return None;
     };
-    if *kind == ParameterKind::Amplitude && study.has_further_harmonics() {
+    if kind == ParameterKind::Amplitude && study.has_further_harmonics() {
         let help = vec!["allowed: only where the excitation is the only harmonic load".into()];
         name.problem(format!("`parameter` is \"{text}\", but further loads are harmonic"), help);
         return None;
     }
-    let range = read_range(&range, quantity)?;
-    Some(VariedParameter { name: text.to_owned(), kind: *kind, range })
+    let range = read_range(&range, &quantity)?;
+    Some(VariedParameter { name: text.to_owned(), kind, range })
 }
 
 fn read_range(value: &Value<'_>, quantity: &Quantity) -> Option<[f64; 2]> {

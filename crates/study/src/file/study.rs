@@ -137,12 +137,12 @@ fn read_text(text: &str, reading: &Reading) -> Option<Study> {
         return None;
     }
     let root = Table::new(reading, String::new(), 0..0, document.get_ref());
-    let study = read_root(&root, reading);
+    let study = read_root(&root, reading, text);
     root.finish();
     study
 }
 
-fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
+fn read_root(root: &Table<'_>, reading: &Reading, text: &str) -> Option<Study> {
     let mut names = Names::default();
     let title = root.optional("title").map_or(Some(""), |value| value.text());
     let structure = structure::read(root, reading, &mut names);
@@ -157,7 +157,7 @@ fn read_root(root: &Table<'_>, reading: &Reading) -> Option<Study> {
     let variable = (|| {
         let (excitation, damping) = (excitation.as_ref()?, damping.as_ref()?);
         let (structure, loads, stops) = (structure.as_ref()?, loads.as_deref()?, stops.as_deref()?);
-        Some(Variable { structure, excitation, damping, loads, stops })
+        Some(Variable { text, structure, excitation, damping, loads, stops })
     })();
     let varied = vary::read(root, reading, variable);
     let figures = figures::read(root, reading);

@@ -3,9 +3,12 @@
 mod damping;
 mod drift;
 mod element;
+mod family;
 mod load;
 mod parameter;
 mod structure;
+
+use std::sync::Arc;
 
 use hammerbeam_motion::{ParameterError, PointMotion, System, SystemError};
 use hammerbeam_orbit::Response;
@@ -14,6 +17,8 @@ use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureErro
 pub use drift::Drift;
 pub use parameter::StudyParameter;
 pub(crate) use structure::beam_descriptor;
+
+use family::StudyFamily;
 
 use crate::file::{DampingKey, Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
 
@@ -30,6 +35,8 @@ pub struct Model {
     pub outline: Vec<OutlinePoint>,
     /// Constants of the damping that vary: parts 1, 2, ... of the damping of the system.
     damping_keys: Vec<DampingKey>,
+    /// Other numbers that vary: the families of the system.
+    number_keys: Vec<String>,
 }
 
 impl Model {
@@ -38,10 +45,20 @@ impl Model {
     /// # Errors
     /// [`StudyError::Invalid`]: something of the study does not fit its structure, at the key that is to blame.
     pub fn build(file: &StudyFile) -> Result<Self, StudyError> {
+        Self::like(file, None)
+    }
+
+    /// The same with modes of the signs of a reference.
+    fn like(file: &StudyFile, reference: Option<&ReducedModel>) -> Result<Self, StudyError> {
         check_magnitudes(file)?;
         let study = &file.study;
         let interface = interface(study);
-        let reduced = structure::reduce(study, &interface).map_err(|error| structure_fault(file, &error))?;
+        let mut reduced =
+            structure::reduce(study, &interface).map_err(|error| structure_fault(file, &error))?;
+        if let Some(reference) = reference {
+            let fault = |message| file.fault("structure", message, Vec::new());
+            family::turn_like(&mut reduced.model, reference).map_err(fault)?;
+        }
         load::check(file, &reduced.model)?;
         let load = load::load(study, &reduced.model);
         let elements = element::elements(file, &reduced.model, &load)?;
@@ -59,8 +76,15 @@ impl Model {
             let fault = |error: ParameterError| file.fault("damping", error.to_string(), Vec::new());
             system = system.with_damping_part(part).map_err(fault)?;
         }
+        let numbers = family::varied_numbers(study);
+        for (key, width) in &numbers {
+            let Some(family) = StudyFamily::new(file, key, system.model()) else { continue };
+            let value = family.value();
+            system = system.with_family(Arc::new(family), value, *width);
+        }
         let (tables, outline) = (reduced.tables, reduced.outline);
-        let model = Self { system, response, tables, outline, damping_keys };
+        let number_keys = numbers.into_iter().map(|(key, _)| key).collect();
+        let model = Self { system, response, tables, outline, damping_keys, number_keys };
         model.check_varied(file)?;
         Ok(model)
     }

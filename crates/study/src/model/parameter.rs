@@ -67,6 +67,11 @@ impl Model {
                 let offset = damping::value(study, key);
                 Ok(StudyParameter { offset, ..plain(Parameter::AddedDamping { part }) })
             }
+            ParameterKind::Number => {
+                let family = self.number_keys.iter().position(|key| *key == varied.name);
+                let family = family.expect("families of all numbers that vary are built with the model");
+                Ok(plain(Parameter::OfFamily { family }))
+            }
             ParameterKind::StopDamping { stop } => {
                 Ok(plain(Parameter::ContactDamping { element: self.element_of(study, stop)? }))
             }

@@ -12,12 +12,12 @@ pub(super) const COLUMNS: &str = "
     multiplier_re REAL,
     multiplier_im REAL,
     direction BLOB NOT NULL,
-    contacts BLOB NOT NULL,
+    contact_changes BLOB NOT NULL,
     breaks_symmetry INTEGER NOT NULL";
 
 /// Their names.
 const NAMES: &str =
-    "located, uncertainty, multiplier_re, multiplier_im, direction, contacts, breaks_symmetry";
+    "located, uncertainty, multiplier_re, multiplier_im, direction, contact_changes, breaks_symmetry";
 
 /// An event of a row of a branch in a parameter.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,10 @@
 //! The study with other numbers, built.
 
-use crate::{Model, StudyError, StudyFile, comparison::course::CourseError};
-
-use super::number::{Number, with_numbers};
+use crate::{
+    Model, StudyError, StudyFile,
+    comparison::course::CourseError,
+    number::{Number, with_numbers},
+};
 
 /// Why a model with some values of the parameters does not exist.
 #[derive(Debug, thiserror::Error)]

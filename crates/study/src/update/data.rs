@@ -7,9 +7,9 @@ use std::{
 
 use hammerbeam_fit::{Bounds, Deviations};
 
-use crate::{Report, StudyFile};
+use crate::{Report, StudyFile, number::Number};
 
-use super::{number::Number, reading};
+use super::reading;
 
 /// A parameter that is fitted.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,9 +6,10 @@ use crate::{
     StudyError, StudyFile,
     file::{Beam, Structure},
     model::beam_descriptor,
+    number::Number,
 };
 
-use super::{data::FrequencyTable, number::Number};
+use super::data::FrequencyTable;
 
 /// Derivatives of a table of eigenfrequencies [Hz] by a number of the study; `None` where they have to be taken by differences.
 ///

@@ -17,7 +17,6 @@
 //! | file | idea |
 //! |---|---|
 //! | `data.rs`; `reading.rs`, `measured.rs` | the data file; parameters, measured numbers |
-//! | `number.rs` | numbers of a study by their key paths, and the text with others in their places |
 //! | `candidate.rs` | the study with other numbers, built |
 //! | `observe.rs` | what the model says to each of the data |
 //! | `response.rs` | orbits that are followed as parameters change |
@@ -31,7 +30,6 @@ mod data;
 mod exact;
 mod finding;
 mod measured;
-mod number;
 mod observe;
 mod outcome;
 mod problem;

@@ -4,13 +4,15 @@ use hammerbeam_fit::{
     Fit, FitEnd, FitError, FitSettings, Identifiability, Inference, Interval, ProfileInterval, profile,
 };
 
-use crate::StudyFile;
+use crate::{
+    StudyFile,
+    number::{Number, replaced},
+};
 
 use super::{
     candidate::CandidateError,
     data::{DataError, Datum, UpdateData},
     finding::{self, Finding},
-    number::{Number, replaced},
     problem::UpdateProblem,
     starts::{Found, Starts, best},
 };

@@ -6,13 +6,12 @@ use faer::Mat;
 use hammerbeam_fit::{Bounds, FitProblem};
 use hammerbeam_orbit::PeriodicSolution;
 
-use crate::{Model, StudyFile};
+use crate::{Model, StudyFile, number::Number};
 
 use super::{
     candidate::{CandidateError, built, candidate},
     data::{Datum, FrequencyTable, Observation, UpdateData},
     exact::eigenfrequency_derivatives,
-    number::Number,
     observe::{damping_ratios, table},
     response::{Orbits, maximum},
 };

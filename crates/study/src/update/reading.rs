@@ -9,11 +9,11 @@ use crate::{
     Report, StudyFile,
     document::{Problem, Reading, Table, Value, place, quantity},
     file::Structure,
+    number::{self, Number},
 };
 
 use super::data::{Datum, FittedKey, MeasuredOrbit, UpdateData};
 use super::measured::{read_damping, read_eigenfrequencies, read_orbit};
-use super::number::{self, Number};
 
 /// The text of a data file and where its keys stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,7 +73,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, study: &StudyFile) -> Option<R
     let choices = [("known", Deviations::Known), ("up-to-a-factor", Deviations::UpToFactor)];
     let deviations =
         root.optional("deviations").map_or(Some(Deviations::Known), |value| value.choice(&choices));
-    let numbers = number::numbers(study);
+    let numbers = number::numbers(&study.text);
     let mut parameters = read_parameters(root, study, &numbers);
     keep_points_on_the_beam(&mut parameters, study);
     let mut data = Vec::new();
