@@ -35,6 +35,17 @@ impl Condition {
         }
     }
 
+    /// Basis of the invariant subspace of the multipliers that the condition holds, at the last evaluated place.
+    pub fn critical_vectors(&self, shooting: &Shooting) -> Vec<Vec<f64>> {
+        match self {
+            Self::Multiplier(bordered) => {
+                bordered.vectors(shooting).map_or(Vec::new(), |vectors| vec![vectors.right])
+            }
+            Self::Pair(pair) => pair.right_plane(shooting).unwrap_or_default(),
+            Self::Touch(_) => Vec::new(),
+        }
+    }
+
     /// Adapts the condition to an accepted point, at which the equations were evaluated last.
     pub fn renew(&mut self, shooting: &Shooting) {
         match self {

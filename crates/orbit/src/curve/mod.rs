@@ -33,8 +33,10 @@
 
 mod bordered;
 mod condition;
+mod deflated;
 mod differences;
 mod grazing;
+mod marks;
 mod null;
 mod pair;
 mod passing;

@@ -55,6 +55,11 @@ impl Pair {
         }
     }
 
+    /// Basis of the right invariant plane at the last evaluated place.
+    pub fn right_plane(self, shooting: &Shooting) -> Option<Vec<Vec<f64>>> {
+        self.plane(shooting).map(|plane| plane.right)
+    }
+
     fn plane(self, shooting: &Shooting) -> Option<Plane> {
         let size = shooting.size();
         let monodromy = shooting.monodromy();

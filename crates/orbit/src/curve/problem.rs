@@ -5,9 +5,10 @@ use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, Singul
 
 use super::{
     condition::{Condition, Linear},
+    deflated::other_eigenvalues,
+    marks,
     shooting::{Place, Shooting, times},
 };
-use crate::{eigenvalues::eigenvalues, stability};
 
 /// The extended equations.
 #[derive(Debug)]
@@ -133,6 +134,14 @@ impl CurveProblem {
         Ok(true)
     }
 
+    /// The multipliers that the condition does not hold, at the last evaluated place.
+    pub fn other_multipliers(&self) -> Vec<[f64; 2]> {
+        let size = self.shooting.size();
+        let critical = self.condition.critical_vectors(&self.shooting);
+        let others = other_eigenvalues(size, self.shooting.monodromy(), &critical);
+        others.unwrap_or_else(|_| vec![[0.0, 0.0]; size - critical.len()])
+    }
+
     /// `[R_x R_p]` by rows.
     #[cfg(test)]
     pub fn jacobian(&self) -> &[f64] {
@@ -178,35 +187,10 @@ impl PathProblem for CurveProblem {
         self.lu.solve(right_hand_side);
     }
 
-    /// In the order of `row.rs`.
+    /// In the order of `marks.rs`.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
-        let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };
-        let multipliers = || {
-            let size = self.shooting.size();
-            eigenvalues(size, self.shooting.monodromy()).unwrap_or_else(|_| vec![[0.0, 0.0]; size])
-        };
-        match &self.condition {
-            Condition::Multiplier(bordered) if bordered.multiplier > 0.0 => {
-                values.extend([
-                    signed(self.tests[1]),
-                    signed(self.tests[0]),
-                    stability::flip(&multipliers()),
-                ]);
-            }
-            Condition::Multiplier(_) => {
-                values.extend([signed(self.tests[0]), stability::fold(&multipliers())]);
-            }
-            Condition::Pair(_) => {
-                let k = self.tests[0];
-                values.extend([1.0 - k, k + 1.0, k + 0.5, k].map(signed));
-            }
-            Condition::Touch(_) => {
-                let multipliers = multipliers();
-                let (fold, flip) = (stability::fold(&multipliers), stability::flip(&multipliers));
-                values.extend([fold, flip, signed(self.tests[0])]);
-            }
-        }
+        values.extend(marks::tests(&self.condition, &self.tests, &self.other_multipliers()));
     }
 
     /// Without the contacts that a grazing orbit touches: whether they are counted is rounding.

@@ -1,0 +1,90 @@
+//! Points of codimension two: the test functions of a curve in their order, and which of their zeros are marked.
+
+use hammerbeam_path::{Events, TestValue};
+
+use super::{
+    condition::Condition,
+    row::{CurveEvents, CurveKind},
+};
+use crate::stability;
+
+/// Distance from its place within which a further multiplier is critical: one that jumped over it, as where contacts change, is not.
+const CRITICAL: f64 = 1e-4;
+
+/// Test functions of a curve.
+///
+/// * `own`: those of its condition.
+/// * `others`: the multipliers that the condition does not hold.
+pub(super) fn tests(condition: &Condition, own: &[f64], others: &[[f64; 2]]) -> Vec<TestValue> {
+    let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };
+    let (fold, flip) = (stability::fold(others), stability::flip(others));
+    let pair = stability::neimark_sacker(others);
+    match condition {
+        Condition::Multiplier(bordered) if bordered.multiplier > 0.0 => {
+            vec![signed(own[1]), signed(own[0]), flip, pair]
+        }
+        Condition::Multiplier(_) => vec![signed(own[0]), fold, pair],
+        Condition::Pair(_) => {
+            let k = own[0];
+            let resonances = [1.0 - k, k + 1.0, k + 0.5, k].map(signed);
+            resonances.into_iter().chain([fold, flip, pair]).collect()
+        }
+        Condition::Touch(_) => vec![fold, flip, signed(own[0]), pair],
+    }
+}
+
+impl CurveEvents {
+    /// What the zeros of [`tests`] are.
+    ///
+    /// * `others`: the multipliers that the condition does not hold, at the point.
+    pub(super) fn of(kind: CurveKind, events: Events, others: &[[f64; 2]]) -> Self {
+        let zero = |bit: u32| events.zeros >> bit & 1 == 1;
+        let fold = |bit: u32| zero(bit) && is_at(others, 1.0);
+        let flip = |bit: u32| zero(bit) && is_at(others, -1.0);
+        let pair = |bit: u32| zero(bit) && has_pair_on_circle(others);
+        let changes = events.signature_change;
+        let found = Self { turn: events.fold, grazing: changes, ..Self::default() };
+        match kind {
+            CurveKind::Fold => Self {
+                cusp: zero(0),
+                resonance: zero(1).then_some(1),
+                fold_flip: flip(2),
+                fold_neimark_sacker: pair(3),
+                ..found
+            },
+            CurveKind::Flip => Self {
+                resonance: zero(0).then_some(2),
+                fold_flip: fold(1),
+                flip_neimark_sacker: pair(2),
+                ..found
+            },
+            CurveKind::NeimarkSacker => Self {
+                resonance: (0..4).find(|bit| zero(*bit)).map(|bit| bit as u8 + 1),
+                fold_neimark_sacker: fold(4),
+                flip_neimark_sacker: flip(5),
+                double_neimark_sacker: pair(6),
+                ..found
+            },
+            // Its own contacts are left out of the signature: another one is grazed.
+            CurveKind::Grazing { .. } => Self {
+                grazing_fold: fold(0),
+                grazing_flip: flip(1),
+                degenerate_grazing: zero(2),
+                grazing_neimark_sacker: pair(3),
+                double_grazing: changes,
+                grazing: false,
+                ..found
+            },
+        }
+    }
+}
+
+fn is_at(multipliers: &[[f64; 2]], place: f64) -> bool {
+    multipliers.iter().any(|[re, im]| (re - place).hypot(*im) < CRITICAL)
+}
+
+/// Whether a pair is on the unit circle and not nearer to becoming real.
+fn has_pair_on_circle(multipliers: &[[f64; 2]]) -> bool {
+    let is_near = |[re, im]: &[f64; 2]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() < CRITICAL;
+    multipliers.iter().any(is_near) && !stability::pair_turns_real(multipliers)
+}
