@@ -52,6 +52,10 @@ pub struct CurveEvents {
     pub flip_neimark_sacker: bool,
     /// Two complex pairs on the unit circle.
     pub double_neimark_sacker: bool,
+    /// A flip that changes its criticality.
+    pub degenerate_flip: bool,
+    /// A Neimark-Sacker point that changes its criticality.
+    pub degenerate_neimark_sacker: bool,
     /// Resonance 1:n.
     pub resonance: Option<u8>,
     /// A grazing orbit has a multiplier at +1.
@@ -82,6 +86,8 @@ impl CurveEvents {
             (self.fold_neimark_sacker, "fold-neimark-sacker"),
             (self.flip_neimark_sacker, "flip-neimark-sacker"),
             (self.double_neimark_sacker, "double-neimark-sacker"),
+            (self.degenerate_flip, "degenerate-flip"),
+            (self.degenerate_neimark_sacker, "degenerate-neimark-sacker"),
             (self.grazing_fold, "grazing-fold"),
             (self.grazing_flip, "grazing-flip"),
             (self.grazing_neimark_sacker, "grazing-neimark-sacker"),

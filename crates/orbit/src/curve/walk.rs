@@ -206,7 +206,8 @@ impl CurveWalk {
         let events = CurveEvents::of(self.kind, current.events, &self.problem.other_multipliers());
         let shooting = &mut self.problem.shooting;
         let floquet_multipliers = eigenvalues(shooting.size(), shooting.monodromy())?;
-        self.problem.condition.renew(shooting);
+        self.problem.renew(current.events.zeros);
+        let shooting = &mut self.problem.shooting;
         let scales = shooting.scale.values().to_vec();
         let nodes: Vec<Vec<f64>> = place
             .nodes
