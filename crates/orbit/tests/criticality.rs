@@ -7,7 +7,9 @@ use std::f64::consts::PI;
 
 use common::{
     events::{alternation, leaving, side, with},
-    independent::{Case, curve, events, marked, together, two_modes, with as with_parameter},
+    independent::{
+        Case, curve, events, marked, oscillator, stop, together, two_modes, with as with_parameter,
+    },
 };
 use faer::{Mat, c64};
 use hammerbeam_motion::{
@@ -144,6 +146,27 @@ fn degenerate_flips_beside_a_contact_are_where_doubled_orbits_change_the_side_of
     assert!(bends[1] > 0.0 && bends[2] < 0.0, "{bends:?}");
     let place = zero(&beside.map(|row| row.parameter), &bends);
     assert!((place / force - 1.0).abs() < 1e-5, "{place} and {force}");
+}
+
+/// A linear oscillator at a linear stop knows its gap and its force by their ratio only: its flips change their criticality at the same frequencies, at a gap and at the force that is one over it.
+#[test]
+fn degenerate_flips_over_the_gap_and_over_the_force_are_the_same() {
+    let range_hz = (0.05, 0.4);
+    let case = together(&[oscillator(1.0, 0.1, 1.0, stop(10.0, 1.0))]);
+    let flips = events(&case, range_hz, |events| events.flip);
+    let flip = flips.iter().find(|row| (row.solution.frequency_hz / 0.082927 - 1.0).abs() < 1e-5).unwrap();
+    let [over_gap, over_force] =
+        [(Parameter::Gap { element: 0 }, (0.2, 2.0)), (FORCE, (0.5, 5.0))].map(|(parameter, range)| {
+            let (rows, _) = curve(&case, flip, CurveKind::Flip, (parameter, range, range_hz));
+            let found = marked(&rows, "degenerate-flip");
+            found.iter().map(|row| [row.parameter, row.solution.frequency_hz]).collect::<Vec<_>>()
+        });
+    assert!(!over_gap.is_empty() && over_gap.len() == over_force.len(), "{over_gap:?} and {over_force:?}");
+    for [gap, hz] in &over_gap {
+        let off = |[force, other]: &[f64; 2]| (force * gap - 1.0).abs() + (other / hz - 1.0).abs();
+        let least = over_force.iter().map(off).fold(f64::INFINITY, f64::min);
+        assert!(least < 1e-7, "{gap} m, {hz} Hz: {over_force:?}");
+    }
 }
 
 fn monodromy(system: &System, orbit: &PeriodicSolution) -> Mat<f64> {
