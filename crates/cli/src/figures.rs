@@ -241,8 +241,15 @@ fn codimension_two(events: &str) -> String {
     let name = |event: &str| match event {
         "cusp" => Some("cusp".to_owned()),
         "fold-flip" => Some("fold–flip".to_owned()),
+        "fold-neimark-sacker" => Some("fold–Neimark-Sacker".to_owned()),
+        "flip-neimark-sacker" => Some("flip–Neimark-Sacker".to_owned()),
+        "double-neimark-sacker" => Some("double Neimark-Sacker".to_owned()),
+        "degenerate-flip" => Some("degenerate flip".to_owned()),
+        "degenerate-neimark-sacker" => Some("degenerate Neimark-Sacker".to_owned()),
         "grazing-fold" => Some("grazing–fold".to_owned()),
         "grazing-flip" => Some("grazing–flip".to_owned()),
+        "grazing-neimark-sacker" => Some("grazing–Neimark-Sacker".to_owned()),
+        "double-grazing" => Some("double grazing".to_owned()),
         "degenerate-grazing" => Some("degenerate grazing".to_owned()),
         event => event.strip_prefix("resonance-").map(str::to_owned),
     };

@@ -136,6 +136,8 @@ fn fold_flips_of_independent_oscillators_are_where_each_bifurcates_by_itself() {
     let flip = &events(&case, |e| e.flip)[0];
     let rows = curve(&case, flip, CurveKind::Flip);
     assert!(rows.len() > 100);
+    // A bilinear oscillator without gap does not know how large the force is: its flip keeps its criticality.
+    assert!(rows.iter().all(|row| !row.events.degenerate_flip && !row.events.flip_neimark_sacker));
     let worst = rows.iter().map(|row| (row.solution.frequency_hz / flips[0] - 1.0).abs()).fold(0.0, f64::max);
     assert!(worst < 2e-10, "{worst:e}");
     let mut again: Vec<f64> =
@@ -235,6 +237,8 @@ fn a_flip_curve_has_its_1_2_resonance_where_the_damper_passes_zero() {
     };
     let marked: Vec<&CurveRow> = rows.iter().filter(|row| row.events.resonance == Some(2)).collect();
     assert_eq!(marked.len(), 1, "{end:?}");
+    // Two multipliers at -1 are no pair there.
+    assert!(rows.iter().all(|row| !row.events.flip_neimark_sacker));
     let row = marked[0];
     assert!((row.parameter + 0.05).abs() < 1e-9, "{}", row.parameter);
     let system = case.0.clone().with_parameter(parameter, row.parameter).unwrap();

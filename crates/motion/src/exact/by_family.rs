@@ -44,9 +44,7 @@ impl ExactIntegrator {
         (stretch, state): (&Stretch, &[f64]),
         end: &[f64],
     ) -> Result<Vec<f64>, MotionError> {
-        if by_family.neighbours.is_none() {
-            by_family.neighbours = Some(self.neighbours(by_family.family)?);
-        }
+        self.make_neighbours(by_family)?;
         let mut ends: Vec<(f64, Vec<f64>)> = Vec::new();
         let mut others = Vec::new();
         for (step, neighbour) in by_family.neighbours.iter_mut().flatten() {
@@ -65,6 +63,43 @@ impl ExactIntegrator {
         };
         let difference = |(a, b): (&f64, &f64)| (b - a) / (above.0 - below.0);
         Ok(below.1.iter().zip(&above.1).map(difference).collect())
+    }
+
+    /// How a number of a family, if that is the parameter, changes the relative displacement of an element beyond the level of one of its contacts, and its rate, of a given state of the modes.
+    ///
+    /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
+    ///
+    /// # Errors
+    /// [`MotionError::Parameter`] if the family has no neighbours.
+    pub fn clearance_by_family(
+        &mut self,
+        (element, contact): (usize, usize),
+        (frequency_hz, phase): (f64, f64),
+        state: &[f64],
+    ) -> Result<Option<[f64; 2]>, MotionError> {
+        let Some(mut by_family) = self.by_family.take() else { return Ok(None) };
+        let made = self.make_neighbours(&mut by_family);
+        let place = |(step, integrator): &(f64, Self)| {
+            let system = integrator.system();
+            let [r, rate, _] = system.relative_motion(element, frequency_hz, phase, state);
+            (*step, [r - system.elements()[element].law.contacts()[contact].level, rate])
+        };
+        let mut places: Vec<(f64, [f64; 2])> = by_family.neighbours.iter().flatten().map(place).collect();
+        self.by_family = Some(by_family);
+        made?;
+        if places.len() == 1 {
+            let [r, rate, _] = self.system.relative_motion(element, frequency_hz, phase, state);
+            places.push((0.0, [r - self.system.elements()[element].law.contacts()[contact].level, rate]));
+        }
+        let [(from, below), (to, above)] = [places[0], places[1]];
+        Ok(Some([0, 1].map(|i| (above[i] - below[i]) / (to - from))))
+    }
+
+    fn make_neighbours(&self, by_family: &mut ByFamily) -> Result<(), MotionError> {
+        if by_family.neighbours.is_none() {
+            by_family.neighbours = Some(self.neighbours(by_family.family)?);
+        }
+        Ok(())
     }
 
     /// The systems beside the present one, as far as there are.

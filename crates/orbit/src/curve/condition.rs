@@ -5,6 +5,7 @@ use hammerbeam_motion::exact::MotionError;
 use super::{
     bordered::Bordered,
     grazing::Touch,
+    lyapunov, normal_form,
     pair::Pair,
     shooting::{Place, Shooting},
 };
@@ -31,8 +32,35 @@ impl Condition {
         match self {
             Self::Multiplier(bordered) => bordered.evaluate(shooting, place),
             Self::Pair(pair) => pair.evaluate(shooting, place),
-            Self::Touch(touch) => Ok(Some(touch.evaluate(shooting, place))),
+            Self::Touch(touch) => touch.evaluate(shooting, place).map(Some),
         }
+    }
+
+    /// Basis of the invariant subspace of the multipliers that the condition holds, at the last evaluated place.
+    pub fn critical_vectors(&self, shooting: &Shooting) -> Vec<Vec<f64>> {
+        match self {
+            Self::Multiplier(bordered) => {
+                bordered.vectors(shooting).map_or(Vec::new(), |vectors| vec![vectors.right])
+            }
+            Self::Pair(pair) => pair.right_plane(shooting).unwrap_or_default(),
+            Self::Touch(_) => Vec::new(),
+        }
+    }
+
+    /// The coefficient of the normal form at the place where the shooting equations were evaluated last, in a form that is bounded; `None` where it cannot be told, or is none that changes its sign.
+    pub fn criticality(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<f64>, MotionError> {
+        let coefficient = match self {
+            Self::Multiplier(bordered) if bordered.multiplier < 0.0 => {
+                let Some(vectors) = bordered.vectors(shooting) else { return Ok(None) };
+                normal_form::of_flip(shooting, place, &vectors)?
+            }
+            Self::Pair(pair) => {
+                let Some(vectors) = pair.vectors(shooting) else { return Ok(None) };
+                lyapunov::of_pair(shooting, place, &vectors)?
+            }
+            Self::Multiplier(_) | Self::Touch(_) => None,
+        };
+        Ok(coefficient.map(normal_form::Coefficient::bounded))
     }
 
     /// Adapts the condition to an accepted point, at which the equations were evaluated last.

@@ -6,7 +6,7 @@
 //! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its penetration is. A law whose force depends on the velocity opens
 //! where its force vanishes, with penetration: the touch from inside is none of its grazings. A rigid stop is never closed for a while without holding.
 
-use hammerbeam_motion::{Parameter, Stretch};
+use hammerbeam_motion::{Parameter, Stretch, exact::MotionError};
 
 use super::{
     condition::Linear,
@@ -57,13 +57,18 @@ impl Touch {
     }
 
     /// Values, gradients by `[nodes; f; p; x]`, and the test `r''`.
-    pub fn evaluate(self, shooting: &Shooting, place: &Place) -> Linear {
-        let scales = shooting.scale.values();
+    ///
+    /// # Errors
+    /// [`MotionError::Parameter`]: the structure cannot be built with a neighbouring value of the parameter.
+    pub fn evaluate(self, shooting: &mut Shooting, place: &Place) -> Result<Linear, MotionError> {
+        let scales = shooting.scale.values().to_vec();
         let n = scales.len() / 2;
+        let state: Vec<f64> = place.nodes.iter().zip(&scales).map(|(x, s)| x * s).collect();
+        let at = (place.frequency_hz, place.phase);
+        let by_family = shooting.integrator.clearance_by_family((self.element, self.contact), at, &state)?;
         let system = shooting.integrator.system();
         let element = &system.elements()[self.element];
         let contact = element.law.contacts()[self.contact];
-        let state: Vec<f64> = place.nodes.iter().zip(scales).map(|(x, s)| x * s).collect();
         let [r, speed, acceleration] =
             system.relative_motion(self.element, place.frequency_hz, place.phase, &state);
         let u = system.support_motion(place.frequency_hz, place.phase);
@@ -88,10 +93,14 @@ impl Touch {
                 rows[1][nodes + 1] = sign * ratio * u[1] / place.value / unit;
             }
             Parameter::Gap { element } if element == self.element => rows[0][nodes + 1] = -1.0 / length,
-            _ => {}
+            _ => {
+                let [r, speed] = by_family.unwrap_or_default();
+                rows[0][nodes + 1] = sign * r / length;
+                rows[1][nodes + 1] = sign * speed / unit;
+            }
         }
         let values = vec![sign * (r - contact.level) / length, sign * speed / unit];
-        Linear { values, rows, tests: vec![sign * acceleration / (unit * std::f64::consts::TAU * f)] }
+        Ok(Linear { values, rows, tests: vec![sign * acceleration / (unit * std::f64::consts::TAU * f)] })
     }
 
     /// The contact of that number, or the one that comes nearest to grazing, and where.

@@ -18,23 +18,37 @@
 //! orbits that pass the contact, and its multipliers are theirs.
 //!
 //! # Points of codimension two
-//! They are zeros of test functions, located by the path: on a fold curve the *cusp* (`w^T D^2 Z (v, v) = 0`), the *1:1 resonance* (`w^T v = 0`: a second multiplier
-//! at +1) and the *fold-flip* (`prod (1 + mu_i)`); on a flip curve the *1:2 resonance* (`w^T v = 0`) and the *fold-flip* (`prod (1 - mu_i)`); on a Neimark-Sacker
-//! curve, with `k = tr A_c / 2 = cos(angle)`, the resonances 1:1 (`k = 1`), 1:2 (`-1`), 1:3 (`-1/2`) and 1:4 (`0`), at the first two of which the curve ends; on a grazing curve
-//! the multipliers at +1 and -1 and the touch without curvature (`r'' = 0`).
+//! They are zeros of test functions, located by the path (`marks.rs`):
+//!
+//! | curve | test functions |
+//! |---|---|
+//! | fold | *cusp* (`w^T D^2 Z (v, v) = 0`), *1:1 resonance* (`w^T v = 0`: a second multiplier at +1), *fold-flip*, *fold-Neimark-Sacker* |
+//! | flip | *1:2 resonance* (`w^T v = 0`), *fold-flip*, *flip-Neimark-Sacker*, *degenerate flip* (its criticality changes) |
+//! | Neimark-Sacker | with `k = tr A_c / 2 = cos(angle)` the resonances 1:1 (`k = 1`), 1:2 (`-1`), 1:3 (`-1/2`) and 1:4 (`0`), at the first two of which the curve ends; *fold-*, *flip-* and *double Neimark-Sacker*; *degenerate Neimark-Sacker* (Chenciner) |
+//! | grazing | multipliers at +1 and -1, a pair on the circle, the touch without curvature (`r'' = 0`) |
+//!
+//! What further multipliers do is told by the functions of `stability.rs`, of all but the critical ones, which are taken out by reflections that turn their vectors into axes (`deflated.rs`). A zero is marked where a multiplier is in its place: neutral saddles, pairs
+//! that become real and multipliers that jump over their place are none. Criticality is that of normal forms (`normal_form.rs`, `lyapunov.rs`), whose tensors are differences of fundamental matrices; where these cannot be told, its test has no value (`criticality.rs`).
+//!
+//! A second contact that is grazed (*double grazing*) is a change of contacts on a grazing curve, since those that are touched anyway are not among them; it is bracketed like every such change. On other curves such a change is where the bifurcation meets a grazing.
 //!
 //! # Sources
 //! Govaerts, *Numerical Methods for Bifurcations of Dynamical Equilibria* (2000), chapters 3 and 4; Kuznetsov, *Elements of Applied Bifurcation Theory* (2004),
-//! chapter 10.
+//! chapters 9 and 10.
 //!
 //! # Limits
 //! All matrices are dense and the orbit keeps its segments and its units. Grazing of a stop without a single gap (preloaded, or two-sided with two gaps, or a rigid one that holds the structure at rest) is followed with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
-//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Cusps of flip curves (a flip that changes its criticality) are not marked. A curve ends where contacts change its monodromy matrix too sharply. Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located.
+//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Degenerate flips and Neimark-Sacker points are known to about 1e-8 of the ranges, beside contacts to 1e-7, and so near to a grazing that derivatives of third order cannot be told they are not marked; neither is a second touch of the contact that a grazing curve follows. A curve ends where contacts change its monodromy matrix too sharply. Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located.
 
 mod bordered;
 mod condition;
+mod criticality;
+mod deflated;
 mod differences;
 mod grazing;
+mod lyapunov;
+mod marks;
+mod normal_form;
 mod null;
 mod pair;
 mod passing;

@@ -4,10 +4,12 @@
 //! pair and `k = tr A_c / 2`. `d(ln d) = tr(A_c^-1 L^T (dA) R)`. The plane stays well defined where the pair becomes real, at `k = 1` and `k = -1`. It is the null
 //! space of `A^2 - 2 k A + d I`.
 
+use faer::c64;
 use hammerbeam_motion::exact::MotionError;
 
 use super::{
     condition::Linear,
+    lyapunov,
     null::{null_space, transposed},
     shooting::{Place, Shooting, dot, times},
 };
@@ -53,6 +55,33 @@ impl Pair {
         if let Some(plane) = self.plane(shooting) {
             self.half_trace = plane.half_trace();
         }
+    }
+
+    /// Basis of the right invariant plane at the last evaluated place.
+    pub fn right_plane(self, shooting: &Shooting) -> Option<Vec<Vec<f64>>> {
+        self.plane(shooting).map(|plane| plane.right)
+    }
+
+    /// Vectors of the pair at the last evaluated place; `None` where it is real.
+    pub fn vectors(self, shooting: &Shooting) -> Option<lyapunov::PairVectors> {
+        let plane = self.plane(shooting)?;
+        let [a, b, c, _] = plane.matrix;
+        let off_real = plane.determinant() - plane.half_trace().powi(2);
+        if off_real.is_nan() || off_real <= 0.0 {
+            return None;
+        }
+        let multiplier = c64::new(plane.half_trace(), off_real.sqrt());
+        // (A_c - m I) x = 0 and y^T (A_c - m I) = 0; b c < 0, as the pair is complex.
+        let (x, y) = ([c64::new(b, 0.0), multiplier - a], [c64::new(c, 0.0), multiplier - a]);
+        let scale = x[0] * y[0] + x[1] * y[1];
+        let of = |columns: &[Vec<f64>], by: [c64; 2]| -> lyapunov::Complex {
+            let combine = |of: fn(c64) -> f64| {
+                columns[0].iter().zip(&columns[1]).map(|(u, v)| of(by[0]) * u + of(by[1]) * v).collect()
+            };
+            [combine(|z| z.re), combine(|z| z.im)]
+        };
+        let left = of(&plane.left, [y[0] / scale, y[1] / scale]);
+        Some(lyapunov::PairVectors { multiplier, right: of(&plane.right, x), left })
     }
 
     fn plane(self, shooting: &Shooting) -> Option<Plane> {

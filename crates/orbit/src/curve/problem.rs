@@ -5,9 +5,11 @@ use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, Singul
 
 use super::{
     condition::{Condition, Linear},
+    criticality::Criticality,
+    deflated::other_eigenvalues,
+    marks,
     shooting::{Place, Shooting, times},
 };
-use crate::{eigenvalues::eigenvalues, stability};
 
 /// The extended equations.
 #[derive(Debug)]
@@ -21,6 +23,9 @@ pub(super) struct CurveProblem {
     /// `[R_x R_p]` by rows.
     jacobian: Vec<f64>,
     tests: Vec<f64>,
+    criticality: Criticality,
+    /// The last evaluated point.
+    evaluated: Vec<f64>,
     lu: DenseLu,
     failure: Option<MotionError>,
 }
@@ -45,6 +50,8 @@ impl CurveProblem {
             jacobian: vec![0.0; unknowns * (unknowns + 1)],
             weights,
             tests: Vec::new(),
+            criticality: Criticality::new(),
+            evaluated: Vec::new(),
             lu: DenseLu::new(),
             failure: None,
         }
@@ -133,6 +140,35 @@ impl CurveProblem {
         Ok(true)
     }
 
+    /// The coefficient of the normal form at the last evaluated place, where it can be told.
+    fn coefficient(&mut self) -> Option<f64> {
+        if let Some(coefficient) = self.criticality.known_at(&self.evaluated) {
+            return coefficient;
+        }
+        let place = self.place(&self.evaluated);
+        let coefficient = self.condition.criticality(&mut self.shooting, &place).ok().flatten();
+        self.criticality.remember(&self.evaluated, coefficient);
+        coefficient
+    }
+
+    /// Adapts the condition and its test functions to an accepted point, at which the equations were evaluated last.
+    ///
+    /// * `zeros`: of the test functions, found there.
+    pub fn renew(&mut self, zeros: u32) {
+        let coefficient = self.coefficient();
+        let at_zero = marks::criticality_bit(&self.condition).is_some_and(|bit| zeros >> bit & 1 == 1);
+        self.criticality.renew(coefficient, at_zero);
+        self.condition.renew(&self.shooting);
+    }
+
+    /// The multipliers that the condition does not hold, at the last evaluated place.
+    pub fn other_multipliers(&self) -> Vec<[f64; 2]> {
+        let size = self.shooting.size();
+        let critical = self.condition.critical_vectors(&self.shooting);
+        let others = other_eigenvalues(size, self.shooting.monodromy(), &critical);
+        others.unwrap_or_else(|_| vec![[0.0, 0.0]; size - critical.len()])
+    }
+
     /// `[R_x R_p]` by rows.
     #[cfg(test)]
     pub fn jacobian(&self) -> &[f64] {
@@ -151,6 +187,7 @@ impl PathProblem for CurveProblem {
 
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.failure = None;
+        self.evaluated = point.to_vec();
         let place = self.place(point);
         if place.frequency_hz.is_nan() || place.frequency_hz <= 0.0 {
             return Err(EvaluationError::OutsideDomain);
@@ -178,35 +215,12 @@ impl PathProblem for CurveProblem {
         self.lu.solve(right_hand_side);
     }
 
-    /// In the order of `row.rs`.
+    /// In the order of `marks.rs`.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
-        let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };
-        let multipliers = || {
-            let size = self.shooting.size();
-            eigenvalues(size, self.shooting.monodromy()).unwrap_or_else(|_| vec![[0.0, 0.0]; size])
-        };
-        match &self.condition {
-            Condition::Multiplier(bordered) if bordered.multiplier > 0.0 => {
-                values.extend([
-                    signed(self.tests[1]),
-                    signed(self.tests[0]),
-                    stability::flip(&multipliers()),
-                ]);
-            }
-            Condition::Multiplier(_) => {
-                values.extend([signed(self.tests[0]), stability::fold(&multipliers())]);
-            }
-            Condition::Pair(_) => {
-                let k = self.tests[0];
-                values.extend([1.0 - k, k + 1.0, k + 0.5, k].map(signed));
-            }
-            Condition::Touch(_) => {
-                let multipliers = multipliers();
-                let (fold, flip) = (stability::fold(&multipliers), stability::flip(&multipliers));
-                values.extend([fold, flip, signed(self.tests[0])]);
-            }
-        }
+        let criticality = self.coefficient();
+        let criticality = self.criticality.test(criticality);
+        values.extend(marks::tests(&self.condition, &self.tests, &self.other_multipliers(), criticality));
     }
 
     /// Without the contacts that a grazing orbit touches: whether they are counted is rounding.

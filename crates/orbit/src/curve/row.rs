@@ -1,7 +1,6 @@
 //! A curve of bifurcations as it is asked for and as it comes out: kind and ranges, rows with their events, ends.
 
 use hammerbeam_motion::Parameter;
-use hammerbeam_path::Events;
 
 use crate::PeriodicSolution;
 
@@ -47,37 +46,33 @@ pub struct CurveEvents {
     pub cusp: bool,
     /// A multiplier at +1 and one at -1.
     pub fold_flip: bool,
+    /// A multiplier at +1 and a complex pair on the unit circle.
+    pub fold_neimark_sacker: bool,
+    /// A multiplier at -1 and a complex pair on the unit circle.
+    pub flip_neimark_sacker: bool,
+    /// Two complex pairs on the unit circle.
+    pub double_neimark_sacker: bool,
+    /// A flip that changes its criticality.
+    pub degenerate_flip: bool,
+    /// A Neimark-Sacker point that changes its criticality.
+    pub degenerate_neimark_sacker: bool,
     /// Resonance 1:n.
     pub resonance: Option<u8>,
     /// A grazing orbit has a multiplier at +1.
     pub grazing_fold: bool,
     /// A grazing orbit has a multiplier at -1.
     pub grazing_flip: bool,
+    /// A grazing orbit has a complex pair on the unit circle.
+    pub grazing_neimark_sacker: bool,
     /// A touch without curvature.
     pub degenerate_grazing: bool,
-    /// The contacts change.
+    /// A grazing orbit grazes a second contact.
+    pub double_grazing: bool,
+    /// The contacts of an orbit that is no grazing one change.
     pub grazing: bool,
 }
 
 impl CurveEvents {
-    /// Of the tests of `problem.rs`, in their order.
-    pub(super) fn of(kind: CurveKind, events: Events) -> Self {
-        let zero = |bit: u32| events.zeros >> bit & 1 == 1;
-        let found = Self { turn: events.fold, grazing: events.signature_change, ..Self::default() };
-        match kind {
-            CurveKind::Fold => {
-                Self { cusp: zero(0), resonance: zero(1).then_some(1), fold_flip: zero(2), ..found }
-            }
-            CurveKind::Flip => Self { resonance: zero(0).then_some(2), fold_flip: zero(1), ..found },
-            CurveKind::NeimarkSacker => {
-                Self { resonance: (0..4).find(|bit| zero(*bit)).map(|bit| bit as u8 + 1), ..found }
-            }
-            CurveKind::Grazing { .. } => {
-                Self { grazing_fold: zero(0), grazing_flip: zero(1), degenerate_grazing: zero(2), ..found }
-            }
-        }
-    }
-
     /// The names of the events joined by `+`, empty if there are none.
     #[must_use]
     pub fn label(self) -> String {
@@ -88,9 +83,16 @@ impl CurveEvents {
             (self.turn, "turn"),
             (self.cusp, "cusp"),
             (self.fold_flip, "fold-flip"),
+            (self.fold_neimark_sacker, "fold-neimark-sacker"),
+            (self.flip_neimark_sacker, "flip-neimark-sacker"),
+            (self.double_neimark_sacker, "double-neimark-sacker"),
+            (self.degenerate_flip, "degenerate-flip"),
+            (self.degenerate_neimark_sacker, "degenerate-neimark-sacker"),
             (self.grazing_fold, "grazing-fold"),
             (self.grazing_flip, "grazing-flip"),
+            (self.grazing_neimark_sacker, "grazing-neimark-sacker"),
             (self.degenerate_grazing, "degenerate-grazing"),
+            (self.double_grazing, "double-grazing"),
             (self.grazing, "grazing"),
         ];
         let mut names: Vec<String> =

@@ -1,7 +1,7 @@
-//! The gradient of every condition against differences of the residual.
+//! The gradient of every condition against differences of the residual, and coefficients of normal forms against differences of the flow.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-use faer::Mat;
+use faer::{Mat, c64};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System,
     law::{CubicSpring, LinearStop},
@@ -10,12 +10,14 @@ use hammerbeam_path::PathProblem;
 use hammerbeam_structure::{PointOutput, ReducedModel};
 
 use super::{
-    bordered::Bordered,
+    bordered::{Bordered, Vectors},
     condition::Condition,
     grazing::Touch,
+    lyapunov::{self, PairVectors},
+    normal_form,
     pair::Pair,
     problem::CurveProblem,
-    shooting::{Place, Shooting},
+    shooting::{Place, Shooting, dot},
 };
 use crate::{OrbitSettings, Response, solve::integrator, state_scale::StateScale};
 
@@ -59,6 +61,70 @@ fn shooting(parameter: Parameter) -> Shooting {
         grazing_distance: f64::INFINITY,
         passing: None,
     }
+}
+
+/// The place of the orbit from a state, cut into so many segments that lead from node to node; the last one need not close.
+fn cut(state: &[f64], count: usize) -> (Shooting, Place) {
+    let mut shooting = shooting(Parameter::ExcitationScale);
+    shooting.count = count;
+    let mut place = Place { nodes: state.to_vec(), frequency_hz: 0.21, phase: 0.0, value: 1.0 };
+    for k in 0..count - 1 {
+        let end = shooting.flow(k, &place, &place.nodes[4 * k..]).unwrap().end;
+        place.nodes.extend(end);
+    }
+    shooting.evaluate(&place).unwrap();
+    (shooting, place)
+}
+
+/// Extrapolates what central differences with the step h and half of it give.
+fn extrapolated(h: f64, mut with_step: impl FnMut(f64) -> f64) -> f64 {
+    (4.0 * with_step(0.5 * h) - with_step(h)) / 3.0
+}
+
+/// `6 c w^T v` is the third derivative of `w^T Z(z + t v + t^2 s/2)` by t, `(I - A) s = D^2 Z (v, v)`: differences of states, where the coefficient is made of those of matrices, with one step.
+#[test]
+fn coefficients_do_not_depend_on_segments_and_are_third_derivatives_of_the_flow() {
+    let state = [0.9, -0.2, 0.4, 0.1];
+    let vectors = Vectors { value: 0.0, left: vec![0.5, -0.5, 0.1, 0.7], right: vec![0.1, 0.7, -0.1, 0.7] };
+    let values = [1, 2, 5].map(|count| {
+        let (mut shooting, place) = cut(&state, count);
+        normal_form::of_flip(&mut shooting, &place, &vectors).unwrap().unwrap().value
+    });
+    let (mut shooting, place) = cut(&state, 1);
+    let mut at = |t: f64, s: &[f64]| -> Vec<f64> {
+        let moved: Vec<f64> = (0..4).map(|i| state[i] + t * vectors.right[i] + 0.5 * t * t * s[i]).collect();
+        shooting.flow(0, &place, &moved).unwrap().end
+    };
+    let zero = [0.0; 4];
+    let second: Vec<f64> = (0..4)
+        .map(|i| {
+            extrapolated(4e-3, |h| (at(h, &zero)[i] - 2.0 * at(0.0, &zero)[i] + at(-h, &zero)[i]) / (h * h))
+        })
+        .collect();
+    let (s, _) = cut(&state, 1).0.answer(1.0, &second).unwrap();
+    let third = extrapolated(8e-3, |h| {
+        let ends = [2.0, 1.0, -1.0, -2.0].map(|k| dot(&vectors.left, &at(k * h, &s)));
+        (ends[0] - 2.0 * ends[1] + 2.0 * ends[2] - ends[3]) / (2.0 * h * h * h)
+    });
+    for value in values {
+        assert!((6.0 * value / third - 1.0).abs() < 1e-4, "{values:?} and {}", third / 6.0);
+        assert!((value / values[0] - 1.0).abs() < 5e-5, "{values:?}");
+    }
+}
+
+/// The vectors need not be those of the orbit for that.
+#[test]
+fn first_lyapunov_coefficients_do_not_depend_on_segments() {
+    let pair = PairVectors {
+        multiplier: c64::from_polar(1.0, 2.0),
+        right: [vec![0.1, 0.7, -0.1, 0.7], vec![0.4, -0.2, 0.5, 0.1]],
+        left: [vec![0.5, -0.5, 0.1, 0.7], vec![0.3, 0.1, -0.4, 0.2]],
+    };
+    let values = [1, 2, 5].map(|count| {
+        let (mut shooting, place) = cut(&[0.9, -0.2, 0.4, 0.1], count);
+        lyapunov::of_pair(&mut shooting, &place, &pair).unwrap().unwrap().value
+    });
+    assert!(values.iter().all(|value| (value / values[0] - 1.0).abs() < 5e-5), "{values:?}");
 }
 
 #[test]

@@ -203,10 +203,11 @@ impl CurveWalk {
         }
         self.grazing_distance = self.problem.shooting.grazing_distance;
         let residual = self.problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
-        let events = CurveEvents::of(self.kind, current.events);
+        let events = CurveEvents::of(self.kind, current.events, &self.problem.other_multipliers());
         let shooting = &mut self.problem.shooting;
         let floquet_multipliers = eigenvalues(shooting.size(), shooting.monodromy())?;
-        self.problem.condition.renew(shooting);
+        self.problem.renew(current.events.zeros);
+        let shooting = &mut self.problem.shooting;
         let scales = shooting.scale.values().to_vec();
         let nodes: Vec<Vec<f64>> = place
             .nodes

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
 pub mod events;
+pub mod independent;
 
 use faer::Mat;
 use hammerbeam_motion::{
