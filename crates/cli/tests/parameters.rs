@@ -1,4 +1,4 @@
-//! Every constant of damping as a parameter, of the structure and of stops: where its branch ends, the study with that value has the same orbit.
+//! Numbers of a study as parameters, every constant of damping of the structure and of stops, and numbers that change the modes: where a branch ends, the study with that value has the same orbit.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 mod common;
@@ -211,6 +211,54 @@ fn damping_of_a_shaken_beam_varies() {
     meet_the_studies_at_their_ends(BEAM, &cases, "23.5");
 }
 
+/// What changes the modes, and with them what the state means: springs and masses, length and stiffness of a beam; of a stop what has no other parameter.
+#[test]
+fn numbers_that_change_the_modes_vary() {
+    let cases = [
+        ("structure.spring.2.stiffness_n_m", "stiffness_n_m = {}\n[[structure.damper]]", ["700.0", "850.0"]),
+        ("structure.mass.b.mass_kg", "mass_kg = {}\n[[structure.spring]]", ["0.7", "0.8"]),
+    ];
+    meet_the_studies_at_their_ends(MASSES, &cases, "3.8");
+    let cases = [
+        ("structure.youngs_modulus_pa", "youngs_modulus_pa = {}\n", ["2.1e11", "2.15e11"]),
+        ("structure.section.height_m", "height_m = {}\n", ["0.01", "0.0101"]),
+    ];
+    // No eigenfrequency is near the cut-off.
+    let beam = BEAM
+        .replace("cut_off_hz = 500.0", "cut_off_hz = 700.0")
+        .replace("[0.01, 0.02, 0.01, 0.01, 0.01]", "0.01");
+    meet_the_studies_at_their_ends(&beam, &cases, "23.5");
+}
+
+/// The grazing of a linear motion over its spring and its mass: `F/((k - m w^2)^2 + (c w)^2)^(1/2)` is the gap at every row of the curve.
+#[test]
+fn a_grazing_moves_with_spring_and_mass_as_the_closed_form_says() {
+    let curves = [("spring.1.stiffness_n_m", [0.8, 1.3]), ("mass.m.mass_kg", [0.8, 1.2])].map(|(key, range)| {
+        format!("[[curve]]\nof = \"grazing\"\nnear_hz = 0.24\nparameter = \"structure.{key}\"\nrange = {range:?}\n")
+    });
+    let stop = "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 30.0\ngap_m = 0.3\nside = \"above\"\n";
+    let rest = "[response]\npoint = \"m\"\nperiod_multiples = [1]\nperiod_doubling_depth = 0\n[search]\nfrequencies = 2\ntrials = 0\n";
+    let workshop =
+        Workshop::driven_mass(&format!("frequency_hz = [0.15, 0.4]\n{stop}{rest}{}", curves.concat()));
+    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let found = rows(&fs::read_to_string(workshop.path("results/export/curves.csv")).unwrap());
+    for (key, ends) in
+        [("structure.spring.1.stiffness_n_m", [0.8, 1.3]), ("structure.mass.m.mass_kg", [0.8, 1.2])]
+    {
+        let of_curve: Vec<&Row> = found.iter().filter(|row| row["parameter_name"] == key).collect();
+        assert!(of_curve.len() > 20 && of_curve.len() < 1000, "{key}: {} rows", of_curve.len());
+        let values: Vec<f64> = of_curve.iter().map(|row| number(row, "parameter")).collect();
+        assert!(ends.iter().all(|end| values.contains(end)), "{key}: {values:?}");
+        for (row, value) in of_curve.iter().zip(values) {
+            let (stiffness, mass) = if key.contains("spring") { (value, 1.0) } else { (1.0, value) };
+            let w = std::f64::consts::TAU * number(row, "frequency_hz");
+            let amplitude = 0.4 / (stiffness - mass * w * w).hypot(0.04 * w);
+            assert!((amplitude / 0.3 - 1.0).abs() < 1e-8, "{key} {value}: {amplitude}");
+        }
+    }
+}
+
 /// `F/((k - m w^2)^2 + (c w)^2)^(1/2)` at every row of a branch without contact.
 #[test]
 fn the_amplitude_of_a_linear_oscillator_follows_its_damper() {
@@ -230,7 +278,7 @@ fn the_amplitude_of_a_linear_oscillator_follows_its_damper() {
 }
 
 #[test]
-fn damping_that_is_not_there_is_refused() {
+fn parameters_that_are_not_there_are_refused() {
     let refused = |study: &str, parameter: &str, range: &str, parts: &[&str]| {
         let vary = format!("[[vary]]\nparameter = \"{parameter}\"\nrange = {range}\nfrequency_hz = 3.8\n");
         let workshop = Workshop::with(&format!("{study}{vary}"));
@@ -243,6 +291,11 @@ fn damping_that_is_not_there_is_refused() {
         "[0.1, 1.0]",
         &[unknown, "structure.damper.2.damping_n_s_m"],
     );
+    refused(MASSES, "structure.spring.3.stiffness_n_m", "[0.1, 1.0]", &[unknown]);
+    refused(MASSES, "search.starts", "[1.0, 3.0]", &[unknown]);
+    refused(MASSES, "structure.mass.a.mass_kg", "[-1.0, 2.0]", &["`range`", "zero"]);
+    refused(MASSES, "structure.mass.a.mass_kg", "[0.0, 2.0]", &["mass_kg", "0"]);
+    refused(MASSES, "structure.mass.a.mass_kg", "[1.5, 2.0]", &["`range`", "the study has"]);
     refused(MASSES, "damping.modal_ratio.1", "[0.0, 0.1]", &[unknown, "damping.modal_ratio"]);
     refused(MASSES, "damping.rayleigh.mass_per_s", "[0.0, 0.1]", &[unknown]);
     refused(MASSES, "stop.wall.loss_s_m", "[0.1, 0.9]", &[unknown, "stop.wall.damping_n_s_m"]);
