@@ -3,12 +3,13 @@
 
 mod common;
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
 use common::{element, hertz, modal_damping, model, paper_beam, settled};
 use faer::Mat;
 use hammerbeam_motion::{
-    DampingPart, Harmonic, HarmonicForce, Law, Load, Parameter, ParameterError, Stretch, System,
+    DampingPart, Family, Harmonic, HarmonicForce, Law, Load, Member, Parameter, ParameterError, Stretch,
+    System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
@@ -181,6 +182,48 @@ fn derivatives_of_the_beam_agree_over_several_contacts() {
             assert!(error < 2e-8, "{parameter:?} at {frequency_hz} Hz: {error:e}");
         }
     }
+}
+
+/// The systems over a parameter that has an exact column, as a family.
+#[derive(Debug)]
+struct Over(System, Parameter);
+
+impl Family for Over {
+    fn member(&self, value: f64) -> Result<Member, String> {
+        let system = self.0.clone().with_parameter(self.1, value).map_err(|error| error.to_string())?;
+        Ok(Member { system, response: (vec![0.0; 3], 0.0) })
+    }
+}
+
+/// By differences of the motions of neighbours: on both sides, and on one where the other has no system.
+#[test]
+fn the_column_of_a_family_is_that_of_its_parameter() {
+    for (laws, parameters, bound) in [(laws(), parameters(), 1e-6), (lossy_laws(), lossy_parameters(), 1e-6)]
+    {
+        let system = three_modes(&laws, true);
+        for (parameter, step) in parameters {
+            let value = system.parameter(parameter).unwrap();
+            let kin =
+                system.clone().with_family(Arc::new(Over(system.clone(), parameter)), value, 100.0 * step);
+            let mut integrator = exact(&kin, 1e-13);
+            let mut column = |by| {
+                integrator.differentiate_by(Some(by)).unwrap();
+                integrator.flow(&STRETCH, &STATE).unwrap().by_parameter
+            };
+            let (found, expected) = (column(Parameter::OfFamily { family: 0 }), column(parameter));
+            let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+            let error = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size;
+            assert!(error < bound, "{parameter:?}: {error:e}");
+            let family = Parameter::OfFamily { family: 0 };
+            integrator.set_parameter(family, value + step).unwrap();
+            let built = system.clone().with_parameter(parameter, value + step).unwrap();
+            let moved = exact(&built, 1e-13).advance(&STRETCH, &STATE).unwrap();
+            assert_eq!(integrator.advance(&STRETCH, &STATE).unwrap(), moved, "{parameter:?}");
+        }
+    }
+    let system = three_modes(&laws(), false);
+    let none = system.with_parameter(Parameter::OfFamily { family: 0 }, 1.0);
+    assert!(matches!(none, Err(ParameterError::NoFamily { .. })));
 }
 
 /// `q'' + w^2 q = a cos(W t)` from rest: the motion is proportional to `a`, also on the eigenfrequency.

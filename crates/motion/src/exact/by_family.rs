@@ -1,28 +1,47 @@
 //! The column of the sensitivities that belongs to a number of a family of systems: differences of the motions of its neighbours.
 //!
 //! The modes are those of the value, and the state is that of modes, so the column has the change of their coordinates in it; no formula of the structure is needed. With the step h it is
-//! `(Z(p + h) - Z(p - h))/2h`, of one side where the other has no system or has other contacts, beside grazing. It serves Newton's method and tangents, both of which converge whatever its last digits: solutions
+//! `(Z(p + h) - Z(p - h))/2h`. Beside grazing and within chatter the motion bends within a step of 1e-5: where `Z(p + h) + Z(p - h) - 2 Z(p)` is not small against the difference, or the neighbours have other contacts, the step is shortened, down
+//! to where rounding leaves three digits. Where only one side has a system, it is the difference to that. The column serves Newton's method and tangents, both of which converge whatever its last digits: solutions
 //! are those of the equations, and events those of the fundamental matrices, which are exact.
 
 use super::{ExactIntegrator, MotionError};
 use crate::{ParameterError, Stretch};
 
-/// Step of the differences, of the size of the number: truncation and rounding leave some 1e-7 of the column.
-const STEP: f64 = 1e-5;
+/// Steps of the differences, of the size of the number.
+const STEPS: [f64; 3] = [1e-5, 1e-7, 1e-9];
+/// How much the motion may bend over a step, relative to the difference.
+const BEND: f64 = 1e-3;
 
 /// What the column by a number is made of.
 #[derive(Debug)]
 pub(super) struct ByFamily {
     /// Number of the family.
     pub family: usize,
-    /// Steps to the neighbours, and these; made with the first flow.
-    neighbours: Option<Vec<(f64, ExactIntegrator)>>,
+    /// For each step, as far as it was needed, the steps to the neighbours and these.
+    neighbours: [Option<Vec<Neighbour>>; STEPS.len()],
 }
+
+type Neighbour = (f64, ExactIntegrator);
 
 impl ByFamily {
     pub fn new(family: usize) -> Self {
-        Self { family, neighbours: None }
+        Self { family, neighbours: [const { None }; STEPS.len()] }
     }
+
+    /// The neighbours at one of the steps.
+    fn at(&mut self, middle: &ExactIntegrator, place: usize) -> Result<&mut [Neighbour], MotionError> {
+        if self.neighbours[place].is_none() {
+            self.neighbours[place] = Some(middle.neighbours(self.family, STEPS[place])?);
+        }
+        Ok(self.neighbours[place].as_deref_mut().unwrap_or_default())
+    }
+}
+
+/// A difference, and whether it is one of motions of a kind over which they hardly bend.
+struct Difference {
+    column: Vec<f64>,
+    is_smooth: bool,
 }
 
 impl ExactIntegrator {
@@ -33,36 +52,55 @@ impl ExactIntegrator {
         end: &[f64],
     ) -> Result<Option<Vec<f64>>, MotionError> {
         let Some(mut by_family) = self.by_family.take() else { return Ok(None) };
-        let column = self.differences(&mut by_family, (stretch, state), end);
+        let mut column = Err(ParameterError::NoMember("no neighbour of the system moves".into()).into());
+        for place in 0..STEPS.len() {
+            let neighbours = by_family.at(self, place);
+            let found = neighbours.map(|neighbours| self.difference(neighbours, (stretch, state), end));
+            match found {
+                Ok(Some(Difference { column: found, is_smooth })) => {
+                    column = Ok(found);
+                    if is_smooth {
+                        break;
+                    }
+                }
+                Ok(None) => {}
+                Err(error) => {
+                    column = Err(error);
+                    break;
+                }
+            }
+        }
         self.by_family = Some(by_family);
         column.map(Some)
     }
 
-    fn differences(
+    /// `None` where no neighbour moves.
+    fn difference(
         &self,
-        by_family: &mut ByFamily,
+        neighbours: &mut [Neighbour],
         (stretch, state): (&Stretch, &[f64]),
         end: &[f64],
-    ) -> Result<Vec<f64>, MotionError> {
-        self.make_neighbours(by_family)?;
+    ) -> Option<Difference> {
         let mut ends: Vec<(f64, Vec<f64>)> = Vec::new();
-        let mut others = Vec::new();
-        for (step, neighbour) in by_family.neighbours.iter_mut().flatten() {
+        let mut is_smooth = true;
+        for (step, neighbour) in neighbours {
             let Ok(moved) = neighbour.advance(stretch, state) else { continue };
-            let alike = neighbour.touches == self.touches;
-            if alike { &mut ends } else { &mut others }.push((*step, moved));
-        }
-        if ends.is_empty() {
-            ends = others;
+            is_smooth &= neighbour.touches == self.touches;
+            ends.push((*step, moved));
         }
         let middle = (0.0, end.to_vec());
         let (below, above) = match ends.as_slice() {
             [below, above] => (below, above),
             [one] => (&middle, one),
-            _ => return Err(ParameterError::NoMember("no neighbour of the system moves".into()).into()),
+            _ => return None,
         };
-        let difference = |(a, b): (&f64, &f64)| (b - a) / (above.0 - below.0);
-        Ok(below.1.iter().zip(&above.1).map(difference).collect())
+        let norm = |values: &mut dyn Iterator<Item = f64>| values.map(|x| x * x).sum::<f64>().sqrt();
+        let pairs = || below.1.iter().zip(&above.1);
+        let difference = norm(&mut pairs().map(|(a, b)| b - a));
+        let bend = norm(&mut pairs().zip(end).map(|((a, b), middle)| a + b - 2.0 * middle));
+        is_smooth &= ends.len() < 2 || bend <= BEND * difference;
+        let width = above.0 - below.0;
+        Some(Difference { column: pairs().map(|(a, b)| (b - a) / width).collect(), is_smooth })
     }
 
     /// How a number of a family, if that is the parameter, changes the relative displacement of an element beyond the level of one of its contacts, and its rate, of a given state of the modes.
@@ -78,38 +116,30 @@ impl ExactIntegrator {
         state: &[f64],
     ) -> Result<Option<[f64; 2]>, MotionError> {
         let Some(mut by_family) = self.by_family.take() else { return Ok(None) };
-        let made = self.make_neighbours(&mut by_family);
-        let place = |(step, integrator): &(f64, Self)| {
+        let place = |step: f64, integrator: &Self| {
             let system = integrator.system();
             let [r, rate, _] = system.relative_motion(element, frequency_hz, phase, state);
-            (*step, [r - system.elements()[element].law.contacts()[contact].level, rate])
+            (step, [r - system.elements()[element].law.contacts()[contact].level, rate])
         };
-        let mut places: Vec<(f64, [f64; 2])> = by_family.neighbours.iter().flatten().map(place).collect();
+        let places = by_family.at(self, 0).map(|neighbours| {
+            let mut places: Vec<_> = neighbours.iter().map(|(step, of)| place(*step, of)).collect();
+            places.push(place(0.0, self));
+            places
+        });
         self.by_family = Some(by_family);
-        made?;
-        if places.len() == 1 {
-            let [r, rate, _] = self.system.relative_motion(element, frequency_hz, phase, state);
-            places.push((0.0, [r - self.system.elements()[element].law.contacts()[contact].level, rate]));
-        }
+        let places = places?;
         let [(from, below), (to, above)] = [places[0], places[1]];
         Ok(Some([0, 1].map(|i| (above[i] - below[i]) / (to - from))))
     }
 
-    fn make_neighbours(&self, by_family: &mut ByFamily) -> Result<(), MotionError> {
-        if by_family.neighbours.is_none() {
-            by_family.neighbours = Some(self.neighbours(by_family.family)?);
-        }
-        Ok(())
-    }
-
-    /// The systems beside the present one, as far as there are.
-    fn neighbours(&self, family: usize) -> Result<Vec<(f64, Self)>, MotionError> {
+    /// The systems beside the present one, as far as there are; one at least.
+    fn neighbours(&self, family: usize, part: f64) -> Result<Vec<Neighbour>, MotionError> {
         let kin = self.system.family(family)?;
-        let (value, size) = (kin.value, STEP * kin.size.max(kin.value.abs()));
+        let size = part * kin.size.max(kin.value.abs());
         let mut neighbours = Vec::new();
         let mut refusal = None;
         for step in [-size, size] {
-            match self.system.member(family, value + step) {
+            match self.system.member(family, kin.value + step) {
                 Ok(member) => neighbours.push((step, Self::watching(member.system, self.settings, None)?)),
                 Err(error) => refusal = Some(error),
             }
