@@ -219,6 +219,10 @@ impl System {
     /// [`ParameterError::NoFamily`], [`ParameterError::NoMember`].
     pub(crate) fn member(&self, family: usize, value: f64) -> Result<Member, ParameterError> {
         let mut member = self.family(family)?.family.member(value).map_err(ParameterError::NoMember)?;
+        if !member.system.is_like(self) {
+            let message = format!("with {value} the modes or the contacts are others");
+            return Err(ParameterError::NoMember(message));
+        }
         member.system.take_after(self);
         member.system.families_mut()[family].value = value;
         Ok(member)

@@ -31,9 +31,11 @@ use hammerbeam_motion::{
     Flow, Stretch, System,
     exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::DenseLu;
+use hammerbeam_path::{DenseLu, PathError};
 
-use crate::{ContinuationParameter, NoEigenvalues, eigenvalues::eigenvalues, state_scale::StateScale};
+use crate::{
+    ContinuationParameter, NoEigenvalues, OrbitError, eigenvalues::eigenvalues, state_scale::StateScale,
+};
 
 /// The shooting equations of one system.
 #[derive(Debug)]
@@ -225,6 +227,11 @@ impl ShootingProblem {
     /// What went wrong in the last evaluation.
     pub fn failure(&self) -> Option<&MotionError> {
         self.failure.as_ref()
+    }
+
+    /// What went wrong in the last evaluation, or else what the path says of it.
+    pub fn failure_or(&self, error: PathError) -> OrbitError {
+        self.failure.clone().map_or(OrbitError::Path(error), OrbitError::Motion)
     }
 
     /// Monodromy matrix at the last evaluated point, by rows, in scaled states.

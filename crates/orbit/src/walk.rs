@@ -130,8 +130,9 @@ impl BranchWalk {
             Side::Down => Direction::Decreasing,
         };
         let range = ParameterRange::new(range_hz.0, range_hz.1)?;
-        let follower =
-            Follower::start(&mut problem, &point, direction, range, path_settings(settings, system, length))?;
+        let path = path_settings(settings, system, length);
+        let started = Follower::start(&mut problem, &point, direction, range, path);
+        let follower = started.map_err(|error| problem.failure_or(error))?;
         Ok(Self::of(problem, follower, start.maxima.displacement, (settings, range_hz)))
     }
 

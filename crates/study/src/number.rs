@@ -97,6 +97,14 @@ pub(crate) fn with_numbers(
     StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
 }
 
+/// The model alone of the study with another number, without branches in other parameters and curves.
+///
+/// # Errors
+/// [`StudyError::Invalid`]: the value is out of the range that the study file allows.
+pub(crate) fn model_with(file: &StudyFile, number: &Number, value: f64) -> Result<StudyFile, StudyError> {
+    StudyFile::parse_model(&file.name, replaced(&file.text, std::slice::from_ref(number), &[value]))
+}
+
 /// Values that the study file allows for a number, as far as they do not hang on others: whether it may be negative or zero, and whether it may exceed one.
 pub(crate) fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
     let size = if number.value == 0.0 { 1.0 } else { number.value.abs() };

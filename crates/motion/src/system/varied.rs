@@ -48,6 +48,16 @@ impl System {
         &mut self.families
     }
 
+    /// Whether it has as many modes, and the same elements with as many contacts.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        let same = |(a, b): (&LocalElement, &LocalElement)| {
+            a.name == b.name && a.law.contacts().len() == b.law.contacts().len()
+        };
+        self.dof() == other.dof()
+            && self.elements.len() == other.elements.len()
+            && self.elements.iter().zip(&other.elements).all(same)
+    }
+
     /// Takes over the families of a relative, and its laws where they are not as given.
     pub(crate) fn take_after(&mut self, other: &Self) {
         self.families.clone_from(&other.families);

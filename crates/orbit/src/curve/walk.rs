@@ -192,6 +192,11 @@ impl CurveWalk {
         way < CRAWLING
     }
 
+    /// Whether the contacts that are counted hold those that graze: then a change of their number says nothing of another one.
+    fn counts_its_own_touch(&self) -> bool {
+        matches!(self.kind, CurveKind::Grazing { .. }) && self.problem.shooting.passing.is_none()
+    }
+
     /// The row of the present point; the condition is adapted to it.
     fn row(&mut self) -> Result<CurveRow, OrbitError> {
         let current = self.follower.current().clone();
@@ -203,7 +208,10 @@ impl CurveWalk {
         }
         self.grazing_distance = self.problem.shooting.grazing_distance;
         let residual = self.problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
-        let events = CurveEvents::of(self.kind, current.events, &self.problem.other_multipliers());
+        let mut events = CurveEvents::of(self.kind, current.events, &self.problem.other_multipliers());
+        if self.counts_its_own_touch() && events.double_grazing {
+            (events.double_grazing, events.grazing) = (false, true);
+        }
         let shooting = &mut self.problem.shooting;
         let floquet_multipliers = eigenvalues(shooting.size(), shooting.monodromy())?;
         self.problem.renew(current.events.zeros);

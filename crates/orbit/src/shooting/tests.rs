@@ -11,7 +11,7 @@ use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct};
 
 /// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l t)`,
 /// `l^2 + 0.1 l - 2 = 0`.
-fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], crate::OrbitError> {
+fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], OrbitError> {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
         damping: Mat::from_fn(1, 1, |_, _| 0.1),

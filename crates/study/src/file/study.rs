@@ -111,8 +111,17 @@ impl StudyFile {
     /// # Errors
     /// [`StudyError::Invalid`] with everything that is not allowed.
     pub fn parse(name: &str, text: String) -> Result<Self, StudyError> {
+        Self::parse_with(name, text, true)
+    }
+
+    /// The same without branches in other parameters and curves, whatever the text says of them.
+    pub(crate) fn parse_model(name: &str, text: String) -> Result<Self, StudyError> {
+        Self::parse_with(name, text, false)
+    }
+
+    fn parse_with(name: &str, text: String, pieces: bool) -> Result<Self, StudyError> {
         let reading = Reading::default();
-        let study = read_text(&text, &reading);
+        let study = read_text(&text, &reading, pieces);
         let (problems, places) = reading.into_parts();
         match study {
             Some(study) if problems.is_empty() => Ok(Self { name: name.to_owned(), text, study, places }),
@@ -128,7 +137,7 @@ impl StudyFile {
     }
 }
 
-fn read_text(text: &str, reading: &Reading) -> Option<Study> {
+fn read_text(text: &str, reading: &Reading, pieces: bool) -> Option<Study> {
     let (document, errors) = DeTable::parse_recoverable(text);
     for error in &errors {
         reading.problem("", error.span(), format!("not TOML: {}", error.message()), Vec::new());
@@ -137,12 +146,12 @@ fn read_text(text: &str, reading: &Reading) -> Option<Study> {
         return None;
     }
     let root = Table::new(reading, String::new(), 0..0, document.get_ref());
-    let study = read_root(&root, reading, text);
+    let study = read_root(&root, reading, (text, pieces));
     root.finish();
     study
 }
 
-fn read_root(root: &Table<'_>, reading: &Reading, text: &str) -> Option<Study> {
+fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) -> Option<Study> {
     let mut names = Names::default();
     let title = root.optional("title").map_or(Some(""), |value| value.text());
     let structure = structure::read(root, reading, &mut names);
@@ -159,7 +168,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, text: &str) -> Option<Study> {
         let (structure, loads, stops) = (structure.as_ref()?, loads.as_deref()?, stops.as_deref()?);
         Some(Variable { text, structure, excitation, damping, loads, stops })
     })();
-    let varied = vary::read(root, reading, variable);
+    let varied = if pieces { vary::read(root, reading, variable) } else { Some(vary::passed_over(root)) };
     let figures = figures::read(root, reading);
     let rig = rig::read(root);
     let varied = varied?;

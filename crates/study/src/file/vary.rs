@@ -73,6 +73,12 @@ pub(super) fn read(
     (reading.count() == before).then_some((varies, curves))
 }
 
+/// What is there of both, unread.
+pub(super) fn passed_over(root: &Table<'_>) -> (Vec<Vary>, Vec<Curve>) {
+    ["vary", "curve"].iter().for_each(|key| drop(root.optional(key)));
+    (Vec::new(), Vec::new())
+}
+
 fn read_vary(table: Table<'_>, study: Option<Variable<'_>>) -> Option<Vary> {
     let parameter = parameter::read(&table, study);
     let frequency = table.required("frequency_hz").and_then(|value| value.number(&quantity::FREQUENCY));

@@ -1,32 +1,59 @@
 //! Other numbers of the study as parameters: the study is built anew with each value, as in an update.
 //!
-//! The state of a motion is that of the modes, which change with the number. They do so smoothly as long as they keep their order; their signs, which a point of the structure decides, are those of the modes of the
+//! The state of a motion is that of the modes, which change with the number. They do so smoothly as long as they keep their order and the mesh its shares; their signs, which a point of the structure decides, are those of the modes of the
 //! study as it is.
 
+use std::sync::Arc;
+
 use hammerbeam_motion::{Family, Member};
-use hammerbeam_structure::ReducedModel;
+use hammerbeam_structure::{OutlinePoint, Reduced};
 
 use super::Model;
 use crate::{
-    StudyFile,
-    file::{ParameterKind, Study},
-    number::{Number, numbers, with_numbers},
+    StudyError, StudyFile,
+    file::{ParameterKind, Structure, Study},
+    number::{Number, model_with, numbers},
 };
+
+/// Nodes as near as this, in lengths of the beam, are one.
+const SAME_PLACE: f64 = 1e-9;
+
+/// What the modes of all members are held against: those of the study as it is.
+#[derive(Debug)]
+pub(super) struct Reference {
+    modes: usize,
+    outline: Vec<OutlinePoint>,
+    nodes: Vec<usize>,
+}
+
+impl Reference {
+    pub fn new(study: &Study, reduced: &Reduced) -> Self {
+        let nodes = nodes_before_points(study, &reduced.outline);
+        Self { modes: reduced.model.dof(), outline: reduced.outline.clone(), nodes }
+    }
+}
+
+/// Numbers of nodes before the points of a beam: where they change, the mesh does, and the modes jump.
+fn nodes_before_points(study: &Study, outline: &[OutlinePoint]) -> Vec<usize> {
+    let Structure::Beam(beam) = &study.structure else { return Vec::new() };
+    let before = |at: f64| outline.iter().filter(|node| node.at < at - SAME_PLACE * beam.length_m).count();
+    beam.points.iter().map(|point| before(point.at_m)).collect()
+}
 
 /// The studies that differ in one number.
 #[derive(Debug)]
 pub(super) struct StudyFamily {
     file: StudyFile,
     number: Number,
-    reference: ReducedModel,
+    reference: Arc<Reference>,
 }
 
 impl StudyFamily {
     /// The family of a study over the number with that key path; `None` if it has none.
-    pub fn new(file: &StudyFile, key: &str, reference: &ReducedModel) -> Option<Self> {
+    pub fn new(file: &StudyFile, key: &str, reference: Arc<Reference>) -> Option<Self> {
         let named = |number: &Number| number.keys.iter().any(|known| known == key);
         let number = numbers(&file.text).into_iter().find(named)?;
-        Some(Self { file: file.clone(), number, reference: reference.clone() })
+        Some(Self { file: file.clone(), number, reference })
     }
 
     /// The value of the study as it is.
@@ -37,15 +64,24 @@ impl StudyFamily {
 
 impl Family for StudyFamily {
     fn member(&self, value: f64) -> Result<Member, String> {
-        let of = |error: &dyn std::fmt::Display| format!("with {value}: {error}");
-        let mut file = with_numbers(&self.file, std::slice::from_ref(&self.number), &[value])
-            .map_err(|error| of(&error))?;
-        // Ranges of the study as it is have nothing to say here.
-        file.study.varies.clear();
-        file.study.curves.clear();
-        let model = Model::like(&file, Some(&self.reference)).map_err(|error| of(&error))?;
+        let built = model_with(&self.file, &self.number, value)
+            .and_then(|file| Model::like(&file, Some(&self.reference)));
+        let model =
+            built.map_err(|error| format!("{} = {value}: {}", self.number.keys[0], in_short(&error)))?;
         let response = (model.response.shape, model.response.support_ratio);
         Ok(Member { system: model.system, response })
+    }
+}
+
+/// What is wrong, without the text around it.
+fn in_short(error: &StudyError) -> String {
+    match error {
+        StudyError::Invalid(report) => {
+            let messages: Vec<&str> =
+                report.problems.iter().map(|problem| problem.message.as_str()).collect();
+            messages.join("; ")
+        }
+        other => other.to_string(),
     }
 }
 
@@ -65,16 +101,20 @@ pub(super) fn varied_numbers(study: &Study) -> Vec<(String, f64)> {
 /// Gives the modes the signs of those of a reference.
 ///
 /// # Errors
-/// There are more or fewer of them, in words.
-pub(super) fn turn_like(model: &mut ReducedModel, reference: &ReducedModel) -> Result<(), String> {
-    if model.dof() != reference.dof() {
-        return Err(format!("there are {} modes instead of {}", model.dof(), reference.dof()));
+/// There are more or fewer of them, or the mesh is another, in words.
+pub(super) fn turn_like(reduced: &mut Reduced, study: &Study, reference: &Reference) -> Result<(), String> {
+    let model = &mut reduced.model;
+    if model.dof() != reference.modes {
+        return Err(format!("there are {} modes instead of {}", model.dof(), reference.modes));
+    }
+    if nodes_before_points(study, &reduced.outline) != reference.nodes {
+        return Err(
+            "the finite elements are shared out to other stretches of the beam, so the modes jump".into()
+        );
     }
     let turns = |mode: usize| {
-        let points = model.points.iter().zip(&reference.points);
-        let along: f64 = points.map(|(new, old)| new.shape[mode] * old.shape[mode]).sum();
-        let acceleration = model.uniform_acceleration[mode] * reference.uniform_acceleration[mode];
-        along < 0.0 || (along == 0.0 && acceleration < 0.0)
+        let points = reduced.outline.iter().zip(&reference.outline);
+        points.map(|(new, old)| new.shape[mode] * old.shape[mode]).sum::<f64>() < 0.0
     };
     let turned: Vec<usize> = (0..model.dof()).filter(|mode| turns(*mode)).collect();
     for mode in turned {

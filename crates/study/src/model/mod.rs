@@ -10,7 +10,7 @@ mod structure;
 
 use std::sync::Arc;
 
-use hammerbeam_motion::{ParameterError, PointMotion, System, SystemError};
+use hammerbeam_motion::{Parameter, ParameterError, PointMotion, System, SystemError};
 use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureError};
 
@@ -18,9 +18,12 @@ pub use drift::Drift;
 pub use parameter::StudyParameter;
 pub(crate) use structure::beam_descriptor;
 
-use family::StudyFamily;
+use family::{Reference, StudyFamily};
 
 use crate::file::{DampingKey, Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
+
+/// How near to a number a neighbour is, relative to it.
+const NEIGHBOUR: f64 = 1e-5;
 
 /// A study made ready for computing.
 #[derive(Debug, Clone)]
@@ -49,7 +52,7 @@ impl Model {
     }
 
     /// The same with modes of the signs of a reference.
-    fn like(file: &StudyFile, reference: Option<&ReducedModel>) -> Result<Self, StudyError> {
+    fn like(file: &StudyFile, reference: Option<&Reference>) -> Result<Self, StudyError> {
         check_magnitudes(file)?;
         let study = &file.study;
         let interface = interface(study);
@@ -57,8 +60,9 @@ impl Model {
             structure::reduce(study, &interface).map_err(|error| structure_fault(file, &error))?;
         if let Some(reference) = reference {
             let fault = |message| file.fault("structure", message, Vec::new());
-            family::turn_like(&mut reduced.model, reference).map_err(fault)?;
+            family::turn_like(&mut reduced, study, reference).map_err(fault)?;
         }
+        let reference = Arc::new(Reference::new(study, &reduced));
         load::check(file, &reduced.model)?;
         let load = load::load(study, &reduced.model);
         let elements = element::elements(file, &reduced.model, &load)?;
@@ -78,9 +82,11 @@ impl Model {
         }
         let numbers = family::varied_numbers(study);
         for (key, width) in &numbers {
-            let Some(family) = StudyFamily::new(file, key, system.model()) else { continue };
+            let family = StudyFamily::new(file, key, Arc::clone(&reference));
+            let family = family.expect("the study file knows its numbers");
             let value = family.value();
-            system = system.with_family(Arc::new(family), value, *width);
+            let size = if value == 0.0 { *width } else { value.abs() };
+            system = system.with_family(Arc::new(family), value, size);
         }
         let (tables, outline) = (reduced.tables, reduced.outline);
         let number_keys = numbers.into_iter().map(|(key, _)| key).collect();
@@ -133,6 +139,9 @@ impl Model {
                     format!("`range` is [{low}, {high}], but the study has {} = {value}", varied.name);
                 return Err(fault("range", message, "allowed: a range that holds the value of the study"));
             }
+            self.check_neighbours(parameter.parameter, value).map_err(|message| {
+                fault("parameter", message, "allowed: a study that can be changed a little")
+            })?;
             for end in varied.range {
                 let system = self.system.clone();
                 system
@@ -141,6 +150,19 @@ impl Model {
             }
         }
         Ok(())
+    }
+
+    /// Refuses numbers of which no neighbour makes a model: there would be no direction to follow.
+    fn check_neighbours(&self, parameter: Parameter, value: f64) -> Result<(), String> {
+        if !matches!(parameter, Parameter::OfFamily { .. }) {
+            return Ok(());
+        }
+        let step = NEIGHBOUR * if value == 0.0 { 1.0 } else { value };
+        let beside = |value: f64| self.system.clone().with_parameter(parameter, value);
+        match (beside(value - step), beside(value + step)) {
+            (Err(error), Err(_)) => Err(format!("no number beside that of the study makes a model: {error}")),
+            _ => Ok(()),
+        }
     }
 }
 

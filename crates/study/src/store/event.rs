@@ -69,6 +69,10 @@ fn read_event(row: &Row<'_>) -> Result<LocatedEvent, StoreError> {
     let multiplier: (Option<f64>, Option<f64>) = (row.get(2)?, row.get(3)?);
     let bytes: Vec<u8> = row.get(4)?;
     let contacts: Vec<u8> = row.get(5)?;
+    let contacts = blob::unpack("contacts", &contacts, contacts.len() / 8)?;
+    if contacts.iter().any(|number| !(1.0..1e9).contains(&number.abs())) {
+        return Err(StoreError::Damaged { what: "contacts", found: 0, expected: contacts.len() });
+    }
     let of_number =
         |number: &f64| ContactChange { contact: number.abs() as usize - 1, appears: *number > 0.0 };
     Ok(LocatedEvent {
@@ -76,7 +80,7 @@ fn read_event(row: &Row<'_>) -> Result<LocatedEvent, StoreError> {
         uncertainty: row.get(1)?,
         multiplier: multiplier.0.zip(multiplier.1).map(|(re, im)| [re, im]),
         direction: blob::unpack("direction", &bytes, bytes.len() / 8)?,
-        contacts: blob::unpack("contacts", &contacts, contacts.len() / 8)?.iter().map(of_number).collect(),
+        contacts: contacts.iter().map(of_number).collect(),
         breaks_symmetry: row.get(6)?,
     })
 }

@@ -19,6 +19,8 @@ use crate::{
 
 /// Longest step of a curve, in hundredths of the ranges.
 const MAX_STEP: f64 = 0.5;
+/// Relative distance within which events may be the same.
+const SIDE_BY_SIDE: f64 = 1e-4;
 
 /// The orbit at the event nearest to the frequency of the curve, or why there is none.
 pub(super) fn start(
@@ -137,18 +139,49 @@ fn nearest_event(
         CurveOf::Grazing => events.grazing,
     };
     let mut nearest: Option<(f64, i64)> = None;
+    let mut found = Vec::new();
     for branch in store.branches()?.iter().filter(|branch| branch.period_multiple == curve.period_multiple) {
         for side in [Side::Up, Side::Down] {
             for (number, row) in store.walked(branch.start, side)?.iter().enumerate() {
+                if !wanted(row.events) {
+                    continue;
+                }
                 let distance = (row.frequency_hz - curve.near_hz).abs();
-                if wanted(row.events) && nearest.is_none_or(|(least, _)| distance < least) {
-                    nearest = Some((distance, solution_key(branch.start, side, number as u32)));
+                let key = solution_key(branch.start, side, number as u32);
+                found.push((row.frequency_hz, key));
+                if nearest.is_none_or(|(least, _)| distance < least) {
+                    nearest = Some((distance, key));
                 }
             }
         }
     }
     let Some((_, key)) = nearest else { return Ok(None) };
-    store.event(key)?.map(|event| Ok((store.solution_of_key(key)?, event))).transpose()
+    let Some(event) = store.event(key)? else { return Ok(None) };
+    let (key, event) = best_known(store, &found, (key, event))?;
+    Ok(Some((store.solution_of_key(key)?, event)))
+}
+
+/// Of events that cannot be told from the nearest one by their places, as at a corner that several rows mark, the one that is known best.
+///
+/// * `found`: frequencies [Hz] and keys.
+fn best_known(
+    store: &Store,
+    found: &[(f64, i64)],
+    (key, event): (i64, LocatedEvent),
+) -> Result<(i64, LocatedEvent), StoreError> {
+    let hz = found.iter().find(|(_, other)| *other == key).map_or(f64::NAN, |(hz, _)| *hz);
+    let (uncertainty, mut best) = (event.uncertainty, (key, event));
+    for &(other_hz, other) in found.iter().filter(|(_, other)| *other != key) {
+        if (other_hz - hz).abs() > SIDE_BY_SIDE * hz {
+            continue;
+        }
+        let Some(event) = store.event(other)? else { continue };
+        let is_same = (other_hz - hz).abs() <= uncertainty + event.uncertainty;
+        if is_same && event.uncertainty < best.1.uncertainty {
+            best = (other, event);
+        }
+    }
+    Ok(best)
 }
 
 /// Why no curve begins, in the unit of its parameter.
