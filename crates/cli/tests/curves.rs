@@ -54,14 +54,6 @@ fn curve(of: &str, near_hz: f64, parameter: &str, range: [f64; 2]) -> String {
     format!("[[curve]]\nof = \"{of}\"\nnear_hz = {near_hz}\nparameter = \"{parameter}\"\nrange = {range:?}\n")
 }
 
-/// Runs the study and exports it.
-fn results(study: &str) -> Workshop {
-    let workshop = Workshop::with(study);
-    assert_success(&workshop.hammerbeam(&RUN));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    workshop
-}
-
 /// The columns of that name of an exported table.
 fn columns<const N: usize>(workshop: &Workshop, table: &str, names: [&str; N]) -> Vec<[String; N]> {
     let text = fs::read_to_string(workshop.path(&format!("results/export/{table}"))).unwrap();
@@ -81,7 +73,7 @@ fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
     let curve = |of, near_hz| curve(of, near_hz, "stop.stop.stiffness_n_m", [2.0, 60.0]);
     let stop = stop("stop", "law = \"linear\"\nstiffness_n_m = 10.0\nside = \"above\"\ngap_m = 1.0");
     let (fold, flip) = (curve("fold", 0.0990914), curve("flip", 0.082927));
-    let workshop = results(&format!("{}{fold}{flip}", bilinear(&stop)));
+    let workshop = Workshop::exported(&format!("{}{fold}{flip}", bilinear(&stop)));
     let ends = columns(&workshop, "curve_ends.csv", ["of", "side", "parameter", "message", "state"]);
     assert_eq!(ends.len(), 4);
     for [of, side, parameter, message, state] in ends {
@@ -103,7 +95,7 @@ fn a_symmetric_orbit_grazes_both_of_its_stops() {
     let one_of_two = (pair(), "stop.stop.gap_m", [0.3, 0.7]);
     for (number, (stops, parameter, range)) in [two_sided, both, one_of_two].into_iter().enumerate() {
         let grazing = curve("grazing", 0.26, parameter, range);
-        let workshop = results(&format!("{}{grazing}", bilinear(&stops)));
+        let workshop = Workshop::exported(&format!("{}{grazing}", bilinear(&stops)));
         let rows = columns(&workshop, "curves.csv", ["parameter", "frequency_hz"]);
         assert!(rows.len() > 20 && rows.len() < 1000, "{parameter}: {} rows", rows.len());
         for row in rows {
@@ -139,7 +131,7 @@ fn a_symmetric_branch_turns_the_corner_at_two_rigid_stops() {
     let study = oscillator([1.0, 1.0, DAMPING], 1.0, [0.24, 0.3], &stops)
         .replace("frequencies = 0", "frequencies = 2");
     let curve = curve("grazing", 0.26, "excitation.amplitude_n", [0.9, 1.2]);
-    let workshop = results(&format!("{study}[continuation]\nmax_step_hz = 0.0005\n{curve}"));
+    let workshop = Workshop::exported(&format!("{study}[continuation]\nmax_step_hz = 0.0005\n{curve}"));
     let events = columns(
         &workshop,
         "events.csv",
@@ -173,13 +165,13 @@ fn a_symmetric_branch_turns_the_corner_at_two_rigid_stops() {
 #[test]
 fn a_curve_ends_where_it_meets_a_grazing() {
     let flip = curve("flip", 0.071713, "excitation.amplitude_n", [0.4, 6.8]);
-    let workshop = results(&format!("{}{flip}", with_a_damped_stop(1.696)));
+    let workshop = Workshop::exported(&format!("{}{flip}", with_a_damped_stop(1.696)));
     let ends = columns(&workshop, "curve_ends.csv", ["parameter", "frequency_hz", "message"]);
     assert_eq!(ends.len(), 2);
     let grazing = |end: &[String; 3]| {
         assert!(end[2].starts_with("met a grazing at excitation.amplitude_n = "), "{}", end[2]);
         // The branch at that force grazes there.
-        let workshop = results(&with_a_damped_stop(end[0].parse().unwrap()));
+        let workshop = Workshop::exported(&with_a_damped_stop(end[0].parse().unwrap()));
         let frequency_hz: f64 = end[1].parse().unwrap();
         let events = columns(&workshop, "events.csv", ["event", "frequency_hz"]);
         let is_near = |hz: &String| (hz.parse::<f64>().unwrap() / frequency_hz - 1.0).abs() < 1e-6;
@@ -195,7 +187,7 @@ fn a_grazing_from_inside_is_followed() {
     let keys = "law = \"linear\"\nstiffness_n_m = 6.29\nside = \"below\"\ngap_m = 0.0";
     let study = oscillator([0.864, 2.033, 0.2], 0.613, [0.0598, 0.0603], &stop("stop", keys));
     let curve = curve("grazing", 0.06005, "excitation.amplitude_n", [0.1, 2.5]);
-    let workshop = results(&format!("{study}{curve}"));
+    let workshop = Workshop::exported(&format!("{study}{curve}"));
     let events = columns(&workshop, "events.csv", ["event", "frequency_hz"]);
     let [[_, grazing]] = &events.iter().filter(|row| row[0] == "grazing").collect::<Vec<_>>()[..] else {
         panic!("{events:?}")

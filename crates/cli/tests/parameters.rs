@@ -3,9 +3,9 @@
 
 mod common;
 
-use std::{collections::BTreeMap, fs};
+use std::fs;
 
-use common::{Workshop, assert_bad_input, assert_success};
+use common::{DRIVEN_MASS, Row, Workshop, assert_bad_input, assert_success, number};
 
 /// Two masses with dampers, the second of them beside a stop.
 const MASSES: &str = r#"
@@ -111,21 +111,6 @@ const HUNT_CROSSLEY: (&str, &str) = (
     "law = \"hunt-crossley\"\nstiffness_n_m15 = 3.0e5\nloss_s_m = 0.6",
 );
 
-type Row = BTreeMap<String, String>;
-
-fn rows(text: &str) -> Vec<Row> {
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let row = |line: &str| {
-        header.iter().zip(line.split(',')).map(|(key, value)| ((*key).to_owned(), value.to_owned())).collect()
-    };
-    lines.map(row).collect()
-}
-
-fn number(row: &Row, key: &str) -> f64 {
-    row[key].parse().unwrap()
-}
-
 /// A parameter, the line of the study that gives it, with `{}` for its value, and the value of the study and that at the end of the range.
 type Case<'a> = (&'a str, &'a str, [&'a str; 2]);
 
@@ -138,11 +123,9 @@ fn meet_the_studies_at_their_ends(study: &str, cases: &[Case<'_>], hz: &str) {
     let vary = |&(parameter, _, [low, high]): &Case<'_>| {
         format!("[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\nfrequency_hz = {hz}\n")
     };
-    let workshop = Workshop::with(&format!("{study}{}", cases.iter().map(vary).collect::<String>()));
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    let table = |name: &str| fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap();
-    let (branches, ends) = (rows(&table("parameter_branches.csv")), rows(&table("parameter_ends.csv")));
+    let workshop = Workshop::exported(&format!("{study}{}", cases.iter().map(vary).collect::<String>()));
+    let table = |name: &str| workshop.table(&format!("results/export/{name}"));
+    let (branches, ends) = (table("parameter_branches.csv"), table("parameter_ends.csv"));
     for &case in cases {
         let (parameter, _, [value, end]) = case;
         let of_case = |row: &&Row| row["parameter_name"] == parameter;
@@ -168,7 +151,7 @@ fn assert_repeats(workshop: &Workshop, state: &str, (parameter, hz): (&str, &str
     let arguments =
         ["simulate", "changed.toml", "--frequency", hz, &initial, "--periods", "2", "--out", "motion"];
     assert_success(&workshop.hammerbeam(&arguments));
-    let section = rows(&fs::read_to_string(workshop.path("motion/stroboscopic.csv")).unwrap());
+    let section = workshop.table("motion/stroboscopic.csv");
     fs::remove_dir_all(workshop.path("motion")).unwrap();
     let rate = std::f64::consts::TAU * hz.parse::<f64>().unwrap();
     let speed = number(&section[0], "velocity_m_s").hypot(rate * number(&section[0], "displacement_m"));
@@ -238,11 +221,11 @@ fn a_grazing_moves_with_spring_and_mass_as_the_closed_form_says() {
     });
     let stop = "[[stop]]\nname = \"stop\"\nat = \"m\"\nlaw = \"linear\"\nstiffness_n_m = 30.0\ngap_m = 0.3\nside = \"above\"\n";
     let rest = "[response]\npoint = \"m\"\nperiod_multiples = [1]\nperiod_doubling_depth = 0\n[search]\nfrequencies = 2\ntrials = 0\n";
-    let workshop =
-        Workshop::driven_mass(&format!("frequency_hz = [0.15, 0.4]\n{stop}{rest}{}", curves.concat()));
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    let found = rows(&fs::read_to_string(workshop.path("results/export/curves.csv")).unwrap());
+    let workshop = Workshop::exported(&format!(
+        "{DRIVEN_MASS}frequency_hz = [0.15, 0.4]\n{stop}{rest}{}",
+        curves.concat()
+    ));
+    let found = workshop.table("results/export/curves.csv");
     for (key, ends) in
         [("structure.spring.1.stiffness_n_m", [0.8, 1.3]), ("structure.mass.m.mass_kg", [0.8, 1.2])]
     {
@@ -263,11 +246,8 @@ fn a_grazing_moves_with_spring_and_mass_as_the_closed_form_says() {
 #[test]
 fn the_amplitude_of_a_linear_oscillator_follows_its_damper() {
     let rest = "frequency_hz = [0.14, 0.16]\n[response]\npoint = \"m\"\nperiod_multiples = [1]\n[search]\nfrequencies = 1\ntrials = 0\n[[vary]]\nparameter = \"structure.damper.1.damping_n_s_m\"\nrange = [0.01, 0.5]\nfrequency_hz = 0.15\n";
-    let workshop = Workshop::driven_mass(rest);
-    assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    let text = fs::read_to_string(workshop.path("results/export/parameter_branches.csv")).unwrap();
-    let found = rows(&text);
+    let workshop = Workshop::exported(&format!("{DRIVEN_MASS}{rest}"));
+    let found = workshop.table("results/export/parameter_branches.csv");
     assert!(found.len() > 20);
     let w = std::f64::consts::TAU * 0.15;
     for row in found {

@@ -3,9 +3,9 @@
 
 mod common;
 
-use std::{collections::BTreeMap, fs};
+use std::fs;
 
-use common::{Workshop, assert_bad_input, assert_success, stdout};
+use common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
 const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
@@ -67,29 +67,13 @@ frequencies = 2
 trials = 0
 "#;
 
-/// Rows of an exported file by the names of its columns.
-fn table(workshop: &Workshop, name: &str) -> Vec<BTreeMap<String, String>> {
-    let text = fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap();
-    let mut lines = text.lines();
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let row = |line: &str| {
-        let values: Vec<&str> = line.split(',').collect();
-        assert_eq!(values.len(), header.len(), "{line}");
-        header.iter().zip(values).map(|(key, value)| ((*key).to_owned(), value.to_owned())).collect()
-    };
-    lines.map(row).collect()
-}
-
-fn number(row: &BTreeMap<String, String>, key: &str) -> f64 {
-    row[key].parse().unwrap()
+/// An exported table.
+fn table(workshop: &Workshop, name: &str) -> Vec<Row> {
+    workshop.table(&format!("results/export/{name}"))
 }
 
 /// Places of the folds of a table in two columns, where a word stands in a third.
-fn places(
-    rows: &[BTreeMap<String, String>],
-    key: &str,
-    filter: impl Fn(&BTreeMap<String, String>) -> bool,
-) -> Vec<f64> {
+fn places(rows: &[Row], key: &str, filter: impl Fn(&Row) -> bool) -> Vec<f64> {
     rows.iter().filter(|row| filter(row)).map(|row| number(row, key)).collect()
 }
 
@@ -102,7 +86,7 @@ fn branches_and_curves_of_the_example_meet() {
     assert!(stdout(&run).contains("fold curve over excitation.amplitude_n"), "{}", stdout(&run));
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
     let (branches, curves) = (table(&workshop, "parameter_branches.csv"), table(&workshop, "curves.csv"));
-    let force = |row: &BTreeMap<String, String>| row["parameter_name"] == "excitation.amplitude_n";
+    let force = |row: &Row| row["parameter_name"] == "excitation.amplitude_n";
     let folds = places(&branches, "parameter", |row| force(row) && row["event"].contains("fold"));
     assert_eq!(folds.len(), 2, "{folds:?}");
     let ends = places(&branches, "parameter", |row| force(row) && row["event"].contains("end"));

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "every test file uses its own part")]
 
 use std::{
+    collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
     process::{self, Child, Output, Stdio},
@@ -71,6 +72,14 @@ frequency_hz = 5.9
     )
 }
 
+/// A row of a table by the names of its columns.
+pub type Row = BTreeMap<String, String>;
+
+/// A number of a row.
+pub fn number(row: &Row, key: &str) -> f64 {
+    row[key].parse().unwrap()
+}
+
 /// A folder with a study file in it.
 pub struct Workshop {
     folder: TempDir,
@@ -126,6 +135,28 @@ impl Workshop {
         let export = self.hammerbeam(&["export", results, "--format", "csv", "--out", "exported"]);
         assert_success(&export);
         fs::read_to_string(self.path("exported/branches.csv")).unwrap()
+    }
+
+    /// A study that was run and exported into `results`.
+    #[track_caller]
+    pub fn exported(study: &str) -> Self {
+        let workshop = Self::with(study);
+        assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
+        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+        workshop
+    }
+
+    /// Rows of a CSV file by the names of its columns.
+    pub fn table(&self, name: &str) -> Vec<Row> {
+        let text = fs::read_to_string(self.path(name)).unwrap();
+        let mut lines = text.lines();
+        let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+        let row = |line: &str| {
+            let values: Vec<&str> = line.split(',').collect();
+            assert_eq!(values.len(), header.len(), "{line}");
+            header.iter().zip(values).map(|(key, value)| ((*key).to_owned(), value.to_owned())).collect()
+        };
+        lines.map(row).collect()
     }
 
     /// All files below the folder with their contents.
