@@ -136,17 +136,17 @@ fn a_zero_is_found_once_though_another_function_jumps_within_the_same_step() {
     }
 }
 
-/// The signature is another one where `0.300 < x < 0.304`. Next to that, up to 0.6, there is a function that vanishes at the border; elsewhere it has no value.
-#[test]
-fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function_has_a_value() {
+/// Vanishes at the border of where the signature of [`changes_twice`] is another one; has no value elsewhere.
+fn beside(z: &[f64]) -> f64 {
+    if (0.304..0.6).contains(&z[0]) { z[0] - 0.304 } else { f64::INFINITY }
+}
+
+/// Asserts that all changes are found by these test functions where the signature is another one at `0.300 < x < 0.304`.
+fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
     let equation = |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
         residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
         jacobian.copy_from_slice(&[2.0 * z[0], 2.0 * z[1]]);
         u64::from((0.300..0.304).contains(&z[0]))
-    };
-    let beside: fn(&[f64]) -> TestValue = |z| {
-        let value = if (0.304..0.6).contains(&z[0]) { z[0] - 0.304 } else { f64::INFINITY };
-        TestValue { value, count: 0 }
     };
     for step in [0.1, 0.05, 0.03] {
         // From a few places, so that steps fall otherwise; down past the two changes on one side of the circle, up past them on the other.
@@ -154,11 +154,26 @@ fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function
             let start = [(0.03 * f64::from(angle)).cos(), (0.03 * f64::from(angle)).sin()];
             let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
             let range = ParameterRange::new(-2.0, 2.0).expect("in order");
-            let mut problem = DenseProblem::new(1, equation).with_tests(vec![beside]);
+            let mut problem = DenseProblem::new(1, equation).with_tests(tests.to_vec());
             let branch = follow(&mut problem, &start, Direction::Increasing, range, settings);
             let branch = branch.expect("the start lies on the circle");
             let changes = branch.points.iter().filter(|point| point.events.signature_change);
             assert_eq!(changes.count(), 4, "step {step}, angle {angle}");
         }
     }
+}
+
+#[test]
+fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function_has_a_value() {
+    changes_twice(&[|z| TestValue { value: beside(z), count: 0 }]);
+}
+
+/// Two values in order, one of which is there always: what begins or ends is the larger one by its place, and may be the smaller one by its value.
+#[test]
+fn a_signature_that_changes_twice_is_found_where_the_smaller_of_two_values_begins_or_ends() {
+    const ALWAYS: f64 = 0.2;
+    changes_twice(&[
+        |z| TestValue { value: beside(z).min(ALWAYS), count: 0 },
+        |z| TestValue { value: beside(z).max(ALWAYS), count: 0 },
+    ]);
 }

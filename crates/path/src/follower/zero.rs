@@ -3,7 +3,8 @@
 //! A step over which a test function changes its sign ends at the zero instead, found by few probes (`bracket.rs`). A function may also jump
 //! through zero (when what it is made of changes its kind); then the bracket shrinks and the value does not, and nothing is recorded.
 //! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt. So is one at whose end a function has no
-//! value any more (it is infinite) and would have met zero by the line through its last two, and a long one at whose end a function has a value that it had not before: where that came from is not known.
+//! value any more (it is infinite), and one would have met zero by the line through its last two, and a step at whose end a function has a value that it had not before, and one comes from zero by the line
+//! through its value there and one a little behind. Any of them: functions may be the smallest of several values, and what begins or ends among them moves those behind by one place.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket};
@@ -26,8 +27,8 @@ const LEFT: f64 = 1e-3;
 const DIP: f64 = 0.5;
 /// Lowest points this close to an end of the step (share of the step) belong to that end.
 const EDGE: f64 = 0.02;
-/// Steps over which a function begins to have a value are at most so many times `signature_step` long.
-const BEGINNING: f64 = 1000.0;
+/// Behind a trial at which a function begins to have a value its slope is taken over this share of the step.
+const BEHIND: f64 = 0.05;
 /// Share of `signature_step` within which a change of signature is located.
 const CHANGE_WIDTH: f64 = 1e-3;
 
@@ -45,11 +46,14 @@ impl Follower {
         }
         let mut arrival = arrival;
         arrival.zeros_near = self.stay_behind_zeros();
+        if step > self.settings.signature_step
+            && (self.ends_at_zero() || self.begins_at_zero(problem, step)?)
+        {
+            return Err(Doubt::HiddenZeros);
+        }
         for index in 0..self.trial.tests.len() {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
-            let hides_zeros = apart >= 2 || apart == 0 && (self.dips(index) || self.vanishes_at_zero(index));
-            let may_hide_zeros = self.begins(index) && step > BEGINNING * self.settings.signature_step;
-            if hides_zeros && step > self.settings.signature_step || may_hide_zeros {
+            if step > self.settings.signature_step && (apart >= 2 || apart == 0 && self.dips(index)) {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
@@ -87,20 +91,41 @@ impl Follower {
         Some((*earlier, behind))
     }
 
-    /// Whether a test function has no value at the trial, and the line through those of the last two points has met zero before.
-    fn vanishes_at_zero(&self, index: usize) -> bool {
-        let Some((earlier, behind)) = self.test_before(index) else { return false };
-        let before = self.state.tests[index];
-        if self.trial.tests[index].value.is_finite() || !before.value.is_finite() {
+    /// Whether a test function has no value any more at the trial, and the line through the values of one of them at the last two points meets zero before.
+    fn ends_at_zero(&self) -> bool {
+        let ends =
+            |(before, after): (&TestValue, &TestValue)| before.value.is_finite() && !after.value.is_finite();
+        if !self.state.tests.iter().zip(&self.trial.tests).any(ends) {
             return false;
         }
-        let slope = (before.value - earlier.value) / -behind;
-        before.value + slope * self.trial_progress() < 0.0
+        let ahead = self.trial_progress();
+        (0..self.state.tests.len())
+            .filter_map(|index| self.test_before(index).map(|before| (index, before)))
+            .any(|(index, (earlier, behind))| {
+                let before = self.state.tests[index].value.abs();
+                before + (before - earlier.value.abs()) / -behind * ahead < 0.0
+            })
     }
 
-    /// Whether a test function has a value at the trial, and none at the last point.
-    fn begins(&self, index: usize) -> bool {
-        self.trial.tests[index].value.is_finite() && !self.state.tests[index].value.is_finite()
+    /// Whether a test function has a value at the trial that it had not before, and the line through the values of one of them there and a little behind comes from zero within the step.
+    fn begins_at_zero(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        step: f64,
+    ) -> Result<bool, Doubt> {
+        let begins =
+            |(before, after): (&TestValue, &TestValue)| !before.value.is_finite() && after.value.is_finite();
+        if !self.state.tests.iter().zip(&self.trial.tests).any(begins) {
+            return Ok(false);
+        }
+        self.probe_between(problem, step, (1.0 - BEHIND) * self.trial_progress())?;
+        problem.tests(&mut self.probe.tests);
+        let from_zero = |(behind, after): (&TestValue, &TestValue)| {
+            after.value.abs() - (after.value.abs() - behind.value.abs()) / BEHIND < 0.0
+        };
+        let hides = self.probe.tests.iter().zip(&self.trial.tests).any(from_zero);
+        self.return_to_trial(problem)?;
+        Ok(hides)
     }
 
     /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was found to be behind the zero.
