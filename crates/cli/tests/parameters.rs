@@ -271,7 +271,11 @@ fn parameters_that_are_not_there_are_refused() {
         "[0.1, 1.0]",
         &[unknown, "structure.damper.2.damping_n_s_m"],
     );
-    refused(MASSES, "structure.spring.3.stiffness_n_m", "[0.1, 1.0]", &[unknown]);
+    let known = ["did you mean \"structure.spring.2.stiffness_n_m\"?", "structure.mass.a.mass_kg"];
+    refused(MASSES, "structure.spring.2.stifness_n_m", "[0.1, 1.0]", &[&[unknown], &known[..]].concat());
+    // The first mass is named like the number of the second.
+    let twice = MASSES.replace("\"a\"", "\"2\"");
+    refused(&twice, "structure.mass.2.mass_kg", "[0.5, 2.0]", &["names 2 numbers of this study"]);
     refused(MASSES, "search.starts", "[1.0, 3.0]", &[unknown]);
     refused(MASSES, "structure.mass.a.mass_kg", "[-1.0, 2.0]", &["`range`", "zero"]);
     refused(MASSES, "structure.mass.a.mass_kg", "[0.0, 2.0]", &["mass_kg", "0"]);

@@ -189,6 +189,28 @@ fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
     assert_eq!(pieces_of(without.to_owned()), [0; 0]);
 }
 
+/// A piece has the number of its place in the study, whenever it was computed.
+#[test]
+fn pieces_lie_in_the_order_of_the_study() {
+    let exported = |workshop: &Workshop| {
+        assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+        ["parameter_branches.csv", "curves.csv", "parameter_ends.csv"]
+            .map(|name| fs::read_to_string(workshop.path(&format!("results/export/{name}"))).unwrap())
+    };
+    let at_once = Workshop::with(STUDY);
+    assert_success(&at_once.hammerbeam(&RUN));
+    let (without, _) = STUDY.split_once("[[vary]]").unwrap();
+    let (_, later) = STUDY.rsplit_once("[[vary]]").unwrap();
+    let workshop = Workshop::with(&format!("{without}[[vary]]{later}"));
+    assert_success(&workshop.hammerbeam(&RUN));
+    let first = exported(&workshop);
+    fs::write(workshop.path("study.toml"), STUDY).unwrap();
+    assert_success(&workshop.hammerbeam(&RUN));
+    let both = exported(&workshop);
+    assert_ne!(first, both);
+    assert!(both == exported(&at_once), "the first piece, computed last, does not come first");
+}
+
 /// The pieces of the example are computed by as many threads, and stored as if by one.
 #[test]
 fn pieces_are_the_same_for_any_number_of_threads() {

@@ -45,6 +45,16 @@ pub(crate) fn numbers(text: &str) -> Vec<Number> {
     found
 }
 
+/// The number with that key path, `None` if there is none.
+///
+/// # Errors
+/// How many there are, if there are several: names of elements may be numbers of others.
+pub(crate) fn number_named(text: &str, key: &str) -> Result<Option<Number>, usize> {
+    let mut named = numbers(text);
+    named.retain(|number| number.keys.iter().any(|known| known == key));
+    if named.len() > 1 { Err(named.len()) } else { Ok(named.pop()) }
+}
+
 fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number>) {
     let mut push = |value: Option<f64>, span: Range<usize>| {
         if let Some(value) = value.filter(|value| value.is_finite()) {
@@ -97,12 +107,16 @@ pub(crate) fn with_numbers(
     StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
 }
 
-/// The model alone of the study with another number, without branches in other parameters and curves.
+/// The model alone of the study with other numbers, without branches in other parameters and curves: their ranges hold the values of the study as it is.
 ///
 /// # Errors
-/// [`StudyError::Invalid`]: the value is out of the range that the study file allows.
-pub(crate) fn model_with(file: &StudyFile, number: &Number, value: f64) -> Result<StudyFile, StudyError> {
-    StudyFile::parse_model(&file.name, replaced(&file.text, std::slice::from_ref(number), &[value]))
+/// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
+pub(crate) fn model_with(
+    file: &StudyFile,
+    numbers: &[Number],
+    values: &[f64],
+) -> Result<StudyFile, StudyError> {
+    StudyFile::parse_model(&file.name, replaced(&file.text, numbers, values))
 }
 
 /// Values that the study file allows for a number, as far as they do not hang on others: whether it may be negative or zero, and whether it may exceed one.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::{
     document::{Quantity, Table, Value, quantity},
-    number::numbers,
+    number::{number_named, numbers},
 };
 
 use super::{Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopLaw, Structure};
@@ -218,15 +218,7 @@ pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<Var
     let (name, range) = (name?, range?);
     let text = name.text()?;
     let study = study?;
-    let known = study.known();
-    let is_number = || numbers(study.text).iter().any(|number| number.keys.iter().any(|key| key == text));
-    let found = known.iter().find(|(known, ..)| known == text).map(|(_, kind, quantity)| (*kind, *quantity));
-    let of_model = || is_number().then_some((ParameterKind::Number, quantity::ANY));
-    let Some((kind, quantity)) = found.or_else(of_model) else {
-        let names: Vec<&str> = known.iter().map(|(name, ..)| name.as_str()).collect();
-        name.unknown_word(text, "a parameter of this study", &names);
-        return None;
-    };
+    let (kind, quantity) = meaning(&name, text, study)?;
     if kind == ParameterKind::Amplitude && study.has_further_harmonics() {
         let help = vec!["allowed: only where the excitation is the only harmonic load".into()];
         name.problem(format!("`parameter` is \"{text}\", but further loads are harmonic"), help);
@@ -234,6 +226,41 @@ pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<Var
     }
     let range = read_range(&range, &quantity)?;
     Some(VariedParameter { name: text.to_owned(), kind, range })
+}
+
+/// What a name means and which values it can have; told if that is nothing, or more than one thing.
+fn meaning(name: &Value<'_>, text: &str, study: Variable<'_>) -> Option<(ParameterKind, Quantity)> {
+    let known = study.known();
+    let mut kinds: Vec<(ParameterKind, Quantity)> = Vec::new();
+    for (_, kind, quantity) in known.iter().filter(|(known, ..)| known == text) {
+        if !kinds.iter().any(|(other, _)| other == kind) {
+            kinds.push((*kind, *quantity));
+        }
+    }
+    let number = number_named(study.text, text);
+    let several = kinds.len().max(number.as_ref().err().copied().unwrap_or(0));
+    if several > 1 {
+        let help = vec![
+            "allowed: a path that names one number; the name of an element may not be the number of another"
+                .into(),
+        ];
+        name.problem(format!("`parameter` is \"{text}\", which names {several} numbers of this study"), help);
+        return None;
+    }
+    let of_model = matches!(number, Ok(Some(_))).then_some((ParameterKind::Number, quantity::ANY));
+    let found = kinds.pop().or(of_model);
+    if found.is_none() {
+        let others = numbers(study.text).into_iter().map(|mut number| number.keys.swap_remove(0));
+        let mut names: Vec<String> = known.into_iter().map(|(name, ..)| name).collect();
+        for other in others {
+            if !names.contains(&other) {
+                names.push(other);
+            }
+        }
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        name.unknown_word(text, "a parameter of this study", &names);
+    }
+    found
 }
 
 fn read_range(value: &Value<'_>, quantity: &Quantity) -> Option<[f64; 2]> {

@@ -14,8 +14,8 @@ use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
     Continuation, Curve, Damping, Excitation, ExcitationKind, Figures, Load, Reduction, Response, Rig,
-    Search, Stop, Structure, Vary, continuation, damping, excitation, figures, load, names::Names,
-    parameter::Variable, reduction, response, rig, search, stop, structure, vary,
+    Search, Stop, Structure, VariedParameter, Vary, continuation, damping, excitation, figures, load,
+    names::Names, parameter::Variable, reduction, response, rig, search, stop, structure, vary,
 };
 
 /// Everything a study says.
@@ -57,6 +57,14 @@ pub struct Study {
 }
 
 impl Study {
+    /// Every parameter that varies, with the key of what asks for it: `vary[0]` and so on, then `curve[0]`.
+    pub(crate) fn varied(&self) -> impl Iterator<Item = (String, &VariedParameter)> {
+        let varies = self.varies.iter().enumerate().map(|(k, vary)| (format!("vary[{k}]"), &vary.parameter));
+        let curves =
+            self.curves.iter().enumerate().map(|(k, curve)| (format!("curve[{k}]"), &curve.parameter));
+        varies.chain(curves)
+    }
+
     /// Points at which forces of the excitation and of the loads act.
     pub fn force_points(&self) -> impl Iterator<Item = &str> {
         let excitation = match &self.excitation.kind {

@@ -10,11 +10,9 @@ use crate::file::{Damping, DampingKey, ModalRatio, ParameterKind, Structure, Stu
 
 /// The constants of the damping that vary in a study, each once, in the order of their first appearance.
 pub(super) fn varied_keys(study: &Study) -> Vec<DampingKey> {
-    let of_varies = study.varies.iter().map(|vary| vary.parameter.kind);
-    let of_curves = study.curves.iter().map(|curve| curve.parameter.kind);
     let mut keys = Vec::new();
-    for kind in of_varies.chain(of_curves) {
-        if let ParameterKind::Damping(key) = kind
+    for (_, parameter) in study.varied() {
+        if let ParameterKind::Damping(key) = parameter.kind
             && !keys.contains(&key)
         {
             keys.push(key);

@@ -12,7 +12,7 @@ use super::Model;
 use crate::{
     StudyError, StudyFile,
     file::{ParameterKind, Structure, Study},
-    number::{Number, model_with, numbers},
+    number::{Number, model_with, number_named},
 };
 
 /// Nodes as near as this, in lengths of the beam, are one.
@@ -49,10 +49,9 @@ pub(super) struct StudyFamily {
 }
 
 impl StudyFamily {
-    /// The family of a study over the number with that key path; `None` if it has none.
+    /// The family of a study over the number with that key path; `None` if it has none, or several.
     pub fn new(file: &StudyFile, key: &str, reference: Arc<Reference>) -> Option<Self> {
-        let named = |number: &Number| number.keys.iter().any(|known| known == key);
-        let number = numbers(&file.text).into_iter().find(named)?;
+        let number = number_named(&file.text, key).ok().flatten()?;
         Some(Self { file: file.clone(), number, reference })
     }
 
@@ -64,7 +63,7 @@ impl StudyFamily {
 
 impl Family for StudyFamily {
     fn member(&self, value: f64) -> Result<Member, String> {
-        let built = model_with(&self.file, &self.number, value)
+        let built = model_with(&self.file, std::slice::from_ref(&self.number), &[value])
             .and_then(|file| Model::like(&file, Some(&self.reference)));
         let model =
             built.map_err(|error| format!("{} = {value}: {}", self.number.keys[0], in_short(&error)))?;
@@ -87,10 +86,8 @@ fn in_short(error: &StudyError) -> String {
 
 /// The numbers that vary in a study, each once, with the widths of their ranges.
 pub(super) fn varied_numbers(study: &Study) -> Vec<(String, f64)> {
-    let of_varies = study.varies.iter().map(|vary| &vary.parameter);
-    let of_curves = study.curves.iter().map(|curve| &curve.parameter);
     let mut found: Vec<(String, f64)> = Vec::new();
-    for parameter in of_varies.chain(of_curves).filter(|parameter| parameter.kind == ParameterKind::Number) {
+    for (_, parameter) in study.varied().filter(|(_, parameter)| parameter.kind == ParameterKind::Number) {
         if !found.iter().any(|(key, _)| *key == parameter.name) {
             found.push((parameter.name.clone(), parameter.range[1] - parameter.range[0]));
         }

@@ -62,7 +62,8 @@ impl Model {
             let fault = |message| file.fault("structure", message, Vec::new());
             family::turn_like(&mut reduced, study, reference).map_err(fault)?;
         }
-        let reference = Arc::new(Reference::new(study, &reduced));
+        let numbers = family::varied_numbers(study);
+        let reference = (!numbers.is_empty()).then(|| Arc::new(Reference::new(study, &reduced)));
         load::check(file, &reduced.model)?;
         let load = load::load(study, &reduced.model);
         let elements = element::elements(file, &reduced.model, &load)?;
@@ -80,9 +81,8 @@ impl Model {
             let fault = |error: ParameterError| file.fault("damping", error.to_string(), Vec::new());
             system = system.with_damping_part(part).map_err(fault)?;
         }
-        let numbers = family::varied_numbers(study);
-        for (key, width) in &numbers {
-            let family = StudyFamily::new(file, key, Arc::clone(&reference));
+        for ((key, width), reference) in numbers.iter().zip(reference.iter().cycle()) {
+            let family = StudyFamily::new(file, key, Arc::clone(reference));
             let family = family.expect("the study file knows its numbers");
             let value = family.value();
             let size = if value == 0.0 { *width } else { value.abs() };
@@ -121,10 +121,7 @@ impl Model {
     /// Refuses parameters that the system does not have, and ranges that leave out the value from which they are followed.
     fn check_varied(&self, file: &StudyFile) -> Result<(), StudyError> {
         let study = &file.study;
-        let varies = study.varies.iter().enumerate().map(|(k, vary)| (format!("vary[{k}]"), &vary.parameter));
-        let curves =
-            study.curves.iter().enumerate().map(|(k, curve)| (format!("curve[{k}]"), &curve.parameter));
-        for (key, varied) in varies.chain(curves) {
+        for (key, varied) in study.varied() {
             let fault = |part: &str, message: String, help: &str| {
                 file.fault(&format!("{key}.{part}"), message, vec![help.to_owned()])
             };

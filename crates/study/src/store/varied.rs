@@ -1,7 +1,7 @@
 //! What is computed beside the branches in the frequency: branches in other parameters, and curves of bifurcations.
 //!
-//! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition. A piece is stored whole, in one transaction, so a run that is stopped
-//! computes again only the piece that it was at. Tables are made when the first piece is stored.
+//! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition; its number is its place in the study. A piece is stored whole, in one
+//! transaction, so a run that is stopped computes again only the pieces that it was at. Tables are made when the first piece is stored.
 
 use hammerbeam_orbit::{LocatedEvent, PeriodicSolution};
 use rusqlite::params;
@@ -97,7 +97,7 @@ pub struct Piece {
 /// A stored piece without its rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PieceRecord {
-    /// Its number.
+    /// Its place in the study, from 1.
     pub id: u32,
     /// Whether it is a curve.
     pub is_curve: bool,
@@ -177,7 +177,7 @@ impl Store {
         Ok(self.connection.query_row(select, [], |row| row.get::<_, u32>(0))? > 0)
     }
 
-    /// Throws away pieces that the study does not ask for any more.
+    /// Throws away pieces that the study does not ask for any more, and gives the others the numbers of their places in it.
     ///
     /// # Errors
     /// The database refuses; nothing is changed then.
@@ -186,16 +186,30 @@ impl Store {
             return Ok(());
         }
         let transaction = self.connection.transaction()?;
+        // Branches lose and find their pieces on the way.
+        transaction.pragma_update(None, "defer_foreign_keys", true)?;
         let stored: Vec<(u32, String)> = transaction
             .prepare("SELECT id, definition FROM piece")?
             .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
             .collect::<Result<_, _>>()?;
-        for (id, _) in stored.iter().filter(|(_, text)| !wanted.iter().any(|piece| piece.definition == *text))
-        {
-            transaction.execute("DELETE FROM piece_event WHERE piece = ?1", [id])?;
-            transaction.execute("DELETE FROM piece_row WHERE piece = ?1", [id])?;
-            transaction.execute("DELETE FROM piece_branch WHERE piece = ?1", [id])?;
-            transaction.execute("DELETE FROM piece WHERE id = ?1", [id])?;
+        let keys =
+            [("piece_event", "piece"), ("piece_row", "piece"), ("piece_branch", "piece"), ("piece", "id")];
+        for (id, text) in &stored {
+            let place = wanted.iter().position(|piece| piece.definition == *text);
+            for (table, key) in keys {
+                match place {
+                    None => transaction.execute(&format!("DELETE FROM {table} WHERE {key} = ?1"), [id])?,
+                    Some(place) if place + 1 == *id as usize => 0,
+                    // Negative until all have left their old numbers.
+                    Some(place) => {
+                        let update = format!("UPDATE {table} SET {key} = -?1 WHERE {key} = ?2");
+                        transaction.execute(&update, [place as i64 + 1, i64::from(*id)])?
+                    }
+                };
+            }
+        }
+        for (table, key) in keys {
+            transaction.execute(&format!("UPDATE {table} SET {key} = -{key} WHERE {key} < 0"), [])?;
         }
         transaction.commit()?;
         Ok(())
@@ -203,10 +217,13 @@ impl Store {
 
     /// Stores a piece with all its branches.
     ///
+    /// * `number`: its place in the study, from 1.
+    ///
     /// # Errors
     /// The database refuses; nothing is stored then.
     pub fn store_piece(
         &mut self,
+        number: u32,
         piece: &Piece,
         branches: &[VariedBranch],
         message: Option<&str>,
@@ -219,10 +236,10 @@ impl Store {
         ))?;
         let kind = if piece.is_curve { "curve" } else { "vary" };
         transaction.execute(
-            "INSERT INTO piece (definition, kind, parameter, message) VALUES (?1, ?2, ?3, ?4)",
-            params![piece.definition, kind, piece.parameter, message],
+            "INSERT INTO piece (id, definition, kind, parameter, message) VALUES (?1, ?2, ?3, ?4, ?5)",
+            params![number, piece.definition, kind, piece.parameter, message],
         )?;
-        let id = transaction.last_insert_rowid();
+        let id = i64::from(number);
         for (number, branch) in branches.iter().enumerate() {
             let number = number as i64 + 1;
             transaction.execute(
@@ -241,7 +258,7 @@ impl Store {
         Ok(())
     }
 
-    /// The stored pieces, in the order in which they were computed.
+    /// The stored pieces, in the order of the study.
     ///
     /// # Errors
     /// The database refuses.

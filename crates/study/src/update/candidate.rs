@@ -3,7 +3,7 @@
 use crate::{
     Model, StudyError, StudyFile,
     comparison::course::CourseError,
-    number::{Number, with_numbers},
+    number::{Number, model_with},
 };
 
 /// Why a model with some values of the parameters does not exist.
@@ -35,8 +35,6 @@ pub enum CandidateError {
 
 /// The study with these values of these numbers.
 ///
-/// Ranges of `[[vary]]` and `[[curve]]` have nothing to say here: they hold the values of the study as it is.
-///
 /// # Errors
 /// [`CandidateError::Study`].
 pub(super) fn candidate(
@@ -44,10 +42,7 @@ pub(super) fn candidate(
     numbers: &[Number],
     values: &[f64],
 ) -> Result<StudyFile, CandidateError> {
-    let mut file = with_numbers(study, numbers, values)?;
-    file.study.varies.clear();
-    file.study.curves.clear();
-    Ok(file)
+    Ok(model_with(study, numbers, values)?)
 }
 
 /// Builds the study with these values of these numbers.

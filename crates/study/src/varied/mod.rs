@@ -2,8 +2,8 @@
 //!
 //! A *vary* finds all orbits of the study as it is at its frequency, and follows each that does not lie on a branch already followed to both ends of the
 //! range. A *curve* begins at the event of a stored branch that is nearest to its frequency, and is followed to both sides. Pieces do not depend
-//! on each other: each is computed by one thread and stored whole, in the order of the study, so results are the same for any number of threads.
-//! What is stored is not done again; of an interrupted run the pieces are kept up to the first that was not finished.
+//! on each other: each is computed by one thread and stored whole under its place in the study, so results are the same for any number of threads.
+//! What is stored is not done again; of an interrupted run all pieces are kept that were finished.
 
 mod branch;
 mod curve;
@@ -32,7 +32,7 @@ pub(crate) fn is_closed(end: &str) -> bool {
 pub enum VariedOutcome {
     /// Everything is stored.
     Done,
-    /// The observer said stop; the same run goes on with the piece at which it was.
+    /// The observer said stop; the same run goes on with the pieces at which it was.
     Interrupted,
 }
 
@@ -92,24 +92,27 @@ pub fn run(
     let wanted: Vec<Piece> = asked.iter().map(|(piece, _)| piece.clone()).collect();
     store.keep_pieces(&wanted)?;
     let (mut pieces, mut works) = (Vec::new(), Vec::new());
-    for (piece, work) in asked {
-        if !store.has_piece(&piece)? {
+    for (place, (piece, work)) in asked.into_iter().enumerate() {
+        if !store.has_piece(&piece)? && wanted.iter().position(|other| *other == piece) == Some(place) {
             works.push(work);
-            pieces.push(piece);
+            pieces.push((place as u32 + 1, piece));
         }
     }
-    let names: Vec<&str> = pieces.iter().map(|piece| piece.parameter.as_str()).collect();
+    let names: Vec<&str> = pieces.iter().map(|(_, piece)| piece.parameter.as_str()).collect();
     let compute = |number: usize, watch: &watch::Watch<'_>| match &works[number] {
         Work::Vary(vary) => branch::follow(model, study, vary, watch),
         Work::Curve(curve, Ok(start)) => curve::follow(model, study, (curve, start), watch),
         Work::Curve(_, Err(message)) => Err(Failed::Message(message.clone())),
     };
-    let keep = |number: usize, found: Result<Found, Failed>| match found {
-        Ok(found) => store.store_piece(&pieces[number], &found.branches, found.message.as_deref()),
-        Err(Failed::Message(message)) => store.store_piece(&pieces[number], &[], Some(&message)),
-        Err(Failed::Interrupted) => Ok(()),
+    let keep = |number: usize, found: Result<Found, Failed>| {
+        let (place, piece) = &pieces[number];
+        match found {
+            Ok(found) => store.store_piece(*place, piece, &found.branches, found.message.as_deref()),
+            Err(Failed::Message(message)) => store.store_piece(*place, piece, &[], Some(&message)),
+            Err(Failed::Interrupted) => Ok(()),
+        }
     };
-    let all = pool::compute_in_order(&names, threads, observer, compute, keep)?;
+    let all = pool::compute_all(&names, threads, observer, compute, keep)?;
     Ok(if all { VariedOutcome::Done } else { VariedOutcome::Interrupted })
 }
 

@@ -1,4 +1,4 @@
-//! Pieces on many threads, each computed by one; what they give is stored in the order of the study, whatever thread is done first.
+//! Pieces on many threads, each computed by one; what they give is stored as soon as it is there.
 
 use std::{
     sync::{
@@ -23,12 +23,12 @@ pub(super) enum News {
     Done { piece: usize, found: Result<Found, Failed> },
 }
 
-/// Computes so many pieces and hands each over in their order; whether all were, or the observer said stop.
+/// Computes so many pieces and hands each over when it is done; whether all were, or the observer said stop.
 ///
 /// * `names`: the parameter of each piece.
 /// * `compute`: computes the piece of a number; called on several threads at once.
-/// * `store`: takes what came of the piece of a number, in order, on this thread.
-pub(super) fn compute_in_order(
+/// * `store`: takes what came of the piece of a number, on this thread.
+pub(super) fn compute_all(
     names: &[&str],
     threads: usize,
     observer: &mut dyn Observer,
@@ -56,16 +56,16 @@ pub(super) fn compute_in_order(
                     observer.varied(&desk.progress(piece, value, frequency_hz));
                 }
                 Ok(News::Done { piece, found }) => {
-                    desk.done(piece, found);
-                    if result.is_ok() {
-                        result = desk.hand_over(&mut store);
+                    if result.is_ok() && !matches!(found, Err(Failed::Interrupted)) {
+                        result = store(piece, found);
+                        desk.done(piece);
                     }
                     if result.is_err() {
                         stop.store(true, Ordering::Relaxed);
                     }
                 }
                 Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return result.map(|()| desk.all_stored()),
+                Err(RecvTimeoutError::Disconnected) => return result.map(|()| desk.all_done()),
             }
         }
     })
@@ -91,19 +91,17 @@ fn work(
     }
 }
 
-/// What is done of each piece, and what waits for an earlier one.
+/// What is done of each piece.
 struct Desk<'a> {
     names: &'a [&'a str],
     fractions: Vec<f64>,
-    waiting: Vec<Option<Result<Found, Failed>>>,
-    stored: usize,
+    done: usize,
     solutions: u64,
 }
 
 impl<'a> Desk<'a> {
     fn new(names: &'a [&'a str]) -> Self {
-        let waiting = names.iter().map(|_| None).collect();
-        Self { names, fractions: vec![0.0; names.len()], waiting, stored: 0, solutions: 0 }
+        Self { names, fractions: vec![0.0; names.len()], done: 0, solutions: 0 }
     }
 
     fn note(&mut self, piece: usize, fraction: f64) {
@@ -111,26 +109,13 @@ impl<'a> Desk<'a> {
         self.solutions += 1;
     }
 
-    fn done(&mut self, piece: usize, found: Result<Found, Failed>) {
-        if !matches!(found, Err(Failed::Interrupted)) {
-            self.fractions[piece] = 1.0;
-            self.waiting[piece] = Some(found);
-        }
+    fn done(&mut self, piece: usize) {
+        self.fractions[piece] = 1.0;
+        self.done += 1;
     }
 
-    fn hand_over(
-        &mut self,
-        store: &mut impl FnMut(usize, Result<Found, Failed>) -> Result<(), StoreError>,
-    ) -> Result<(), StoreError> {
-        while let Some(found) = self.waiting.get_mut(self.stored).and_then(Option::take) {
-            store(self.stored, found)?;
-            self.stored += 1;
-        }
-        Ok(())
-    }
-
-    fn all_stored(&self) -> bool {
-        self.stored == self.names.len()
+    fn all_done(&self) -> bool {
+        self.done == self.names.len()
     }
 
     fn progress(&self, piece: usize, value: f64, frequency_hz: f64) -> VariedProgress<'a> {
@@ -138,7 +123,7 @@ impl<'a> Desk<'a> {
             parameter: self.names[piece],
             value,
             frequency_hz,
-            pieces_done: self.fractions.iter().filter(|fraction| **fraction >= 1.0).count(),
+            pieces_done: self.done,
             pieces: self.names.len(),
             new_solutions: self.solutions,
             fraction: self.fractions.iter().sum::<f64>() / self.names.len().max(1) as f64,
@@ -155,25 +140,29 @@ mod tests {
         Found { branches: Vec::new(), message: Some(message) }
     }
 
-    /// The first piece waits until the others are done.
+    /// The first piece waits until the others are stored.
     #[test]
-    fn pieces_are_handed_over_in_order_however_they_end() {
+    fn a_piece_is_stored_when_it_is_done_however_it_ends() {
         let names = ["a", "b", "c", "d"];
         for threads in [1, 2, 7] {
-            let finished = AtomicUsize::new(0);
+            let stored = AtomicUsize::new(0);
             let compute = |piece: usize, _: &Watch<'_>| {
-                while piece == 0 && threads > 1 && finished.load(Ordering::Relaxed) < 3 {
+                while piece == 0 && threads > 1 && stored.load(Ordering::Relaxed) < 3 {
                     thread::yield_now();
                 }
-                finished.fetch_add(1, Ordering::Relaxed);
                 if piece == 2 { Err(Failed::Message("none".into())) } else { Ok(nothing(piece.to_string())) }
             };
             let mut order = Vec::new();
             let store = |piece, found: Result<Found, Failed>| {
                 order.push((piece, found.is_ok()));
+                stored.fetch_add(1, Ordering::Relaxed);
                 Ok(())
             };
-            assert!(compute_in_order(&names, threads, &mut Quiet, compute, store).expect("nothing refuses"));
+            assert!(compute_all(&names, threads, &mut Quiet, compute, store).expect("nothing refuses"));
+            if threads > 1 {
+                assert_eq!(order.last(), Some(&(0, true)), "{threads} threads");
+            }
+            order.sort_unstable();
             assert_eq!(order, [(0, true), (1, true), (2, false), (3, true)], "{threads} threads");
         }
     }
@@ -202,12 +191,12 @@ mod tests {
             (0..4).for_each(|k| watch.row(1.0, 2.0, 0.25 * f64::from(k)));
             Ok(nothing(String::new()))
         };
-        assert!(compute_in_order(&["a", "b"], 2, &mut listener, compute, |_, _| Ok(())).expect("no refusal"));
+        assert!(compute_all(&["a", "b"], 2, &mut listener, compute, |_, _| Ok(())).expect("no refusal"));
         assert_eq!(listener.told.len(), 8);
         assert!(listener.told.windows(2).all(|pair| pair[0].0 <= pair[1].0 && pair[0].1 < pair[1].1));
     }
 
-    /// A piece that hears of the interruption is not stored, and neither is one behind it.
+    /// A piece that hears of the interruption is not stored.
     #[test]
     fn an_interruption_reaches_every_thread() {
         let mut listener = Listener { stops: true, ..Listener::default() };
@@ -217,7 +206,7 @@ mod tests {
             }
             Err(Failed::Interrupted)
         };
-        let stored = compute_in_order(&["a", "b"], 2, &mut listener, compute, |piece, _| panic!("{piece}"));
+        let stored = compute_all(&["a", "b"], 2, &mut listener, compute, |piece, _| panic!("{piece}"));
         assert!(!stored.expect("nothing refuses"));
     }
 }
