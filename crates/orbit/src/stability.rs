@@ -48,6 +48,13 @@ pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
     nearest.is_some_and(|pair| pair[1] < off_circle(pair))
 }
 
+/// Whether the multiplier nearest to +1 is one of a complex pair. That of a branch point is real: beside one this is the pair that becomes real there, as well as it is known, and crosses the circle nowhere else.
+pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
+    let from_one = |[re, im]: &[f64; 2]| (1.0 - re).hypot(*im);
+    let nearest = multipliers.iter().min_by(|a, b| from_one(a).total_cmp(&from_one(b)));
+    nearest.is_some_and(|[_, im]| *im != 0.0)
+}
+
 /// How many multipliers lie outside the circle, without those that are critical at these events of a path with the test functions [`flip`] and
 /// [`neimark_sacker`] in this order.
 pub(crate) fn outside(multipliers: &[[f64; 2]], events: Events) -> Outside {
@@ -106,6 +113,8 @@ mod tests {
         assert!(pair_turns_real(&[[1.016, 5e-4], [1.016, -5e-4], [0.2, 0.0]]));
         assert!(!pair_turns_real(&[[0.9999, 0.0141], [0.9999, -0.0141], [0.01, 0.0]]));
         assert!(!pair_turns_real(&[[4.0, 0.0], [0.25, 0.0]]), "there is no pair");
+        assert!(pair_is_nearest_to_one(&[[1.015, 0.018], [1.015, -0.018], [0.24, 0.0]]));
+        assert!(!pair_is_nearest_to_one(&[[0.6, 0.8], [0.6, -0.8], [1.001, 0.0]]));
         // A real pair with product one is a neutral saddle, which is no bifurcation.
         assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue { value: 1.0, count: 0 });
     }

@@ -36,11 +36,7 @@ impl BranchWalk {
     /// The row of the point at which the problem was evaluated last.
     pub(crate) fn row(&mut self) -> Result<BranchRow, OrbitError> {
         let mut current = self.follower.current().clone();
-        // At a corner multipliers jump, also from inside the circle to far outside.
-        let is_smooth = !current.events.corner && !current.events.signature_change;
-        let has_pair = current.events.zeros & 2 != 0;
-        if is_smooth && has_pair && stability::pair_turns_real(self.problem.multipliers().unwrap_or_default())
-        {
+        if current.events.zeros & 2 != 0 && self.pair_becomes_real(&current)? {
             current.events.zeros &= !2;
         }
         let settings = self.follower.settings();
@@ -57,6 +53,15 @@ impl BranchWalk {
         self.touches.clear();
         self.touches.extend_from_slice(self.problem.touches());
         Ok(BranchRow { located, ..self.row_at(&current)? })
+    }
+
+    /// Whether the pair that seems to cross the circle at a point becomes real there instead.
+    fn pair_becomes_real(&mut self, point: &ContinuationPoint) -> Result<bool, OrbitError> {
+        // At a corner multipliers jump, also from inside the circle to far outside.
+        let is_smooth = !point.events.corner && !point.events.signature_change;
+        let multipliers = self.problem.multipliers()?;
+        Ok(is_smooth && stability::pair_turns_real(multipliers)
+            || point.events.branch_point && stability::pair_is_nearest_to_one(multipliers))
     }
 
     /// The row of a point of the path at which the problem was evaluated last.

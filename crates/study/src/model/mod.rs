@@ -1,5 +1,6 @@
 //! From the study to the equations of motion.
 
+mod crossing;
 mod damping;
 mod drift;
 mod element;
@@ -20,7 +21,13 @@ pub(crate) use structure::beam_descriptor;
 
 use family::{Reference, StudyFamily};
 
-use crate::file::{DampingKey, Excitation, ExcitationKind, Place, Structure, Study, StudyError, StudyFile};
+use crate::{
+    file::{
+        DampingKey, Excitation, ExcitationKind, ParameterKind, Place, Structure, Study, StudyError,
+        StudyFile, VariedParameter,
+    },
+    number::number_named,
+};
 
 /// How near to a number a neighbour is, relative to it.
 const NEIGHBOUR: f64 = 1e-5;
@@ -139,6 +146,9 @@ impl Model {
             self.check_neighbours(parameter.parameter, value).map_err(|message| {
                 fault("parameter", message, "allowed: a study that can be changed a little")
             })?;
+            if let Some(message) = modes_change_places(file, varied) {
+                return Err(fault("range", message, "allowed: a range without it"));
+            }
             for end in varied.range {
                 let system = self.system.clone();
                 system
@@ -161,6 +171,20 @@ impl Model {
             _ => Ok(()),
         }
     }
+}
+
+/// Where two modes change places over the range of a number, in words.
+fn modes_change_places(file: &StudyFile, varied: &VariedParameter) -> Option<String> {
+    if varied.kind != ParameterKind::Number {
+        return None;
+    }
+    let number = number_named(&file.text, &varied.name).ok()??;
+    let found = crossing::crossing(file, &number, varied.range)?;
+    let [one, other] = found.modes.map(|mode| mode + 1);
+    Some(format!(
+        "the eigenfrequencies of modes {one} and {other} cross at {} = {}: the modes change places there",
+        varied.name, found.value
+    ))
 }
 
 /// Names of the points at which local or exciting forces act, each once.
