@@ -245,6 +245,7 @@ fn codimension_two(events: &str) -> String {
         "flip-neimark-sacker" => Some("flip–Neimark-Sacker".to_owned()),
         "double-neimark-sacker" => Some("double Neimark-Sacker".to_owned()),
         "degenerate-flip" => Some("degenerate flip".to_owned()),
+        "degenerate-branch-point" => Some("degenerate branch point".to_owned()),
         "degenerate-neimark-sacker" => Some("degenerate Neimark-Sacker".to_owned()),
         "grazing-fold" => Some("grazing–fold".to_owned()),
         "grazing-flip" => Some("grazing–flip".to_owned()),

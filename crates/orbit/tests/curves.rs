@@ -362,3 +362,41 @@ fn a_neimark_sacker_curve_ends_at_the_strong_resonance() {
     assert_eq!(end, CurveEnd::Resonance);
     assert_eq!(rows.last().unwrap().events.resonance, Some(1));
 }
+
+/// `(1 - w^2)^2 + c^2 w^2 = F^2/g^2`, with impacts on both stops beside it. A start that is some 1e-6 off both, as a corner is known in a wide range of the frequency, belongs to both as well.
+#[test]
+fn grazing_curves_at_two_rigid_stops_begin_beside_the_grazing() {
+    const DAMPING: f64 = 0.04;
+    let rigid = Law::Rigid(law::RigidStop::with_gap(0.8, 1.0).unwrap());
+    let case = oscillator(DAMPING, 0.4, &[(1.0, rigid), (-1.0, rigid)]);
+    let half = 0.5 * DAMPING * DAMPING;
+    let hz_of = |force: f64| {
+        let root = (half * half - 2.0 * half + force * force).sqrt();
+        (1.0 - half - root).sqrt() / std::f64::consts::TAU
+    };
+    let range_hz = (0.05, 0.15);
+    for off in [1e-8, 1e-6, 1e-4] {
+        let hz = hz_of(0.4) * (1.0 - off);
+        let start = find_start(&case.0, &case.1, hz, 1, &OrbitSettings::for_range(range_hz)).unwrap();
+        for side in [Side::Up, Side::Down] {
+            let settings = settings(Parameter::ExcitationScale, (0.75, 1.25), range_hz);
+            let kind = CurveKind::Grazing { contact: None };
+            let orbits = OrbitSettings::default();
+            let mut walk =
+                CurveWalk::new(&case.0, &case.1, &start, (kind, side), &settings, &orbits).unwrap();
+            let mut count = 0;
+            let end = loop {
+                match walk.step().unwrap() {
+                    Ok(row) => {
+                        let error = row.solution.frequency_hz / hz_of(0.4 * row.parameter) - 1.0;
+                        assert!(error.abs() < 1e-8, "{off}: {error:e} at {}", row.parameter);
+                        count += 1;
+                    }
+                    Err(end) => break end,
+                }
+            };
+            assert_eq!(end, CurveEnd::RangeEnd);
+            assert!(count > 20, "{off}: {count}");
+        }
+    }
+}

@@ -70,6 +70,28 @@ fn two_functions_that_vanish_within_one_step_give_two_points() {
     assert!(zeros(&branch, 1).iter().all(|point| (point.0 - 0.501).abs() < 1e-9));
 }
 
+/// Which of them are negative there is rounding: whatever their order and their signs, a point is a zero of all, or there is one for each.
+#[test]
+fn functions_that_vanish_at_one_place_are_all_found_there() {
+    let all: [fn(&[f64]) -> TestValue; 4] = [
+        |z| signed(z[0] - 0.5),
+        |z| signed(2.0 * (0.5 - z[0])),
+        |z| signed((z[0] - 0.5 - 1e-13) * (1.5 + z[1])),
+        |z| signed((0.5 - 1e-13 - z[0]) * (1.5 - z[0])),
+    ];
+    for shift in 0..4 {
+        let tests: Vec<_> = (0..4).map(|k| all[(k + shift) % 4]).collect();
+        for step in [0.3, 0.1] {
+            let branch = round(tests.clone(), step);
+            for index in 0..4 {
+                let found = zeros(&branch, index);
+                assert_eq!(found.len(), 2, "function {index}, shift {shift}, step {step}");
+                assert!(found.iter().all(|point| (point.0 - 0.5).abs() < 1e-9));
+            }
+        }
+    }
+}
+
 #[test]
 fn a_jump_through_zero_is_no_zero() {
     let jump: fn(&[f64]) -> TestValue = |z| signed(if z[0] > 0.4 { 1.0 } else { -2.0 });

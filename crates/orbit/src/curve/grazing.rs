@@ -16,7 +16,7 @@ use crate::OrbitError;
 
 /// Looks for the touch per excitation period.
 const LOOKS: usize = 2000;
-/// Distance from grazing within which the opposite contact of a symmetric orbit is touched as well, in parts of the orbit, and how well half a period is met [cycles].
+/// By how much the opposite contact of a symmetric orbit is further from grazing, in parts of the orbit, and how well half a period is met [cycles].
 const OPPOSITE: f64 = 1e-6;
 /// Farthest from grazing that the contact of a grazing orbit is, as it was located before, in parts of the orbit.
 const FARTHEST: f64 = 1e-2;
@@ -139,7 +139,9 @@ impl Touch {
             let Some(other) = touch.find(shooting, orbit, frequency_hz)? else { continue };
             let behind = (other.phase - turn.phase).rem_euclid(cycles);
             let is_half = (behind - 0.5 * cycles).abs() < OPPOSITE;
-            let is_touched = !other.from_inside && other.distance < OPPOSITE * touch.reach(shooting);
+            // However well the grazing is known, of a symmetric orbit both are as far from it.
+            let off = other.distance.min((other.distance - turn.distance).abs());
+            let is_touched = !other.from_inside && off < OPPOSITE * touch.reach(shooting);
             if is_half && is_touched && self.stays_opposite(touch, shooting.parameter) {
                 return Ok(Some((touch, behind)));
             }

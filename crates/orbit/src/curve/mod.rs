@@ -30,6 +30,9 @@
 //! What further multipliers do is told by the functions of `stability.rs`, of all but the critical ones, which are taken out by reflections that turn their vectors into axes (`deflated.rs`). A zero is marked where a multiplier is in its place: neutral saddles, pairs
 //! that become real and multipliers that jump over their place are none. Criticality is that of normal forms (`normal_form.rs`, `lyapunov.rs`), whose tensors are differences of fundamental matrices; where these cannot be told, its test has no value (`criticality.rs`).
 //!
+//! A curve of folds ends where its orbits become those of half their period (*degenerate flip*) or symmetric (*degenerate branch point*): there lies the degenerate point of the flips of the map over half the period, and behind it the curve is its own image
+//! (`image.rs`, `meeting.rs`).
+//!
 //! A second contact that is grazed (*double grazing*) is a change of contacts on a grazing curve, since those that are touched anyway are not among them; it is bracketed like every such change. On other curves such a change is where the bifurcation meets a grazing.
 //!
 //! # Sources
@@ -38,7 +41,7 @@
 //!
 //! # Limits
 //! All matrices are dense and the orbit keeps its segments and its units. Grazing of a stop without a single gap (preloaded, or two-sided with two gaps, or a rigid one that holds the structure at rest) is followed with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
-//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Degenerate flips and Neimark-Sacker points are known to about 1e-8 of the ranges, beside contacts to 1e-7, and so near to a grazing that derivatives of third order cannot be told they are not marked; neither is a second touch of the contact that a grazing curve follows. A curve ends where contacts change its monodromy matrix too sharply. Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located.
+//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Degenerate flips and Neimark-Sacker points are known to about 1e-8 of the ranges, beside contacts to 1e-7, and so near to a grazing that derivatives of third order cannot be told they are not marked; neither is a second touch of the contact that a grazing curve follows. A curve ends where contacts change its monodromy matrix too sharply. Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located. Where the orbits of a curve become images of themselves in more than one way at once, as orbits of two periods that become symmetric ones of one, the end is not recognised either.
 
 mod bordered;
 mod condition;
@@ -46,8 +49,10 @@ mod criticality;
 mod deflated;
 mod differences;
 mod grazing;
+mod image;
 mod lyapunov;
 mod marks;
+mod meeting;
 mod normal_form;
 mod null;
 mod pair;
@@ -55,6 +60,7 @@ mod passing;
 mod problem;
 mod recut;
 mod row;
+mod rows;
 mod shooting;
 mod start;
 mod walk;

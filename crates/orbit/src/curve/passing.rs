@@ -6,7 +6,7 @@
 //!
 //! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
 //!
-//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well, and so it is as long as the curve goes.
+//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well, and so it is as long as the curve goes: over a parameter that breaks the symmetry too, where the curve is that of the first contact and holds only to the side on which the motion leaves the other.
 //!
 //! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
 

@@ -18,6 +18,8 @@ pub(super) struct CurveProblem {
     pub condition: Condition,
     /// Phase at which orbits are cut, unless it is an unknown [cycles].
     pub begin: f64,
+    /// What counts like a change of the orbit by its own size, of frequency and parameter.
+    pub units: [f64; 2],
     weights: Vec<f64>,
     residual: Vec<f64>,
     /// `[R_x R_p]` by rows.
@@ -46,6 +48,7 @@ impl CurveProblem {
             shooting,
             condition,
             begin,
+            units,
             residual: vec![0.0; unknowns],
             jacobian: vec![0.0; unknowns * (unknowns + 1)],
             weights,

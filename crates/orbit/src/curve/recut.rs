@@ -36,7 +36,7 @@ impl CurveWalk {
         let place = self.problem.place(&self.follower.current().point);
         let shooting = &mut self.problem.shooting;
         shooting.set_parameter(place.value)?;
-        let (scales, cycles) = (shooting.scale.values(), f64::from(shooting.period_multiple));
+        let (scales, cycles) = (shooting.scale.values(), shooting.cycles());
         let state: Vec<f64> = place.nodes.iter().zip(scales).map(|(x, s)| x * s).collect();
         let phases = (place.phase, cycles, cycles / shooting.count as f64);
         offset_to_clear(&mut shooting.integrator, phases, &state, place.frequency_hz)

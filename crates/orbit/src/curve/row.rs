@@ -54,6 +54,8 @@ pub struct CurveEvents {
     pub double_neimark_sacker: bool,
     /// A flip that changes its criticality.
     pub degenerate_flip: bool,
+    /// A branch point, at which the orbits of a symmetric system lose their symmetry, that changes its criticality.
+    pub degenerate_branch_point: bool,
     /// A Neimark-Sacker point that changes its criticality.
     pub degenerate_neimark_sacker: bool,
     /// Resonance 1:n.
@@ -87,6 +89,7 @@ impl CurveEvents {
             (self.flip_neimark_sacker, "flip-neimark-sacker"),
             (self.double_neimark_sacker, "double-neimark-sacker"),
             (self.degenerate_flip, "degenerate-flip"),
+            (self.degenerate_branch_point, "degenerate-branch-point"),
             (self.degenerate_neimark_sacker, "degenerate-neimark-sacker"),
             (self.grazing_fold, "grazing-fold"),
             (self.grazing_flip, "grazing-flip"),
@@ -126,6 +129,13 @@ pub enum CurveEnd {
     Closed,
     /// A Neimark-Sacker curve ends at a resonance 1:1 or 1:2.
     Resonance,
+    /// The orbits, one of a pair of images until then, are their own image, where these branch off: the curve of their folds goes on as its own image, over the same parameters.
+    OwnImage {
+        /// Value of the second parameter there, in its unit.
+        parameter: f64,
+        /// Whether the images are mirror images and the orbits become symmetric; else they become orbits of half the period.
+        mirrored: bool,
+    },
     /// The bifurcation has met a grazing, where matrices jump or go like the root of the distance: no step led on, or rows one after the other were at it as far as can be told.
     Grazing {
         /// Value of the second parameter at the last row, in its unit.

@@ -8,7 +8,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, MotionError, complete_touches},
 };
 
-use super::passing::Passing;
+use super::{image::Closing, passing::Passing};
 use crate::state_scale::StateScale;
 
 /// Where the equations are evaluated; nodes are scaled, one after the other.
@@ -32,6 +32,11 @@ pub(super) struct Segment {
 }
 
 impl Segment {
+    fn multiply(&mut self, sign: f64) {
+        let all = [&mut self.end, &mut self.matrix, &mut self.by_frequency, &mut self.by_parameter];
+        all.into_iter().flatten().for_each(|value| *value *= sign);
+    }
+
     /// This one and then another one.
     fn then(&self, next: &Self) -> Self {
         let sum = |first: &[f64], second: &[f64]| -> Vec<f64> {
@@ -53,6 +58,8 @@ pub(super) struct Shooting {
     pub integrator: ExactIntegrator,
     pub parameter: Parameter,
     pub period_multiple: u32,
+    /// What of the orbit the segments are.
+    pub closing: Closing,
     pub scale: StateScale,
     pub count: usize,
     /// The segments at the last evaluated place.
@@ -77,8 +84,13 @@ impl Shooting {
         &self.products[self.count]
     }
 
+    /// How long the segments are in all [cycles].
+    pub fn cycles(&self) -> f64 {
+        self.closing.share() * f64::from(self.period_multiple)
+    }
+
     pub fn stretch(&self, segment: usize, frequency_hz: f64, phase: f64) -> Stretch {
-        let cycle = |k: usize| phase + f64::from(self.period_multiple) * k as f64 / self.count as f64;
+        let cycle = |k: usize| phase + self.cycles() * k as f64 / self.count as f64;
         Stretch { frequency_hz, start: cycle(segment), end: cycle(segment + 1) }
     }
 
@@ -89,6 +101,9 @@ impl Shooting {
         let mut flow = self.flow_over(whole, node)?;
         for part in parts {
             flow = flow.then(&self.flow_over(part, &flow.end)?);
+        }
+        if segment + 1 == self.count {
+            flow.multiply(self.closing.sign());
         }
         Ok(flow)
     }

@@ -1,20 +1,23 @@
 //! Walking along a curve of bifurcations, one row at a time.
 
-use hammerbeam_motion::{Stretch, System, exact::MotionError};
-use hammerbeam_path::{Direction, Follower, ParameterRange, PathProblem, StepOutcome};
+use hammerbeam_motion::{System, exact::MotionError};
+use hammerbeam_path::{Direction, Events, Follower, ParameterRange, StepOutcome};
 
 use super::{
+    bordered::Bordered,
+    condition::Condition,
     grazing::Touch,
+    image::{Closing, half_of},
+    meeting::Approach,
     passing::Passing,
     problem::CurveProblem,
     recut::cut_clear,
-    row::{CurveEnd, CurveEvents, CurveKind, CurveRow, CurveSettings},
+    row::{CurveEnd, CurveKind, CurveRow, CurveSettings},
     shooting::{Place, Shooting},
     start::{first_condition, path_settings},
 };
 use crate::{
-    OrbitError, OrbitSettings, PeriodicSolution, Response, Side, eigenvalues::eigenvalues, size::orbit_scale,
-    solve::integrator,
+    OrbitError, OrbitSettings, PeriodicSolution, Response, Side, size::orbit_scale, solve::integrator,
 };
 
 /// Rows at a grazing after which the curve has met it.
@@ -25,6 +28,8 @@ const AT_GRAZING: f64 = 1e-6;
 const MANY_ROWS: u32 = 2000;
 /// A way of next to nothing, in hundredths of the ranges.
 const CRAWLING: f64 = 0.5;
+/// Largest residual of an orbit that was found as its own image.
+const SOLVES: f64 = 1e-7;
 
 /// One side of a curve.
 #[derive(Debug)]
@@ -32,13 +37,19 @@ pub struct CurveWalk {
     pub(super) problem: CurveProblem,
     pub(super) follower: Follower,
     settings: CurveSettings,
-    kind: CurveKind,
+    pub(super) kind: CurveKind,
     /// How far the last orbit is from grazing a contact.
-    grazing_distance: f64,
+    pub(super) grazing_distance: f64,
     /// Rows one after the other whose orbits graze one, to rounding.
     rows_at_grazing: u32,
     /// Rows since the walk was last asked whether it crawls, and the arc length then.
     since: (u32, f64),
+    /// On a curve of folds.
+    approach: Option<Approach>,
+    /// The row of the end that the last row has led to.
+    last_row: Option<CurveRow>,
+    /// Whether the last row lies behind it.
+    is_behind: bool,
     end: Option<CurveEnd>,
 }
 
@@ -66,6 +77,7 @@ impl CurveWalk {
             integrator,
             parameter: settings.parameter,
             period_multiple: start.period_multiple,
+            closing: Closing::Periodic,
             scale,
             count: start.nodes.len(),
             segments: Vec::new(),
@@ -89,14 +101,43 @@ impl CurveWalk {
             touch = Some((found, turn));
         }
         let (condition, place) = first_condition(&mut shooting, start, (kind, value), touch)?.ok_or(none)?;
-        let width = |(low, high): (f64, f64)| (high - low) / 100.0;
-        let units = [width(settings.range_hz), width(settings.range)];
-        let mut problem = CurveProblem::new(shooting, condition, start.phase, units);
-        let point = problem.point(&place);
         let direction = match side {
             Side::Up => Direction::Increasing,
             Side::Down => Direction::Decreasing,
         };
+        let mut walk = Self::begin((shooting, condition), (place, start.phase), (kind, direction), settings)?;
+        walk.approach = (kind == CurveKind::Fold).then(|| Approach::new(response, orbits));
+        Ok(walk)
+    }
+
+    /// Begins on the curve of flips of the map over half a period (`image.rs`).
+    pub(super) fn of_half(
+        mut shooting: Shooting,
+        place: &Place,
+        direction: Direction<'_>,
+        settings: &CurveSettings,
+    ) -> Result<Self, OrbitError> {
+        shooting.evaluate(place)?;
+        let condition = Condition::Multiplier(Bordered::new(-1.0, &shooting));
+        Self::begin(
+            (shooting, condition),
+            (place.clone(), place.phase),
+            (CurveKind::Flip, direction),
+            settings,
+        )
+    }
+
+    /// * `phase`: at which orbits are cut, unless it is an unknown.
+    fn begin(
+        (shooting, condition): (Shooting, Condition),
+        (place, phase): (Place, f64),
+        (kind, direction): (CurveKind, Direction<'_>),
+        settings: &CurveSettings,
+    ) -> Result<Self, OrbitError> {
+        let width = |(low, high): (f64, f64)| (high - low) / 100.0;
+        let units = [width(settings.range_hz), width(settings.range)];
+        let mut problem = CurveProblem::new(shooting, condition, phase, units);
+        let point = problem.point(&place);
         let range = ParameterRange::new(settings.range.0, settings.range.1)?;
         let follower =
             Follower::start(&mut problem, &point, direction, range, path_settings(settings, units))?;
@@ -109,6 +150,9 @@ impl CurveWalk {
             grazing_distance,
             rows_at_grazing: 0,
             since: (0, 0.0),
+            approach: None,
+            last_row: None,
+            is_behind: false,
             end: None,
         })
     }
@@ -129,6 +173,9 @@ impl CurveWalk {
     /// See [`OrbitError`]; failures to go on are not errors but ends.
     pub fn step(&mut self) -> Result<Result<CurveRow, CurveEnd>, OrbitError> {
         use hammerbeam_path::StopReason;
+        if let Some(row) = self.last_row.take() {
+            return Ok(Ok(row));
+        }
         if let Some(end) = &self.end {
             return Ok(Err(end.clone()));
         }
@@ -175,9 +222,11 @@ impl CurveWalk {
         } else if crawls {
             Some(CurveEnd::Crawls { parameter, rows: MANY_ROWS })
         } else {
-            None
+            self.meets_image()?
         };
-        Ok(row)
+        // A row behind the end is no row of the curve.
+        let is_behind = std::mem::take(&mut self.is_behind);
+        Ok(if is_behind { self.last_row.take().unwrap_or(row) } else { row })
     }
 
     /// Whether the last rows led nowhere, asked once in [`MANY_ROWS`].
@@ -192,71 +241,30 @@ impl CurveWalk {
         way < CRAWLING
     }
 
-    /// Whether the contacts that are counted hold those that graze: then a change of their number says nothing of another one.
-    fn counts_its_own_touch(&self) -> bool {
-        matches!(self.kind, CurveKind::Grazing { .. }) && self.problem.shooting.passing.is_none()
-    }
-
-    /// The row of the present point; the condition is adapted to it.
-    fn row(&mut self) -> Result<CurveRow, OrbitError> {
+    /// Whether the curve ends at an orbit that is its own image, as the present row shows; that orbit is the last row, instead of this one if it lies behind.
+    fn meets_image(&mut self) -> Result<Option<CurveEnd>, OrbitError> {
+        let Some(approach) = &mut self.approach else { return Ok(None) };
         let current = self.follower.current().clone();
         let place = self.problem.place(&current.point);
-        if self.problem.evaluate(&current.point).is_err() {
-            let failure = self.problem.failure().cloned();
-            let none = OrbitError::NoEvent { frequency_hz: place.frequency_hz };
-            return Err(failure.map_or(none, OrbitError::Motion));
-        }
-        self.grazing_distance = self.problem.shooting.grazing_distance;
-        let residual = self.problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
-        let mut events = CurveEvents::of(self.kind, current.events, &self.problem.other_multipliers());
-        if self.counts_its_own_touch() && events.double_grazing {
-            (events.double_grazing, events.grazing) = (false, true);
-        }
-        let shooting = &mut self.problem.shooting;
-        let floquet_multipliers = eigenvalues(shooting.size(), shooting.monodromy())?;
-        self.problem.renew(current.events.zeros);
-        let shooting = &mut self.problem.shooting;
-        let scales = shooting.scale.values().to_vec();
-        let nodes: Vec<Vec<f64>> = place
-            .nodes
-            .chunks_exact(scales.len())
-            .map(|node| node.iter().zip(&scales).map(|(x, s)| x * s).collect())
-            .collect();
-        let stretches: Vec<Stretch> =
-            (0..shooting.count).map(|k| shooting.stretch(k, place.frequency_hz, place.phase)).collect();
-        let has_phase = self.problem.condition.has_phase();
-        if has_phase {
-            shooting.fit_passing(place.frequency_hz, place.phase, &nodes[0])?;
-        }
-        let maxima = shooting.observe(&stretches, &nodes)?;
-        let nodes = if has_phase { self.nodes_from_begin(&place, &nodes)? } else { nodes };
-        let solution = PeriodicSolution {
-            frequency_hz: place.frequency_hz,
-            period_multiple: self.problem.shooting.period_multiple,
-            phase: self.problem.begin,
-            nodes,
-            floquet_multipliers,
-            residual,
-            error_estimate: current.correction_norm,
-            maxima,
+        let Some(met) = approach.meets(&mut self.problem, &place, &self.settings) else { return Ok(None) };
+        let point = self.problem.point(&met.place);
+        let (low, high) = self.settings.range_hz;
+        let is_inside = (low..=high).contains(&met.place.frequency_hz);
+        let row = if is_inside { self.row_at(&point, Events::default(), met.off).ok() } else { None };
+        let Some(mut row) = row.filter(|row| row.solution.residual <= SOLVES) else {
+            // The path goes on from where it was evaluated.
+            self.row()?;
+            return Ok(None);
         };
-        let phase = has_phase.then_some(place.phase);
-        Ok(CurveRow { parameter: place.value, solution, phase, events })
-    }
-
-    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere: each from the node before it.
-    fn nodes_from_begin(&mut self, place: &Place, nodes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, OrbitError> {
-        let begin = self.problem.begin;
-        let shooting = &mut self.problem.shooting;
-        let cycles = f64::from(shooting.period_multiple);
-        let length = cycles / nodes.len() as f64;
-        let node = |k: usize| {
-            let behind = (begin + k as f64 * length - place.phase).rem_euclid(cycles);
-            let from = ((behind / length) as usize).min(nodes.len() - 1);
-            let [start, end] = [from as f64 * length, behind].map(|offset| place.phase + offset);
-            let stretch = Stretch { frequency_hz: place.frequency_hz, start, end };
-            Ok(shooting.advance(stretch, place.phase, &nodes[from])?)
-        };
-        (0..nodes.len()).map(node).collect()
+        let (parameter, mirrored) =
+            (row.parameter, half_of(row.solution.period_multiple).1 == Closing::Mirrored);
+        if mirrored {
+            row.events.degenerate_branch_point = true;
+        } else {
+            row.events.degenerate_flip = true;
+        }
+        self.last_row = Some(row);
+        self.is_behind = met.is_behind;
+        Ok(Some(CurveEnd::OwnImage { parameter, mirrored }))
     }
 }

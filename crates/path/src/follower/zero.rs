@@ -45,7 +45,7 @@ impl Follower {
             return Ok(arrival);
         }
         let mut arrival = arrival;
-        arrival.zeros_near = self.stay_behind_zeros();
+        arrival.zeros_near = self.stay_behind_zeros(None);
         if step > self.settings.signature_step
             && (self.ends_at_zero() || self.begins_at_zero(problem, step)?)
         {
@@ -57,12 +57,29 @@ impl Follower {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
-                let near = arrival.zeros_near;
+                let (found, at, behind) = (arrival, self.trial_progress(), self.trial.tests.clone());
                 arrival = self.arrive_at_zero(problem, step, index)?.unwrap_or(arrival);
-                arrival.zeros_near |= near;
+                arrival.zeros_near |= found.zeros_near | self.stay_behind_zeros(Some(index));
+                let apart = at - self.trial_progress();
+                if apart <= found.uncertainty + arrival.uncertainty + self.settings.correction_floor {
+                    self.keep_zeros(&mut arrival, found, &behind);
+                }
             }
         }
         Ok(arrival)
+    }
+
+    /// Zeros of other functions that were found just there belong to the same point: at it their signs are rounding.
+    ///
+    /// * `behind`: test functions as they were noted with those.
+    fn keep_zeros(&mut self, arrival: &mut Arrival, found: Arrival, behind: &[TestValue]) {
+        arrival.events.zeros |= found.events.zeros;
+        arrival.uncertainty = arrival.uncertainty.max(found.uncertainty);
+        for (index, test) in behind.iter().enumerate() {
+            if found.events.zeros >> index & 1 == 1 {
+                self.trial.tests[index] = *test;
+            }
+        }
     }
 
     /// Whether a test function may have two zeros within the step to the trial, though its count is the same on both sides: the parabola through its values at the last
@@ -129,10 +146,12 @@ impl Follower {
     }
 
     /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was found to be behind the zero.
-    fn stay_behind_zeros(&mut self) -> u32 {
+    ///
+    /// * `but`: the function whose zero the trial is.
+    fn stay_behind_zeros(&mut self, but: Option<usize>) -> u32 {
         let mut near = 0;
         for (index, (behind, trial)) in self.state.tests.iter().zip(&mut self.trial.tests).enumerate() {
-            let is_near = self.state.zeros_near >> index & 1 == 1;
+            let is_near = self.state.zeros_near >> index & 1 == 1 && but != Some(index);
             if is_near && trial.value.abs() < LEFT * behind.value.abs() {
                 *trial = *behind;
                 near |= 1 << index;

@@ -205,6 +205,14 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
         CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
         CurveEnd::Closed => format!("the curve {CAME_BACK}"),
         CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
+        CurveEnd::OwnImage { parameter: value, mirrored: true } => format!(
+            "the orbits become symmetric at {}, where pairs of mirror images branch off: the curve comes back from there as that of the mirror images, over the same values",
+            named(*value, curve, parameter)
+        ),
+        CurveEnd::OwnImage { parameter: value, mirrored: false } => format!(
+            "the orbits become those of half their period at {}, where they branch off in a flip: the curve comes back from there as that of the same orbits half a period later, over the same values",
+            named(*value, curve, parameter)
+        ),
         CurveEnd::Grazing { parameter: value, cause } => {
             let cause = cause.as_ref().map_or(String::new(), |cause| format!(" ({cause})"));
             format!("met a grazing at {}{cause}", named(*value, curve, parameter))

@@ -1,0 +1,117 @@
+//! Orbits and their images half their period later, and orbits that are their own image.
+//!
+//! # Mathematics
+//! `sigma: z(t) -> s z(t + N T/2)` takes periodic orbits of `N` excitation periods `T` to such orbits and is its own inverse: with `s = +1` for even `N`, in any system, since half the period is a number of whole
+//! excitation periods; with `s = -1` for odd `N` where the system is symmetric, so that the excitation changes its sign and forces do with the state. An orbit is one of a pair of images, or its own image: then its period is half as long, or it
+//! is a symmetric one.
+//!
+//! An own image is a fixed point of the map over half its period, `H(z) = s Z(z, N T/2)`, and as such an ordinary orbit with a matrix B, `A = B^2`. Pairs branch off from it where B has a multiplier at -1: a flip, or the branch point at which the
+//! symmetry is lost, of which A sees a multiplier at +1. Everything that is known of flips holds of B: the curve, its normal form and where that changes its sign.
+
+use hammerbeam_motion::exact::MotionError;
+
+use super::shooting::{Place, Shooting};
+
+/// What of the orbit the segments of shooting are, and how the state comes back at their end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Closing {
+    /// The whole orbit, to the state as it was.
+    Periodic,
+    /// Half of it, to the state with its sign changed.
+    Mirrored,
+}
+
+impl Closing {
+    /// Which share of the orbit the segments are.
+    pub fn share(self) -> f64 {
+        match self {
+            Self::Periodic => 1.0,
+            Self::Mirrored => 0.5,
+        }
+    }
+
+    /// By what the state is multiplied at the end.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Periodic => 1.0,
+            Self::Mirrored => -1.0,
+        }
+    }
+}
+
+/// The period multiple and the closing of the map over half an orbit of N periods.
+pub(super) fn half_of(period_multiple: u32) -> (u32, Closing) {
+    if period_multiple.is_multiple_of(2) {
+        (period_multiple / 2, Closing::Periodic)
+    } else {
+        (period_multiple, Closing::Mirrored)
+    }
+}
+
+/// The first node of an orbit beside its image, scaled.
+#[derive(Debug, Clone)]
+pub(super) struct Apart {
+    /// `(z + sigma z)/2`.
+    pub mean: Vec<f64>,
+    /// `(z - sigma z)/2`.
+    pub odd: Vec<f64>,
+}
+
+impl Shooting {
+    /// How far the orbit, which is a whole one, is from its image.
+    pub fn apart(&mut self, place: &Place) -> Result<Apart, MotionError> {
+        let scales = self.scale.values().to_vec();
+        let (size, between) = (scales.len(), self.count / 2);
+        let half = 0.5 * self.cycles();
+        let node: Vec<f64> = place.nodes[between * size..(between + 1) * size]
+            .iter()
+            .zip(&scales)
+            .map(|(x, s)| x * s)
+            .collect();
+        let mut stretch = self.stretch(between, place.frequency_hz, place.phase);
+        stretch.end = place.phase + half;
+        self.set_parameter(place.value)?;
+        let later =
+            if stretch.end > stretch.start { self.integrator.advance(&stretch, &node)? } else { node };
+        let sign = half_of(self.period_multiple).1.sign();
+        let pairs = place.nodes.iter().zip(later.iter().zip(&scales).map(|(z, s)| sign * z / s));
+        let (mean, odd) = pairs.map(|(z, image)| (0.5 * (z + image), 0.5 * (z - image))).unzip();
+        Ok(Apart { mean, odd })
+    }
+
+    /// All nodes of the orbit with the first one of a place, scaled.
+    pub fn nodes_from_first(&mut self, place: &Place) -> Result<Vec<f64>, MotionError> {
+        let scales = self.scale.values().to_vec();
+        let mut node: Vec<f64> = place.nodes.iter().zip(&scales).map(|(x, s)| x * s).collect();
+        let mut nodes = place.nodes.clone();
+        for k in 1..self.count {
+            let stretch = self.stretch(k - 1, place.frequency_hz, place.phase);
+            node = self.integrator.advance(&stretch, &node)?;
+            nodes.extend(node.iter().zip(&scales).map(|(z, s)| z / s));
+        }
+        Ok(nodes)
+    }
+
+    /// The orbit at a place, or as much of it as another one's segments are long, with its nodes where those of `like` are when they begin at a phase.
+    pub fn unfolded(&mut self, place: &Place, like: &Self, phase: f64) -> Result<Place, MotionError> {
+        let scales = self.scale.values().to_vec();
+        let cycles = self.cycles();
+        let length = cycles / self.count as f64;
+        let mut nodes = Vec::with_capacity(like.count * scales.len());
+        for k in 0..like.count {
+            let wanted = like.stretch(k, place.frequency_hz, phase).start;
+            let halves = ((wanted - place.phase) / cycles).floor();
+            let behind = wanted - place.phase - halves * cycles;
+            let from = ((behind / length) as usize).min(self.count - 1);
+            let mut stretch = self.stretch(from, place.frequency_hz, place.phase);
+            stretch.end = place.phase + behind;
+            let range = from * scales.len()..(from + 1) * scales.len();
+            let node: Vec<f64> = place.nodes[range].iter().zip(&scales).map(|(x, s)| x * s).collect();
+            let later =
+                if stretch.end > stretch.start { self.integrator.advance(&stretch, &node)? } else { node };
+            let sign = if halves.rem_euclid(2.0) == 1.0 { self.closing.sign() } else { 1.0 };
+            nodes.extend(later.iter().zip(like.scale.values()).map(|(z, s)| sign * z / s));
+        }
+        Ok(Place { nodes, phase, ..place.clone() })
+    }
+}
