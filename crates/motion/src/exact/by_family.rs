@@ -2,7 +2,8 @@
 //!
 //! The modes are those of the value, and the state is that of modes, so the column has the change of their coordinates in it; no formula of the structure is needed. With the step h it is
 //! `(Z(p + h) - Z(p - h))/2h`. Beside grazing and within chatter the motion bends within a step of 1e-5: where `Z(p + h) + Z(p - h) - 2 Z(p)` is not small against the difference, or the neighbours have other contacts, the step is shortened, down
-//! to where rounding leaves three digits. Where only one side has a system, it is the difference to that. The column serves Newton's method and tangents, both of which converge whatever its last digits: solutions
+//! to where rounding leaves three digits. Where only one side has a system, it is the difference to that. How the number changes the matrix `dZ/dz` along a direction is the same difference of matrices, each of which is exact: a difference of
+//! columns at two states would divide the rounding of the columns by a second step. The column serves Newton's method and tangents, both of which converge whatever its last digits: solutions
 //! are those of the equations, and events those of the fundamental matrices, which are exact.
 
 use super::{ExactIntegrator, MotionError};
@@ -51,11 +52,43 @@ impl ExactIntegrator {
         (stretch, state): (&Stretch, &[f64]),
         end: &[f64],
     ) -> Result<Option<Vec<f64>>, MotionError> {
+        let end_of = |neighbour: &mut Self| neighbour.advance(stretch, state).ok();
+        self.by_number(end, end_of)
+    }
+
+    /// How a number of a family, if that is the parameter, changes the derivative of a flow by the state along a direction.
+    ///
+    /// * `direction`: length 2n, as the state.
+    ///
+    /// # Errors
+    /// See [`MotionError`]; [`MotionError::Parameter`] if the family has no neighbours.
+    pub fn matrix_by_family(
+        &mut self,
+        (stretch, state): (&Stretch, &[f64]),
+        direction: &[f64],
+    ) -> Result<Option<Vec<f64>>, MotionError> {
+        let Some(by_family) = self.by_family.take() else { return Ok(None) };
+        let along = |integrator: &mut Self| -> Result<Vec<f64>, MotionError> {
+            let matrix = integrator.flow(stretch, state)?.by_state;
+            let entry = |i: usize| direction.iter().enumerate().map(|(j, d)| matrix[(i, j)] * d).sum();
+            Ok((0..direction.len()).map(entry).collect())
+        };
+        let here = along(self);
+        self.by_family = Some(by_family);
+        self.by_number(&here?, |neighbour| along(neighbour).ok())
+    }
+
+    /// Derivative by the number of what `of` makes of a neighbour and `here` is of this integrator itself, whose last motion was the one in question; `None` if no number is the parameter.
+    fn by_number(
+        &mut self,
+        here: &[f64],
+        mut of: impl FnMut(&mut Self) -> Option<Vec<f64>>,
+    ) -> Result<Option<Vec<f64>>, MotionError> {
         let Some(mut by_family) = self.by_family.take() else { return Ok(None) };
         let mut column = Err(ParameterError::NoMember("no neighbour of the system moves".into()).into());
         for place in 0..STEPS.len() {
             let neighbours = by_family.at(self, place);
-            let found = neighbours.map(|neighbours| self.difference(neighbours, (stretch, state), end));
+            let found = neighbours.map(|neighbours| self.difference(neighbours, here, &mut of));
             match found {
                 Ok(Some(Difference { column: found, is_smooth })) => {
                     column = Ok(found);
@@ -78,13 +111,13 @@ impl ExactIntegrator {
     fn difference(
         &self,
         neighbours: &mut [Neighbour],
-        (stretch, state): (&Stretch, &[f64]),
         end: &[f64],
+        of: &mut impl FnMut(&mut Self) -> Option<Vec<f64>>,
     ) -> Option<Difference> {
         let mut ends: Vec<(f64, Vec<f64>)> = Vec::new();
         let mut is_smooth = true;
         for (step, neighbour) in neighbours {
-            let Ok(moved) = neighbour.advance(stretch, state) else { continue };
+            let Some(moved) = of(neighbour) else { continue };
             is_smooth &= neighbour.touches == self.touches;
             ends.push((*step, moved));
         }
