@@ -31,7 +31,7 @@ pub enum CorrectorError {
     /// The direction of the path at the prediction is too different from that of the plane's normal.
     #[error("the path turns by {angle:.2} rad")]
     Turned { angle: f64 },
-    /// The corrections vanish but the residual does not.
+    /// The corrections vanish, or stop shrinking, but the residual does not.
     #[error("residual {residual_norm:.2e} at a converged point")]
     Residual { residual_norm: f64 },
     /// Branches cross here, or the plane contains the tangent.
@@ -133,7 +133,10 @@ impl Candidate {
             let stagnant = size > 0.5 * last;
             let at_floor = self.residual_norm <= limits.residual_floor;
             let loose = if at_floor { limits.singular_tolerance } else { limits.loose_tolerance };
-            if size <= limits.tolerance || (stagnant && size <= loose) {
+            let has_converged = size <= limits.tolerance || (stagnant && size <= loose);
+            // Where the matrix is large, a correction that might stay unapplied may still leave a residual that it takes away.
+            let corrects_residual = !stagnant && self.residual_norm > limits.residual_tolerance;
+            if has_converged && (!corrects_residual || self.iterations >= limits.max_iterations) {
                 return self.finish(problem, limits);
             }
             self.displacement += size;

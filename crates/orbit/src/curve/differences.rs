@@ -64,7 +64,7 @@ impl Shooting {
             }
             (found, step) = (next, shorter);
             if is_same {
-                return Ok(found.segment);
+                return self.with_number(k, place, direction, found.segment);
             }
         }
         if step < DIFFERENCE {
@@ -72,7 +72,27 @@ impl Shooting {
             let distance = if breaks { 0.0 } else { step / (4.0 * found.bend.max(BEND)) };
             self.grazing_distance = self.grazing_distance.min(distance);
         }
-        Ok(found.segment)
+        self.with_number(k, place, direction, found.segment)
+    }
+
+    /// The same, but where the parameter is a number of a family: there `dZ_k/dp` is a difference itself, so that `dG_k/dp` is taken of the matrices.
+    fn with_number(
+        &mut self,
+        k: usize,
+        place: &Place,
+        direction: &[f64],
+        found: Segment,
+    ) -> Result<Segment, MotionError> {
+        let size = self.size();
+        let scales = self.scale.values();
+        let node = &place.nodes[k * size..(k + 1) * size];
+        let unscaled = |values: &[f64]| values.iter().zip(scales).map(|(x, s)| x * s).collect::<Vec<f64>>();
+        let (state, direction) = (unscaled(node), unscaled(direction));
+        let stretch = self.stretch(k, place.frequency_hz, place.phase);
+        let column = self.integrator.matrix_by_family((&stretch, &state), &direction)?;
+        let Some(column) = column else { return Ok(found) };
+        let by_parameter = column.iter().zip(self.scale.values()).map(|(z, s)| z / s).collect();
+        Ok(Segment { by_parameter, ..found })
     }
 
     /// Central quotients of differences along a direction at the node of a segment.

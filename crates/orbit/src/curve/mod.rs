@@ -41,7 +41,7 @@
 //!
 //! # Limits
 //! All matrices are dense and the orbit keeps its segments and its units. Grazing of a stop without a single gap (preloaded, or two-sided with two gaps, or a rigid one that holds the structure at rest) is followed with the contact, so that the start may not be corrected. In the damping, each point builds its integrator
-//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Degenerate flips and Neimark-Sacker points are known to about 1e-8 of the ranges, beside contacts to 1e-7, and so near to a grazing that derivatives of third order cannot be told they are not marked; neither is a second touch of the contact that a grazing curve follows. A curve ends where contacts change its monodromy matrix too sharply. Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located. Where the orbits of a curve become images of themselves in more than one way at once, as orbits of two periods that become symmetric ones of one, the end is not recognised either.
+//! anew. A closed curve whose start could not be carried to another phase goes round until its budget is used up. Degenerate flips and Neimark-Sacker points are known to about 1e-8 of the ranges, beside contacts to 1e-7, and so near to a grazing that derivatives of third order cannot be told they are not marked; neither is a second touch of the contact that a grazing curve follows. A curve ends where contacts change its monodromy matrix too sharply. Where a contact splits it ends (`splits.rs`). Where a fold, flip or Neimark-Sacker point has met a grazing and lies within rounding of it, the curve ends some rows later, and says so; the place itself is not located. Where the orbits of a curve become images of themselves in more than one way at once, as orbits of two periods that become symmetric ones of one, the end is not recognised either.
 
 mod bordered;
 mod condition;
@@ -62,6 +62,7 @@ mod recut;
 mod row;
 mod rows;
 mod shooting;
+mod splits;
 mod start;
 mod walk;
 

@@ -143,6 +143,15 @@ pub enum CurveEnd {
         /// Why no step led on.
         cause: Option<String>,
     },
+    /// Beyond the last row a contact opens and is pressed on again at once. With a law that remembers how a contact began, its force jumps there, and so does the motion.
+    ContactSplits {
+        /// Value of the second parameter at the last row, in its unit.
+        parameter: f64,
+        /// Name of the local element.
+        element: String,
+        /// Phase of the excitation at which that happens [cycles].
+        phase: f64,
+    },
     /// Thousands of rows did not get anywhere.
     Crawls {
         /// Value of the second parameter at the last row, in its unit.

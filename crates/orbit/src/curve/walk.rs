@@ -50,6 +50,8 @@ pub struct CurveWalk {
     last_row: Option<CurveRow>,
     /// Whether the last row lies behind it.
     is_behind: bool,
+    /// Arc length at which the walk was last asked whether it comes to a splitting (`splits.rs`).
+    pub(super) asked_at: f64,
     end: Option<CurveEnd>,
 }
 
@@ -153,6 +155,7 @@ impl CurveWalk {
             approach: None,
             last_row: None,
             is_behind: false,
+            asked_at: 0.0,
             end: None,
         })
     }
@@ -172,19 +175,31 @@ impl CurveWalk {
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but ends.
     pub fn step(&mut self) -> Result<Result<CurveRow, CurveEnd>, OrbitError> {
-        use hammerbeam_path::StopReason;
         if let Some(row) = self.last_row.take() {
             return Ok(Ok(row));
         }
         if let Some(end) = &self.end {
             return Ok(Err(end.clone()));
         }
+        let before = self.may_split();
         self.keep_phase_clear();
         let reason = match self.follower.step(&mut self.problem) {
-            StepOutcome::Accepted => return self.accepted().map(Ok),
+            StepOutcome::Accepted => {
+                self.end = before.and_then(|before| self.comes_to_splitting(&before));
+                return match &self.end {
+                    Some(end) => Ok(Err(end.clone())),
+                    None => self.accepted().map(Ok),
+                };
+            }
             StepOutcome::Stopped(reason) => reason,
         };
-        Ok(Err(match reason {
+        Ok(Err(self.end_of(reason)))
+    }
+
+    /// Why the curve has ended, in terms of orbits.
+    fn end_of(&mut self, reason: hammerbeam_path::StopReason) -> CurveEnd {
+        use hammerbeam_path::StopReason;
+        match reason {
             StopReason::RangeEnd => CurveEnd::RangeEnd,
             StopReason::Closed => CurveEnd::Closed,
             StopReason::Budget => CurveEnd::Budget,
@@ -195,13 +210,16 @@ impl CurveWalk {
                     None => other.to_string(),
                 };
                 let no_step = matches!(other, StopReason::StepTooShort { .. });
+                if let Some(splits) = self.splits_here() {
+                    return splits;
+                }
                 if no_step && self.grazing_distance < AT_GRAZING {
                     CurveEnd::Grazing { parameter, cause: Some(message) }
                 } else {
                     CurveEnd::Stopped { parameter, message }
                 }
             }
-        }))
+        }
     }
 
     fn accepted(&mut self) -> Result<CurveRow, OrbitError> {

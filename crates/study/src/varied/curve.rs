@@ -14,7 +14,7 @@ use crate::{
     file::{Curve, CurveOf},
     model::StudyParameter,
     orbit_solver::settings,
-    store::{Store, StoreError, VariedBranch, VariedRow, solution_key},
+    store::{Store, StoreError, VariedBranch, VariedRow, solution_key, splits},
 };
 
 /// Longest step of a curve, in hundredths of the ranges.
@@ -216,6 +216,9 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
         CurveEnd::Grazing { parameter: value, cause } => {
             let cause = cause.as_ref().map_or(String::new(), |cause| format!(" ({cause})"));
             format!("met a grazing at {}{cause}", named(*value, curve, parameter))
+        }
+        CurveEnd::ContactSplits { parameter: value, element, phase } => {
+            format!("beyond {} {}", named(*value, curve, parameter), splits(element, *phase))
         }
         CurveEnd::Crawls { parameter: value, rows } => {
             format!("ended early at {}: the last {rows} rows led nowhere", named(*value, curve, parameter))

@@ -1,0 +1,94 @@
+//! Where a contact splits a curve ends, as a branch does (`splitting.rs`).
+//!
+//! On the side on which the contact has opened the map over a period has a part `u h^(1/5)`, with the height h of the flight. Multipliers go like `h^(-4/5)` there, and the gradient of a condition on them like `h^(-9/5)`, so that steps shrink in proportion to what is left of h: the
+//! curve comes nearer by some factor with each step, to no end but rounding. On the other side the border is not seen until a step has passed it, onto orbits of another motion. So it is the end of a curve
+//!
+//! - that a step has changed how often a contact is touched, and this contact splits in the orbit before or behind the step;
+//! - that its last [`SHORT_STEPS`] rows came no further than [`SHORT`] each, on the average, and a contact splits in the present orbit;
+//! - that no step leads on from an orbit in which a contact splits.
+
+use super::{
+    row::CurveEnd,
+    shooting::{Place, Shooting},
+    walk::CurveWalk,
+};
+use crate::splitting::{self, SHORT_STEPS, Splitting};
+
+/// An average step that is short [hundredths of the ranges]: other curves take half of one, some shorter ones where something happens.
+const SHORT: f64 = 1e-3;
+
+/// An orbit of the curve.
+#[derive(Debug)]
+pub(super) struct Passed {
+    place: Place,
+    /// Touches of each contact.
+    touches: Vec<u32>,
+}
+
+impl CurveWalk {
+    /// The present orbit, at which the equations were evaluated last, if a contact of it may split.
+    pub(super) fn may_split(&self) -> Option<Passed> {
+        let shooting = &self.problem.shooting;
+        let remembers = shooting.integrator.system().remembers_impacts();
+        let place = || self.problem.place(&self.follower.current().point);
+        remembers.then(|| Passed { place: place(), touches: shooting.touches.clone() })
+    }
+
+    /// The end, if the last step, which led away from `before`, has passed a splitting or is the last of many short ones towards one.
+    pub(super) fn comes_to_splitting(&mut self, before: &Passed) -> Option<CurveEnd> {
+        let changed = self.problem.shooting.elements_with_other_touches(&before.touches);
+        if !changed.is_empty() {
+            let current = self.problem.place(&self.follower.current().point);
+            for place in [&before.place, &current] {
+                let found = self.problem.shooting.splitting(place);
+                if let Some(found) = found.filter(|found| changed.contains(&found.element)) {
+                    return Some(splits_at(before.place.value, found));
+                }
+            }
+        }
+        if self.takes_short_steps() { self.splits_here() } else { None }
+    }
+
+    /// The end, if a contact of the present orbit splits.
+    pub(super) fn splits_here(&mut self) -> Option<CurveEnd> {
+        let Passed { place, .. } = self.may_split()?;
+        self.problem.shooting.splitting(&place).map(|found| splits_at(place.value, found))
+    }
+
+    /// Whether the last [`SHORT_STEPS`] rows were short of one another, asked once in so many.
+    fn takes_short_steps(&mut self) -> bool {
+        let accepted = self.follower.counters().accepted;
+        if !accepted.is_multiple_of(SHORT_STEPS) {
+            return false;
+        }
+        let arc_length = self.follower.current().arc_length;
+        let way = arc_length - std::mem::replace(&mut self.asked_at, arc_length);
+        way < SHORT * SHORT_STEPS as f64
+    }
+}
+
+impl Shooting {
+    /// Names of the elements whose laws remember impacts and whose contacts are not touched as often as they were.
+    fn elements_with_other_touches(&self, before: &[u32]) -> Vec<String> {
+        let mut pairs = before.iter().zip(&self.touches);
+        let elements = self.integrator.system().elements().iter();
+        let changed = elements.filter(|element| {
+            let contacts = element.law.contacts().len();
+            let differs = pairs.by_ref().take(contacts).filter(|(before, now)| before != now).count() > 0;
+            differs && element.law.remembers_impact()
+        });
+        changed.map(|element| element.name.clone()).collect()
+    }
+
+    /// Where a contact of an orbit splits.
+    fn splitting(&mut self, place: &Place) -> Option<Splitting> {
+        self.set_parameter(place.value).ok()?;
+        let state = place.nodes.iter().zip(self.scale.values()).map(|(x, s)| x * s).collect();
+        let span = (place.frequency_hz, f64::from(self.period_multiple));
+        splitting::find(&mut self.integrator, (place.phase, state), span).ok()?
+    }
+}
+
+fn splits_at(parameter: f64, Splitting { element, phase }: Splitting) -> CurveEnd {
+    CurveEnd::ContactSplits { parameter, element, phase }
+}

@@ -1,0 +1,21 @@
+//! A residual that is large where its correction is small: one more correction takes it away, and no step is shortened for it.
+
+use hammerbeam_path::{DenseProblem, Direction, ParameterRange, Settings, StopReason, follow};
+
+/// `K (x - a l^2) = 0`. A step h of the tangent misses the path by `a h^2`, below the tolerance of corrections, and leaves `K a h^2` in the residual, above its own.
+#[test]
+fn a_large_residual_of_a_small_correction_does_not_shorten_steps() {
+    let (factor, bend) = (1e7, 1e-11);
+    let mut problem = DenseProblem::new(1, move |z, residual, jacobian| {
+        residual[0] = factor * (z[0] - bend * z[1] * z[1]);
+        jacobian.copy_from_slice(&[factor, -2.0 * factor * bend * z[1]]);
+        0
+    });
+    let settings = Settings { max_step_length: 1.0, initial_step: 1.0, ..Settings::default() };
+    let range = ParameterRange::new(-1.0, 50.0).unwrap();
+    let branch = follow(&mut problem, &[0.0, 0.0], Direction::Increasing, range, settings.clone()).unwrap();
+    assert_eq!(branch.stop, StopReason::RangeEnd);
+    assert!(branch.points.iter().all(|point| point.residual_norm <= settings.residual_tolerance));
+    assert!(branch.points.len() < 60, "{} points", branch.points.len());
+    assert_eq!(branch.counters.rejected, 0);
+}
