@@ -88,6 +88,7 @@ mod structure;
 mod touching;
 mod trace;
 mod tracing;
+mod valley;
 mod velocity_jump;
 mod volume;
 mod weights;

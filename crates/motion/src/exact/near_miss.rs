@@ -7,13 +7,13 @@
 //! * The penetration of a turn between two presses of one contact: where the contact begins to open there it vanishes, linearly.
 //!
 //! Turns of a flight are found on a grid as fine as its curvature asks for, and the highest of them is closed in by Newton's method where it is near; in the intervals at its ends, where it may begin or end with its stretch, by its slope there. Turns of a contact that stays closed are
-//! the valleys of its force at the nodes of its steps; the lowest one is closed in.
+//! the valleys of its force at the nodes of its steps (`valley.rs`); the lowest ones are closed in.
 
 use super::{
     ExactIntegrator,
-    collocation::NODES,
-    course::{Course, CourseStep, Passage},
+    course::{Course, Passage},
     flight_maximum::{FlightFunction, Flown},
+    valley::{Valley, lowest_valleys},
 };
 
 /// Turns within this share of the largest clearance of a flight are closed in.
@@ -76,12 +76,14 @@ impl ExactIntegrator {
                 }
             }
         }
-        let mut valleys = lowest_valleys(&course, self.laws.len());
-        // What acts always does not open.
-        valleys
-            .retain(|valley| valley.is_some_and(|valley| !self.laws[valley.element].contacts().is_empty()));
-        for valley in valleys.into_iter().flatten() {
-            put_among(&mut least.penetrations, self.penetration_of_turn(&course, &valley));
+        for element in 0..self.laws.len() {
+            // What acts always does not open.
+            if self.laws[element].contacts().is_empty() {
+                continue;
+            }
+            for valley in lowest_valleys(&course, element, NEAREST) {
+                put_among(&mut least.penetrations, self.penetration_of_turn(&course, &valley));
+            }
         }
         self.let_go();
         self.course = course;
@@ -123,51 +125,6 @@ impl ExactIntegrator {
             }
         }
     }
-}
-
-/// A node of a force step that is pressed less than its neighbours.
-#[derive(Debug, Clone, Copy)]
-struct Valley {
-    piece: usize,
-    step: CourseStep,
-    element: usize,
-    node: usize,
-    /// Magnitude of the force there [N].
-    force: f64,
-}
-
-/// The lowest valley of each element's force, among the nodes of the steps that one contact lasts. An orbit begins as it ends: its first stretch is looked at once more behind the last.
-fn lowest_valleys(course: &Course, elements: usize) -> Vec<Option<Valley>> {
-    let (mut lowest, mut latest) = (vec![None; elements], vec![(f64::NAN, None::<Valley>); elements]);
-    let pieces = (0..course.stretches.len()).chain(0..course.stretches.len().min(1));
-    let passages =
-        pieces.flat_map(|piece| course.of_stretch(piece).iter().map(move |passage| (piece, passage)));
-    for (piece, passage) in passages {
-        let active = match passage {
-            Passage::Step(step) => course.active(step),
-            Passage::Touch { .. } => continue,
-            _ => &[],
-        };
-        for (element, latest) in latest.iter_mut().enumerate() {
-            if !active.iter().any(|(other, _)| *other == element) {
-                *latest = (f64::NAN, None);
-            }
-        }
-        let Passage::Step(step) = passage else { continue };
-        for (&(element, _), forces) in active.iter().zip(course.numbers(step.force).as_chunks::<NODES>().0) {
-            for (node, force) in forces.iter().map(|force| force.abs()).enumerate() {
-                let (earlier, middle) = latest[element];
-                if let Some(middle) = middle.filter(|middle| earlier >= middle.force && middle.force < force)
-                {
-                    let lower = |valley: &Valley| valley.force <= middle.force;
-                    lowest[element] = lowest[element].filter(lower).or(Some(middle));
-                }
-                let here = Valley { piece, step: *step, element, node, force };
-                latest[element] = (middle.map_or(f64::NAN, |middle| middle.force), Some(here));
-            }
-        }
-    }
-    lowest
 }
 
 /// A turn of a flight towards a contact, as the grid shows it.
@@ -329,7 +286,10 @@ mod tests {
         for least in [1e-9, 1e-6, 5e-4] {
             let amplitude = 0.001 - least;
             let found = from(stop, -0.099 + amplitude, 0.5 * std::f64::consts::PI);
-            assert!((found.penetrations[0] - least).abs() < 1e-12, "{least}: {found:?}");
+            // Twice within, and at the end, which is followed by the beginning.
+            let [three @ .., fourth] = found.penetrations;
+            assert!(three.iter().all(|turn| (turn - least).abs() < 1e-12), "{least}: {found:?}");
+            assert_eq!(fourth, f64::INFINITY, "{least}");
             assert_eq!([found.clearances[0], found.squared_touch_speeds[0]], [f64::INFINITY; 2], "{least}");
         }
     }
