@@ -22,7 +22,7 @@ use crate::{
 use bytes::{Reader, Writer};
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0007;
+const MAGIC: u64 = 0x4842_5741_4c4b_0008;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -56,6 +56,7 @@ impl BranchWalk {
                 out.word(u64::from(test.count));
             }
         }
+        out.floats(&state.noted);
         out.word(u64::from(state.zeros_near));
         // Their number is small: the largest word says that nothing is known.
         out.word(state.outside.map_or(u64::MAX, |(least, most)| u64::from(most) << 32 | u64::from(least)));
@@ -221,6 +222,7 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
         change_ahead: reader.float()?,
         tests: reader.tests()?,
         tests_before: reader.tests()?,
+        noted: reader.floats()?,
         zeros_near: u32::try_from(reader.word()?).ok()?,
         outside: Some(reader.word()?)
             .filter(|word| *word != u64::MAX)

@@ -40,6 +40,29 @@ pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
     signed(pairs().map(|square| (1.0 - square).abs()).fold(1.0, f64::min), count)
 }
 
+/// Whether one complex pair of multipliers leaves the unit circle and another one enters it between two neighbouring points, given by those in the upper half-plane: as many lie outside behind as before. Which is which is told by
+/// their distances, the nearest two first.
+pub(crate) fn pairs_change_places(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
+    let (mut left, mut right) = (before.to_vec(), behind.to_vec());
+    let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
+    let (mut leaves, mut enters) = (false, false);
+    while let Some((one, other)) = nearest_two(&left, &right) {
+        let (one, other) = (beyond(left.swap_remove(one)), beyond(right.swap_remove(other)));
+        leaves |= one < -ON_CIRCLE && other > ON_CIRCLE;
+        enters |= one > ON_CIRCLE && other < -ON_CIRCLE;
+    }
+    leaves && enters
+}
+
+/// Places of the two, one of each kind, that are nearest to each other.
+fn nearest_two(left: &[[f64; 2]], right: &[[f64; 2]]) -> Option<(usize, usize)> {
+    let places = (0..left.len()).flat_map(|one| (0..right.len()).map(move |other| (one, other)));
+    let distance = |&(one, other): &(usize, usize)| {
+        (left[one][0] - right[other][0]).hypot(left[one][1] - right[other][1])
+    };
+    places.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+}
+
 /// Whether the complex pair nearest to the unit circle is nearer to the real axis: [`neimark_sacker`] jumps there, since the pair becomes two real multipliers, and does not vanish.
 pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
     let off_circle = |[re, im]: &[f64; 2]| (1.0 - re.hypot(*im)).abs();
@@ -103,6 +126,19 @@ mod tests {
         // A pair that meets at -1 + 0i touches zero from above on both sides.
         assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue { value: 0.25, count: 2 });
         assert!(flip(&[[-1.5, 0.1], [-1.5, -0.1]]).value > 0.25);
+    }
+
+    #[test]
+    fn pairs_that_cross_the_circle_both_ways_are_told_from_one_that_turns() {
+        let (outside, inside) = ([-0.198, 1.003], [0.35, 0.77]);
+        assert!(pairs_change_places(&[outside, inside], &[[0.06, 0.85], [0.326, 0.974]]));
+        // The nearest to the first one is the second one before, which is nearer to another.
+        assert!(pairs_change_places(&[[0.06, 0.84], [0.326, 0.974]], &[outside, [0.35, 0.765]]));
+        assert!(!pairs_change_places(&[outside, inside], &[[0.06, 1.05], [0.326, 0.9]]));
+        assert!(!pairs_change_places(&[outside], &[[0.06, 0.85]]), "that one is told by the count");
+        assert!(!pairs_change_places(&[], &[[0.06, 0.85], [0.326, 0.974]]));
+        // On the circle to rounding, as at the last event.
+        assert!(!pairs_change_places(&[[0.6, 0.8 + 1e-9], inside], &[[0.5, 0.7], [0.326, 0.974]]));
     }
 
     #[test]

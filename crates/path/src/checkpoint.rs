@@ -31,6 +31,8 @@ pub struct Checkpoint {
     pub tests: Vec<TestValue>,
     /// The test functions at the point before `current`, where the history has it.
     pub tests_before: Vec<TestValue>,
+    /// What the problem noted at `current`, see [`PathProblem::note`](crate::PathProblem::note).
+    pub noted: Vec<f64>,
     /// Bit `k` is set while test function `k` has not left the zero behind which the path goes on.
     pub zeros_near: u32,
     /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is known of them.

@@ -81,6 +81,8 @@ pub(crate) struct Candidate {
     pub signature: u64,
     /// Test functions, where they were asked for.
     pub tests: Vec<TestValue>,
+    /// What the problem noted there, see [`PathProblem::note`].
+    pub noted: Vec<f64>,
     /// `1 / ‖w‖`: the cosine between the direction and `t₀` if `r = (W t₀)ᵀ`, since then `⟨t₀, w⟩ = 1`.
     pub cosine: f64,
     correction: Vec<f64>,

@@ -98,6 +98,19 @@ pub trait PathProblem {
         values.clear();
     }
 
+    /// Numbers at the last evaluated point, asked for with the test functions, by which [`hides_zeros`](Self::hides_zeros) compares it with the next.
+    fn note(&mut self, numbers: &mut Vec<f64>) {
+        numbers.clear();
+    }
+
+    /// Whether zeros of the test functions that undo each other lie between two neighbouring points of one smooth arc, as their numbers tell.
+    ///
+    /// A test function that is made of several things may vanish for one of them and for another in between, and be the same on both sides.
+    fn hides_zeros(&self, before: &[f64], behind: &[f64]) -> bool {
+        let _ = (before, behind);
+        false
+    }
+
     /// Multipliers outside the unit circle at the last evaluated point, at which these events were found; `None` if nothing is known.
     ///
     /// They cross the circle at folds, branch points and zeros of test functions only. What crosses it and turns real within one step escapes the

@@ -125,6 +125,20 @@ impl PathProblem for ShootingProblem {
         values.extend(near.into_iter().map(|value| TestValue { value, count: 0 }));
     }
 
+    /// The complex pairs of multipliers, by the one in the upper half-plane.
+    fn note(&mut self, numbers: &mut Vec<f64>) {
+        numbers.clear();
+        if self.watches_stability
+            && let Ok(multipliers) = self.multipliers()
+        {
+            numbers.extend(multipliers.iter().filter(|[_, im]| *im > 0.0).flatten());
+        }
+    }
+
+    fn hides_zeros(&self, before: &[f64], behind: &[f64]) -> bool {
+        stability::pairs_change_places(before.as_chunks().0, behind.as_chunks().0)
+    }
+
     fn outside(&mut self, events: Events) -> Option<Outside> {
         if !self.watches_stability {
             return None;

@@ -290,6 +290,7 @@ impl Follower {
         let at_zero = state.tests_before.iter_mut().enumerate().filter(|(k, _)| zeros >> k & 1 == 1);
         at_zero.for_each(|(_, test)| test.value = 0.0);
         state.tests.clone_from(&self.trial.tests);
+        state.noted.clone_from(&self.trial.noted);
         state.outside = arrival.outside;
         // Where something else was located, the change of signature lies anywhere in the step.
         let of_change = if events.signature_change && arrival.events.any() { step } else { 0.0 };

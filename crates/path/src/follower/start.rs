@@ -63,6 +63,7 @@ impl Follower {
             .correct(problem, &weights, &row, limits, &mut counters)
             .map_err(|cause| PathError::Start { parameter, cause })?;
         problem.tests(&mut trial.tests);
+        problem.note(&mut trial.noted);
         check_inside(trial.parameter(), range)?;
         scale(&mut trial.node.tangent, direction.sign());
         let mut state = first_state(&trial, direction.sign(), &settings, counters);
@@ -142,6 +143,7 @@ fn first_state(trial: &Candidate, sign: f64, settings: &Settings, counters: Coun
         parameter_sign: if current.tangent_parameter() < 0.0 { -1.0 } else { 1.0 },
         tests: trial.tests.clone(),
         tests_before: Vec::new(),
+        noted: trial.noted.clone(),
         zeros_near: 0,
         outside: None,
         unit: 1.0,

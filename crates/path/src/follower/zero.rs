@@ -5,6 +5,7 @@
 //! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt. So is one at whose end a function has no
 //! value any more (it is infinite), and one would have met zero by the line through its last two, and a step at whose end a function has a value that it had not before, and one comes from zero by the line
 //! through its value there and one a little behind. Any of them: functions may be the smallest of several values, and what begins or ends among them moves those behind by one place.
+//! So is one over which the problem itself knows of zeros that undo each other.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket};
@@ -41,13 +42,14 @@ impl Follower {
         arrival: Arrival,
     ) -> Result<Arrival, Doubt> {
         problem.tests(&mut self.trial.tests);
+        problem.note(&mut self.trial.noted);
         if self.state.tests.len() != self.trial.tests.len() {
             return Ok(arrival);
         }
         let mut arrival = arrival;
         arrival.zeros_near = self.stay_behind_zeros(None);
         if step > self.settings.signature_step
-            && (self.ends_at_zero() || self.begins_at_zero(problem, step)?)
+            && (self.undoes_zeros(problem) || self.ends_at_zero() || self.begins_at_zero(problem, step)?)
         {
             return Err(Doubt::HiddenZeros);
         }
@@ -80,6 +82,11 @@ impl Follower {
                 self.trial.tests[index] = *test;
             }
         }
+    }
+
+    /// Whether the problem knows of zeros that undo each other on the way to the trial.
+    fn undoes_zeros(&self, problem: &(impl PathProblem + ?Sized)) -> bool {
+        !self.changes_signature() && problem.hides_zeros(&self.state.noted, &self.trial.noted)
     }
 
     /// Whether a test function may have two zeros within the step to the trial, though its count is the same on both sides: the parabola through its values at the last
@@ -167,6 +174,7 @@ impl Follower {
         mut arrival: Arrival,
     ) -> Arrival {
         problem.tests(&mut self.trial.tests);
+        problem.note(&mut self.trial.noted);
         for (index, (before, after)) in self.state.tests.iter().zip(&self.trial.tests).enumerate() {
             if before.count.abs_diff(after.count) % 2 == 1 {
                 arrival.events.zeros |= 1 << index;
@@ -199,6 +207,7 @@ impl Follower {
                 (place, probes > 0),
                 |probe, problem| {
                     problem.tests(&mut probe.tests);
+                    problem.note(&mut probe.noted);
                     probe.tests.get(index).map(|test| test.value)
                 },
             )?;
