@@ -8,6 +8,7 @@ use super::{
     condition::Condition,
     grazing::Touch,
     image::{Closing, half_of},
+    marks::OPPOSITE_BIT,
     meeting::Approach,
     passing::Passing,
     problem::CurveProblem,
@@ -226,12 +227,15 @@ impl CurveWalk {
         let row = self.row()?;
         let (low, high) = self.settings.range_hz;
         let parameter = row.parameter;
+        let opposite = if self.strikes_opposite() { self.problem.shooting.opposite_name() } else { None };
         self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
         let crawls = self.crawls();
         self.end = if !(low..=high).contains(&row.solution.frequency_hz) {
             Some(CurveEnd::FrequencyRangeEnd)
         } else if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             Some(CurveEnd::Resonance)
+        } else if let Some(element) = opposite {
+            Some(CurveEnd::GrazedAsWell { parameter, element })
         } else if self.follower.stop_reason().is_some() {
             // The next step tells it.
             None
@@ -245,6 +249,12 @@ impl CurveWalk {
         // A row behind the end is no row of the curve.
         let is_behind = std::mem::take(&mut self.is_behind);
         Ok(if is_behind { self.last_row.take().unwrap_or(row) } else { row })
+    }
+
+    /// Whether the contact opposite to that of a grazing curve would be struck behind the present row.
+    fn strikes_opposite(&self) -> bool {
+        let zeros = self.follower.current().events.zeros;
+        matches!(self.kind, CurveKind::Grazing { .. }) && zeros >> OPPOSITE_BIT & 1 == 1
     }
 
     /// Whether the last rows led nowhere, asked once in [`MANY_ROWS`].
