@@ -281,3 +281,49 @@ range = [0.005, 0.1]
     assert!(curve.contains("end of the frequency range"), "{curve}");
     assert!(curve.contains("end of the range of the parameter"), "{curve}");
 }
+
+/// A curve of flips of two masses comes to a corner at which a contact changes. It is seen in the equations only within a millionth of the ranges, so that the last row knows nothing of a grazing yet.
+#[test]
+fn a_curve_that_turns_at_a_change_of_contacts_ends_at_a_grazing() {
+    let study = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 1.045 }, { name = "b", mass_kg = 1.445 }]
+[[structure.spring]]
+between = ["a", "ground"]
+stiffness_n_m = 2.325
+[[structure.spring]]
+between = ["b", "a"]
+stiffness_n_m = 2.897
+[[structure.damper]]
+between = ["a", "ground"]
+damping_n_s_m = 0.05
+[[structure.damper]]
+between = ["b", "a"]
+damping_n_s_m = 0.2
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 1.764
+frequency_hz = [0.06, 0.08]
+[[stop]]
+name = "stop"
+at = "b"
+law = "linear"
+stiffness_n_m = 40.98
+gap_m = 0.3
+side = "below"
+[response]
+point = "b"
+[search]
+frequencies = 0
+trials = 0
+"#;
+    let flip = curve("flip", 0.06660628681240088, "structure.spring.1.stiffness_n_m", [1.0, 2.4]);
+    let workshop = Workshop::exported(&format!("{study}{flip}"));
+    let ends = columns(&workshop, "curve_ends.csv", ["side", "message"]);
+    let [down] = ends.iter().filter(|[side, _]| side == "down").collect::<Vec<_>>()[..] else {
+        panic!("{ends:?}")
+    };
+    assert!(down[1].contains("met a grazing at structure.spring.1.stiffness_n_m = 1.506"), "{down:?}");
+}
