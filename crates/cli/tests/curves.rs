@@ -116,6 +116,31 @@ fn a_symmetric_orbit_grazes_both_of_its_stops() {
     }
 }
 
+/// A constant load p moves the orbits of such a mass by p (its spring has 1 N/m). The curve is that of one stop, `A + p = 1`: it goes on to where the motion leaves the other, and ends, with that one grazed to 1e-6, where it would be struck.
+#[test]
+fn a_grazing_curve_ends_where_the_opposite_stop_would_be_struck() {
+    let stop = |name: &str, side: &str| {
+        stop(name, &format!("law = \"rigid\"\nrestitution = 0.8\ngap_m = 1.0\nside = \"{side}\""))
+    };
+    let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\norder = 0\namplitude_n = 0.0\n";
+    let stops = stop("upper", "above") + &stop("lower", "below") + load;
+    let study = oscillator([1.0, 1.0, 0.04], 0.4, [0.105, 0.13], &stops);
+    let [below, above] =
+        [[-0.05, 0.0], [0.0, 0.05]].map(|range| curve("grazing", 0.1234, "load.1.amplitude_n", range));
+    let workshop = Workshop::exported(&format!("{study}{below}{above}"));
+    let rows = columns(&workshop, "curves.csv", ["parameter", "frequency_hz"]);
+    assert!(rows.len() > 20 && rows.len() < 300, "{} rows", rows.len());
+    for row in rows {
+        let [load, frequency_hz] = row.map(|cell| cell.parse::<f64>().unwrap());
+        let w = std::f64::consts::TAU * frequency_hz;
+        let amplitude = 0.4 / (1.0 - w * w).hypot(0.04 * w);
+        assert!((amplitude + load.abs() - 1.0).abs() < 3e-6, "{load}: {amplitude}");
+    }
+    let ends = columns(&workshop, "curve_ends.csv", ["message"]);
+    let ended = |start: &str| ends.iter().filter(|[message]| message.starts_with(start)).count();
+    assert_eq!((ended("lower is grazed as well at"), ended("end of the range")), (1, 3), "{ends:?}");
+}
+
 /// Two rigid stops that a linear motion comes to touch at once: its branch turns the corner and goes on with impacts on both, and the corner moves on its curve. With a force F over a damped mass on a
 /// spring (1 kg, 1 N/m, c) the amplitude `F/((1 - w^2)^2 + c^2 w^2)^(1/2)` is the gap there.
 #[test]
@@ -255,4 +280,50 @@ range = [0.005, 0.1]
     assert!(rows < 1000, "{curve}");
     assert!(curve.contains("end of the frequency range"), "{curve}");
     assert!(curve.contains("end of the range of the parameter"), "{curve}");
+}
+
+/// A curve of flips of two masses comes to a corner at which a contact changes. It is seen in the equations only within a millionth of the ranges, so that the last row knows nothing of a grazing yet.
+#[test]
+fn a_curve_that_turns_at_a_change_of_contacts_ends_at_a_grazing() {
+    let study = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 1.045 }, { name = "b", mass_kg = 1.445 }]
+[[structure.spring]]
+between = ["a", "ground"]
+stiffness_n_m = 2.325
+[[structure.spring]]
+between = ["b", "a"]
+stiffness_n_m = 2.897
+[[structure.damper]]
+between = ["a", "ground"]
+damping_n_s_m = 0.05
+[[structure.damper]]
+between = ["b", "a"]
+damping_n_s_m = 0.2
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 1.764
+frequency_hz = [0.06, 0.08]
+[[stop]]
+name = "stop"
+at = "b"
+law = "linear"
+stiffness_n_m = 40.98
+gap_m = 0.3
+side = "below"
+[response]
+point = "b"
+[search]
+frequencies = 0
+trials = 0
+"#;
+    let flip = curve("flip", 0.06660628681240088, "structure.spring.1.stiffness_n_m", [1.0, 2.4]);
+    let workshop = Workshop::exported(&format!("{study}{flip}"));
+    let ends = columns(&workshop, "curve_ends.csv", ["side", "message"]);
+    let [down] = ends.iter().filter(|[side, _]| side == "down").collect::<Vec<_>>()[..] else {
+        panic!("{ends:?}")
+    };
+    assert!(down[1].contains("met a grazing at structure.spring.1.stiffness_n_m = 1.506"), "{down:?}");
 }

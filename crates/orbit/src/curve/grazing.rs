@@ -206,13 +206,13 @@ impl Touch {
     }
 
     /// How far an orbit of the size of the scale moves the element [m].
-    fn reach(self, shooting: &Shooting) -> f64 {
+    pub fn reach(self, shooting: &Shooting) -> f64 {
         let shape = &shooting.integrator.system().elements()[self.element].shape;
         shape.iter().zip(shooting.scale.values()).map(|(shape, scale)| (shape * scale).abs()).sum()
     }
 
     /// Clearance and its rate.
-    fn clearance(self, shooting: &Shooting, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 2] {
+    pub fn clearance(self, shooting: &Shooting, frequency_hz: f64, phase: f64, state: &[f64]) -> [f64; 2] {
         let system = shooting.integrator.system();
         let contact = system.elements()[self.element].law.contacts()[self.contact];
         let [r, speed, _] = system.relative_motion(self.element, frequency_hz, phase, state);

@@ -22,7 +22,6 @@ pub(super) fn tests(
     others: &[[f64; 2]],
     criticality: TestValue,
 ) -> Vec<TestValue> {
-    let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };
     let (fold, flip) = (stability::fold(others), stability::flip(others));
     let pair = stability::neimark_sacker(others);
     match condition {
@@ -38,6 +37,14 @@ pub(super) fn tests(
         Condition::Touch(_) => vec![fold, flip, signed(own[0]), pair],
     }
 }
+
+/// A test function that counts nothing but its sign.
+pub(super) fn signed(value: f64) -> TestValue {
+    TestValue { value, count: u32::from(value < 0.0) }
+}
+
+/// The zero, among those of the tests, of the clearance of the opposite contact on a grazing curve (`opposite.rs`), which comes behind [`tests`].
+pub(super) const OPPOSITE_BIT: u32 = 4;
 
 /// The number of the test function of criticality, where there is one.
 pub(super) fn criticality_bit(condition: &Condition) -> Option<u32> {
@@ -90,7 +97,7 @@ impl CurveEvents {
                 grazing_flip: flip(1),
                 degenerate_grazing: zero(2),
                 grazing_neimark_sacker: pair(3),
-                double_grazing: changes,
+                double_grazing: changes || zero(OPPOSITE_BIT),
                 grazing: false,
                 ..found
             },

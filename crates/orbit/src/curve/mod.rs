@@ -55,6 +55,7 @@ mod marks;
 mod meeting;
 mod normal_form;
 mod null;
+mod opposite;
 mod pair;
 mod passing;
 mod problem;

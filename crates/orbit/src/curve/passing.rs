@@ -6,7 +6,7 @@
 //!
 //! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
 //!
-//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well, and so it is as long as the curve goes: over a parameter that breaks the symmetry too, where the curve is that of the first contact and holds only to the side on which the motion leaves the other.
+//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well, and so it is as long as the curve goes: over a parameter that breaks the symmetry too, where the curve is that of the first contact and holds only to the side on which the motion leaves the other: where it would be struck the curve ends (`opposite.rs`).
 //!
 //! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
 
@@ -77,6 +77,11 @@ impl Passing {
             return Ok(());
         }
         self.integrator.set_parameter(parameter, value)
+    }
+
+    /// The contact that is touched opposite, and how long behind the begin of the orbit [cycles].
+    pub fn opposite(&self) -> Option<(Touch, f64)> {
+        Some((*self.touches.get(1)?, self.opposite?))
     }
 
     /// Whether the contact of that number is one that is touched.

@@ -224,6 +224,10 @@ impl PathProblem for CurveProblem {
         let criticality = self.coefficient();
         let criticality = self.criticality.test(criticality);
         values.extend(marks::tests(&self.condition, &self.tests, &self.other_multipliers(), criticality));
+        // Where it cannot be followed there it has no value.
+        let place = self.place(&self.evaluated);
+        let opposite = self.shooting.opposite_clearance(&place).unwrap_or(Some(f64::INFINITY));
+        values.extend(opposite.map(marks::signed));
     }
 
     /// Without the contacts that a grazing orbit touches: whether they are counted is rounding.

@@ -143,6 +143,13 @@ pub enum CurveEnd {
         /// Why no step led on.
         cause: Option<String>,
     },
+    /// The contact opposite to the one that is followed, which is touched half a period later where orbits are symmetric, is grazed as well at the last row; beyond it would be struck.
+    GrazedAsWell {
+        /// Value of the second parameter at the last row, in its unit.
+        parameter: f64,
+        /// Name of the local element.
+        element: String,
+    },
     /// Beyond the last row a contact opens and is pressed on again at once. With a law that remembers how a contact began, its force jumps there, and so does the motion.
     ContactSplits {
         /// Value of the second parameter at the last row, in its unit.

@@ -1,13 +1,17 @@
 //! Walking along a curve of bifurcations, one row at a time.
+//!
+//! A curve has met a grazing where its rows are at one as far as can be told, where [`SHORT_AT_GRAZING`] of them one after the other were short beside one (it goes on along the grazing, and matrices like the root of the distance leave nothing of the tangent), and where no step leads on from a row beside
+//! one. Differences are made only as short as they must be, so they may know of no grazing at such a row: a step across a change of contacts tells of it.
 
 use hammerbeam_motion::{System, exact::MotionError};
-use hammerbeam_path::{Direction, Events, Follower, ParameterRange, StepOutcome};
+use hammerbeam_path::{Direction, Events, Follower, ParameterRange, PathProblem, StepOutcome};
 
 use super::{
     bordered::Bordered,
     condition::Condition,
     grazing::Touch,
     image::{Closing, half_of},
+    marks::OPPOSITE_BIT,
     meeting::Approach,
     passing::Passing,
     problem::CurveProblem,
@@ -24,6 +28,10 @@ use crate::{
 const ROWS_AT_GRAZING: u32 = 10;
 /// A curve that no step leads on from this near to a grazing has met it.
 const AT_GRAZING: f64 = 1e-6;
+/// Shares of that at which contacts are looked at ahead.
+const AHEAD: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
+/// Rows one after the other that are short, the last of them so near to a grazing, after which the curve has met it: one that only passes it has steps that grow again.
+const SHORT_AT_GRAZING: u64 = 50;
 /// So many rows that have got no further than [`CRAWLING`] crawl: two hundred go over a whole range else.
 const MANY_ROWS: u32 = 2000;
 /// A way of next to nothing, in hundredths of the ranges.
@@ -213,7 +221,7 @@ impl CurveWalk {
                 if let Some(splits) = self.splits_here() {
                     return splits;
                 }
-                if no_step && self.grazing_distance < AT_GRAZING {
+                if no_step && (self.grazing_distance < AT_GRAZING || self.contacts_change_ahead()) {
                     CurveEnd::Grazing { parameter, cause: Some(message) }
                 } else {
                     CurveEnd::Stopped { parameter, message }
@@ -226,16 +234,19 @@ impl CurveWalk {
         let row = self.row()?;
         let (low, high) = self.settings.range_hz;
         let parameter = row.parameter;
+        let opposite = if self.strikes_opposite() { self.problem.shooting.opposite_name() } else { None };
         self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
         let crawls = self.crawls();
         self.end = if !(low..=high).contains(&row.solution.frequency_hz) {
             Some(CurveEnd::FrequencyRangeEnd)
         } else if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             Some(CurveEnd::Resonance)
+        } else if let Some(element) = opposite {
+            Some(CurveEnd::GrazedAsWell { parameter, element })
         } else if self.follower.stop_reason().is_some() {
             // The next step tells it.
             None
-        } else if self.rows_at_grazing >= ROWS_AT_GRAZING {
+        } else if self.rows_at_grazing >= ROWS_AT_GRAZING || self.is_short_at_grazing() {
             Some(CurveEnd::Grazing { parameter, cause: None })
         } else if crawls {
             Some(CurveEnd::Crawls { parameter, rows: MANY_ROWS })
@@ -245,6 +256,28 @@ impl CurveWalk {
         // A row behind the end is no row of the curve.
         let is_behind = std::mem::take(&mut self.is_behind);
         Ok(if is_behind { self.last_row.take().unwrap_or(row) } else { row })
+    }
+
+    /// Whether the contacts of orbits are others right ahead of the present row.
+    fn contacts_change_ahead(&mut self) -> bool {
+        let current = self.follower.current().clone();
+        AHEAD.map(|share| share * AT_GRAZING).into_iter().any(|distance| {
+            let ahead = current.point.iter().zip(&current.tangent).map(|(z, t)| z + distance * t);
+            let ahead: Vec<f64> = ahead.collect();
+            let is_told = self.problem.evaluate(&ahead).is_ok();
+            is_told && self.problem.signature() != current.signature
+        })
+    }
+
+    /// Whether steps have shrunk to next to nothing at a grazing, as where the curve goes on along it.
+    fn is_short_at_grazing(&self) -> bool {
+        self.grazing_distance < AT_GRAZING && self.follower.counters().short_in_a_row >= SHORT_AT_GRAZING
+    }
+
+    /// Whether the contact opposite to that of a grazing curve would be struck behind the present row.
+    fn strikes_opposite(&self) -> bool {
+        let zeros = self.follower.current().events.zeros;
+        matches!(self.kind, CurveKind::Grazing { .. }) && zeros >> OPPOSITE_BIT & 1 == 1
     }
 
     /// Whether the last rows led nowhere, asked once in [`MANY_ROWS`].

@@ -217,6 +217,9 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
             let cause = cause.as_ref().map_or(String::new(), |cause| format!(" ({cause})"));
             format!("met a grazing at {}{cause}", named(*value, curve, parameter))
         }
+        CurveEnd::GrazedAsWell { parameter: value, element } => {
+            format!("{element} is grazed as well at {} and struck beyond", named(*value, curve, parameter))
+        }
         CurveEnd::ContactSplits { parameter: value, element, phase } => {
             format!("beyond {} {}", named(*value, curve, parameter), splits(element, *phase))
         }
