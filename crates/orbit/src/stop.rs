@@ -21,10 +21,12 @@ pub enum StopReason {
     /// The branch came back to its start.
     Closed,
     /// The branch came to the flip of a branch of shorter period, beyond which it returns as its own copy, shifted by excitation
-    /// periods.
+    /// periods; or to a grazing beyond which it is one of shorter period.
     ShorterPeriod {
         /// Where [Hz].
         frequency_hz: f64,
+        /// Whether it is a grazing.
+        grazes: bool,
     },
     /// The budget of solutions is used up.
     Budget {

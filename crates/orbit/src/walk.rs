@@ -220,7 +220,7 @@ impl BranchWalk {
             Some(hammerbeam_path::StopReason::StepTooShort { parameter, .. })
                 if self.is_near_shorter_period() =>
             {
-                Ok(Some(StopReason::ShorterPeriod { frequency_hz: parameter }))
+                Ok(Some(StopReason::ShorterPeriod { frequency_hz: parameter, grazes: false }))
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
@@ -228,10 +228,7 @@ impl BranchWalk {
 
     /// Why the walk ends at the present point, if it does.
     fn ends_here(&mut self) -> Option<StopReason> {
-        if self.meets_shorter_period() {
-            return Some(StopReason::ShorterPeriod { frequency_hz: self.follower.current().parameter() });
-        }
-        self.crawls_to_splitting()
+        self.meets_shorter_period().or_else(|| self.crawls_to_splitting())
     }
 
     /// Measures in units that fit the present orbit, so that tolerances and steps stay relative to it.

@@ -208,7 +208,7 @@ fn branch_of_doubled_period_is_met_again_from_its_other_side() {
     let events = |rows: &[BranchRow]| sorted(&with(rows, |events| events.flip || events.fold));
     assert_same(&events(&up), &events(&down), 1e-8, "both sides");
     for end in [up_end, down_end] {
-        let StopReason::ShorterPeriod { frequency_hz } = end else { panic!("{end:?}") };
+        let StopReason::ShorterPeriod { frequency_hz, .. } = end else { panic!("{end:?}") };
         let other = flips.iter().map(|flip| (flip.solution.frequency_hz / frequency_hz - 1.0).abs());
         // Where the doubled orbit merges, the flip is met to the square of a thousandth of the orbit.
         assert!(other.fold(f64::INFINITY, f64::min) < 1e-6, "{frequency_hz} Hz");

@@ -69,7 +69,7 @@ fn flips_and_ends(subject: &Subject, least: f64) -> (Vec<f64>, Vec<f64>) {
             assert!(alternation(&subject.0, &row.solution) > least, "{} Hz", row.solution.frequency_hz);
         }
         match reason {
-            StopReason::ShorterPeriod { frequency_hz } | StopReason::RangeEnd { frequency_hz } => {
+            StopReason::ShorterPeriod { frequency_hz, .. } | StopReason::RangeEnd { frequency_hz } => {
                 frequency_hz
             }
             other => panic!("{other:?}"),

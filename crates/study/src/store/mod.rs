@@ -183,10 +183,10 @@ impl StoredReason {
                 ("range-end", Some(*frequency_hz), format!("end of the frequency range at {frequency_hz} Hz"))
             }
             StopReason::Closed => ("closed", None, "the branch came back to its start".to_owned()),
-            StopReason::ShorterPeriod { frequency_hz } => (
+            StopReason::ShorterPeriod { frequency_hz, grazes } => (
                 "shorter-period",
                 Some(*frequency_hz),
-                format!("flip of a branch of shorter period at {frequency_hz:.6} Hz"),
+                format!("{} of a branch of shorter period at {frequency_hz:.6} Hz", met(*grazes)),
             ),
             StopReason::Budget { solutions } => {
                 ("budget", None, format!("the budget of {solutions} solutions is used up"))
@@ -223,6 +223,11 @@ impl StoredReason {
         };
         Self { kind: kind.to_owned(), frequency_hz, message }
     }
+}
+
+/// What of a branch of shorter period another branch comes to, in words.
+pub(crate) fn met(grazes: bool) -> &'static str {
+    if grazes { "grazing" } else { "flip" }
 }
 
 /// What happens beyond the end of a branch whose contact splits.

@@ -14,7 +14,7 @@ use crate::{
     file::{VariedParameter, Vary},
     model::StudyParameter,
     orbit_solver::settings,
-    store::{VariedBranch, VariedRow, crawls, splits},
+    store::{VariedBranch, VariedRow, crawls, met, splits},
 };
 
 /// Steps over the range of a parameter.
@@ -153,8 +153,8 @@ fn in_words(reason: &StopReason, varied: &VariedParameter, parameter: &StudyPara
     match reason {
         StopReason::RangeEnd { frequency_hz } => format!("end of the range at {}", at(*frequency_hz)),
         StopReason::Closed => format!("the branch {CAME_BACK}"),
-        StopReason::ShorterPeriod { frequency_hz } => {
-            format!("flip of a branch of shorter period at {}", at(*frequency_hz))
+        StopReason::ShorterPeriod { frequency_hz, grazes } => {
+            format!("{} of a branch of shorter period at {}", met(*grazes), at(*frequency_hz))
         }
         StopReason::Budget { solutions } => format!("the budget of {solutions} solutions is used up"),
         StopReason::StepTooShort { frequency_hz, doubt, .. } => {
