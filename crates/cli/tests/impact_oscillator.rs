@@ -196,3 +196,22 @@ fn a_mass_that_is_held_has_no_acceleration() {
         held.iter().all(|[velocity, acceleration, _]| velocity.abs() < 1e-12 && acceleration.abs() < 1e-12)
     );
 }
+
+/// Orbits of two periods with one impact in them: where it vanishes the linear motion is left, whose branch is another one.
+#[test]
+fn orbits_of_two_periods_end_where_their_impact_vanishes() {
+    let workshop = Workshop::exported(&format!("{STUDY}\n[response]\nperiod_multiples = [1, 2]\n"));
+    let of_two = |row: &common::Row| row["period_multiple"] == "2";
+    let ends = workshop.table("results/export/ends.csv");
+    let grazing: Vec<f64> = ends
+        .iter()
+        .filter(|row| of_two(row) && row["message"].contains("grazing of a branch of shorter period"))
+        .map(|row| common::number(row, "frequency_hz"))
+        .collect();
+    let [expected, _] = self::grazing();
+    assert!(grazing.iter().any(|hz| (hz / expected - 1.0).abs() < 1e-6), "{grazing:?}, {expected}");
+    let rows = workshop.table("results/export/branches.csv");
+    let free = rows.iter().filter(|row| of_two(row) && row["contacts"] == "0");
+    assert!(free.count() <= grazing.len(), "stretches of the linear motion are called of period 2");
+    assert!(rows.iter().filter(|row| of_two(row)).count() > 500);
+}
