@@ -22,6 +22,8 @@ pub(super) struct Aim {
     pub(super) otherwise: f64,
     /// The events that were located before, each once: the polynomials of the steps that end with them had another one come earlier.
     rivals: Vec<Rival>,
+    /// Whether it was looked for an opening at the end of the step (`brief_opening.rs`).
+    pub(super) settled: bool,
 }
 
 /// An event that was located.
@@ -37,16 +39,26 @@ struct Rival {
 impl Aim {
     /// As far as the length, whatever comes.
     pub(super) fn free(length: f64) -> Self {
-        Self { length, event: None, otherwise: 0.0, rivals: Vec::new() }
+        Self { length, event: None, otherwise: 0.0, rivals: Vec::new(), settled: false }
     }
 
     pub(super) fn to(event: Event, length: f64) -> Self {
-        Self { length, event: Some(event), otherwise: 0.5 * length, rivals: Vec::new() }
+        Self { event: Some(event), otherwise: 0.5 * length, ..Self::free(length) }
     }
 
     /// To an event, or as far as another length if it does not come.
     pub(super) fn to_or(event: Event, length: f64, otherwise: f64) -> Self {
         Self { otherwise, ..Self::to(event, length) }
+    }
+
+    /// To an opening just before the end of a step of the length `otherwise`, which is taken if there is none.
+    pub(super) fn to_opening(event: Event, length: f64, otherwise: f64) -> Self {
+        Self { settled: true, ..Self::to_or(event, length, otherwise) }
+    }
+
+    /// As far as the length for want of the event, knowing as much of its end.
+    pub(super) fn without_event(&self, length: f64) -> Self {
+        Self { settled: self.settled, ..Self::free(length) }
     }
 
     /// Whether an event that the polynomials of a step find at `found`, before its own end, was located not to come before that; `undecided` is what location and rounding leave open of its time.

@@ -166,7 +166,8 @@ impl ExactIntegrator {
         };
         let Some(Solved { error, at_event, length }) = solved else {
             run.release = None;
-            return free(if aim.event.is_some() { aim.otherwise } else { 0.5 * self.step.length });
+            let length = if aim.event.is_some() { aim.otherwise } else { 0.5 * self.step.length };
+            return Tried::Again(aim.without_event(length));
         };
         let event = aim.event.filter(|_| at_event);
         let release = match event {
@@ -184,6 +185,16 @@ impl ExactIntegrator {
                 return to(end, time);
             }
             return free(if event.is_some() { 0.5 * time } else { shorter.min(0.5 * time) });
+        }
+        if event.is_none()
+            && !aim.settled
+            && let Some((opening, time)) = self.opening_at_end(run)
+        {
+            run.release = Some((opening, run.time + time));
+            return Tried::Again(Aim::to_opening(opening, time, length));
+        }
+        if let Some(shorter) = self.up_to_uncertain_bottom(run, event) {
+            return free(shorter);
         }
         // One that was located behind the stretch is not looked for again where the search for it went out from.
         let refuted = (aim.event.is_some() && !at_event).then(|| aim.refuted(length));

@@ -188,7 +188,7 @@ impl ExactIntegrator {
     }
 
     /// What falls to zero at the end of the solved step, and its derivatives.
-    fn distance_at_end(&self, run: &Run, event: Event) -> Jet {
+    pub(super) fn distance_at_end(&self, run: &Run, event: Event) -> Jet {
         if let Event::Lift(element) = event {
             return self.pressing_at_step_end(run, element);
         }
@@ -245,24 +245,27 @@ impl ExactIntegrator {
         excused: &[Event],
     ) -> Option<(Event, f64)> {
         let is_sought = |event: &Event| at_end != Some(*event) && !excused.contains(event);
-        let of_active = |(a, &element): (usize, &usize)| {
-            let usual = Some(self.usual_end(element)).filter(is_sought);
-            let both = self.laws[element].pressure().is_some_and(|pressure| pressure.offset > 0.0);
-            let parting = Some(Event::Part(element)).filter(|event| both && is_sought(event));
-            let ends = usual.into_iter().chain(parting);
-            ends.filter_map(|event| self.first_end(run, a, event).map(|time| (event, time)))
-                .collect::<Vec<_>>()
-        };
+        let ends = self.possible_ends(run).filter(|(_, event)| is_sought(event));
+        let ends = ends.filter_map(|(a, event)| self.first_end(run, a, event).map(|time| (event, time)));
         let lift = if run.stuck.is_empty() { None } else { self.first_lift(run, at_end, excused) };
-        let ends = self.step.active.iter().enumerate().flat_map(of_active).chain(lift);
-        ends.min_by(|x, y| x.1.total_cmp(&y.1))
+        ends.chain(lift).min_by(|x, y| x.1.total_cmp(&y.1))
     }
 
-    /// When what ends the contact of the a-th active element first falls to zero within the solved step.
-    fn first_end(&self, run: &Run, a: usize, event: Event) -> Option<f64> {
-        let rule = self.step.grading().rule();
+    /// What may end the contacts of the active elements, each with the place of its element among them.
+    pub(super) fn possible_ends(&self, run: &Run) -> impl Iterator<Item = (usize, Event)> {
+        let closed =
+            self.step.active.iter().enumerate().filter(|(_, element)| run.closed[**element].is_some());
+        closed.flat_map(|(a, &element)| {
+            let both = self.laws[element].pressure().is_some_and(|pressure| pressure.offset > 0.0);
+            let parting = both.then_some(Event::Part(element));
+            [Some(self.usual_end(element)), parting].into_iter().flatten().map(move |event| (a, event))
+        })
+    }
+
+    /// What falls to zero at an end of the contact of the a-th active element, at the nodes of the solved step.
+    pub(super) fn nodal_distance(&self, run: &Run, a: usize, event: Event) -> Option<[f64; NODES]> {
         let contact = self.closed_contact(run, event.element())?;
-        let distance: [f64; NODES] = std::array::from_fn(|k| {
+        Some(std::array::from_fn(|k| {
             let i = a * NODES + k;
             let penetration = contact.sign * (self.step.displacement[i] - contact.level);
             match (event, self.laws[event.element()].pressure()) {
@@ -271,16 +274,29 @@ impl ExactIntegrator {
                 }
                 _ => penetration,
             }
-        });
-        let deepest = distance.iter().fold(0.0_f64, |deepest, d| deepest.max(d.abs()));
+        }))
+    }
+
+    /// What rounding, and the accuracy with which a touch was located, leave undecided of that.
+    pub(super) fn rounding_of(&self, run: &Run, event: Event) -> f64 {
         let start = run.start[event.element()];
-        // A touch is located up to an accuracy: what that has left in front of the level is no release.
-        let in_front = clearance_of(start.jet, contact.level, contact.sign).value.max(0.0);
-        let rounding = match event {
+        let in_front = self
+            .closed_contact(run, event.element())
+            .map_or(0.0, |contact| clearance_of(start.jet, contact.level, contact.sign).value.max(0.0));
+        match event {
             Event::Part(_) => self.pressure_rounding(run, event),
+            // What the location of a touch has left in front of the level is no release.
             _ => start.margin + 2.0 * in_front,
-        };
-        let s = first_below(&rule.bernstein(&distance), rule.s[0], 1e-9 * deepest + rounding)?;
+        }
+    }
+
+    /// When what ends the contact of the a-th active element first falls to zero within the solved step.
+    fn first_end(&self, run: &Run, a: usize, event: Event) -> Option<f64> {
+        let rule = self.step.grading().rule();
+        let distance = self.nodal_distance(run, a, event)?;
+        let deepest = distance.iter().fold(0.0_f64, |deepest, d| deepest.max(d.abs()));
+        let margin = 1e-9 * deepest + self.rounding_of(run, event);
+        let s = first_below(&rule.bernstein(&distance), rule.s[0], margin)?;
         Some(self.step.grading().map(s).0 * self.step.length)
     }
 }

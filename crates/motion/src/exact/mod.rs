@@ -19,6 +19,7 @@
 //! | `pressing.rs` | what held stops press with, also while forces act, and where that ends |
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
 //! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last |
+//! | `brief_opening.rs` | contacts that open for an instant between two presses |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
@@ -32,6 +33,7 @@
 mod aim;
 mod attempt;
 mod block;
+mod brief_opening;
 mod by_damping;
 mod by_family;
 mod by_parameter;
