@@ -191,7 +191,12 @@ impl ExactIntegrator {
             && let Some((opening, time)) = self.opening_at_end(run)
         {
             run.release = Some((opening, run.time + time));
-            return Tried::Again(Aim::to_opening(opening, time, length));
+            let whole = self.grading(run, touched, Some(opening)).is_some();
+            return if whole {
+                Tried::Again(Aim::to_opening(opening, time, length))
+            } else {
+                free(0.5 * time)
+            };
         }
         if let Some(shorter) = self.up_to_uncertain_bottom(run, event) {
             return free(shorter);

@@ -5,7 +5,7 @@
 //!
 //! - that a step has changed how often a contact is touched, and this contact splits in the orbit before or behind the step;
 //! - that its last [`SHORT_STEPS`] rows came no further than [`SHORT`] each, on the average, and a contact splits in the present orbit;
-//! - that no step leads on from an orbit in which a contact splits.
+//! - that no step leads on from an orbit in which a contact splits, or that derivatives of matrices could not be had there at several rows in a row, as at a grazing.
 
 use super::{
     row::CurveEnd,

@@ -247,7 +247,7 @@ impl CurveWalk {
             // The next step tells it.
             None
         } else if self.rows_at_grazing >= ROWS_AT_GRAZING || self.is_short_at_grazing() {
-            Some(CurveEnd::Grazing { parameter, cause: None })
+            Some(self.splits_here().unwrap_or(CurveEnd::Grazing { parameter, cause: None }))
         } else if crawls {
             Some(CurveEnd::Crawls { parameter, rows: MANY_ROWS })
         } else {
