@@ -40,18 +40,31 @@ pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
     signed(pairs().map(|square| (1.0 - square).abs()).fold(1.0, f64::min), count)
 }
 
-/// Whether one complex pair of multipliers leaves the unit circle and another one enters it between two neighbouring points, given by those in the upper half-plane: as many lie outside behind as before. Which is which is told by
-/// their distances, the nearest two first.
-pub(crate) fn pairs_change_places(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
+/// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points, given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and another one enters, or
+/// one that is outside at both points is inside half-way, which the line between them tells. Which is which is told by their distances, the nearest two first.
+pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     let (mut left, mut right) = (before.to_vec(), behind.to_vec());
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
     let (mut leaves, mut enters) = (false, false);
     while let Some((one, other)) = nearest_two(&left, &right) {
-        let (one, other) = (beyond(left.swap_remove(one)), beyond(right.swap_remove(other)));
-        leaves |= one < -ON_CIRCLE && other > ON_CIRCLE;
-        enters |= one > ON_CIRCLE && other < -ON_CIRCLE;
+        let (from, to) = (left.swap_remove(one), right.swap_remove(other));
+        let outside = beyond(from) > ON_CIRCLE && beyond(to) > ON_CIRCLE;
+        if outside && beyond(nearest_to_zero(from, to)) < -ON_CIRCLE {
+            return true;
+        }
+        leaves |= beyond(from) < -ON_CIRCLE && beyond(to) > ON_CIRCLE;
+        enters |= beyond(from) > ON_CIRCLE && beyond(to) < -ON_CIRCLE;
     }
     leaves && enters
+}
+
+/// The point nearest to zero of the line between two.
+fn nearest_to_zero(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
+    let way = [to[0] - from[0], to[1] - from[1]];
+    let length = way[0] * way[0] + way[1] * way[1];
+    let share = -(from[0] * way[0] + from[1] * way[1]) / length.max(f64::MIN_POSITIVE);
+    let share = share.clamp(0.0, 1.0);
+    [from[0] + share * way[0], from[1] + share * way[1]]
 }
 
 /// Places of the two, one of each kind, that are nearest to each other.
@@ -131,14 +144,17 @@ mod tests {
     #[test]
     fn pairs_that_cross_the_circle_both_ways_are_told_from_one_that_turns() {
         let (outside, inside) = ([-0.198, 1.003], [0.35, 0.77]);
-        assert!(pairs_change_places(&[outside, inside], &[[0.06, 0.85], [0.326, 0.974]]));
+        assert!(pairs_cross_both_ways(&[outside, inside], &[[0.06, 0.85], [0.326, 0.974]]));
         // The nearest to the first one is the second one before, which is nearer to another.
-        assert!(pairs_change_places(&[[0.06, 0.84], [0.326, 0.974]], &[outside, [0.35, 0.765]]));
-        assert!(!pairs_change_places(&[outside, inside], &[[0.06, 1.05], [0.326, 0.9]]));
-        assert!(!pairs_change_places(&[outside], &[[0.06, 0.85]]), "that one is told by the count");
-        assert!(!pairs_change_places(&[], &[[0.06, 0.85], [0.326, 0.974]]));
+        assert!(pairs_cross_both_ways(&[[0.06, 0.84], [0.326, 0.974]], &[outside, [0.35, 0.765]]));
+        assert!(!pairs_cross_both_ways(&[outside, inside], &[[0.06, 1.05], [0.326, 0.9]]));
+        assert!(!pairs_cross_both_ways(&[outside], &[[0.06, 0.85]]), "that one is told by the count");
+        assert!(!pairs_cross_both_ways(&[], &[[0.06, 0.85], [0.326, 0.974]]));
+        // Outside at both ends, by the inside.
+        assert!(pairs_cross_both_ways(&[[0.77, 0.72]], &[[-0.653, 0.8785]]));
+        assert!(!pairs_cross_both_ways(&[[0.77, 0.72]], &[[0.6, 0.86]]), "the way around is as likely");
         // On the circle to rounding, as at the last event.
-        assert!(!pairs_change_places(&[[0.6, 0.8 + 1e-9], inside], &[[0.5, 0.7], [0.326, 0.974]]));
+        assert!(!pairs_cross_both_ways(&[[0.6, 0.8 + 1e-9], inside], &[[0.5, 0.7], [0.326, 0.974]]));
     }
 
     #[test]

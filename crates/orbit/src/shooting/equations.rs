@@ -136,7 +136,7 @@ impl PathProblem for ShootingProblem {
     }
 
     fn hides_zeros(&self, before: &[f64], behind: &[f64]) -> bool {
-        stability::pairs_change_places(before.as_chunks().0, behind.as_chunks().0)
+        stability::pairs_cross_both_ways(before.as_chunks().0, behind.as_chunks().0)
     }
 
     fn outside(&mut self, events: Events) -> Option<Outside> {

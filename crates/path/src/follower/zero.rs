@@ -48,14 +48,15 @@ impl Follower {
         }
         let mut arrival = arrival;
         arrival.zeros_near = self.stay_behind_zeros(None);
-        if step > self.settings.signature_step
+        let is_long = step > self.settings.signature_step;
+        if is_long
             && (self.undoes_zeros(problem) || self.ends_at_zero() || self.begins_at_zero(problem, step)?)
         {
             return Err(Doubt::HiddenZeros);
         }
         for index in 0..self.trial.tests.len() {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
-            if step > self.settings.signature_step && (apart >= 2 || apart == 0 && self.dips(index)) {
+            if is_long && (apart >= 2 || apart == 0 && self.dips(index)) {
                 return Err(Doubt::HiddenZeros);
             }
             if apart % 2 == 1 {
@@ -67,6 +68,10 @@ impl Follower {
                     self.keep_zeros(&mut arrival, found, &behind);
                 }
             }
+        }
+        // What lies on the way to a zero may not be seen from beyond it.
+        if is_long && arrival.events.zeros != 0 && self.undoes_zeros(problem) {
+            return Err(Doubt::HiddenZeros);
         }
         Ok(arrival)
     }
