@@ -5,7 +5,7 @@
 //! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt. So is one at whose end a function has no
 //! value any more (it is infinite), and one would have met zero by the line through its last two, and a step at whose end a function has a value that it had not before, and one comes from zero by the line
 //! through its value there and one a little behind. Any of them: functions may be the smallest of several values, and what begins or ends among them moves those behind by one place.
-//! So is one over which the problem itself knows of zeros that undo each other.
+//! So is one over which the problem itself knows of zeros that undo each other: on the way to its end, or to the zero that was found before it.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket};
