@@ -84,11 +84,6 @@ impl Passing {
         Some((*self.touches.get(1)?, self.opposite?))
     }
 
-    /// Whether the contact of that number is one that is touched.
-    pub fn is_touched(&self, shooting: &Shooting, number: usize) -> bool {
-        self.touches.iter().any(|touch| touch.number(shooting) == number)
-    }
-
     /// Where elements are left out, of an orbit from `begin` over `cycles`.
     fn windows(&self, begin: f64, cycles: f64) -> Vec<[f64; 2]> {
         let mut windows = vec![[begin, begin + self.width], [begin + cycles - self.width, begin + cycles]];

@@ -230,11 +230,10 @@ impl PathProblem for CurveProblem {
         values.extend(opposite.map(marks::signed));
     }
 
-    /// Without the contacts that a grazing orbit touches: whether they are counted is rounding.
+    /// Without the contact that a grazing orbit touches, unless it passes it: whether that touch is counted is rounding.
     fn signature(&self) -> u64 {
         let shooting = &self.shooting;
         let is_touched = |number: usize| match (&self.condition, &shooting.passing) {
-            (Condition::Touch(_), Some(passing)) => passing.is_touched(shooting, number),
             (Condition::Touch(touch), None) => touch.number(shooting) == number,
             _ => false,
         };
