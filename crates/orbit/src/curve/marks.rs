@@ -91,7 +91,7 @@ impl CurveEvents {
                 degenerate_neimark_sacker: zero(7) && is_smooth,
                 ..found
             },
-            // Its own contacts are left out of the signature: another one is grazed.
+            // The touch that is followed is no part of the signature: there is another one.
             CurveKind::Grazing { .. } => Self {
                 grazing_fold: fold(0),
                 grazing_flip: flip(1),

@@ -68,7 +68,7 @@ pub struct CurveEvents {
     pub grazing_neimark_sacker: bool,
     /// A touch without curvature.
     pub degenerate_grazing: bool,
-    /// A grazing orbit grazes a second contact.
+    /// A grazing orbit grazes a second contact, or the same one a second time.
     pub double_grazing: bool,
     /// The contacts of an orbit that is no grazing one change.
     pub grazing: bool,
