@@ -19,6 +19,9 @@ use hammerbeam_path::{Events, Outside, TestValue};
 /// leave the side open.
 const ON_CIRCLE: f64 = 1e-7;
 
+/// How far within the circle the line between two places outside has to come: a pair that keeps beside the circle is not followed in steps below 0.09 rad for that.
+const WITHIN: f64 = 1e-3;
+
 /// Vanishes where a multiplier is -1.
 pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
     // Factors far from zero say nothing, and might overflow.
@@ -49,7 +52,7 @@ pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) ->
     while let Some((one, other)) = nearest_two(&left, &right) {
         let (from, to) = (left.swap_remove(one), right.swap_remove(other));
         let outside = beyond(from) > ON_CIRCLE && beyond(to) > ON_CIRCLE;
-        if outside && beyond(nearest_to_zero(from, to)) < -ON_CIRCLE {
+        if outside && beyond(nearest_to_zero(from, to)) < -WITHIN {
             return true;
         }
         leaves |= beyond(from) < -ON_CIRCLE && beyond(to) > ON_CIRCLE;
@@ -152,7 +155,9 @@ mod tests {
         assert!(!pairs_cross_both_ways(&[], &[[0.06, 0.85], [0.326, 0.974]]));
         // Outside at both ends, by the inside.
         assert!(pairs_cross_both_ways(&[[0.77, 0.72]], &[[-0.653, 0.8785]]));
-        assert!(!pairs_cross_both_ways(&[[0.77, 0.72]], &[[0.6, 0.86]]), "the way around is as likely");
+        assert!(!pairs_cross_both_ways(&[[0.77, 0.72]], &[[0.6, 0.86]]), "outside all the way");
+        let beside = |angle: f64| [[1.00001 * angle.cos(), 1.00001 * angle.sin()]];
+        assert!(!pairs_cross_both_ways(&beside(0.5), &beside(0.58)), "along the circle");
         // On the circle to rounding, as at the last event.
         assert!(!pairs_cross_both_ways(&[[0.6, 0.8 + 1e-9], inside], &[[0.5, 0.7], [0.326, 0.974]]));
     }
