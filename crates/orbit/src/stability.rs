@@ -43,6 +43,18 @@ pub(crate) fn neimark_sacker(multipliers: &[[f64; 2]]) -> TestValue {
     signed(pairs().map(|square| (1.0 - square).abs()).fold(1.0, f64::min), count)
 }
 
+/// [`ON_CIRCLE`] with what that says of large ones.
+fn on_circle(multipliers: &[[f64; 2]]) -> f64 {
+    let largest = multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
+    ON_CIRCLE * (1e-6 * largest).max(1.0)
+}
+
+/// The complex pairs by the one in the upper half-plane, but for those that are on the unit circle to rounding.
+pub(crate) fn pairs_off_circle(multipliers: &[[f64; 2]]) -> impl Iterator<Item = &[f64; 2]> {
+    let margin = on_circle(multipliers);
+    multipliers.iter().filter(move |[re, im]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() > margin)
+}
+
 /// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points, given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and another one enters, or
 /// one that is outside at both points is inside half-way, which the line between them tells. Which is which is told by their distances, the nearest two first.
 pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
@@ -111,8 +123,7 @@ pub(crate) fn outside(multipliers: &[[f64; 2]], events: Events) -> Outside {
         remove_least(&mut left, off_circle);
     }
     let critical = (multipliers.len() - left.len()) as u32;
-    let largest = multipliers.iter().map(|[re, im]| re.hypot(*im)).fold(1.0, f64::max);
-    let margin = ON_CIRCLE * (1e-6 * largest).max(1.0);
+    let margin = on_circle(multipliers);
     let beyond = |least: f64| left.iter().filter(|[re, im]| re.hypot(*im) > least).count() as u32;
     Outside { least: beyond(1.0 + margin), most: beyond(1.0 - margin) + critical, critical }
 }

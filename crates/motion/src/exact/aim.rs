@@ -56,9 +56,9 @@ impl Aim {
         Self { settled: true, ..Self::to_or(event, length, otherwise) }
     }
 
-    /// As far as the length for want of the event, knowing as much of its end.
+    /// As far as the length for want of the event; the end of that step was looked at if it was to be taken instead.
     pub(super) fn without_event(&self, length: f64) -> Self {
-        Self { settled: self.settled, ..Self::free(length) }
+        Self { settled: self.settled && self.event.is_some(), ..Self::free(length) }
     }
 
     /// Whether an event that the polynomials of a step find at `found`, before its own end, was located not to come before that; `undecided` is what location and rounding leave open of its time.

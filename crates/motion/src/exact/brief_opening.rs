@@ -53,7 +53,7 @@ impl ExactIntegrator {
             let Jet { value, slope, curvature } = end;
             let turn = -slope / curvature;
             let bottom = value + 0.5 * slope * turn;
-            let opens = curvature > 0.0 && turn.abs() <= 2.0 * AT_END * length;
+            let opens = curvature > 0.0 && curvature.is_finite() && turn.abs() <= 2.0 * AT_END * length;
             let margin = self.rounding_of(run, event);
             (opens && bottom < -margin)
                 .then(|| (event, length + turn - (-2.0 * bottom / curvature).sqrt()))

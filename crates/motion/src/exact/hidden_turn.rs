@@ -13,6 +13,11 @@ use super::{
 };
 use crate::Contact;
 
+/// A step begins or ends with a turn where the speed is so small a part of the largest one.
+const AT_REST: f64 = 1e-2;
+/// Length of a step whose nodes stand in the corner at its end, over the width of the corner.
+const IN_CORNER: f64 = 12.0;
+
 /// A turn seen from an end of a step, into the step.
 struct Turn {
     element: usize,
@@ -24,32 +29,48 @@ struct Turn {
 }
 
 impl ExactIntegrator {
-    /// That length, or the time to the first turn in front of the first node of a step of that length.
+    /// That length, or the time to the first turn in front of the first node of a step of that length, or what a corner at its start allows.
     pub(super) fn up_to_hidden_turn(&self, run: &Run, length: f64) -> f64 {
         let smooth = Grading::Smooth;
         let first_node = smooth.map(smooth.rule().s[0]).0 * length;
-        let turns = self.closed_contacts(run).filter_map(|(element, contact)| {
-            let opens = clearance_of(run.start[element].jet, contact.level, contact.sign).slope > 0.0;
-            let jet = opens.then(|| self.jet_with_forces(run, element))?;
+        let allowed = self.closed_contacts(run).filter_map(|(element, contact)| {
+            let at = run.start[element].jet;
+            let opens = clearance_of(at, contact.level, contact.sign).slope > 0.0;
+            let rests = self.may_be_corner(run, (element, contact), at);
+            let jet = (opens || rests).then(|| self.jet_with_forces(run, element))?;
             let clearance = clearance_of(jet, contact.level, contact.sign);
-            self.hidden(&Turn { element, contact, jet, clearance }, first_node, length)
+            let turn = Turn { element, contact, jet, clearance };
+            self.allowed_beside(&turn, (opens, rests), (first_node, length))
         });
-        turns.fold(length, f64::min)
+        allowed.fold(length, f64::min)
     }
 
-    /// How long the solved step may be so that no turn lies behind its last node; `None` if none does.
+    /// How long the solved step may be so that no turn lies behind its last node, nor a corner at its end; `None` if none does.
     pub(super) fn hidden_turn_at_end(&self, run: &Run) -> Option<f64> {
         let (length, grading) = (self.step.length, self.step.grading());
         let behind_nodes = (1.0 - grading.map(grading.rule().s[NODES - 1]).0) * length;
-        let turns = self.closed_contacts(run).filter_map(|(element, contact)| {
-            let jet = self.free_jet_at_step_end(run, element);
-            let falls = clearance_of(jet, contact.level, contact.sign).slope < 0.0;
-            let jet = falls.then(|| self.jet_at_step_end(run, element))?;
+        let allowed = self.closed_contacts(run).filter_map(|(element, contact)| {
+            let at = self.free_jet_at_step_end(run, element);
+            let falls = clearance_of(at, contact.level, contact.sign).slope < 0.0;
+            let rests = self.may_be_corner(run, (element, contact), at);
+            let jet = (falls || rests).then(|| self.jet_at_step_end(run, element))?;
             let forwards = clearance_of(jet, contact.level, contact.sign);
             let clearance = Jet { slope: -forwards.slope, ..forwards };
-            self.hidden(&Turn { element, contact, jet, clearance }, behind_nodes, length)
+            let turn = Turn { element, contact, jet, clearance };
+            self.allowed_beside(&turn, (falls, rests), (behind_nodes, length))
         });
-        turns.reduce(f64::max).map(|turn| length - turn)
+        allowed.reduce(f64::max).map(|allowed| length - allowed)
+    }
+
+    /// How much of a step of that length may lie on this side of a turn that comes, and of one at its end.
+    fn allowed_beside(
+        &self,
+        turn: &Turn,
+        (comes, rests): (bool, bool),
+        (without_node, length): (f64, f64),
+    ) -> Option<f64> {
+        let hidden = if comes { self.hidden(turn, without_node, length) } else { None };
+        hidden.or_else(|| rests.then(|| self.longest_beside(turn, without_node, length)).flatten())
     }
 
     fn closed_contacts(&self, run: &Run) -> impl Iterator<Item = (usize, Contact)> {
@@ -71,5 +92,33 @@ impl ExactIntegrator {
         let slope = self.laws[element].pressing_force(jet.value, jet.slope).slope.abs();
         let hidden = length * self.mobility[element][element] * slope * time;
         (is_corner && hidden > self.settings.tolerance).then_some(time)
+    }
+
+    /// Whether a half-integer contact may be at a bottom of its penetration in a state in which the element has that displacement and speed.
+    fn may_be_corner(&self, run: &Run, (element, contact): (usize, Contact), at: Jet) -> bool {
+        at.slope.abs() < AT_REST * run.start[element].velocity
+            && contact.onset_exponent.fract() != 0.0
+            && clearance_of(at, contact.level, contact.sign).value < 0.0
+    }
+
+    /// How long a step of that length may be that has a turn at its end, so that the corner there is not hidden; `None` if it is not.
+    fn longest_beside(&self, turn: &Turn, without_node: f64, length: f64) -> Option<f64> {
+        let &Turn { element, jet, clearance, .. } = turn;
+        let time = -clearance.slope / clearance.curvature;
+        let bottom = -(clearance.value + 0.5 * clearance.slope * time);
+        let bend = -0.5 * clearance.curvature;
+        if !(bottom > 0.0 && bend > 0.0) {
+            return None;
+        }
+        let width = (bottom / bend).sqrt();
+        if time.abs() > width.max(1e-3 * without_node) || width > without_node {
+            return None;
+        }
+        let slope = self.laws[element].pressing_force(jet.value, jet.slope).slope.abs();
+        let slope = slope * (bottom / -clearance.value).sqrt();
+        let left_out = 0.25 * slope * width * (1.0 + (4.0 * (without_node / width).powi(2)).ln());
+        let hidden = length * self.mobility[element][element] * left_out;
+        let shortened = length * self.settings.tolerance / hidden;
+        (hidden > self.settings.tolerance).then(|| shortened.max(IN_CORNER * width)).filter(|at| *at < length)
     }
 }

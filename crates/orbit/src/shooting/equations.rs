@@ -125,13 +125,13 @@ impl PathProblem for ShootingProblem {
         values.extend(near.into_iter().map(|value| TestValue { value, count: 0 }));
     }
 
-    /// The complex pairs of multipliers, by the one in the upper half-plane.
+    /// The complex pairs of multipliers that are not on the unit circle, by the one in the upper half-plane.
     fn note(&mut self, numbers: &mut Vec<f64>) {
         numbers.clear();
         if self.watches_stability
             && let Ok(multipliers) = self.multipliers()
         {
-            numbers.extend(multipliers.iter().filter(|[_, im]| *im > 0.0).flatten());
+            numbers.extend(stability::pairs_off_circle(multipliers).flatten());
         }
     }
 

@@ -219,8 +219,10 @@ fn maxima(
     push(Quantity::ContactForce, stored.contact_force, new.contact_force, measure);
     let [struck, touched] =
         [stored.impact_velocity, new.impact_velocity].map(|speed| speed.max(unknown.touch_at_node));
-    let touch = if touched > 0.0 { measures.touch_factor(touched) } else { 1.0 };
-    let measure = if struck.max(touched) <= unknown.speed { f64::INFINITY } else { touch * touched };
+    // Whether a contact that grazes is touched at all is rounding.
+    let speed = if touched > 0.0 { touched } else { struck };
+    let touch = if speed > 0.0 { measures.touch_factor(speed) } else { 1.0 };
+    let measure = if struck.max(touched) <= unknown.speed { f64::INFINITY } else { touch * speed };
     push(Quantity::ImpactVelocity, struck, touched, measure);
     let period = f64::from(solution.period_multiple) / solution.frequency_hz;
     let is_none = is_none && stored.impulse.max(new.impulse) <= unknown.force * period;
