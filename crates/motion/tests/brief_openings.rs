@@ -9,7 +9,8 @@ use common::{diagonal, element, model};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::LinearStop,
+    general::{GeneralSettings, advance},
+    law::{HertzStop, LinearStop},
 };
 
 /// Matrix that takes displacement and velocity of a vibration of that circular frequency over a time.
@@ -58,11 +59,13 @@ impl Pressed {
     }
 }
 
+/// A mass of 1 kg on a spring of 1 N/m, pressed on by a stop up to the displacement -1 m.
+fn pressed_by(stop: Law) -> System {
+    System::new(model(&[1.0], diagonal(&[0.0])), &Load::default(), vec![element(&[1.0], 0.0, stop)]).unwrap()
+}
+
 fn integrator() -> ExactIntegrator {
-    let stop = Law::Linear(LinearStop::with_preload(9.0, 9.0).unwrap());
-    let system =
-        System::new(model(&[1.0], diagonal(&[0.0])), &Load::default(), vec![element(&[1.0], 0.0, stop)])
-            .unwrap();
+    let system = pressed_by(Law::Linear(LinearStop::with_preload(9.0, 9.0).unwrap()));
     ExactIntegrator::new(system, ExactSettings::default()).unwrap()
 }
 
@@ -114,6 +117,35 @@ fn a_contact_that_nearly_opens_is_one() {
             for opening in [-1e-11, -1e-9, -1e-8, -1e-7, -1e-6] {
                 let near = steps(opening, (from, to));
                 assert!(near <= far + 18, "{opening:e} from {from} to {to}: {near}, not {far}");
+            }
+        }
+    }
+}
+
+/// Where the penetration of a Hertz contact comes down to next to nothing the slope of its force turns within the root of that. Without damping the motion is the same forwards and backwards from there.
+#[test]
+fn a_hertz_contact_that_nearly_opens_has_the_sensitivities_of_the_general_integrator() {
+    let system = pressed_by(Law::Hertz(HertzStop::with_preload(9.0, 9.0).unwrap()));
+    let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default()).unwrap();
+    let settings = GeneralSettings::with_tolerance(1e-13);
+    let over = |end: f64| Stretch { frequency_hz: 1.0, start: 0.0, end };
+    for penetration in [1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5] {
+        for (before, behind) in [(1.0, 1.0), (0.3, 1.7), (1.9, 0.2)] {
+            let [x, v] =
+                advance(&system, &over(before), &[penetration - 1.0, 0.0], &settings).unwrap().flow.state[..]
+            else {
+                panic!("two numbers")
+            };
+            let start = [x, -v];
+            let expected = advance(&system, &over(before + behind), &start, &settings).unwrap().flow;
+            let found = integrator.flow(&over(before + behind), &start).unwrap();
+            let case = format!("{penetration:e}, {before} s before and {behind} s behind");
+            assert_eq!(integrator.touches(), [0], "{case}");
+            for i in 0..2 {
+                for j in 0..2 {
+                    let error = (found.by_state[(i, j)] - expected.by_state[(i, j)]).abs();
+                    assert!(error < 5e-10, "{case}: {error:e}");
+                }
             }
         }
     }

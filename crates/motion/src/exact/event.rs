@@ -109,11 +109,21 @@ impl ExactIntegrator {
                 return Some(Solved { error: f64::INFINITY, at_event: true, length: length + change });
             }
             let near = change.abs() <= nearly * length && distance.curvature.is_finite();
+            if fine && near && self.stays_closed(run, event, distance) {
+                return None;
+            }
             last = fine && near && length + change < remaining;
             precision = self.full_precision();
             length = (length + change.clamp(-0.5 * length, 0.5 * length)).min(remaining).max(least);
         }
         None
+    }
+
+    /// Whether the distance that falls to zero where a contact ends turns before, beyond rounding.
+    fn stays_closed(&self, run: &Run, event: Event, distance: Jet) -> bool {
+        let Jet { value, slope, curvature } = distance;
+        let ends = matches!(event, Event::Release(_) | Event::Part(_));
+        ends && curvature > 0.0 && value - 0.5 * slope * slope / curvature > self.rounding_of(run, event)
     }
 
     /// Length above which the sensitivities of the step would hardly be accurate enough, as the last step tells; it is not worth
