@@ -60,6 +60,8 @@ pub(crate) struct ShootingProblem {
     border: Vec<f64>,
     lu: DenseLu,
     touches: Vec<u32>,
+    /// [`ExactIntegrator::entered`] of all segments.
+    entered: Vec<i32>,
     failure: Option<MotionError>,
     /// Multipliers at the point evaluated last, once they were asked for.
     multipliers: Option<Result<Vec<[f64; 2]>, NoEigenvalues>>,
@@ -94,6 +96,7 @@ impl ShootingProblem {
             border: Vec::new(),
             lu: DenseLu::new(),
             touches: vec![0; contacts],
+            entered: vec![0; contacts],
             failure: None,
             multipliers: None,
             watches_stability: false,
@@ -299,6 +302,7 @@ impl ShootingProblem {
             }
         }
         self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
+        self.entered.iter_mut().zip(self.integrator.entered()).for_each(|(sum, entered)| *sum += entered);
         Ok(())
     }
 

@@ -116,6 +116,8 @@ impl ExactIntegrator {
             run.parted.push(contact.filter(|_| !presses));
         }
         self.touches.fill(0);
+        self.entered.fill(0);
+        self.note_entered(&run, 1);
         self.counts.stretches += 1;
         if self.has_rigid_stops {
             self.stick_at_start(&mut run)?;
@@ -178,7 +180,19 @@ impl ExactIntegrator {
             }
             self.closed_throughout &= closed_bits(run);
         }
+        self.note_entered(run, -1);
         Ok(())
+    }
+
+    /// Counts the contacts that are closed, with pressure or without.
+    fn note_entered(&mut self, run: &Run, by: i32) {
+        let mut first = 0;
+        for (element, law) in self.laws.iter().enumerate() {
+            if let Some(contact) = run.closed[element].or(run.parted[element]) {
+                self.entered[first + contact] += by;
+            }
+            first += law.contacts().len();
+        }
     }
 
     pub(super) fn forces_act(&self, run: &Run) -> bool {

@@ -226,6 +226,8 @@ pub struct ExactIntegrator {
     flight_start: Vec<f64>,
     propagators: Vec<Propagator>,
     touches: Vec<u32>,
+    /// See [`ExactIntegrator::entered`].
+    entered: Vec<i32>,
     /// Whether what happens is noted.
     notes_course: bool,
     course: Course,
@@ -283,6 +285,7 @@ impl ExactIntegrator {
             has_rigid_stops: laws.iter().any(|law| law.rigid().is_some()),
             has_contacts: laws.iter().any(|law| !law.contacts().is_empty()),
             touches: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
+            entered: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
             system,
             settings,
             rates,
@@ -335,6 +338,14 @@ impl ExactIntegrator {
     #[must_use]
     pub fn touches(&self) -> &[u32] {
         &self.touches
+    }
+
+    /// One for each contact that was closed at the start of the last stretch and not at its end, minus one for each that was closed at its end and not at its start, in the order of
+    /// [`touches`](Self::touches). Over stretches that follow each other and close, as those of a periodic orbit, the sum is zero; where a touch lies on the begin of the orbit as well as that is known, touch and sum are off by one, and
+    /// together right.
+    #[must_use]
+    pub fn entered(&self) -> &[i32] {
+        &self.entered
     }
 
     /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow

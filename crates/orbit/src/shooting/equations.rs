@@ -25,6 +25,7 @@ impl PathProblem for ShootingProblem {
 
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.touches.fill(0);
+        self.entered.fill(0);
         self.failure = None;
         self.multipliers = None;
         let frequency = self.frequency(point);
@@ -46,6 +47,9 @@ impl PathProblem for ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
+        // A touch on the end of a segment is counted once, whichever side of it the states on both sides are by rounding.
+        let pairs = self.touches.iter_mut().zip(&self.entered);
+        pairs.for_each(|(touches, entered)| *touches = touches.saturating_add_signed(*entered));
         complete_touches(&mut self.touches);
         self.accumulate();
         Ok(())
