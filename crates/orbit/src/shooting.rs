@@ -256,6 +256,11 @@ impl ShootingProblem {
         self.watches_stability = true;
     }
 
+    /// Whether a contact is closed on one side of a cut of the orbit and not on the other, at the last evaluated point.
+    pub fn is_cut_at_touch(&self) -> bool {
+        self.entered.iter().any(|entered| *entered != 0)
+    }
+
     /// Number of touches of each element over the orbit at the last evaluated point.
     pub fn touches(&self) -> &[u32] {
         &self.touches

@@ -202,6 +202,10 @@ impl BranchWalk {
             return Ok(Some(splits));
         }
         match stopped {
+            None if self.is_cut_at_touch() => {
+                self.journal.push(self.follower.in_first_units(self.follower.current()));
+                Ok(None)
+            }
             None => match self.row() {
                 Ok(row) => {
                     self.journal.push(self.follower.in_first_units(self.follower.current()));
@@ -224,6 +228,14 @@ impl BranchWalk {
             }
             Some(reason) => Ok(Some(self.stop_reason(reason))),
         }
+    }
+
+    /// Whether the present orbit, at which nothing happens, is cut where it touches a contact, to rounding: where its force sets in with a jump the path of its first node has a corner there, at which the
+    /// multipliers are those of a motion with a touch too many or too few. It is no row.
+    fn is_cut_at_touch(&self) -> bool {
+        let current = &self.follower.current().events;
+        let happens = current.fold || current.branch_point || current.signature_change || current.zeros != 0;
+        !happens && self.follower.stop_reason().is_none() && self.problem.is_cut_at_touch()
     }
 
     /// Why the walk ends at the present point, if it does.
