@@ -1,8 +1,9 @@
 //! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began, and off the impacts on rigid stops, at which the state jumps.
 //!
-//! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of
-//! it, in the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, so that whole cycles can be added to them without rounding: a motion that is
-//! followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid stop may hold the structure at the begin, and all the time.
+//! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. Each lasts until its penetration has ended: no motion can begin in what is left of it
+//! when the force has vanished. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of
+//! it, in the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, in short flights of `1/FINE_GRID`, so that whole cycles can be added to them without
+//! rounding: a motion that is followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid stop may hold the structure at the begin, and all the time.
 
 use hammerbeam_motion::{
     Law, Stretch, System,
@@ -13,11 +14,13 @@ use crate::OrbitError;
 
 /// Phases of a cycle at which an orbit may begin.
 const GRID: f64 = 1024.0;
+/// The same in a time without contact that is shorter than [`SHORTEST`].
+const FINE_GRID: f64 = 1_073_741_824.0;
 /// A contact this near [cycles] moves the phase,
 pub(crate) const MARGIN: f64 = 1.0 / 32.0;
 /// or a smaller part of the longest time without contact.
 const PART: f64 = 1.0 / 8.0;
-/// Shortest time without contact in which an orbit can begin [cycles].
+/// Shortest time without contact in which an orbit begins where it is looked for first [cycles].
 const SHORTEST: f64 = 4.0 / GRID;
 
 /// A state at a phase at which an orbit may begin.
@@ -47,9 +50,10 @@ impl Gap {
         self.end - self.begin
     }
 
-    /// Its middle after the phase `from`, which is one of the grid, so that the phase there is one, too.
+    /// Its middle after the phase `from`, which is one of a grid, so that the phase there is one, too.
     pub fn middle(self, from: f64) -> f64 {
-        ((from + 0.5 * (self.begin + self.end)) * GRID).round() / GRID - from
+        let grid = if self.length() < SHORTEST { FINE_GRID } else { GRID };
+        ((from + 0.5 * (self.begin + self.end)) * grid).round() / grid - from
     }
 
     /// Whether an orbit that begins so near a contact had better begin in the middle of the gap.
@@ -89,8 +93,9 @@ pub(crate) fn offset_to_clear(
     for contact in trace.contacts.iter().filter(|contact| jumps(&elements[contact.element].law)) {
         let begin = contact.begin.as_ref().map(|begin| begin.time * frequency_hz);
         let end = contact.end.map(|end| end * frequency_hz);
+        let clear = contact.clear.map(|clear| clear * frequency_hz);
         if keeps_away(&elements[contact.element].law) {
-            times.push(Gap { begin: begin.unwrap_or(0.0), end: end.unwrap_or(cycles) });
+            times.push(Gap { begin: begin.unwrap_or(0.0), end: clear.unwrap_or(cycles) });
         } else {
             times.extend([begin, end].into_iter().flatten().map(|at| Gap { begin: at, end: at }));
         }
@@ -143,7 +148,7 @@ fn closed_times(
     let mut times: Vec<Gap> = of_law
         .map(|contact| Gap {
             begin: contact.begin.as_ref().map_or(0.0, |begin| begin.time * frequency_hz),
-            end: contact.end.map_or(cycles, |end| end * frequency_hz),
+            end: contact.clear.map_or(cycles, |clear| clear * frequency_hz),
         })
         .collect();
     times.sort_by(|a, b| a.begin.total_cmp(&b.begin));

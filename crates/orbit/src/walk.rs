@@ -230,8 +230,8 @@ impl BranchWalk {
         }
     }
 
-    /// Whether the present orbit, at which nothing happens, is cut where it touches a contact, to rounding: where its force sets in with a jump the path of its first node has a corner there, at which the
-    /// multipliers are those of a motion with a touch too many or too few. It is no row.
+    /// Whether the present orbit, at which nothing happens, is cut where it touches a contact, to rounding: where its force sets in with a jump the path of its first node has a corner
+    /// there, at which the multipliers are those of a motion with a touch too many or too few. It is no row.
     fn is_cut_at_touch(&self) -> bool {
         let current = &self.follower.current().events;
         let happens = current.fold || current.branch_point || current.signature_change || current.zeros != 0;

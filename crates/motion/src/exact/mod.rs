@@ -341,8 +341,8 @@ impl ExactIntegrator {
     }
 
     /// One for each contact that was closed at the start of the last stretch and not at its end, minus one for each that was closed at its end and not at its start, in the order of
-    /// [`touches`](Self::touches). Over stretches that follow each other and close, as those of a periodic orbit, the sum is zero; where a touch lies on the begin of the orbit as well as that is known, touch and sum are off by one, and
-    /// together right.
+    /// [`touches`](Self::touches). Over stretches that follow each other and close, as those of a periodic orbit, the sum is zero; where a touch lies on the begin of the orbit as well
+    /// as that is known, touch and sum are off by one, and together right.
     #[must_use]
     pub fn entered(&self) -> &[i32] {
         &self.entered

@@ -45,6 +45,8 @@ pub struct ContactPiece {
     pub jump: Option<Jump>,
     /// When it opened, since the start of the stretch [s]; `None` if it is closed at the end of the stretch.
     pub end: Option<f64>,
+    /// When its penetration ended [s]: later than `end` where the force had vanished before; `None` if that is beyond the end of the stretch.
+    pub clear: Option<f64>,
     /// Integral of the magnitude of the force [N s].
     pub impulse: f64,
     /// Largest magnitude of the force [N]; of an impact on a rigid stop 0, of one that sticks that of the pressing force after it.
@@ -129,6 +131,7 @@ impl Tracing {
             }
             contact.end.get_or_insert(run.time);
             if run.parted[element].is_none() {
+                contact.clear = Some(run.time);
                 *open = None;
             }
         }
@@ -142,6 +145,7 @@ impl Tracing {
             begin,
             jump: None,
             end: None,
+            clear: None,
             impulse: 0.0,
             peak_force: 0.0,
             energy_lost: 0.0,

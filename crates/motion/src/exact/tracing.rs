@@ -64,6 +64,7 @@ impl ExactIntegrator {
         piece.impulse += impulse;
         piece.energy_lost += energy;
         piece.end = (!sticks).then_some(run.time);
+        piece.clear = piece.end;
     }
 
     /// Writes down a contact that closes now.
