@@ -256,9 +256,9 @@ impl ShootingProblem {
         self.watches_stability = true;
     }
 
-    /// Whether a contact is closed on one side of a cut of the orbit and not on the other, at the last evaluated point.
-    pub fn is_cut_at_touch(&self) -> bool {
-        self.entered.iter().any(|entered| *entered != 0)
+    /// [`ExactIntegrator::entered`] of the orbit at the last evaluated point: what [`touches`](Self::touches) has been put right by, where the orbit is cut at a touch.
+    pub fn entered(&self) -> &[i32] {
+        &self.entered
     }
 
     /// Number of touches of each element over the orbit at the last evaluated point.

@@ -167,7 +167,8 @@ pub(crate) fn solution(
     let phase = problem.phase().fract();
     let nodes = problem.nodes(point);
     let stretches: Vec<Stretch> = (0..nodes.len()).map(|k| problem.stretch(k, frequency_hz)).collect();
-    let maxima = observe(problem.integrator(), &stretches, &nodes)?;
+    let mut maxima = observe(problem.integrator(), &stretches, &nodes)?;
+    maxima.contacts = maxima.contacts.saturating_add_signed(problem.entered().iter().sum());
     Ok(PeriodicSolution {
         frequency_hz,
         period_multiple: problem.period_multiple(),

@@ -235,7 +235,9 @@ impl BranchWalk {
     fn is_cut_at_touch(&self) -> bool {
         let current = &self.follower.current().events;
         let happens = current.fold || current.branch_point || current.signature_change || current.zeros != 0;
-        !happens && self.follower.stop_reason().is_none() && self.problem.is_cut_at_touch()
+        !happens
+            && self.follower.stop_reason().is_none()
+            && self.problem.entered().iter().any(|entered| *entered != 0)
     }
 
     /// Why the walk ends at the present point, if it does.

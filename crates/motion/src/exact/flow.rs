@@ -184,12 +184,14 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Counts the contacts that are closed, with pressure or without.
+    /// Counts the contacts that are closed, with pressure or without, and closing: one that opens right at an end of a stretch is counted by no touch there.
     fn note_entered(&mut self, run: &Run, by: i32) {
         let mut first = 0;
         for (element, law) in self.laws.iter().enumerate() {
             if let Some(contact) = run.closed[element].or(run.parted[element]) {
-                self.entered[first + contact] += by;
+                let velocity = self.output_jet(&run.state, element, run.time).slope;
+                self.entered[first + contact] +=
+                    if law.contacts()[contact].sign * velocity > 0.0 { by } else { 0 };
             }
             first += law.contacts().len();
         }

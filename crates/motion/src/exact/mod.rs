@@ -340,9 +340,9 @@ impl ExactIntegrator {
         &self.touches
     }
 
-    /// One for each contact that was closed at the start of the last stretch and not at its end, minus one for each that was closed at its end and not at its start, in the order of
-    /// [`touches`](Self::touches). Over stretches that follow each other and close, as those of a periodic orbit, the sum is zero; where a touch lies on the begin of the orbit as well
-    /// as that is known, touch and sum are off by one, and together right.
+    /// One for each contact that was closed and closing at the start of the last stretch and not at its end, minus one for each that was at its end and not at its start, in the order of
+    /// [`touches`](Self::touches). Over stretches that follow each other and close, as those of a periodic orbit, the sum is zero; where a touch lies on an end of a stretch as well
+    /// as that is known, it is one or minus one, and [`complete_touches`] puts the number of touches right.
     #[must_use]
     pub fn entered(&self) -> &[i32] {
         &self.entered
@@ -370,9 +370,13 @@ impl ExactIntegrator {
     }
 }
 
-/// Numbers of touches over an orbit, from the sums over its stretches: where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite
-/// and was cut somewhere.
-pub fn complete_touches(touches: &mut [u32]) {
+/// Numbers of touches over a periodic orbit, from the sums of [`ExactIntegrator::touches`] and [`ExactIntegrator::entered`] over its stretches. A touch on the end of a stretch is counted once,
+/// whichever side of it the states of both stretches are by rounding. Where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite and
+/// was cut somewhere.
+pub fn complete_touches(touches: &mut [u32], entered: &[i32]) {
+    for (touches, entered) in touches.iter_mut().zip(entered) {
+        *touches = touches.saturating_add_signed(*entered);
+    }
     for touches in touches.iter_mut().filter(|touches| **touches >= stick::STUCK_TOUCHES) {
         *touches -= *touches % stick::STUCK_TOUCHES;
     }

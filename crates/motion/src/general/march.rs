@@ -103,7 +103,8 @@ impl<'a, F: VectorField> March<'a, F> {
         if self.counts.steps + self.counts.rejected >= self.settings.max_steps {
             return Err(GeneralError::TooManySteps { steps: self.settings.max_steps, time });
         }
-        if !step.is_finite() || time + 0.1 * step.min(self.end - time) == time {
+        // What is left after a boundary right before the end may be no more than rounding.
+        if !step.is_finite() || step < self.end - time && time + 0.1 * step == time {
             return Err(GeneralError::StepTooSmall { time, step });
         }
         Ok(())

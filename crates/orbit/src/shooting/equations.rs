@@ -47,10 +47,7 @@ impl PathProblem for ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
-        // A touch on the end of a segment is counted once, whichever side of it the states on both sides are by rounding.
-        let pairs = self.touches.iter_mut().zip(&self.entered);
-        pairs.for_each(|(touches, entered)| *touches = touches.saturating_add_signed(*entered));
-        complete_touches(&mut self.touches);
+        complete_touches(&mut self.touches, &self.entered);
         self.accumulate();
         Ok(())
     }

@@ -1,0 +1,79 @@
+//! Orbits on whose branches a touch comes to lie on phase 0, of a stop with a damper: its force sets in with a jump, so one touch too many or too few is another count of contacts, a false
+//! grazing, and a product of the multipliers that lacks a factor.
+//!
+//! The load is given the phase at which the begin or the end of the contact of one orbit lies on phase 0 to rounding, and phases a rounding beside it, so that the states at both ends of the orbit lie on either side of it.
+#![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+mod common;
+
+use std::f64::consts::PI;
+
+use common::{
+    events::{Subject, general_multipliers, step_of, whole, with},
+    unit_mass,
+};
+use hammerbeam_motion::{
+    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    exact::{ExactIntegrator, ExactSettings},
+    law::LinearStop,
+};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, Segments, find_start};
+
+const TOUCHED_HZ: f64 = 0.1512;
+const RANGE: (f64, f64) = (0.1505, 0.1519);
+
+/// `x'' + 0.05 x' + x = 0.4 cos(2 pi (f t + shift)) - F` with `F` the force of a spring of 20 N/m and a damper of 0.8 N s/m at a gap of 0.3 m.
+fn subject(shift: f64) -> Subject {
+    let harmonic = Harmonic { order: 1, amplitude: 0.4, phase: 2.0 * PI * shift };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let law = Law::Linear(LinearStop::with_gap(20.0, 0.3).unwrap().with_damping(0.8).unwrap());
+    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+    let system = System::new(unit_mass(0.05), &load, vec![stop]).unwrap();
+    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+}
+
+fn settings() -> OrbitSettings {
+    OrbitSettings { segments: Segments::Fixed(1), ..step_of(1e-4) }
+}
+
+fn orbit((system, response): &Subject) -> PeriodicSolution {
+    find_start(system, response, TOUCHED_HZ, 1, &settings()).unwrap()
+}
+
+/// Where the contact of the orbit from the phase 0 begins, where its force vanishes, and where its penetration ends [cycles].
+fn instants(subject: &Subject) -> [f64; 3] {
+    let orbit = orbit(subject);
+    let mut integrator = ExactIntegrator::new(subject.0.clone(), ExactSettings::default()).unwrap();
+    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 2.0 };
+    let trace = integrator.trace(&stretch, &orbit.nodes[0], &[]).unwrap();
+    let contact = trace.contacts.iter().find(|contact| contact.begin.is_some()).unwrap();
+    let times = [contact.begin.as_ref().unwrap().time, contact.end.unwrap(), contact.clear.unwrap()];
+    assert!(times[1] < times[2], "the damper pulls before the penetration ends");
+    times.map(|time| time * orbit.frequency_hz)
+}
+
+/// The branch past the orbit that is cut `beside` roundings off an instant of its contact has one contact everywhere, and the multipliers of the general integrator.
+fn assert_one_contact(instant: f64, beside: i32) {
+    let subject = subject(instant + f64::from(beside) * f64::EPSILON);
+    let rows = whole(&subject, &orbit(&subject), RANGE, &settings());
+    assert!(rows.len() > 12, "{}", rows.len());
+    assert!(with(&rows, |events| events.grazing).is_empty(), "{beside}: false grazing");
+    for row in &rows {
+        assert_eq!(row.solution.maxima.contacts, 1, "{beside}: {} Hz", row.solution.frequency_hz);
+        // Cut right at the touch, a flow has it at both of its ends or at neither.
+        if row.solution.frequency_hz == TOUCHED_HZ {
+            continue;
+        }
+        let found = row.solution.floquet_multipliers[0];
+        let expected = general_multipliers(&subject.0, &row.solution)[0];
+        let error = (found[0] - expected[0]).hypot(found[1].abs() - expected[1].abs());
+        assert!(error < 1e-8, "{beside}: {} Hz, {found:?}, {expected:?}", row.solution.frequency_hz);
+    }
+}
+
+#[test]
+fn what_comes_to_lie_on_phase_0_is_no_grazing() {
+    for instant in instants(&subject(0.0)) {
+        (-4..=4).for_each(|beside| assert_one_contact(instant, beside));
+    }
+}
