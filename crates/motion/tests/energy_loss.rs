@@ -492,3 +492,32 @@ fn grazing_contacts_of_any_depth_come_to_their_end() {
         }
     }
 }
+
+/// A contact whose force has vanished is clear where the general integrator has its penetration end, and not before.
+#[test]
+fn a_trace_tells_when_the_penetration_of_a_parted_contact_ends() {
+    let laws = [
+        damped(1e5, 60.0, 0.0),
+        hunt_crossley(1e6, 20.0, 0.0),
+        restitution(1e6, RestitutionModel::Flores, 0.3, 0.0),
+    ];
+    for law in laws {
+        let (system, frequency_hz) = (beam_with(0.015, law), 36.0);
+        let state = settled(&system, frequency_hz, 60, 0.3);
+        let trace =
+            integrator(&system).trace(&Stretch { frequency_hz, start: 0.3, end: 2.3 }, &state, &[]).unwrap();
+        let penetration = |time: f64| {
+            let stretch = Stretch { frequency_hz, start: 0.3, end: 0.3 + time * frequency_hz };
+            let settings = GeneralSettings::with_tolerance(1e-12).state_only();
+            let state = advance(&system, &stretch, &state, &settings).unwrap().flow.state;
+            state[..6].iter().zip(&system.elements()[0].shape).map(|(q, phi)| q * phi).sum::<f64>()
+        };
+        let ended = trace.contacts.iter().filter_map(|contact| Some((contact.end?, contact.clear?)));
+        let parted: Vec<(f64, f64)> = ended.filter(|(end, clear)| clear - end > 1e-6).collect();
+        assert!(!parted.is_empty(), "{law:?}: no contact parts before it ends");
+        for (end, clear) in parted {
+            assert!(penetration(clear).abs() < 1e-12, "{law:?}: {:e} m", penetration(clear));
+            assert!(penetration(0.5 * (end + clear)) > 1e-9, "{law:?}: not parted yet");
+        }
+    }
+}
