@@ -243,6 +243,15 @@ mod tests {
         assert_eq!(folded(&times, 0.5), expected);
     }
 
+    /// In a flight shorter than a step of the coarse grid, too, at a phase to which cycles can be added without rounding.
+    #[test]
+    fn the_middle_of_a_short_gap_is_in_the_gap() {
+        let gap = Gap { begin: 0.300_010, end: 0.300_012 };
+        let (from, phase) = (0.671_875, 0.671_875 + gap.middle(0.671_875));
+        assert!(gap.begin < phase - from && phase - from < gap.end, "{phase}");
+        assert_eq!(phase + 1e6 - 1e6, phase);
+    }
+
     /// Overlapping contacts of two stops leave only what both leave.
     #[test]
     fn a_gap_is_free_of_all_contacts() {
