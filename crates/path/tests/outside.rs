@@ -1,12 +1,19 @@
-//! A pair of multipliers that crosses the unit circle, turns real and comes back at +1 within a step is found.
+//! Pairs of multipliers that cross the unit circle within a step in which something turns real are found.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
 mod support;
 
 use hammerbeam_path::{
-    Determinant, Direction, EvaluationError, Events, Outside, ParameterRange, PathProblem, Settings,
+    Branch, Determinant, Direction, EvaluationError, Events, Outside, ParameterRange, PathProblem, Settings,
     SingularJacobian, TestValue, follow,
 };
+
+/// A path along which multipliers go that depend on the unknown alone, those of a pair one after the other.
+struct Multiplied<P> {
+    path: P,
+    multipliers: fn(f64) -> Vec<(f64, f64)>,
+    x: f64,
+}
 
 /// Where the pair crosses the circle, before the fold at `x = 0`.
 const CROSSING: f64 = -1e-3;
@@ -16,86 +23,123 @@ const CROSSING: f64 = -1e-3;
 /// `(1 - mu)(1 - mu') = 1 - T + D = -tanh x`: one is at +1 at the fold. With `a = 1e-3` and `b = 0.1` they are complex on the circle at `x = -a`, where
 /// `T = 2 - tanh a`; real and outside from about `x = -a/2`, where `T^2 - 4 D = (T - 2)^2 - 4 (1 - T + D)` changes its sign; 1 and 1.1 at the fold;
 /// one on either side of the circle behind it. The numbers outside are 0, 2, 2, 1.
-struct Normal<P> {
-    fold: P,
-    x: f64,
+fn normal() -> Multiplied<impl PathProblem> {
+    let multipliers = |x: f64| {
+        let product = 1.0 + 0.1 * ((x - CROSSING) / -CROSSING).tanh();
+        pair(0.5 * (1.0 + product + x.tanh()), product)
+    };
+    Multiplied { path: support::graph(|x| (-x * x, -2.0 * x, 0)), multipliers, x: 0.0 }
 }
 
-fn normal() -> Normal<impl PathProblem> {
-    Normal { fold: support::graph(|x| (-x * x, -2.0 * x, 0)), x: 0.0 }
+/// Half-way between the two crossings, and how far they are from it.
+const OUT_AND_IN: (f64, f64) = (0.07, 0.02);
+
+/// `λ = x` with a pair that is outside the circle between the two crossings alone, and one of the product 9 that turns real between them.
+fn passing() -> Multiplied<impl PathProblem> {
+    let multipliers = |x: f64| {
+        let (middle, width) = OUT_AND_IN;
+        let radius = 1.0 + 0.05 * (1.0 - ((x - middle) / width).powi(2)).max(-10.0);
+        let mut all = pair(0.3 * radius, radius * radius);
+        all.extend(pair(-3.0 - 2.0 * (x - middle), 9.0));
+        all
+    };
+    Multiplied { path: support::graph(|x| (x, 1.0, 0)), multipliers, x: 0.0 }
 }
 
-impl<P> Normal<P> {
-    /// Real and imaginary part of the multipliers.
-    fn multipliers(&self) -> [(f64, f64); 2] {
-        let product = 1.0 + 0.1 * ((self.x - CROSSING) / -CROSSING).tanh();
-        let half = 0.5 * (1.0 + product + self.x.tanh());
-        let square = half * half - product;
-        let root = square.abs().sqrt();
-        if square < 0.0 { [(half, root), (half, -root)] } else { [(half + root, 0.0), (half - root, 0.0)] }
+/// Two multipliers by half their sum, and their product.
+fn pair(half: f64, product: f64) -> Vec<(f64, f64)> {
+    let square = half * half - product;
+    let root = square.abs().sqrt();
+    if square < 0.0 {
+        vec![(half, root), (half, -root)]
+    } else {
+        vec![(half + root, 0.0), (half - root, 0.0)]
     }
 }
 
-impl<P: PathProblem> PathProblem for Normal<P> {
+impl<P: PathProblem> PathProblem for Multiplied<P> {
     fn unknowns(&self) -> usize {
-        self.fold.unknowns()
+        self.path.unknowns()
     }
     fn weights(&self) -> &[f64] {
-        self.fold.weights()
+        self.path.weights()
     }
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.x = point[0];
-        self.fold.evaluate(point)
+        self.path.evaluate(point)
     }
     fn residual(&self) -> &[f64] {
-        self.fold.residual()
+        self.path.residual()
     }
     fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.fold.factorise(row)
+        self.path.factorise(row)
     }
     fn solve(&self, right_hand_side: &mut [f64]) {
-        self.fold.solve(right_hand_side);
+        self.path.solve(right_hand_side);
     }
 
-    /// Of pairs alone.
+    /// Of the complex pair nearest to the circle.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
-        let (re, im) = self.multipliers()[0];
-        let value = if im > 0.0 { 1.0 - re * re - im * im } else { 1.0 };
+        let multipliers = (self.multipliers)(self.x);
+        let pairs = multipliers.iter().filter(|(_, im)| *im > 0.0).map(|(re, im)| 1.0 - re * re - im * im);
+        let count = pairs.clone().filter(|value| *value < 0.0).count() as u32;
+        let least = pairs.fold(1.0, |least: f64, value| least.min(value.abs()));
         values.clear();
-        values.push(TestValue { value, count: u32::from(value < 0.0) });
+        values.push(TestValue { value: if count.is_multiple_of(2) { least } else { -least }, count });
     }
 
     fn outside(&mut self, events: Events) -> Option<Outside> {
-        let mut left: Vec<f64> = self.multipliers().iter().map(|(re, im)| re.hypot(*im)).collect();
+        let mut left = (self.multipliers)(self.x);
+        let all = left.len();
         if events.fold {
-            left.pop();
+            remove_nearest(&mut left, |(re, im)| (re - 1.0).hypot(im));
         }
         if events.zeros > 0 {
-            left.clear();
+            let off_circle = |(re, im): (f64, f64)| if im == 0.0 { 9.0 } else { (re.hypot(im) - 1.0).abs() };
+            (0..2).for_each(|_| remove_nearest(&mut left, off_circle));
         }
-        let (critical, least) =
-            (2 - left.len() as u32, left.iter().filter(|size| **size > 1.0).count() as u32);
+        let critical = (all - left.len()) as u32;
+        let least = left.iter().filter(|(re, im)| re.hypot(*im) > 1.0).count() as u32;
         Some(Outside { least, most: least + critical, critical })
     }
+}
+
+fn remove_nearest(multipliers: &mut Vec<(f64, f64)>, distance: impl Fn((f64, f64)) -> f64) {
+    let numbered = multipliers.iter().enumerate();
+    let nearest = numbered.min_by(|a, b| distance(*a.1).total_cmp(&distance(*b.1))).unwrap().0;
+    multipliers.remove(nearest);
+}
+
+/// The unknown where the test function vanishes, along the path from a start to the end of the range.
+fn zeros<P: PathProblem>(mut problem: Multiplied<P>, start: [f64; 2], step: f64) -> (Vec<f64>, Branch) {
+    let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
+    let range = ParameterRange::new(-1.0, 1.0).unwrap();
+    let branch = follow(&mut problem, &start, Direction::Increasing, range, settings).unwrap();
+    let zeros = branch.points.iter().filter(|point| point.events.zeros == 1);
+    (zeros.map(|point| point.point[0]).collect(), branch)
 }
 
 #[test]
 fn the_crossing_is_found_from_either_side_whatever_the_step() {
     for (start, step) in [(-0.9, 0.3), (-0.9, 0.1), (-0.9, 0.007), (0.9, 0.3), (0.9, 0.1), (0.9, 0.007)] {
-        let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
-        let range = ParameterRange::new(-1.0, 1.0).unwrap();
-        let branch = follow(&mut normal(), &[start, -start * start], Direction::Increasing, range, settings);
-        let branch = branch.unwrap();
-        let found: Vec<f64> = branch
-            .points
-            .iter()
-            .filter(|point| point.events.zeros == 1)
-            .map(|point| point.point[0])
-            .collect();
+        let (found, branch) = zeros(normal(), [start, -start * start], step);
         assert_eq!(found.len(), 1, "from {start} in steps of {step}: {found:?}");
         assert!((found[0] - CROSSING).abs() < 1e-9, "{found:?}");
         assert_eq!(branch.folds().count(), 1);
         // The interval of a thousandth is not walked in steps as short as that throughout.
         assert!(branch.points.len() < 60 + (4.0 / step) as usize, "{} points", branch.points.len());
+    }
+}
+
+/// Behind the step the number of pairs outside is another one, since one has turned real, and the zero that tells of it may be either.
+#[test]
+fn both_crossings_are_found_while_another_pair_turns_real() {
+    let (middle, width) = OUT_AND_IN;
+    for start in (0..40).map(|k| -0.9 + 0.005 * f64::from(k)) {
+        let (found, branch) = zeros(passing(), [start, start], 0.3);
+        assert_eq!(found.len(), 2, "from {start}: {found:?}");
+        let off = (found[0] - (middle - width)).abs().max((found[1] - (middle + width)).abs());
+        assert!(off < 1e-9, "from {start}: {found:?}");
+        assert!(branch.points.len() < 60, "{} points", branch.points.len());
     }
 }

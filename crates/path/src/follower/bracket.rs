@@ -56,6 +56,11 @@ impl Bracket {
         (value.abs() / self.slope().max(f64::MIN_POSITIVE)).min(self.width())
     }
 
+    /// The place of the newest probe.
+    pub fn newest(&self) -> f64 {
+        self.known[self.known.len() - 1].0
+    }
+
     pub fn next(&self) -> f64 {
         let inverse = at_zero(&self.known);
         if self.known.len() > 2 && !self.disappointed && self.low.0 < inverse && inverse < self.high.0 {

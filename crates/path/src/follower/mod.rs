@@ -84,6 +84,8 @@ struct Arrival {
     zeros_near: u32,
     /// Least and most number of multipliers outside the unit circle behind the candidate, if known.
     outside: Option<(u32, u32)>,
+    /// Multipliers outside beside the zero that the candidate is, if it was looked for and they are known.
+    counted: Option<outside::Counted>,
 }
 
 /// What happened to the attempts at one step.

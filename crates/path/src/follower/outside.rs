@@ -3,14 +3,26 @@
 //! They cross the circle at a fold or branch point (one), or at a zero of a test function (one or a pair). A pair that crosses it, turns real and comes back at
 //! +1 within one step leaves no trace in test functions that look at pairs. But at the fold where it comes back the other one still is outside, and
 //! nothing accounts for that: the step is in doubt, and its halves tell. On both sides of a smooth event the number is known from the one before: it was that with
-//! or that without the critical ones, and behind it is the other one. Where multipliers may jump, at corners and changes of
-//! signature, and in steps below `signature_step`, nothing is asked, and the books are opened anew.
+//! or that without the critical ones, and behind it is the other one. An event can be the second one of its step, as where a pair leaves the circle, another one that is outside turns real, and
+//! the first comes back: so the number beside a zero, where it was looked for, is compared with that at the start of the step, too. Where multipliers may jump, at corners and changes of
+//! signature, nothing is asked, and the books are opened anew; so they are in steps below [`LEAST`] of `signature_step`.
 
 use super::{Arrival, Follower};
 use crate::{
     error::Doubt,
     problem::{Outside, PathProblem},
 };
+
+/// Share of `signature_step` down to which a step is in doubt whose events do not account for what crosses the circle.
+const LEAST: f64 = 0.02;
+
+/// How many multipliers lie outside at a place beside a zero of a test function.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Counted {
+    pub count: u32,
+    /// The place is before the zero.
+    pub before: bool,
+}
 
 impl Follower {
     /// Doubts a step over which more multipliers cross the circle than its events say, and notes those behind the trial, evaluated last.
@@ -26,16 +38,36 @@ impl Follower {
         let Some((least, most)) = before else {
             return Ok(Arrival { outside: Some((here.least, here.most)), ..arrival });
         };
-        let accounted = least <= here.most && here.least <= most;
-        if !accounted && step > self.settings.signature_step {
-            let behind = if least > here.most { here.most } else { here.least };
-            return Err(Doubt::Unaccounted { before: if least > here.most { least } else { most }, behind });
+        if step > LEAST * self.settings.signature_step {
+            account((least, most), (here.least, here.most))?;
+            if let Some(count) = arrival.counted.and_then(|counted| before_event(counted, here)) {
+                account((least, most), (count, count))?;
+            }
         }
         // The arms of a pitchfork touch the circle and come back.
         let returns = arrival.events.fold && arrival.events.branch_point;
         let outside = if least == most { behind(least, here, returns) } else { (here.least, here.most) };
         Ok(Arrival { outside: Some(outside), ..arrival })
     }
+}
+
+/// Whether what lies outside at one place can be what lies outside at another, each from the least to the most.
+fn account(before: (u32, u32), behind: (u32, u32)) -> Result<(), Doubt> {
+    if before.0 > behind.1 {
+        Err(Doubt::Unaccounted { before: before.0, behind: behind.1 })
+    } else if behind.0 > before.1 {
+        Err(Doubt::Unaccounted { before: before.1, behind: behind.0 })
+    } else {
+        Ok(())
+    }
+}
+
+/// How many lie outside right before an event, from a place beside it; `None` if that is known no better than at the event.
+fn before_event(counted: Counted, at: Outside) -> Option<u32> {
+    if counted.before {
+        return Some(counted.count);
+    }
+    (at.most - at.least == at.critical).then(|| (at.least + at.most).saturating_sub(counted.count))
 }
 
 /// Least and most behind a point, where so many were outside before.

@@ -8,7 +8,7 @@
 //! So is one over which the problem itself knows of zeros that undo each other: on the way to its end, or to the zero that was found before it.
 //! A change of signature is bracketed by bisection, since a signature has no size.
 
-use super::{Arrival, Follower, bracket::Bracket};
+use super::{Arrival, Follower, bracket::Bracket, outside::Counted};
 use crate::{
     error::Doubt,
     point::Events,
@@ -202,7 +202,7 @@ impl Follower {
         let low = sign * before.value.abs().max(f64::MIN_POSITIVE);
         let length = self.trial_progress();
         let mut bracket = Bracket::new((0.0, low), (length, -sign * after.value.abs()));
-        let mut value = low;
+        let (mut value, mut counted) = (low, None);
         for probes in 0..MOST_PROBES {
             let place = bracket.next();
             value = self.probe_toward_zero(
@@ -223,6 +223,8 @@ impl Follower {
             if value.abs() <= SHARP * ends || bracket.uncertainty(value) <= self.settings.correction_floor {
                 break;
             }
+            let outside = problem.outside(Events::default()).filter(|outside| outside.least == outside.most);
+            counted = outside.map(|outside| (place, outside.least)).or(counted);
         }
         if value.abs() > JUMP_SIZE * ends {
             return self.return_to_trial(problem);
@@ -234,7 +236,9 @@ impl Follower {
         self.probe.orient(self.state.orientation);
         std::mem::swap(&mut self.trial, &mut self.probe);
         self.trial.tests[index] = after;
-        let mut arrival = Arrival { uncertainty, ..Arrival::default() };
+        let zero = bracket.newest();
+        let counted = counted.map(|(place, count)| Counted { count, before: place < zero });
+        let mut arrival = Arrival { uncertainty, counted, ..Arrival::default() };
         arrival.events.zeros = 1 << index;
         Ok(Some(arrival))
     }
