@@ -178,6 +178,21 @@ impl BranchWalk {
         Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
     }
 
+    /// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and one of its contacts begins with next to no speed.
+    pub(crate) fn is_lost_at_splitting(
+        &mut self,
+        before: &Place,
+        largest_multiplier: f64,
+    ) -> Result<Option<StopReason>, OrbitError> {
+        if largest_multiplier < splitting::UNRESOLVED {
+            return Ok(None);
+        }
+        let present = self.place();
+        let found = self.slow_begin_of(&present);
+        evaluate(&mut self.problem, &present.point.point)?;
+        Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
+    }
+
     /// If a step has passed a splitting: the number of contacts of an element has changed since the last row, and a contact of it splits in the orbit `before` the step or in the present one, at which the
     /// problem was evaluated last.
     ///

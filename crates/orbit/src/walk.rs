@@ -208,8 +208,13 @@ impl BranchWalk {
             }
             None => match self.row() {
                 Ok(row) => {
-                    self.journal.push(self.follower.in_first_units(self.follower.current()));
                     let largest = row.solution.largest_multiplier();
+                    if let Some(before) = &before
+                        && let Some(splits) = self.is_lost_at_splitting(before, largest)?
+                    {
+                        return Ok(Some(splits));
+                    }
+                    self.journal.push(self.follower.in_first_units(self.follower.current()));
                     self.append_densely(&from, row, rows)?;
                     self.keep_segments_short(largest)?;
                     Ok(None)
