@@ -167,7 +167,8 @@ fn join(earlier: Observed, later: Observed) -> Observed {
 }
 
 /// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a direction that has all modes in it: along
-/// the worst direction the change is about `sqrt(2n)` times that along any one. The larger one of both signs.
+/// the worst direction the change is about `sqrt(2n)` times that along any one. The larger one of both signs; that of the one from which a motion can begin, where the other leads into a contact
+/// whose law remembers how it began.
 pub(super) fn sensitivity(
     model: &Model,
     solution: &PeriodicSolution,
@@ -177,13 +178,19 @@ pub(super) fn sensitivity(
 ) -> Result<f64, Failed> {
     let each = change / (scales.len() as f64).sqrt();
     // Beside a border at which the motion changes its kind, the way towards it matters more than the way back.
-    let mut largest = 0.0_f64;
+    let (mut largest, mut one_is_within) = (0.0_f64, false);
     for side in [each, -each] {
         let mut changed = solution.clone();
         for (i, (entry, scale)) in changed.nodes[0].iter_mut().zip(scales).enumerate() {
             *entry += if i % 2 == 0 { side * scale } else { -side * scale };
         }
-        let other = recompute(model, &changed, scales, settings)?;
+        let other = match recompute(model, &changed, scales, settings) {
+            Err(Failed::Motion(GeneralError::StartsInContact { .. })) if !one_is_within => {
+                one_is_within = true;
+                continue;
+            }
+            other => other?,
+        };
         largest = largest.max(norm(&(&other.monodromy - &found.monodromy)));
     }
     Ok(largest / each)
