@@ -144,7 +144,7 @@ pub fn general_advance(system: &System, frequency_hz: f64, state: &[f64], period
 pub fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<[f64; 2]> {
     let size = 2 * system.dof();
     let settings = GeneralSettings::with_tolerance(1e-12);
-    let stretch = Stretch { frequency_hz: orbit.frequency_hz, start: 0.0, end: 1.0 };
+    let stretch = first_period(orbit);
     let mut state = orbit.nodes[0].clone();
     let mut monodromy = Mat::<f64>::identity(size, size);
     for _ in 0..orbit.period_multiple {
@@ -156,6 +156,19 @@ pub fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<[f6
         monodromy.eigenvalues().unwrap().iter().map(|value| [value.re, value.im]).collect();
     values.sort_by(|a, b| b[0].hypot(b[1]).total_cmp(&a[0].hypot(a[1])));
     values
+}
+
+/// How far apart the first node of an orbit and the state after its period are, by the general integrator, relative to the first.
+pub fn misses_itself_by(system: &System, orbit: &PeriodicSolution) -> f64 {
+    let settings = GeneralSettings::with_tolerance(1e-12).state_only();
+    let one = |state: Vec<f64>| advance(system, &first_period(orbit), &state, &settings).unwrap().flow.state;
+    let later = (0..orbit.period_multiple).fold(orbit.nodes[0].clone(), |state, _| one(state));
+    apart(system, &orbit.nodes[0], &later)
+}
+
+/// The first excitation period of an orbit from the phase at which it begins.
+fn first_period(orbit: &PeriodicSolution) -> Stretch {
+    Stretch { frequency_hz: orbit.frequency_hz, start: orbit.phase, end: orbit.phase + 1.0 }
 }
 
 /// Distance of two states in the energy norm, relative to the first.
