@@ -200,7 +200,12 @@ pub(crate) fn search_cut(
     let phases: Vec<f64> = (0..=(cycles * GRID) as u32).map(|k| f64::from(k) / GRID).collect();
     let stretch = Stretch { frequency_hz, start: 0.0, end: cycles };
     let trace = integrator.trace(&stretch, state, &phases)?;
-    let contacts = closed_times(integrator, &trace.contacts, (frequency_hz, cycles));
+    let mut contacts = closed_times(integrator, &trace.contacts, (frequency_hz, cycles));
+    // Of a contact that has parted before, and is still penetrated, the trace has no piece: what comes up to the first one of it is not known to be flight.
+    if integrator.system().is_in_remembered_contact(frequency_hz, 0.0, state) {
+        let end = contacts.first().map_or(cycles, |contact| contact.begin);
+        contacts.insert(0, Gap { begin: 0.0, end });
+    }
     let gap = longest_gap(&contacts, (0.0, cycles));
     if gap.length() < SHORTEST && !integrator.system().remembers_impacts() {
         return Ok((at_zero(), None));

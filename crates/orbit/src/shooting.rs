@@ -29,7 +29,7 @@ mod equations;
 
 use hammerbeam_motion::{
     Flow, Stretch, System,
-    exact::{ExactIntegrator, MotionError},
+    exact::{AtEnd, ExactIntegrator, MotionError, touches_lacking},
 };
 use hammerbeam_path::{DenseLu, PathError};
 
@@ -60,8 +60,10 @@ pub(crate) struct ShootingProblem {
     border: Vec<f64>,
     lu: DenseLu,
     touches: Vec<u32>,
-    /// [`ExactIntegrator::entered`] of all segments.
-    entered: Vec<i32>,
+    /// [`ExactIntegrator::at_ends`] of all segments, those at their starts and those at their ends.
+    at_ends: [Vec<AtEnd>; 2],
+    /// See [`ShootingProblem::touches_lacking`].
+    touches_lacking: Vec<i32>,
     failure: Option<MotionError>,
     /// Multipliers at the point evaluated last, once they were asked for.
     multipliers: Option<Result<Vec<[f64; 2]>, NoEigenvalues>>,
@@ -96,7 +98,8 @@ impl ShootingProblem {
             border: Vec::new(),
             lu: DenseLu::new(),
             touches: vec![0; contacts],
-            entered: vec![0; contacts],
+            at_ends: [Vec::new(), Vec::new()],
+            touches_lacking: vec![0; contacts],
             failure: None,
             multipliers: None,
             watches_stability: false,
@@ -256,9 +259,27 @@ impl ShootingProblem {
         self.watches_stability = true;
     }
 
-    /// [`ExactIntegrator::entered`] of the orbit at the last evaluated point: what [`touches`](Self::touches) has been put right by, where the orbit is cut at a touch.
-    pub fn entered(&self) -> &[i32] {
-        &self.entered
+    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is cut at a touch: [`touches_lacking`] of each contact over all cuts.
+    pub fn touches_lacking(&self) -> &[i32] {
+        &self.touches_lacking
+    }
+
+    /// Whether the orbit is cut right at a touch, to rounding, at the last evaluated point.
+    pub fn is_cut_at_touch(&self) -> bool {
+        self.touches_lacking.iter().any(|lacking| *lacking != 0)
+    }
+
+    /// Counts a touch at which the orbit is cut once, whichever side of it the states on both sides are by rounding.
+    fn put_touches_right(&mut self) {
+        self.touches_lacking.fill(0);
+        let contacts = self.touches.len();
+        let [starts, ends] = &self.at_ends;
+        for (place, end) in ends.iter().enumerate() {
+            let start = starts[(place + contacts) % starts.len()];
+            self.touches_lacking[place % contacts] += touches_lacking(*end, start);
+        }
+        let pairs = self.touches.iter_mut().zip(&self.touches_lacking);
+        pairs.for_each(|(touches, lacking)| *touches = touches.saturating_add_signed(*lacking));
     }
 
     /// Number of touches of each element over the orbit at the last evaluated point.
@@ -307,7 +328,9 @@ impl ShootingProblem {
             }
         }
         self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
-        self.entered.iter_mut().zip(self.integrator.entered()).for_each(|(sum, entered)| *sum += entered);
+        for (all, of_segment) in self.at_ends.iter_mut().zip(self.integrator.at_ends()) {
+            all.extend_from_slice(of_segment);
+        }
         Ok(())
     }
 

@@ -168,7 +168,7 @@ pub(crate) fn solution(
     let nodes = problem.nodes(point);
     let stretches: Vec<Stretch> = (0..nodes.len()).map(|k| problem.stretch(k, frequency_hz)).collect();
     let mut maxima = observe(problem.integrator(), &stretches, &nodes)?;
-    maxima.contacts = maxima.contacts.saturating_add_signed(problem.entered().iter().sum());
+    maxima.contacts = maxima.contacts.saturating_add_signed(problem.touches_lacking().iter().sum());
     Ok(PeriodicSolution {
         frequency_hz,
         period_multiple: problem.period_multiple(),

@@ -194,7 +194,10 @@ impl BranchWalk {
         self.keep_phase_clear();
         let mut from = self.follower.current().clone();
         let work = self.work();
-        let stopped = self.advance(&mut from)?;
+        let mut stopped = self.advance(&mut from)?;
+        while stopped.is_none() && self.is_cut_at_touch() {
+            stopped = self.leave_touch(&mut from)?;
+        }
         if stopped.is_none()
             && let Some(before) = &before
             && let Some(splits) = self.comes_to_splitting(before, work)?
@@ -202,10 +205,6 @@ impl BranchWalk {
             return Ok(Some(splits));
         }
         match stopped {
-            None if self.is_cut_at_touch() => {
-                self.journal.push(self.follower.in_first_units(self.follower.current()));
-                Ok(None)
-            }
             None => match self.row() {
                 Ok(row) => {
                     let largest = row.solution.largest_multiplier();
@@ -240,9 +239,22 @@ impl BranchWalk {
     fn is_cut_at_touch(&self) -> bool {
         let current = &self.follower.current().events;
         let happens = current.fold || current.branch_point || current.signature_change || current.zeros != 0;
-        !happens
-            && self.follower.stop_reason().is_none()
-            && self.problem.entered().iter().any(|entered| *entered != 0)
+        !happens && self.follower.stop_reason().is_none() && self.problem.is_cut_at_touch()
+    }
+
+    /// Goes on from an orbit that is no row; `from` stays the point before it, as long as the orbits are cut as they were.
+    fn leave_touch(
+        &mut self,
+        from: &mut ContinuationPoint,
+    ) -> Result<Option<hammerbeam_path::StopReason>, OrbitError> {
+        self.journal.push(self.follower.in_first_units(self.follower.current()));
+        let cut = (self.problem.phase(), self.problem.segments());
+        let mut last = from.clone();
+        let stopped = self.advance(&mut last)?;
+        if cut != (self.problem.phase(), self.problem.segments()) {
+            *from = last;
+        }
+        Ok(stopped)
     }
 
     /// Why the walk ends at the present point, if it does.

@@ -24,11 +24,17 @@ const RANGE: (f64, f64) = (0.1505, 0.1519);
 
 /// `x'' + 0.05 x' + x = 0.4 cos(2 pi (f t + shift)) - F` with `F` the force of a spring of 20 N/m and a damper of 0.8 N s/m at a gap of 0.3 m.
 fn subject(shift: f64) -> Subject {
-    let harmonic = Harmonic { order: 1, amplitude: 0.4, phase: 2.0 * PI * shift };
+    let law = LinearStop::with_gap(20.0, 0.3).unwrap().with_damping(0.8).unwrap();
+    oscillator(0.05, 2.0 * PI * shift, law)
+}
+
+/// Unit mass on a spring of 1 N/m, driven by `0.4 cos(2 pi f t + phase)`.
+fn oscillator(damping: f64, phase: f64, law: LinearStop) -> Subject {
+    let harmonic = Harmonic { order: 1, amplitude: 0.4, phase };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let law = Law::Linear(LinearStop::with_gap(20.0, 0.3).unwrap().with_damping(0.8).unwrap());
-    let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    let system = System::new(unit_mass(0.05), &load, vec![stop]).unwrap();
+    let stop =
+        LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law: Law::Linear(law) };
+    let system = System::new(unit_mass(damping), &load, vec![stop]).unwrap();
     (system, Response { shape: vec![1.0], support_ratio: 0.0 })
 }
 
@@ -76,4 +82,17 @@ fn what_comes_to_lie_on_phase_0_is_no_grazing() {
     for instant in instants(&subject(0.0)) {
         (-4..=4).for_each(|beside| assert_one_contact(instant, beside));
     }
+}
+
+/// Without damping motions are the same forwards and backwards, and the mass rests at the deepest point of its contact right at phase 0: by rounding it is closing at one end and opening at the other.
+#[test]
+fn a_contact_that_is_deepest_on_phase_0_is_one() {
+    let subject = oscillator(0.0, PI, LinearStop::with_gap(20.0, 0.05).unwrap());
+    let start = find_start(&subject.0, &subject.1, 0.35, 1, &settings()).unwrap();
+    let settings = OrbitSettings { max_solutions: 300, max_step_hz: 1e-3, ..settings() };
+    let rows = whole(&subject, &start, (0.33, 0.37), &settings);
+    let ends = [rows[0].solution.frequency_hz, rows[rows.len() - 1].solution.frequency_hz];
+    assert_eq!(ends, [0.33, 0.37]);
+    assert!(rows.iter().all(|row| row.solution.nodes[0][1].abs() < 1e-9), "at rest on phase 0");
+    assert!(rows.iter().all(|row| row.solution.maxima.contacts == 1 && !row.events.grazing));
 }

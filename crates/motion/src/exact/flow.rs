@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{
-    ExactIntegrator, MOST_STEPS, MotionError,
+    AtEnd, ExactIntegrator, MOST_STEPS, MotionError,
     drive::{Drive, Jet},
     flight::{Boundary, Touch, clearance_of},
     impact::MOST_IMPACTS,
@@ -116,8 +116,8 @@ impl ExactIntegrator {
             run.parted.push(contact.filter(|_| !presses));
         }
         self.touches.fill(0);
-        self.entered.fill(0);
-        self.note_entered(&run, 1);
+        self.note_end(&run, 0);
+        self.at_ends[1].clear();
         self.counts.stretches += 1;
         if self.has_rigid_stops {
             self.stick_at_start(&mut run)?;
@@ -180,21 +180,24 @@ impl ExactIntegrator {
             }
             self.closed_throughout &= closed_bits(run);
         }
-        self.note_entered(run, -1);
+        self.note_end(run, 1);
         Ok(())
     }
 
-    /// Counts the contacts that are closed, with pressure or without, and closing: one that opens right at an end of a stretch is counted by no touch there.
-    fn note_entered(&mut self, run: &Run, by: i32) {
-        let mut first = 0;
+    /// Notes which contacts are closed, at the start (0) or the end (1) of a stretch.
+    fn note_end(&mut self, run: &Run, end: usize) {
+        let mut noted = std::mem::take(&mut self.at_ends[end]);
+        noted.clear();
         for (element, law) in self.laws.iter().enumerate() {
+            let first = noted.len();
+            noted.resize(first + law.contacts().len(), AtEnd::Open);
             if let Some(contact) = run.closed[element].or(run.parted[element]) {
-                let velocity = self.output_jet(&run.state, element, run.time).slope;
-                self.entered[first + contact] +=
-                    if law.contacts()[contact].sign * velocity > 0.0 { by } else { 0 };
+                let closing =
+                    law.contacts()[contact].sign * self.output_jet(&run.state, element, run.time).slope;
+                noted[first + contact] = if closing > 0.0 { AtEnd::Closing } else { AtEnd::Opening };
             }
-            first += law.contacts().len();
         }
+        self.at_ends[end] = noted;
     }
 
     pub(super) fn forces_act(&self, run: &Run) -> bool {

@@ -226,8 +226,8 @@ pub struct ExactIntegrator {
     flight_start: Vec<f64>,
     propagators: Vec<Propagator>,
     touches: Vec<u32>,
-    /// See [`ExactIntegrator::entered`].
-    entered: Vec<i32>,
+    /// See [`ExactIntegrator::at_ends`].
+    at_ends: [Vec<AtEnd>; 2],
     /// Whether what happens is noted.
     notes_course: bool,
     course: Course,
@@ -285,7 +285,7 @@ impl ExactIntegrator {
             has_rigid_stops: laws.iter().any(|law| law.rigid().is_some()),
             has_contacts: laws.iter().any(|law| !law.contacts().is_empty()),
             touches: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
-            entered: vec![0; laws.iter().map(|law| law.contacts().len()).sum()],
+            at_ends: [Vec::new(), Vec::new()],
             system,
             settings,
             rates,
@@ -340,12 +340,10 @@ impl ExactIntegrator {
         &self.touches
     }
 
-    /// One for each contact that was closed and closing at the start of the last stretch and not at its end, minus one for each that was at its end and not at its start, in the order of
-    /// [`touches`](Self::touches). Over stretches that follow each other and close, as those of a periodic orbit, the sum is zero; where a touch lies on an end of a stretch as well
-    /// as that is known, it is one or minus one, and [`complete_touches`] puts the number of touches right.
+    /// Each contact at the start and at the end of the last stretch, in the order of [`touches`](Self::touches).
     #[must_use]
-    pub fn entered(&self) -> &[i32] {
-        &self.entered
+    pub fn at_ends(&self) -> [&[AtEnd]; 2] {
+        self.at_ends.each_ref().map(Vec::as_slice)
     }
 
     /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow
@@ -370,13 +368,32 @@ impl ExactIntegrator {
     }
 }
 
-/// Numbers of touches over a periodic orbit, from the sums of [`ExactIntegrator::touches`] and [`ExactIntegrator::entered`] over its stretches. A touch on the end of a stretch is counted once,
-/// whichever side of it the states of both stretches are by rounding. Where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite and
-/// was cut somewhere.
-pub fn complete_touches(touches: &mut [u32], entered: &[i32]) {
-    for (touches, entered) in touches.iter_mut().zip(entered) {
-        *touches = touches.saturating_add_signed(*entered);
+/// A contact at an end of a stretch.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum AtEnd {
+    /// Not closed.
+    #[default]
+    Open,
+    /// Closed, with pressure or without, and closing.
+    Closing,
+    /// Closed, and opening or at rest.
+    Opening,
+}
+
+/// What the touches of two stretches lack that follow each other: one if a touch lies between them, the state at the end of the first being before it by rounding and that at the start of the second behind
+/// it; minus one the other way round, where both count it. What opens there is no touch.
+#[must_use]
+pub fn touches_lacking(end: AtEnd, start: AtEnd) -> i32 {
+    match (end, start) {
+        (AtEnd::Open, AtEnd::Closing) => 1,
+        (AtEnd::Closing, AtEnd::Open) => -1,
+        _ => 0,
     }
+}
+
+/// Numbers of touches over an orbit, from the sums over its stretches: where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite
+/// and was cut somewhere.
+pub fn complete_touches(touches: &mut [u32]) {
     for touches in touches.iter_mut().filter(|touches| **touches >= stick::STUCK_TOUCHES) {
         *touches -= *touches % stick::STUCK_TOUCHES;
     }

@@ -104,7 +104,7 @@ impl<'a, F: VectorField> March<'a, F> {
             return Err(GeneralError::TooManySteps { steps: self.settings.max_steps, time });
         }
         // What is left after a boundary right before the end may be no more than rounding.
-        if !step.is_finite() || step < self.end - time && time + 0.1 * step == time {
+        if !step.is_finite() || 1.01 * step < self.end - time && time + 0.1 * step == time {
             return Err(GeneralError::StepTooSmall { time, step });
         }
         Ok(())

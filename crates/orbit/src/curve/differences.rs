@@ -119,7 +119,6 @@ impl Shooting {
         let quotients = Segment {
             end: Vec::new(),
             touches: Vec::new(),
-            entered: Vec::new(),
             matrix: quotient(&above.matrix, &below.matrix),
             by_frequency: quotient(&above.by_frequency, &below.by_frequency),
             by_parameter: quotient(&above.by_parameter, &below.by_parameter),

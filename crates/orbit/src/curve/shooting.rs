@@ -29,8 +29,6 @@ pub(super) struct Segment {
     pub by_parameter: Vec<f64>,
     /// Touches of each contact.
     pub touches: Vec<u32>,
-    /// [`ExactIntegrator::entered`].
-    pub entered: Vec<i32>,
 }
 
 impl Segment {
@@ -50,7 +48,6 @@ impl Segment {
             by_frequency: sum(&self.by_frequency, &next.by_frequency),
             by_parameter: sum(&self.by_parameter, &next.by_parameter),
             touches: self.touches.iter().zip(&next.touches).map(|(a, b)| a + b).collect(),
-            entered: self.entered.iter().zip(&next.entered).map(|(a, b)| a + b).collect(),
         }
     }
 }
@@ -133,7 +130,6 @@ impl Shooting {
             by_frequency: scaled(&flow.by_frequency),
             by_parameter,
             touches: integrator.touches().to_vec(),
-            entered: integrator.entered().to_vec(),
         })
     }
 
@@ -149,7 +145,6 @@ impl Shooting {
         let size = self.size();
         self.grazing_distance = f64::INFINITY;
         self.touches.fill(0);
-        let mut entered = vec![0; self.touches.len()];
         self.segments.clear();
         let mut identity = vec![0.0; size * size];
         (0..size).for_each(|i| identity[i * size + i] = 1.0);
@@ -158,12 +153,11 @@ impl Shooting {
             let segment = self.flow(k, place, &place.nodes[k * size..(k + 1) * size])?;
             let touches = self.touches.iter_mut().zip(&segment.touches);
             touches.for_each(|(sum, touches)| *sum += touches);
-            entered.iter_mut().zip(&segment.entered).for_each(|(sum, entered)| *sum += entered);
             let product = multiply(size, &segment.matrix, &self.products[k]);
             self.products.push(product);
             self.segments.push(segment);
         }
-        complete_touches(&mut self.touches, &entered);
+        complete_touches(&mut self.touches);
         Ok(())
     }
 

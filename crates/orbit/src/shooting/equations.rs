@@ -25,7 +25,7 @@ impl PathProblem for ShootingProblem {
 
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.touches.fill(0);
-        self.entered.fill(0);
+        self.at_ends.iter_mut().for_each(Vec::clear);
         self.failure = None;
         self.multipliers = None;
         let frequency = self.frequency(point);
@@ -47,7 +47,8 @@ impl PathProblem for ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
-        complete_touches(&mut self.touches, &self.entered);
+        self.put_touches_right();
+        complete_touches(&mut self.touches);
         self.accumulate();
         Ok(())
     }

@@ -67,7 +67,9 @@ fn before_event(counted: Counted, at: Outside) -> Option<u32> {
     if counted.before {
         return Some(counted.count);
     }
-    (at.most - at.least == at.critical).then(|| (at.least + at.most).saturating_sub(counted.count))
+    let is_sharp = at.most - at.least == at.critical;
+    let other = if counted.count == at.least { at.most } else { at.least };
+    (is_sharp && (counted.count == at.least || counted.count == at.most)).then_some(other)
 }
 
 /// Least and most behind a point, where so many were outside before.
