@@ -4,28 +4,15 @@
 mod common;
 
 use common::{
-    assert_agreement, cubic, diagonal, differences::assert_sensitivities, element, force, hertz, integrator,
-    model, rigid, settled,
+    assert_agreement, cubic, damped, diagonal, differences::assert_sensitivities, element, force, hertz,
+    hunt_crossley, integrator, model, remembering, rigid, settled,
 };
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Parameter, Stretch, System,
     exact::{ContactPiece, ExactIntegrator, ExactSettings},
     general::{GeneralSettings, observe},
-    law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop},
+    law::{LinearStop, RestitutionModel, TwoSidedStop},
 };
-
-fn damped(stiffness: f64, damping: f64, gap: f64) -> Law {
-    Law::Linear(LinearStop::with_gap(stiffness, gap).unwrap().with_damping(damping).unwrap())
-}
-
-fn hunt_crossley(stiffness: f64, loss: f64, gap: f64) -> Law {
-    Law::HuntCrossley(HuntCrossleyStop::new(HertzStop::with_gap(stiffness, gap).unwrap(), loss).unwrap())
-}
-
-fn restitution_law(stiffness: f64, e: f64, gap: f64) -> Law {
-    let hertz = HertzStop::with_gap(stiffness, gap).unwrap();
-    Law::Restitution(RestitutionStop::new(hertz, RestitutionModel::LankaraniNikravesh, e).unwrap())
-}
 
 /// A Duffing oscillator that is pressed on a rigid stop in a part of every period.
 fn duffing(restitution: f64) -> System {
@@ -147,7 +134,7 @@ fn laws() -> [(&'static str, Law); LAWS] {
         ("two-sided", Law::TwoSided(TwoSidedStop::new(5e3, 3e-4, 4e-4).unwrap())),
         ("hunt-crossley", hunt_crossley(1e7, 0.5, 5e-4)),
         ("damped", damped(5e3, 4.0, 3e-4)),
-        ("memory", restitution_law(1e7, 0.7, 6e-4)),
+        ("memory", remembering(1e7, RestitutionModel::LankaraniNikravesh, 0.7, 6e-4)),
     ]
 }
 

@@ -173,9 +173,7 @@ impl BranchWalk {
         if !alone.is_laborious(touches) {
             return Ok(None);
         }
-        let found = self.slow_begin_of(&present);
-        evaluate(&mut self.problem, &present.point.point)?;
-        Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
+        self.has_just_split(before)
     }
 
     /// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and one of its contacts begins with next to no speed.
@@ -187,8 +185,16 @@ impl BranchWalk {
         if largest_multiplier < splitting::UNRESOLVED {
             return Ok(None);
         }
+        self.has_just_split(before)
+    }
+
+    /// If one of the contacts of the present orbit, at which the problem is evaluated again, begins with next to no speed.
+    fn has_just_split(&mut self, before: &Place) -> Result<Option<StopReason>, OrbitError> {
         let present = self.place();
-        let found = self.slow_begin_of(&present);
+        let span = self.move_to_orbit(&present);
+        let begin = (present.phase, present.state);
+        let found =
+            span.and_then(|span| splitting::find_slow_begin(self.problem.integrator(), begin, span).ok()?);
         evaluate(&mut self.problem, &present.point.point)?;
         Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
     }
@@ -241,13 +247,6 @@ impl BranchWalk {
         let span = self.move_to_orbit(orbit)?;
         let begin = (orbit.phase, orbit.state.clone());
         splitting::find(self.problem.integrator(), begin, span).ok()?
-    }
-
-    /// Where a contact of an orbit has just split.
-    fn slow_begin_of(&mut self, orbit: &Place) -> Option<Splitting> {
-        let span = self.move_to_orbit(orbit)?;
-        let begin = (orbit.phase, orbit.state.clone());
-        splitting::find_slow_begin(self.problem.integrator(), begin, span).ok()?
     }
 
     /// Sets the parameter of an orbit; its frequency [Hz] and its excitation periods.

@@ -8,16 +8,13 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{
-    events::{Subject, general_multipliers, step_of, whole, with},
-    unit_mass,
-};
+use common::events::{Subject, general_multipliers, oscillator_driven_at, step_of, whole, with};
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    Law, Stretch,
     exact::{ExactIntegrator, ExactSettings},
     law::LinearStop,
 };
-use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, Segments, find_start};
+use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Segments, find_start};
 
 const TOUCHED_HZ: f64 = 0.1512;
 const RANGE: (f64, f64) = (0.1505, 0.1519);
@@ -25,17 +22,7 @@ const RANGE: (f64, f64) = (0.1505, 0.1519);
 /// `x'' + 0.05 x' + x = 0.4 cos(2 pi (f t + shift)) - F` with `F` the force of a spring of 20 N/m and a damper of 0.8 N s/m at a gap of 0.3 m.
 fn subject(shift: f64) -> Subject {
     let law = LinearStop::with_gap(20.0, 0.3).unwrap().with_damping(0.8).unwrap();
-    oscillator(0.05, 2.0 * PI * shift, law)
-}
-
-/// Unit mass on a spring of 1 N/m, driven by `0.4 cos(2 pi f t + phase)`.
-fn oscillator(damping: f64, phase: f64, law: LinearStop) -> Subject {
-    let harmonic = Harmonic { order: 1, amplitude: 0.4, phase };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let stop =
-        LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law: Law::Linear(law) };
-    let system = System::new(unit_mass(damping), &load, vec![stop]).unwrap();
-    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    oscillator_driven_at(2.0 * PI * shift, 1.0, 0.05, 0.4, Law::Linear(law))
 }
 
 fn settings() -> OrbitSettings {
@@ -87,7 +74,8 @@ fn what_comes_to_lie_on_phase_0_is_no_grazing() {
 /// Without damping motions are the same forwards and backwards, and the mass rests at the deepest point of its contact right at phase 0: by rounding it is closing at one end and opening at the other.
 #[test]
 fn a_contact_that_is_deepest_on_phase_0_is_one() {
-    let subject = oscillator(0.0, PI, LinearStop::with_gap(20.0, 0.05).unwrap());
+    let law = Law::Linear(LinearStop::with_gap(20.0, 0.05).unwrap());
+    let subject = oscillator_driven_at(PI, 1.0, 0.0, 0.4, law);
     let start = find_start(&subject.0, &subject.1, 0.35, 1, &settings()).unwrap();
     let settings = OrbitSettings { max_solutions: 300, max_step_hz: 1e-3, ..settings() };
     let rows = whole(&subject, &start, (0.33, 0.37), &settings);

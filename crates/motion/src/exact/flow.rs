@@ -117,7 +117,6 @@ impl ExactIntegrator {
         }
         self.touches.fill(0);
         self.note_end(&run, 0);
-        self.at_ends[1].clear();
         self.counts.stretches += 1;
         if self.has_rigid_stops {
             self.stick_at_start(&mut run)?;

@@ -369,10 +369,9 @@ impl ExactIntegrator {
 }
 
 /// A contact at an end of a stretch.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AtEnd {
     /// Not closed.
-    #[default]
     Open,
     /// Closed, with pressure or without, and closing.
     Closing,

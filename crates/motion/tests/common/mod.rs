@@ -11,7 +11,9 @@ use hammerbeam_motion::{
     Flow, Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
-    law::{CubicSpring, HertzStop, RigidStop},
+    law::{
+        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop,
+    },
 };
 use hammerbeam_structure::{PointOutput, ReducedModel, SupportInput};
 
@@ -196,4 +198,20 @@ pub fn assert_agreement(system: &System, stretch: &Stretch, state: &[f64], bound
     let error = difference(system, stretch, &alone, &found);
     assert!(error.state <= 10.0 * bound, "{what}: with and without sensitivities {error:?}");
     exact.touches().iter().sum()
+}
+
+/// A linear stop with a damper.
+pub fn damped(stiffness: f64, damping: f64, gap: f64) -> Law {
+    Law::Linear(LinearStop::with_gap(stiffness, gap).unwrap().with_damping(damping).unwrap())
+}
+
+/// A Hertz stop with the loss of Hunt and Crossley.
+pub fn hunt_crossley(stiffness: f64, loss: f64, gap: f64) -> Law {
+    Law::HuntCrossley(HuntCrossleyStop::new(HertzStop::with_gap(stiffness, gap).unwrap(), loss).unwrap())
+}
+
+/// A Hertz stop that remembers the speed of its impact.
+pub fn remembering(stiffness: f64, model: RestitutionModel, e: f64, gap: f64) -> Law {
+    let hertz = HertzStop::with_gap(stiffness, gap).unwrap();
+    Law::Restitution(RestitutionStop::new(hertz, model, e).unwrap())
 }

@@ -14,6 +14,11 @@ pub type Subject = (System, Response);
 
 /// `x'' + c x' + k x = F cos(2 pi f t) + f(x)` with the force `f` of a law; unit mass.
 pub fn oscillator(stiffness: f64, damper: f64, force: f64, law: Law) -> Subject {
+    oscillator_driven_at(0.0, stiffness, damper, force, law)
+}
+
+/// The same with the force `F cos(2 pi f t + phase)`.
+pub fn oscillator_driven_at(phase: f64, stiffness: f64, damper: f64, force: f64, law: Law) -> Subject {
     let model = ReducedModel {
         natural_frequencies: vec![stiffness.sqrt()],
         damping: Mat::from_fn(1, 1, |_, _| damper),
@@ -21,7 +26,7 @@ pub fn oscillator(stiffness: f64, damper: f64, force: f64, law: Law) -> Subject 
         support: None,
         uniform_acceleration: vec![1.0],
     };
-    let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };
+    let harmonic = Harmonic { order: 1, amplitude: force, phase };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
     let element = LocalElement { name: "element".into(), shape: vec![1.0], support_ratio: 0.0, law };
     let system = System::new(model, &load, vec![element]).unwrap();
