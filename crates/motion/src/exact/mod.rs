@@ -4,7 +4,7 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `flow.rs`, `run.rs`, `standstill.rs` | a run over a stretch; whether it gets on |
+//! | `flow.rs`, `run.rs`, `standstill.rs`, `error.rs` | a run over a stretch; whether it gets on; why it does not |
 //! | `block.rs`, `propagator.rs`, `decouple.rs`, `plane.rs` | the structure as independent second-order blocks |
 //! | `drive.rs`, `drive_values.rs`, `drive_bounds.rs`, `secular.rs` | the particular solution of the load |
 //! | `output.rs` | rows that read displacements, and bounds on them |
@@ -20,6 +20,7 @@
 //! | `lu.rs`, `lanes.rs`, `elementary.rs` | small dense equations, loops on vectors, sines and exponentials on them |
 //! | `contact_phase.rs`, `aim.rs`, `event.rs`, `hidden_turn.rs` | steps from touch to release, with error control; two events at once; turns in front of the first node or behind the last |
 //! | `brief_opening.rs` | contacts that open for an instant between two presses |
+//! | `touches.rs` | what of the touches of a stretch counts in an orbit |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
@@ -49,6 +50,7 @@ mod drive;
 mod drive_bounds;
 mod drive_values;
 mod elementary;
+mod error;
 mod event;
 mod extremum;
 mod flight;
@@ -87,6 +89,7 @@ mod step_length;
 mod step_maximum;
 mod stick;
 mod structure;
+mod touches;
 mod touching;
 mod trace;
 mod tracing;
@@ -101,9 +104,11 @@ mod tests;
 use std::sync::Arc;
 
 pub use decouple::MergedModes;
+pub use error::MotionError;
 pub use maxima::Maxima;
 pub use memory::ContactMemory;
 pub use near_miss::NearMisses;
+pub use touches::{AtEnd, complete_touches, touches_lacking};
 pub use trace::{ContactPiece, Inside, Jump, Touchdown, Trace};
 
 use block::Blocks;
@@ -117,56 +122,7 @@ use series::Series;
 use structure::{KeptWeights, Structure};
 use weights::StepWeights;
 
-use crate::{Law, Parameter, ParameterError, Stretch, System};
-
-/// Why a motion was not computed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "each message names its fields")]
-#[non_exhaustive]
-pub enum MotionError {
-    /// The damping has no block form: motion is left to the general integrator, which orbits are not computed with.
-    #[error(transparent)]
-    MergedModes(#[from] MergedModes),
-    /// The system has no such parameter, or not with this value.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
-    /// A law needs the speed with which a contact began, and the stretch begins within it. Another phase of the excitation moves the start.
-    #[error(
-        "{element} is closed at the start of a stretch, at the phase of {phase} cycles, and its law needs to know how fast it closed"
-    )]
-    StartsInContact { element: String, phase: f64 },
-    /// A contact begins without any speed and is pressed on, and its law loses in proportion to one over that speed: as from rest against a stop without a gap.
-    #[error(
-        "{element} is pressed on without an impact, {time:.6e} s after the start of the stretch, and its law needs the speed of one; a motion that begins away from the stop has it"
-    )]
-    PressedWithoutImpact { element: String, time: f64 },
-    /// No force step, however short, reached the tolerance.
-    #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
-    StepTooShort { time: f64, step: f64 },
-    /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or forces far beyond those of the system.
-    #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
-    TooManySteps { time: f64, steps: u64 },
-    /// Contacts close and open, or press and part, without end, and time does not get on: rounding decides both ways what comes first. It is no property of the system, and a motion beside this one does not
-    /// have it.
-    #[error(
-        "the motion stands still {time:.6e} s after the start of the stretch: {elements} close and open, or press and part, again and again, and time does not get on; with a gap or a phase of the start that is a little different what happens at once there is taken apart"
-    )]
-    StandsStill { time: f64, elements: String },
-    /// A rigid stop is hit again and again in ever shorter distance, and the bounces do not end.
-    #[error(
-        "more than {impacts} impacts up to {time:.6e} s after the start of the stretch: a structure that is pressed on a rigid stop bounces the longer the nearer its restitution is to 1, and with 1 for ever"
-    )]
-    TooManyImpacts { time: f64, impacts: u64 },
-    /// Rigid stops that are held at once do not act independently of one another.
-    #[error("{elements} stick to their rigid stops at once, but the structure cannot move them apart")]
-    DependentStops { elements: String },
-    /// The search for the next contact does not get on.
-    #[error("flight does not advance at {time:.6e} s after the start of the stretch")]
-    FlightStalled { time: f64 },
-    /// The state is infinite or not a number.
-    #[error("state is not finite at {time:.6e} s after the start of the stretch")]
-    NotFinite { time: f64 },
-}
+use crate::{Law, Parameter, Stretch, System};
 
 /// Most force steps in an excitation period: hundreds are many.
 const MOST_STEPS: u64 = 20_000;
@@ -365,35 +321,5 @@ impl ExactIntegrator {
     #[must_use]
     pub fn closed_throughout(&self) -> u64 {
         self.closed_throughout
-    }
-}
-
-/// A contact at an end of a stretch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AtEnd {
-    /// Not closed.
-    Open,
-    /// Closed, with pressure or without, and closing.
-    Closing,
-    /// Closed, and opening or at rest.
-    Opening,
-}
-
-/// What the touches of two stretches lack that follow each other: one if a touch lies between them, the state at the end of the first being before it by rounding and that at the start of the second behind
-/// it; minus one the other way round, where both count it. What opens there is no touch.
-#[must_use]
-pub fn touches_lacking(end: AtEnd, start: AtEnd) -> i32 {
-    match (end, start) {
-        (AtEnd::Open, AtEnd::Closing) => 1,
-        (AtEnd::Closing, AtEnd::Open) => -1,
-        _ => 0,
-    }
-}
-
-/// Numbers of touches over an orbit, from the sums over its stretches: where chatter came to its end on a rigid stop, how often that was stands for the number of impacts, which is infinite
-/// and was cut somewhere.
-pub fn complete_touches(touches: &mut [u32]) {
-    for touches in touches.iter_mut().filter(|touches| **touches >= stick::STUCK_TOUCHES) {
-        *touches -= *touches % stick::STUCK_TOUCHES;
     }
 }
