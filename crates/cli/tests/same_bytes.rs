@@ -135,14 +135,33 @@ fn a_budget_of_time_ends_a_run_and_running_again_goes_on_to_the_same_bytes() {
     assert!(exported(&workshop) == *expected);
 }
 
+/// Flips of branches of that period.
+fn flips_of_period(workshop: &Workshop, period: &str) -> usize {
+    let events = fs::read_to_string(workshop.path("exported/events.csv")).unwrap();
+    let columns: Vec<&str> = events.lines().next().unwrap().split(',').collect();
+    let place = |name: &str| columns.iter().position(|column| *column == name).unwrap();
+    let (multiple, event) = (place("period_multiple"), place("event"));
+    let rows = events.lines().skip(1).map(|row| row.split(',').collect::<Vec<_>>());
+    rows.filter(|row| row[multiple] == period && row[event].split('+').any(|event| event == "flip")).count()
+}
+
+/// Flips of which a run says that the doubled branch is not followed, over all branches.
+fn not_followed(told: &str) -> usize {
+    let lines = told.lines().filter(|line| line.ends_with("is not followed: the study does not ask for it"));
+    lines.map(|line| line.split_whitespace().nth(1).unwrap().parse::<usize>().unwrap()).sum()
+}
+
 #[test]
 fn a_depth_that_is_raised_later_gives_what_it_gives_at_once() {
     let deeper = STUDY.replace("period_doubling_depth = 1", "period_doubling_depth = 2");
     let at_once = Workshop::with(&deeper);
     run(&at_once, "2");
     let raised = Workshop::with(STUDY);
-    run(&raised, "2");
+    let told = run(&raised, "2");
     let before = raised.csv("results").lines().count();
+    let flips_of_four = flips_of_period(&raised, "4");
+    assert!(flips_of_four > 0);
+    assert_eq!(not_followed(&told), flips_of_four, "{told}");
     fs::write(raised.path("study.toml"), &deeper).unwrap();
     run(&raised, "2");
     let (branches, events) = exported(&raised);

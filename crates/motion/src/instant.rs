@@ -109,14 +109,23 @@ impl System {
         contacts.map(|contact| contact.sign * (r - contact.level)).reduce(f64::max)
     }
 
-    /// Whether a state lies within a contact whose law remembers its impact: how that contact began is not in the state.
+    /// Elements, by their numbers, in whose contacts a state lies and whose laws remember the impact: how those contacts began is not in the state.
+    pub fn remembered_contacts(
+        &self,
+        frequency_hz: f64,
+        phase: f64,
+        state: &[f64],
+    ) -> impl Iterator<Item = usize> {
+        let remembering = (0..self.elements().len()).filter(|&k| self.elements()[k].law.remembers_impact());
+        remembering.filter(move |&element| {
+            self.depth_in_contact(element, frequency_hz, phase, state).is_some_and(|depth| depth > 0.0)
+        })
+    }
+
+    /// Whether a state lies within such a contact.
     #[must_use]
     pub fn is_in_remembered_contact(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> bool {
-        let depth = |element| self.depth_in_contact(element, frequency_hz, phase, state);
-        let mut elements = self.elements().iter().enumerate();
-        elements.any(|(number, element)| {
-            element.law.remembers_impact() && depth(number).is_some_and(|depth| depth > 0.0)
-        })
+        self.remembered_contacts(frequency_hz, phase, state).next().is_some()
     }
 }
 

@@ -7,7 +7,7 @@
 
 use hammerbeam_motion::{
     Law, Stretch, System,
-    exact::{ExactIntegrator, MotionError},
+    exact::{ContactPiece, ExactIntegrator, MotionError},
 };
 
 use crate::OrbitError;
@@ -140,7 +140,7 @@ pub(crate) fn contacts(
 
 fn closed_times(
     integrator: &ExactIntegrator,
-    contacts: &[hammerbeam_motion::exact::ContactPiece],
+    contacts: &[ContactPiece],
     (frequency_hz, cycles): (f64, f64),
 ) -> Vec<Gap> {
     let elements = integrator.system().elements();
@@ -153,6 +153,15 @@ fn closed_times(
         .collect();
     times.sort_by(|a, b| a.begin.total_cmp(&b.begin));
     times
+}
+
+/// Number of the element that is in contact longest without a break, over a motion of that duration [s].
+fn longest_contact(contacts: &[ContactPiece], duration: f64) -> usize {
+    let length = |contact: &ContactPiece| {
+        contact.clear.unwrap_or(duration) - contact.begin.as_ref().map_or(0.0, |begin| begin.time)
+    };
+    let longest = contacts.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+    longest.map_or(0, |contact| contact.element)
 }
 
 /// The longest time between contacts within `from..to`.
@@ -201,17 +210,19 @@ pub(crate) fn search_cut(
     let stretch = Stretch { frequency_hz, start: 0.0, end: cycles };
     let trace = integrator.trace(&stretch, state, &phases)?;
     let mut contacts = closed_times(integrator, &trace.contacts, (frequency_hz, cycles));
-    // Of a contact that has parted before, and is still penetrated, the trace has no piece: what comes up to the first one of it is not known to be flight.
-    if integrator.system().is_in_remembered_contact(frequency_hz, 0.0, state) {
-        let end = contacts.first().map_or(cycles, |contact| contact.begin);
-        contacts.insert(0, Gap { begin: 0.0, end });
+    // Of a contact that has parted before, and is still penetrated, the trace has no piece: up to the next one of its element nothing is known to be flight.
+    for element in integrator.system().remembered_contacts(frequency_hz, 0.0, state) {
+        let next = trace.contacts.iter().find(|contact| contact.element == element);
+        let end = next.map_or(cycles, |next| next.begin.as_ref().map_or(0.0, |at| at.time * frequency_hz));
+        contacts.push(Gap { begin: 0.0, end });
     }
+    contacts.sort_by(|a, b| a.begin.total_cmp(&b.begin));
     let gap = longest_gap(&contacts, (0.0, cycles));
     if gap.length() < SHORTEST && !integrator.system().remembers_impacts() {
         return Ok((at_zero(), None));
     }
     if gap.length() < SHORTEST {
-        let element = trace.contacts.first().map_or(0, |contact| contact.element);
+        let element = longest_contact(&trace.contacts, cycles / frequency_hz);
         let element = integrator.system().elements()[element].name.clone();
         return Err(OrbitError::NeverOpens { element, frequency_hz });
     }
@@ -225,7 +236,54 @@ pub(crate) fn search_cut(
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use faer::Mat;
+    use hammerbeam_motion::{
+        Harmonic, HarmonicForce, Load, LocalElement,
+        exact::ExactSettings,
+        law::{HertzStop, RestitutionModel, RestitutionStop},
+    };
+    use hammerbeam_structure::ReducedModel;
+
     use super::*;
+
+    const GAP: f64 = 0.1;
+
+    /// `x'' + 0.1 x' + x = 0.4 cos(2 pi f t)` with a stop after Flores that gives back little.
+    fn integrator_of_a_bouncing_mass() -> ExactIntegrator {
+        let model = ReducedModel {
+            natural_frequencies: vec![1.0],
+            damping: Mat::from_fn(1, 1, |_, _| 0.1),
+            points: vec![],
+            support: None,
+            uniform_acceleration: vec![1.0],
+        };
+        let harmonic = Harmonic { order: 1, amplitude: 0.4, phase: 0.0 };
+        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+        let elastic = HertzStop::with_gap(1e3, GAP).unwrap();
+        let law = Law::Restitution(RestitutionStop::new(elastic, RestitutionModel::Flores, 0.3).unwrap());
+        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+        let system = System::new(model, &load, vec![stop]).unwrap();
+        ExactIntegrator::new(system, ExactSettings::default()).unwrap()
+    }
+
+    /// Behind the end of its force, too: no orbit can begin in what is left of it.
+    #[test]
+    fn a_contact_lasts_until_its_penetration_ends() {
+        let (mut integrator, frequency_hz, state) = (integrator_of_a_bouncing_mass(), 0.15, [0.0, 0.5]);
+        let stretch = |cycles| Stretch { frequency_hz, start: 0.0, end: cycles };
+        let trace = integrator.trace(&stretch(3.0), &state, &[]).unwrap();
+        let times = contacts(&mut integrator, (0.0, 3.0), &state, frequency_hz).unwrap();
+        let pieces = trace.contacts.iter().filter(|piece| piece.clear.is_some());
+        let mut parted = 0;
+        for (piece, time) in pieces.zip(&times) {
+            let at = integrator.advance(&stretch(time.end), &state).unwrap()[0];
+            assert!((at - GAP).abs() < 1e-9, "{at} m at {time:?}");
+            parted += u32::from(time.end > piece.end.unwrap() * frequency_hz + 1e-4);
+        }
+        assert!(parted > 1, "{parted} contacts part before they end");
+    }
 
     const CONTACTS: [Gap; 2] = [Gap { begin: 0.25, end: 0.5 }, Gap { begin: 0.625, end: 0.75 }];
 

@@ -146,9 +146,6 @@ impl BranchWalk {
         let settings = path_settings(&self.settings, self.problem.system(), hertz_per_norm(self.range_hz));
         let Ok(point) = solve_between(&mut self.problem, [from, to], 0.5, &settings) else { return Ok(()) };
         self.evaluations_between += point.evaluations;
-        if self.problem.is_cut_at_touch() {
-            return Ok(());
-        }
         let row = match self.row_at(&point) {
             Ok(row) => row,
             // Without its maxima or multipliers an orbit is no row; the walk itself goes on.

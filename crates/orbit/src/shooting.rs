@@ -20,12 +20,18 @@
 //! theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination by orthogonal transformations over the segments
 //! would keep the tangent, at several times the cost, and is not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end there.
 //!
-//! The equations themselves, at a point and as the path crate asks for them, are in `shooting/equations.rs`.
+//! # Orbits that are cut at a touch
+//! Of states that agree to the tolerance one may lie before the touch and the other behind it: then the flows on both sides have the touch at both of their ends or at neither. Their touches are counted once.
+//! Where the force sets in with a jump, the product of their matrices has its factor (the saltation matrix) twice or not at all, and its eigenvalues are not the multipliers: those are taken from the same orbit cut elsewhere. For
+//! corrections and tangents the matrices stay as they are, derivatives of the equations on the side on which the nodes lie.
+//!
+//! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in `shooting/equations.rs`.
 //!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
 
 mod equations;
+mod flows;
 
 use hammerbeam_motion::{
     Flow, Stretch, System,
@@ -259,14 +265,9 @@ impl ShootingProblem {
         self.watches_stability = true;
     }
 
-    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is cut at a touch: [`touches_lacking`] of each contact over all cuts.
+    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is cut at a touch: [`lacking`](hammerbeam_motion::exact::touches_lacking) of each contact over all cuts.
     pub fn touches_lacking(&self) -> &[i32] {
         &self.touches_lacking
-    }
-
-    /// Whether the orbit is cut right at a touch, to rounding, at the last evaluated point.
-    pub fn is_cut_at_touch(&self) -> bool {
-        self.touches_lacking.iter().any(|lacking| *lacking != 0)
     }
 
     /// Number of touches of each element over the orbit at the last evaluated point.

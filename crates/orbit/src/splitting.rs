@@ -22,7 +22,7 @@
 //! the work tells that it presses, so it need not come to [`PRESSES`], only to [`JUST_PRESSES`] of the largest force.
 
 use hammerbeam_motion::{
-    Stretch,
+    Stretch, System,
     exact::{ContactPiece, ExactIntegrator, MotionError},
 };
 
@@ -51,6 +51,19 @@ const SHALLOW: f64 = 1e-9;
 const READINGS: usize = 256;
 /// Closer looks, each by the factor `READINGS/2`.
 const LOOKS: usize = 3;
+
+/// Names of the elements whose laws remember impacts and whose contacts are not touched as often as they were.
+///
+/// * `before`, `now`: touches of each contact, in the order of elements and their contacts.
+pub(crate) fn elements_with_other_touches(system: &System, before: &[u32], now: &[u32]) -> Vec<String> {
+    let mut pairs = before.iter().zip(now);
+    let changed = system.elements().iter().filter(|element| {
+        let contacts = element.law.contacts().len();
+        let differs = pairs.by_ref().take(contacts).filter(|(before, now)| before != now).count() > 0;
+        differs && element.law.remembers_impact()
+    });
+    changed.map(|element| element.name.clone()).collect()
+}
 
 /// Where a contact opens and is pressed on again.
 #[derive(Debug, Clone, PartialEq)]

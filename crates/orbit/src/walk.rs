@@ -13,7 +13,7 @@ use hammerbeam_motion::{
 use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange};
 
 use crate::{
-    BranchRow, OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
+    OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
     continuation_parameter::ContinuationParameter,
     density::{LastRows, Place},
     recut::Origin,

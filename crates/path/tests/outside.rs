@@ -110,9 +110,16 @@ fn remove_nearest(multipliers: &mut Vec<(f64, f64)>, distance: impl Fn((f64, f64
     multipliers.remove(nearest);
 }
 
+fn steps_of(step: f64) -> Settings {
+    Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() }
+}
+
 /// The unknown where the test function vanishes, along the path from a start to the end of the range.
-fn zeros<P: PathProblem>(mut problem: Multiplied<P>, start: [f64; 2], step: f64) -> (Vec<f64>, Branch) {
-    let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
+fn zeros<P: PathProblem>(
+    mut problem: Multiplied<P>,
+    start: [f64; 2],
+    settings: Settings,
+) -> (Vec<f64>, Branch) {
     let range = ParameterRange::new(-1.0, 1.0).unwrap();
     let branch = follow(&mut problem, &start, Direction::Increasing, range, settings).unwrap();
     let zeros = branch.points.iter().filter(|point| point.events.zeros == 1);
@@ -122,7 +129,7 @@ fn zeros<P: PathProblem>(mut problem: Multiplied<P>, start: [f64; 2], step: f64)
 #[test]
 fn the_crossing_is_found_from_either_side_whatever_the_step() {
     for (start, step) in [(-0.9, 0.3), (-0.9, 0.1), (-0.9, 0.007), (0.9, 0.3), (0.9, 0.1), (0.9, 0.007)] {
-        let (found, branch) = zeros(normal(), [start, -start * start], step);
+        let (found, branch) = zeros(normal(), [start, -start * start], steps_of(step));
         assert_eq!(found.len(), 1, "from {start} in steps of {step}: {found:?}");
         assert!((found[0] - CROSSING).abs() < 1e-9, "{found:?}");
         assert_eq!(branch.folds().count(), 1);
@@ -131,15 +138,26 @@ fn the_crossing_is_found_from_either_side_whatever_the_step() {
     }
 }
 
-/// Behind the step the number of pairs outside is another one, since one has turned real, and the zero that tells of it may be either.
-#[test]
-fn both_crossings_are_found_while_another_pair_turns_real() {
+#[track_caller]
+fn assert_both_crossings(settings: Settings) {
     let (middle, width) = OUT_AND_IN;
     for start in (0..40).map(|k| -0.9 + 0.005 * f64::from(k)) {
-        let (found, branch) = zeros(passing(), [start, start], 0.3);
+        let (found, branch) = zeros(passing(), [start, start], settings.clone());
         assert_eq!(found.len(), 2, "from {start}: {found:?}");
         let off = (found[0] - (middle - width)).abs().max((found[1] - (middle + width)).abs());
         assert!(off < 1e-9, "from {start}: {found:?}");
         assert!(branch.points.len() < 60, "{} points", branch.points.len());
     }
+}
+
+/// Behind the step the number of pairs outside is another one, since one has turned real, and the zero that tells of it may be either.
+#[test]
+fn both_crossings_are_found_while_another_pair_turns_real() {
+    assert_both_crossings(steps_of(0.3));
+}
+
+/// They lie nearer to each other than changes of the signature are told apart.
+#[test]
+fn both_crossings_are_found_within_a_step_that_would_do_for_a_change_of_signature() {
+    assert_both_crossings(Settings { signature_step: 0.1, ..steps_of(0.3) });
 }

@@ -1,6 +1,8 @@
 //! What a results folder holds, branch by branch, in few numbers.
 
-use crate::store::{BranchRecord, Row, Store, StoreError};
+use std::collections::HashSet;
+
+use crate::store::{BranchRecord, JobKind, Row, Store, StoreError, start_of_key};
 
 /// A branch in few numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +19,8 @@ pub struct BranchSummary {
     pub folds: u64,
     /// Number of flips.
     pub flips: u64,
+    /// Those at which the study does not ask for the branch of doubled period; 0 as long as the branch is not finished.
+    pub flips_not_followed: u64,
     /// Number of Neimark-Sacker points.
     pub neimark_sackers: u64,
     /// Number of branch points.
@@ -47,7 +51,23 @@ const PROMINENCE: f64 = 0.05;
 /// The store refuses.
 pub fn summarise(store: &Store) -> Result<Vec<BranchSummary>, StoreError> {
     let _snapshot = store.snapshot()?;
-    store.branches()?.into_iter().map(|branch| summarise_branch(store, branch)).collect()
+    let jobs = store.jobs()?;
+    let doublings = jobs.iter().filter(|job| job.kind == JobKind::Doubling);
+    let followed: Vec<u32> = doublings.filter_map(|job| job.source).map(start_of_key).collect();
+    // What the flips of a branch lead to is known once its job is finished.
+    let finished: HashSet<u32> = jobs.iter().filter(|job| job.outcome.is_some()).map(|job| job.id).collect();
+    let starts = store.starts()?.into_iter().filter(|start| finished.contains(&start.job));
+    let concluded: HashSet<u32> = starts.map(|start| start.key).collect();
+    let summarised = store.branches()?.into_iter().map(|branch| {
+        let mut summary = summarise_branch(store, branch)?;
+        let start = summary.record.start;
+        if concluded.contains(&start) {
+            let followed = followed.iter().filter(|&&of| of == start).count() as u64;
+            summary.flips_not_followed = summary.flips.saturating_sub(followed);
+        }
+        Ok(summary)
+    });
+    summarised.collect()
 }
 
 fn summarise_branch(store: &Store, record: BranchRecord) -> Result<BranchSummary, StoreError> {
@@ -57,6 +77,7 @@ fn summarise_branch(store: &Store, record: BranchRecord) -> Result<BranchSummary
         range_hz: [f64::INFINITY, f64::NEG_INFINITY],
         folds: 0,
         flips: 0,
+        flips_not_followed: 0,
         neimark_sackers: 0,
         branch_points: 0,
         grazings: 0,

@@ -209,6 +209,7 @@ fn branch_document(branch: &BranchSummary) -> Value {
         "frequency_hz": branch.range_hz,
         "folds": branch.folds,
         "flips": branch.flips,
+        "flips_not_followed": branch.flips_not_followed,
         "neimark_sacker_points": branch.neimark_sackers,
         "branch_points": branch.branch_points,
         "grazings": branch.grazings,
@@ -230,6 +231,13 @@ fn branch_text(branch: &BranchSummary) -> String {
             branch.folds, branch.flips, branch.neimark_sackers, branch.branch_points, branch.grazings
         ),
     ];
+    if branch.flips_not_followed > 0 {
+        lines.push(format!(
+            "  at {} of the flips the branch of {} periods is not followed: the study does not ask for it",
+            branch.flips_not_followed,
+            2 * branch.record.period_multiple
+        ));
+    }
     let mut peaks = branch.peaks.clone();
     peaks.sort_by(|a, b| b.max_abs_displacement_m.total_cmp(&a.max_abs_displacement_m));
     for peak in peaks.iter().take(6) {

@@ -141,7 +141,7 @@ impl Shooting {
         let distances = of_elements.filter_map(|contact| {
             // Times behind the begin of the orbit [cycles].
             let from = TOUCH + contact.begin.as_ref().map_or(0.0, |begin| begin.time) * frequency_hz;
-            let to = TOUCH + contact.end.unwrap_or(length) * frequency_hz;
+            let to = TOUCH + contact.clear.unwrap_or(length) * frequency_hz;
             let to_ends = from.min(cycles - to);
             let Some(opposite) = opposite else { return Some(to_ends) };
             let to_opposite = (from - opposite).max(opposite - to);

@@ -36,7 +36,9 @@ impl CurveWalk {
 
     /// The end, if the last step, which led away from `before`, has passed a splitting or is the last of many short ones towards one.
     pub(super) fn comes_to_splitting(&mut self, before: &Passed) -> Option<CurveEnd> {
-        let changed = self.problem.shooting.elements_with_other_touches(&before.touches);
+        let shooting = &self.problem.shooting;
+        let system = shooting.integrator.system();
+        let changed = splitting::elements_with_other_touches(system, &before.touches, &shooting.touches);
         if !changed.is_empty() {
             let current = self.problem.place(&self.follower.current().point);
             for place in [&before.place, &current] {
@@ -68,18 +70,6 @@ impl CurveWalk {
 }
 
 impl Shooting {
-    /// Names of the elements whose laws remember impacts and whose contacts are not touched as often as they were.
-    fn elements_with_other_touches(&self, before: &[u32]) -> Vec<String> {
-        let mut pairs = before.iter().zip(&self.touches);
-        let elements = self.integrator.system().elements().iter();
-        let changed = elements.filter(|element| {
-            let contacts = element.law.contacts().len();
-            let differs = pairs.by_ref().take(contacts).filter(|(before, now)| before != now).count() > 0;
-            differs && element.law.remembers_impact()
-        });
-        changed.map(|element| element.name.clone()).collect()
-    }
-
     /// Where a contact of an orbit splits.
     fn splitting(&mut self, place: &Place) -> Option<Splitting> {
         self.set_parameter(place.value).ok()?;

@@ -1,6 +1,6 @@
-//! The shooting equations at a point, and what the path crate asks of them.
+//! What the path crate asks of the shooting equations.
 
-use hammerbeam_motion::exact::{MotionError, NearMisses, complete_touches, touches_lacking};
+use hammerbeam_motion::exact::NearMisses;
 use hammerbeam_path::{
     Determinant, EvaluationError, Events, Outside, PathProblem, SingularJacobian, TestValue,
 };
@@ -24,31 +24,12 @@ impl PathProblem for ShootingProblem {
     }
 
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.touches.fill(0);
-        self.at_ends.iter_mut().for_each(Vec::clear);
-        self.failure = None;
-        self.multipliers = None;
-        let frequency = self.frequency(point);
-        if frequency.is_nan() || frequency <= 0.0 {
-            return Err(EvaluationError::OutsideDomain);
+        self.evaluate_flows(point)?;
+        if self.jumps_at_cut() {
+            let multipliers = self.multipliers_cut_elsewhere(point)?;
+            self.evaluate_flows(point)?;
+            self.multipliers = Some(multipliers);
         }
-        if let Err(error) = self.move_to(point) {
-            self.failure = Some(error);
-            return Err(EvaluationError::OutsideDomain);
-        }
-        // What is evaluated last is often observed next.
-        self.integrator.begin_course();
-        let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
-        self.integrator.end_course();
-        if let Err(error) = evaluated {
-            // What was noted is not the whole motion.
-            self.integrator.begin_course();
-            self.integrator.end_course();
-            self.failure = Some(error);
-            return Err(EvaluationError::NotFinite);
-        }
-        self.put_touches_right();
-        complete_touches(&mut self.touches);
         self.accumulate();
         Ok(())
     }
@@ -189,76 +170,5 @@ impl PathProblem for ShootingProblem {
         let closed = if still { self.integrator.closed_throughout() } else { 0 };
         let words = self.touches.iter().map(|&t| u64::from(t)).chain([closed]);
         words.fold(0xcbf2_9ce4_8422_2325, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3))
-    }
-}
-
-impl ShootingProblem {
-    fn evaluate_segment(&mut self, segment: usize, point: &[f64]) -> Result<(), MotionError> {
-        let size = self.node_size();
-        let stretch = self.stretch(segment, self.frequency(point));
-        let scales = self.scale.values();
-        let node: Vec<f64> =
-            point[segment * size..(segment + 1) * size].iter().zip(scales).map(|(x, s)| x * s).collect();
-        let flow = self.integrator.flow(&stretch, &node)?;
-        let by_last = self.by_last(&flow);
-        let next = (segment + 1) % self.segments;
-        for i in 0..size {
-            self.residual[segment * size + i] = flow.state[i] / scales[i] - point[next * size + i];
-            self.by_parameter[segment][i] = by_last[i] / scales[i];
-        }
-        let matrix = &mut self.segment_matrices[segment];
-        for j in 0..size {
-            for i in 0..size {
-                matrix[i * size + j] = flow.by_state[(i, j)] / scales[i] * scales[j];
-            }
-        }
-        self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
-        for (all, of_segment) in self.at_ends.iter_mut().zip(self.integrator.at_ends()) {
-            all.extend_from_slice(of_segment);
-        }
-        Ok(())
-    }
-
-    /// `A_k` and `a_k`.
-    fn accumulate(&mut self) {
-        let size = self.node_size();
-        for k in 0..self.segments {
-            let (before, after) = self.products.split_at_mut(k + 1);
-            let (factor, source, target) = (&self.segment_matrices[k], &before[k], &mut after[0]);
-            if k == 0 {
-                target.copy_from_slice(factor);
-            } else {
-                multiply(size, factor, source, target);
-            }
-            let (before, after) = self.parameter_sums.split_at_mut(k + 1);
-            for i in 0..size {
-                let row = &factor[i * size..(i + 1) * size];
-                let carried: f64 = row.iter().zip(&before[k]).map(|(g, a)| g * a).sum();
-                after[0][i] = carried + self.by_parameter[k][i];
-            }
-        }
-    }
-
-    /// Counts a touch at which the orbit is cut once, whichever side of it the states on both sides are by rounding.
-    fn put_touches_right(&mut self) {
-        self.touches_lacking.fill(0);
-        let contacts = self.touches.len();
-        let [starts, ends] = &self.at_ends;
-        for (place, end) in ends.iter().enumerate() {
-            let start = starts[(place + contacts) % starts.len()];
-            self.touches_lacking[place % contacts] += touches_lacking(*end, start);
-        }
-        let pairs = self.touches.iter_mut().zip(&self.touches_lacking);
-        pairs.for_each(|(touches, lacking)| *touches = touches.saturating_add_signed(*lacking));
-    }
-}
-
-/// `target = factor source` by rows.
-fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
-    target.fill(0.0);
-    for (row, out) in factor.chunks_exact(size).zip(target.chunks_exact_mut(size)) {
-        for (value, from) in row.iter().zip(source.chunks_exact(size)) {
-            out.iter_mut().zip(from).for_each(|(o, s)| *o += value * s);
-        }
     }
 }

@@ -120,7 +120,8 @@ impl BranchWalk {
     ///
     /// Beside a splitting two sheets of orbits lie close to one another, and a corrector may fall from one onto the other, in a step or where the orbit is cut anew. That is no way on.
     fn passes_splitting(&mut self, before: &Place) -> Result<Option<StopReason>, OrbitError> {
-        let changed = self.elements_with_other_touches();
+        let (system, now) = (self.problem.system(), self.problem.touches());
+        let changed = splitting::elements_with_other_touches(system, &self.touches, now);
         if changed.is_empty() {
             return Ok(None);
         }
@@ -130,16 +131,6 @@ impl BranchWalk {
         let splits = splits.or_else(|| self.splitting_of(&current).and_then(among));
         evaluate(&mut self.problem, &current.point.point)?;
         Ok(splits.map(|splitting| splits_at(before.point.parameter(), splitting)))
-    }
-
-    /// Names of the elements whose laws remember impacts and whose touches are not as many as in the last row.
-    fn elements_with_other_touches(&self) -> Vec<String> {
-        let elements = self.problem.system().elements().iter();
-        let touches = self.touches.iter().zip(self.problem.touches());
-        let changed = elements
-            .zip(touches)
-            .filter(|(element, (row, now))| element.law.remembers_impact() && row != now);
-        changed.map(|(element, _)| element.name.clone()).collect()
     }
 
     /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.

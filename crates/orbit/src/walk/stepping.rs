@@ -35,11 +35,7 @@ impl BranchWalk {
             Err(end) => return Ok(Some(end)),
         };
         let mut from = self.follower.current().clone();
-        let mut stopped = self.advance(&mut from)?;
-        while stopped.is_none() && self.is_cut_at_touch() {
-            stopped = self.leave_touch(&mut from)?;
-        }
-        if let Some(reason) = stopped {
+        if let Some(reason) = self.advance(&mut from)? {
             return Ok(Some(self.end_of_path(reason)));
         }
         if let Some(splits) = self.comes_to_splitting(&departure)? {
@@ -134,26 +130,6 @@ impl BranchWalk {
             }
             reason => self.stop_reason(reason),
         }
-    }
-
-    /// Whether the present orbit, at which nothing happens, is cut where it touches a contact, to rounding: where its force sets in with a jump the path of its first node has a corner
-    /// there, at which the multipliers are those of a motion with a touch too many or too few. It is no row.
-    fn is_cut_at_touch(&self) -> bool {
-        let current = &self.follower.current().events;
-        let happens = current.fold || current.branch_point || current.signature_change || current.zeros != 0;
-        !happens && self.follower.stop_reason().is_none() && self.problem.is_cut_at_touch()
-    }
-
-    /// Goes on from an orbit that is no row; `from` stays the point before it, as long as the orbits are cut as they were.
-    fn leave_touch(&mut self, from: &mut ContinuationPoint) -> Result<Option<PathStop>, OrbitError> {
-        self.journal.push(self.follower.in_first_units(self.follower.current()));
-        let cut = (self.problem.phase(), self.problem.segments());
-        let mut last = from.clone();
-        let stopped = self.advance(&mut last)?;
-        if cut != (self.problem.phase(), self.problem.segments()) {
-            *from = last;
-        }
-        Ok(stopped)
     }
 
     /// Measures in units that fit the present orbit, so that tolerances and steps stay relative to it.

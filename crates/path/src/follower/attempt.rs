@@ -23,7 +23,11 @@ impl Follower {
         if !self.range.contains(self.trial.parameter()) {
             return self.arrive_at_end(problem, step, most_earlier);
         }
-        match self.judge(problem, step)? {
+        let mut finding = self.judge(problem, step)?;
+        if finding == Finding::Regular && self.turns_for_good(problem)? {
+            finding = Finding::Fold;
+        }
+        match finding {
             Finding::Regular if self.changes_signature() => self.arrive_at_change(problem, step, earlier),
             Finding::Regular => Ok(Arrival { earlier, ..Arrival::default() }),
             Finding::Closing(image) => self.arrive_at_start(problem, image),

@@ -9,6 +9,7 @@ mod corner;
 mod fold;
 mod judge;
 mod leap;
+mod look_ahead;
 mod outside;
 mod range_end;
 mod recut;
@@ -64,6 +65,8 @@ pub struct Follower {
     row: Vec<f64>,
     /// The border that keeps the parameter.
     parameter_row: Vec<f64>,
+    /// It is a copy that only looks where the path goes (`look_ahead.rs`).
+    looks_ahead: bool,
 }
 
 /// A candidate that is to be accepted.
@@ -161,6 +164,7 @@ impl Follower {
             best: candidate,
             row: vec![0.0; length],
             parameter_row,
+            looks_ahead: false,
         }
     }
 

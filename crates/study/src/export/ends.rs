@@ -50,7 +50,7 @@ pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) ->
             };
             let (kind, message) = match &walk.reason {
                 Some(reason) => (reason.kind.as_str(), quoted(&reason.message)),
-                None => ("", String::new()),
+                None => ("not-finished", quoted("not finished: the same run goes on from here")),
             };
             writeln!(
                 writer,

@@ -267,6 +267,11 @@ pub(crate) fn solution_key(start: u32, side: Side, number: u32) -> i64 {
     first_key(walk_id(start, side)) + i64::from(number)
 }
 
+/// The start on whose walks a solution lies.
+pub(crate) fn start_of_key(key: i64) -> u32 {
+    (key >> 33) as u32
+}
+
 /// Number of a walk: two for each start.
 fn walk_id(start: u32, side: Side) -> i64 {
     i64::from(start) * 2 + i64::from(side == Side::Down)

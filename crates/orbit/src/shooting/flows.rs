@@ -1,0 +1,164 @@
+//! The flows of the segments at a point: residuals, matrices, touches; and multipliers where the orbit is cut at a touch.
+
+use hammerbeam_motion::{
+    Stretch,
+    exact::{MotionError, complete_touches, touches_lacking},
+};
+use hammerbeam_path::EvaluationError;
+
+use super::ShootingProblem;
+use crate::{NoEigenvalues, eigenvalues::eigenvalues};
+
+/// Parts of a segment by which nodes are carried away from a touch, tried one after the other: no two of these cuts are as far apart as instants of a symmetric motion are.
+const ELSEWHERE: [f64; 4] = [0.382, 0.618, 0.146, 0.854];
+
+impl ShootingProblem {
+    /// The flows of all segments from a point.
+    pub(super) fn evaluate_flows(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.touches.fill(0);
+        self.at_ends.iter_mut().for_each(Vec::clear);
+        self.failure = None;
+        self.multipliers = None;
+        let frequency = self.frequency(point);
+        if frequency.is_nan() || frequency <= 0.0 {
+            return Err(EvaluationError::OutsideDomain);
+        }
+        if let Err(error) = self.move_to(point) {
+            self.failure = Some(error);
+            return Err(EvaluationError::OutsideDomain);
+        }
+        // What is evaluated last is often observed next.
+        self.integrator.begin_course();
+        let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
+        self.integrator.end_course();
+        if let Err(error) = evaluated {
+            // What was noted is not the whole motion.
+            self.integrator.begin_course();
+            self.integrator.end_course();
+            self.failure = Some(error);
+            return Err(EvaluationError::NotFinite);
+        }
+        self.put_touches_right();
+        complete_touches(&mut self.touches);
+        Ok(())
+    }
+
+    fn evaluate_segment(&mut self, segment: usize, point: &[f64]) -> Result<(), MotionError> {
+        let size = self.node_size();
+        let stretch = self.stretch(segment, self.frequency(point));
+        let scales = self.scale.values();
+        let node: Vec<f64> =
+            point[segment * size..(segment + 1) * size].iter().zip(scales).map(|(x, s)| x * s).collect();
+        let flow = self.integrator.flow(&stretch, &node)?;
+        let by_last = self.by_last(&flow);
+        let next = (segment + 1) % self.segments;
+        for i in 0..size {
+            self.residual[segment * size + i] = flow.state[i] / scales[i] - point[next * size + i];
+            self.by_parameter[segment][i] = by_last[i] / scales[i];
+        }
+        let matrix = &mut self.segment_matrices[segment];
+        for j in 0..size {
+            for i in 0..size {
+                matrix[i * size + j] = flow.by_state[(i, j)] / scales[i] * scales[j];
+            }
+        }
+        self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
+        for (all, of_segment) in self.at_ends.iter_mut().zip(self.integrator.at_ends()) {
+            all.extend_from_slice(of_segment);
+        }
+        Ok(())
+    }
+
+    /// `A_k` and `a_k`.
+    pub(super) fn accumulate(&mut self) {
+        let size = self.node_size();
+        for k in 0..self.segments {
+            let (before, after) = self.products.split_at_mut(k + 1);
+            let (factor, source, target) = (&self.segment_matrices[k], &before[k], &mut after[0]);
+            if k == 0 {
+                target.copy_from_slice(factor);
+            } else {
+                multiply(size, factor, source, target);
+            }
+            let (before, after) = self.parameter_sums.split_at_mut(k + 1);
+            for i in 0..size {
+                let row = &factor[i * size..(i + 1) * size];
+                let carried: f64 = row.iter().zip(&before[k]).map(|(g, a)| g * a).sum();
+                after[0][i] = carried + self.by_parameter[k][i];
+            }
+        }
+    }
+
+    /// Whether the orbit is cut at a touch at which a force sets in with a jump, and the flows have it at both of their ends or at neither.
+    pub(super) fn jumps_at_cut(&self) -> bool {
+        if self.touches_lacking.iter().all(|&lacking| lacking == 0) {
+            return false;
+        }
+        let elements = self.integrator.system().elements().iter();
+        let jumps = elements.flat_map(|element| {
+            std::iter::repeat_n(element.law.onset_damping() > 0.0, element.law.contacts().len())
+        });
+        jumps.zip(&self.touches_lacking).any(|(jumps, &lacking)| jumps && lacking != 0)
+    }
+
+    /// Multipliers of the orbit of a point with all its nodes carried on to where it is not cut at such a touch. The problem is then evaluated there.
+    pub(super) fn multipliers_cut_elsewhere(
+        &mut self,
+        point: &[f64],
+    ) -> Result<Result<Vec<[f64; 2]>, NoEigenvalues>, EvaluationError> {
+        let phase = self.phase;
+        let mut evaluated = Ok(());
+        for part in ELSEWHERE {
+            let offset = part * f64::from(self.period_multiple) / self.segments as f64;
+            evaluated = self.carried_nodes(point, offset).and_then(|carried| {
+                self.phase = phase + offset;
+                let evaluated = self.evaluate_flows(&carried);
+                self.phase = phase;
+                evaluated
+            });
+            if evaluated.is_ok() && !self.jumps_at_cut() {
+                self.accumulate();
+                return Ok(eigenvalues(self.node_size(), self.monodromy()));
+            }
+        }
+        evaluated.map(|()| Err(NoEigenvalues))
+    }
+
+    /// The point whose nodes lie this much later on the motion from those of another one [cycles].
+    fn carried_nodes(&mut self, point: &[f64], offset: f64) -> Result<Vec<f64>, EvaluationError> {
+        let frequency_hz = self.frequency(point);
+        let mut nodes = self.nodes(point);
+        for (segment, node) in nodes.iter_mut().enumerate() {
+            let start = self.stretch(segment, frequency_hz).start;
+            let stretch = Stretch { frequency_hz, start, end: start + offset };
+            *node = self.integrator.advance(&stretch, node).map_err(|error| {
+                self.failure = Some(error);
+                EvaluationError::NotFinite
+            })?;
+        }
+        Ok(self.point(&nodes, point[point.len() - 1]))
+    }
+
+    /// Counts a touch at which the orbit is cut once, whichever side of it the states on both sides are by rounding.
+    fn put_touches_right(&mut self) {
+        self.touches_lacking.fill(0);
+        let contacts = self.touches.len();
+        let [starts, ends] = &self.at_ends;
+        for (place, end) in ends.iter().enumerate() {
+            let start = starts[(place + contacts) % starts.len()];
+            self.touches_lacking[place % contacts] += touches_lacking(*end, start);
+        }
+        let pairs = self.touches.iter_mut().zip(&self.touches_lacking);
+        pairs.for_each(|(touches, lacking)| *touches = touches.saturating_add_signed(*lacking));
+    }
+}
+
+/// `target = factor source` by rows.
+fn multiply(size: usize, factor: &[f64], source: &[f64], target: &mut [f64]) {
+    target.fill(0.0);
+    for (row, out) in factor.chunks_exact(size).zip(target.chunks_exact_mut(size)) {
+        for (value, from) in row.iter().zip(source.chunks_exact(size)) {
+            out.iter_mut().zip(from).for_each(|(o, s)| *o += value * s);
+        }
+    }
+}

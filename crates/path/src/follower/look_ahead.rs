@@ -1,0 +1,49 @@
+//! Folds beside a simpler path, at which the sign of the slope says nothing yet.
+//!
+//! There a slope that has changed its sign may be rounding ([`Follower::turned`]), and where it no longer can be, some points later, the fold is passed. So a step at whose end the sign is another one but not beyond
+//! doubt is decided by what comes: the path is followed on, without its memory, until the parameter has turned beyond doubt, and then the first change of the sign was the fold; or until the old sign comes
+//! back, and then it was none.
+
+use super::{Follower, StepOutcome};
+use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem};
+
+/// Points after which a change of sign is still not beyond doubt that is none.
+const FARTHEST: usize = 200;
+
+impl Follower {
+    /// Whether the slope of the trial, which says nothing yet, is that behind a fold. The problem is evaluated at the trial again.
+    pub(super) fn turns_for_good(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+    ) -> Result<bool, Doubt> {
+        let sign = self.state.parameter_sign;
+        let before = self.state.history.base().tangent.last().map_or(0.0, |slope| slope * sign);
+        if self.looks_ahead || before < 0.0 || self.trial.tangent_parameter() * sign >= 0.0 {
+            return Ok(false);
+        }
+        let settings = self.settings.clone();
+        let mut ahead = Self::resume(problem, self.state.clone(), self.range, settings);
+        ahead.looks_ahead = true;
+        let turns = ahead.comes_to_turn(problem);
+        self.state.counters.evaluations = ahead.state.counters.evaluations + 1;
+        let evaluated = problem.evaluate(&self.trial.point);
+        evaluated.map_err(|error| Doubt::Corrector(CorrectorError::Evaluation(error)))?;
+        Ok(turns)
+    }
+
+    /// Whether the path turns beyond doubt before its slope has the old sign again.
+    fn comes_to_turn(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> bool {
+        for point in 0..FARTHEST {
+            if self.step(problem) != StepOutcome::Accepted {
+                return false;
+            }
+            if self.current().events.fold {
+                return true;
+            }
+            if point > 0 && self.current().tangent_parameter() * self.state.parameter_sign > 0.0 {
+                return false;
+            }
+        }
+        false
+    }
+}

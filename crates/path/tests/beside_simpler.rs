@@ -1,0 +1,66 @@
+//! Folds of a path that lie beside a simpler one, which it has left or comes to: the slope is known badly there, and a change of its sign says nothing until later.
+#![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
+
+mod support;
+
+use hammerbeam_path::{Determinant, EvaluationError, PathProblem, Settings, SingularJacobian};
+use support::{folds, graph, steps_of, up};
+
+/// A path of one unknown that leaves a simpler one at `x = 0`.
+struct Leaving<P>(P);
+
+impl<P: PathProblem> PathProblem for Leaving<P> {
+    fn unknowns(&self) -> usize {
+        self.0.unknowns()
+    }
+    fn weights(&self) -> &[f64] {
+        self.0.weights()
+    }
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
+        self.0.evaluate(point)
+    }
+    fn residual(&self) -> &[f64] {
+        self.0.residual()
+    }
+    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
+        self.0.factorise(row)
+    }
+    fn solve(&self, right_hand_side: &mut [f64]) {
+        self.0.solve(right_hand_side);
+    }
+    fn distance_to_simpler(&self, point: &[f64]) -> f64 {
+        point[0].abs()
+    }
+}
+
+const BEND: f64 = 0.05;
+
+/// `λ = -BEND (x - fold)^2`: behind the fold the slope is beyond doubt from `2 BEND (x - fold) x > 1e-6` on, some hundredths later.
+#[test]
+fn a_fold_lies_where_the_slope_vanishes_and_not_where_that_is_beyond_doubt() {
+    for fold in [1e-5, 1e-4, 1e-3] {
+        let arc = move |x: f64| (-BEND * (x - fold).powi(2), -2.0 * BEND * (x - fold), 0);
+        let start = [1e-6, arc(1e-6).0];
+        let branch = up(&mut Leaving(graph(arc)), &start, -0.1, 1.0, steps_of(1e-3));
+        let at: Vec<f64> = branch.folds().map(|point| point.point[0]).collect();
+        assert_eq!(at.len(), 1, "fold at {fold}: {at:?}");
+        assert!((at[0] - fold).abs() < 2e-6, "fold at {fold}: {at:?}");
+        assert!(branch.points.last().unwrap().parameter() == -0.1);
+    }
+}
+
+/// A ripple of the slope that changes its sign and goes again before that could be told is no fold.
+#[test]
+fn a_slope_that_comes_back_is_no_fold() {
+    // The slope is negative between 0.9e-3 and 1.1e-3 by at most 1e-5, which is beyond doubt from 1e-3 on.
+    let arc = |x: f64| {
+        let u = x - 1e-3;
+        (1e3 * (u.powi(3) / 3.0 - 1e-8 * u), 1e3 * (u * u - 1e-8), 0)
+    };
+    let (start, end) = ([1e-6, arc(1e-6).0], arc(3e-3).0);
+    let settings = Settings { max_step_length: 3e-5, ..steps_of(1e-3) };
+    let branch = up(&mut Leaving(graph(arc)), &start, -1.0, end, settings);
+    assert_eq!(branch.points.last().unwrap().parameter(), end);
+    assert!(branch.points.iter().any(|point| point.tangent[1] < 0.0), "no point lies on the ripple");
+    assert_eq!(folds(&branch), Vec::<f64>::new());
+}
