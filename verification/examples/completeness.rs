@@ -1,4 +1,4 @@
-//! Checks a results folder against simulation: `completeness STUDY RESULTS [FREQUENCIES] [STATES] [LONGEST PERIOD]`.
+//! Checks a results folder against simulation: `completeness STUDY RESULTS [FREQUENCIES] [STATES] [LONGEST PERIOD] [SEED]`.
 #![allow(clippy::print_stdout, reason = "a command")]
 
 use std::{env, fs, path::Path};
@@ -15,10 +15,11 @@ fn main() -> Result<(), Failure> {
         return Err("a study and its results".into());
     };
     let number = |place: usize, default: usize| numbers.get(place).map_or(Ok(default), |text| text.parse());
-    let (frequencies, states, longest) = (number(0, 200)?, number(1, 100)?, number(2, 8)?);
+    let (frequencies, states, longest, seed) =
+        (number(0, 200)?, number(1, 100)?, number(2, 8)?, number(3, 1)?);
     let results = Results::read(&fs::read_to_string(study)?, Path::new(folder))?;
     let effort = Effort { states, longest, patience: 1200 };
-    let report = check(&results, frequencies, &effort, 1)?;
+    let report = check(&results, frequencies, &effort, seed as u64)?;
     println!("{} branches, {} frequencies", results.branches().len(), report.frequencies);
     println!("{} motions, {} of them did not settle", report.motions, report.restless);
     for (period, found) in report.found.iter().enumerate().skip(1) {

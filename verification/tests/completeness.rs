@@ -1,5 +1,5 @@
-//! A bilinear oscillator, `x'' + 0.1 x' + k(x) x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`, through the whole run: what simulation finds
-//! is there, and nothing is there twice. `HAMMERBEAM_EXTENSIVE=1` looks at 200 frequencies and 100 states.
+//! What simulation finds is there, and nothing is there twice: the paper's beam over a part of its range, where periods 1 to 4 and chaos follow each other; and a bilinear oscillator, `x'' + 0.1 x' + k(x) x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`, through the whole run.
+//! `HAMMERBEAM_EXTENSIVE=1` looks at 200 frequencies and 100 states.
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
 mod common;
@@ -48,6 +48,30 @@ fn results() -> &'static Mutex<(Results, TempDir)> {
         let folder = tempfile::tempdir().unwrap();
         Mutex::new((Results::of_run(STUDY, folder.path(), 2).unwrap(), folder))
     })
+}
+
+/// The study of the whole check ([docs](../../docs/completeness.md)) over a part of the range; with four search frequencies to the hertz.
+fn beam() -> String {
+    let whole = include_str!("../../studies/beam-with-stop-completeness.toml");
+    let parts = [
+        ("frequency_hz = [19.0, 110.0]", "frequency_hz = [60.0, 72.0]"),
+        ("frequencies = 10920", "frequencies = 48"),
+    ];
+    parts.iter().fold(whole.to_owned(), |text, (of_whole, of_part)| {
+        assert!(text.contains(of_whole), "{of_whole}");
+        text.replace(of_whole, of_part)
+    })
+}
+
+#[test]
+fn every_periodic_attractor_of_the_beam_is_on_a_branch() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = Results::of_run(&beam(), folder.path(), 2).unwrap();
+    let (frequencies, states) = if extensive() { (200, 100) } else { (12, 12) };
+    let effort = Effort { states, longest: 8, patience: 1200 };
+    let report = check(&results, frequencies, &effort, 1).unwrap();
+    assert!(report.attractors() > frequencies / 2, "{report:?}");
+    assert!(report.missing.is_empty(), "{:?}", report.missing);
 }
 
 #[test]

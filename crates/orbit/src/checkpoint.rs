@@ -135,6 +135,7 @@ impl BranchWalk {
             last_rows,
             evaluations_between,
             touches,
+            outside: None,
             begins_with_present,
             origin,
         })

@@ -19,7 +19,7 @@ use hammerbeam_path::{ContinuationPoint, solve_between};
 
 use crate::{
     BranchRow, BranchWalk, OrbitError,
-    walk::{hertz_per_norm, path_settings},
+    walk::{Between, hertz_per_norm, path_settings},
 };
 
 /// Estimated error, relative to `y`, from which on an interval is looked at.
@@ -127,9 +127,14 @@ impl BranchWalk {
         let to = self.follower.current().clone();
         let end = Place::new(&to, row.solution.maxima.displacement);
         let slopes = [from.tangent_parameter(), to.tangent_parameter()];
+        let mut between = Vec::new();
         if self.last_rows.estimate(end, slopes) > ESTIMATED {
-            self.halve([from, &to], end, MOST_HALVINGS, rows)?;
+            self.halve([from, &to], end, MOST_HALVINGS, &mut between)?;
         }
+        if self.settings.locates_stability_changes {
+            between = self.show_hidden_events(from, (&to, &row), between)?;
+        }
+        rows.extend(between.into_iter().map(|between| between.row));
         self.last_rows.push(end);
         rows.push(row);
         Ok(())
@@ -141,7 +146,7 @@ impl BranchWalk {
         [from, to]: [&ContinuationPoint; 2],
         end: Place,
         halvings: u32,
-        rows: &mut Vec<BranchRow>,
+        rows: &mut Vec<Between>,
     ) -> Result<(), OrbitError> {
         let settings = path_settings(&self.settings, self.problem.system(), hertz_per_norm(self.range_hz));
         let Ok(point) = solve_between(&mut self.problem, [from, to], 0.5, &settings) else { return Ok(()) };
@@ -158,7 +163,7 @@ impl BranchWalk {
             self.halve([from, &point], middle, halvings - 1, rows)?;
         }
         self.last_rows.push(middle);
-        rows.push(row);
+        rows.push(Between { point: point.clone(), row });
         if again {
             self.halve([&point, to], end, halvings - 1, rows)?;
         }

@@ -1,5 +1,6 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
+mod between;
 mod row;
 mod settings;
 mod shorter_period;
@@ -10,7 +11,7 @@ use hammerbeam_motion::{
     System,
     exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange};
+use hammerbeam_path::{ContinuationPoint, Direction, Follower, Outside, ParameterRange};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
@@ -22,6 +23,7 @@ use crate::{
     solve::{integrator, nodes_from},
     state_scale::StateScale,
 };
+pub(crate) use between::Between;
 use settings::segment_count;
 pub(crate) use settings::{hertz_per_norm, path_settings};
 
@@ -39,6 +41,8 @@ pub struct BranchWalk {
     pub(crate) range_hz: (f64, f64),
     /// Touches of each contact at the row before.
     pub(crate) touches: Vec<u32>,
+    /// Multipliers outside the unit circle at the row before, once there is one.
+    pub(crate) outside: Option<Outside>,
     /// The present point is still to be given as a row: the walk has left a crossing.
     pub(crate) begins_with_present: bool,
     /// For the density of rows.
@@ -142,6 +146,7 @@ impl BranchWalk {
             settings: *settings,
             range_hz,
             touches,
+            outside: None,
             begins_with_present: false,
             last_rows,
             evaluations_between: 0,

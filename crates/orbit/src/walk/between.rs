@@ -1,0 +1,182 @@
+//! Flips and Neimark-Sacker points that only the numbers of multipliers outside the unit circle show.
+//!
+//! The path keeps books of them from point to point, but not over its shortest steps; and a pair that leaves the circle and comes back within one step leaves no trace in them, where a row between the points
+//! (`density.rs`) may lie where it is outside. Of neighbours among points and rows whose numbers differ, although nothing happens at either that accounts for it, the place between is found by halving. Where the contacts
+//! change, multipliers may jump, and nothing is asked.
+
+use hammerbeam_path::{ContinuationPoint, Events, Outside, solve_between};
+
+use super::{BranchWalk, path_settings, settings::hertz_per_norm};
+use crate::{BranchRow, OrbitError, located, solve::evaluate, stability};
+
+/// Halvings to an interval of rounding.
+const HALVINGS: u32 = 50;
+/// A multiplier that is farther from its place where the numbers change jumps there: that is no event.
+const JUMPS: f64 = 1e-4;
+
+/// A row between two points of the path.
+pub(crate) struct Between {
+    pub point: ContinuationPoint,
+    pub row: BranchRow,
+}
+
+impl BranchWalk {
+    /// Puts the rows of hidden events among those between `from` and `to`, the row of which is `last`.
+    pub(crate) fn show_hidden_events(
+        &mut self,
+        from: &ContinuationPoint,
+        (to, last): (&ContinuationPoint, &BranchRow),
+        rows: Vec<Between>,
+    ) -> Result<Vec<Between>, OrbitError> {
+        let behind = outside(last, to.events);
+        let first = match self.outside.replace(behind) {
+            Some(outside) => outside,
+            None => match self.multipliers_at(from) {
+                Ok(multipliers) => stability::outside(&multipliers, from.events),
+                Err(_) => return Ok(rows),
+            },
+        };
+        let of_rows = rows.iter().map(|between| outside(&between.row, Events::default()));
+        let numbers: Vec<Outside> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
+        let changes = rows.iter().any(|between| between.point.signature != from.signature);
+        if changes || to.signature != from.signature || may_be_equal(&numbers) {
+            return Ok(rows);
+        }
+        let mut shown: Vec<Between> = Vec::with_capacity(rows.len() + 2);
+        let mut before = from.clone();
+        let ends = rows.into_iter().map(Some).chain([None]);
+        for (pair, between) in numbers.windows(2).zip(ends) {
+            let behind = between.as_ref().map_or(to, |between| &between.point).clone();
+            if !may_be_equal(pair) {
+                match self.hidden_event([&before, &behind]) {
+                    Ok(event) => shown.extend(event),
+                    // As in `density.rs`: what cannot be computed is no row, and the walk goes on.
+                    Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => {}
+                    Err(error) => return Err(error),
+                }
+            }
+            before = behind;
+            shown.extend(between);
+        }
+        Ok(shown)
+    }
+
+    /// The event between two neighbours; `None` if there is none, or the orbits there are not found.
+    fn hidden_event(&mut self, ends: [&ContinuationPoint; 2]) -> Result<Option<Between>, OrbitError> {
+        let [mut near, mut far] = ends.map(ContinuationPoint::clone);
+        let settings = path_settings(&self.settings, self.problem.system(), hertz_per_norm(self.range_hz));
+        // At an event the number is that of either side by rounding.
+        let is_far_known = !far.events.any();
+        let known = if is_far_known { &far } else { &near };
+        let number = beyond(&self.multipliers_at(known)?);
+        for _ in 0..HALVINGS {
+            let Ok(middle) = solve_between(&mut self.problem, [&near, &far], 0.5, &settings) else { break };
+            self.evaluations_between += middle.evaluations;
+            let is_known = beyond(self.problem.multipliers()?) == number;
+            if is_known == is_far_known { far = middle } else { near = middle }
+        }
+        let uncertainty = far.arc_length - near.arc_length;
+        let place = if is_far_known { far } else { near };
+        self.event_row(ContinuationPoint { uncertainty, ..place })
+    }
+
+    fn multipliers_at(&mut self, point: &ContinuationPoint) -> Result<Vec<[f64; 2]>, OrbitError> {
+        evaluate(&mut self.problem, &point.point)?;
+        Ok(self.problem.multipliers()?.to_vec())
+    }
+
+    /// The row of an orbit with a multiplier at -1 or a pair on the unit circle.
+    fn event_row(&mut self, mut point: ContinuationPoint) -> Result<Option<Between>, OrbitError> {
+        let multipliers = self.multipliers_at(&point)?;
+        let off =
+            |[re, im]: &[f64; 2]| if *im == 0.0 { (1.0 + re).abs() } else { (re.hypot(*im) - 1.0).abs() };
+        let Some(critical) = multipliers.iter().min_by(|a, b| off(a).total_cmp(&off(b))) else {
+            return Ok(None);
+        };
+        if off(critical) > JUMPS {
+            return Ok(None);
+        }
+        point.events = Events { zeros: if critical[1] == 0.0 { 1 } else { 2 }, ..Events::default() };
+        let touches = self.problem.touches().to_vec();
+        let at_corners = self.follower.settings().min_step;
+        let place = located::Place { point: &point, bend: 0.0, at_corners, touches_before: &touches };
+        let located = located::describe(&mut self.problem, &place);
+        let row = BranchRow { located, ..self.row_at(&point)? };
+        Ok(Some(Between { point, row }))
+    }
+}
+
+fn outside(row: &BranchRow, events: Events) -> Outside {
+    stability::outside(&row.solution.floquet_multipliers, events)
+}
+
+/// How many are outside, those on the circle by their last digit.
+fn beyond(multipliers: &[[f64; 2]]) -> usize {
+    multipliers.iter().filter(|[re, im]| re.hypot(*im) > 1.0).count()
+}
+
+/// Whether as many multipliers may be outside at all of these places.
+fn may_be_equal(numbers: &[Outside]) -> bool {
+    let least = numbers.iter().map(|number| number.least).max();
+    let most = numbers.iter().map(|number| number.most).min();
+    least <= most
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use faer::Mat;
+    use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
+    use hammerbeam_structure::{PointOutput, ReducedModel};
+
+    use crate::{BranchWalk, OrbitSettings, Response, Side, find_start};
+
+    /// `x'' + 0.1 x' + k x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`: harmonic orbits flip between 0.2 and 0.6 Hz.
+    fn bilinear() -> (System, Response) {
+        let model = ReducedModel {
+            natural_frequencies: vec![1.0],
+            damping: Mat::from_fn(1, 1, |_, _| 0.1),
+            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
+            support: None,
+            uniform_acceleration: vec![1.0],
+        };
+        let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
+        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+        let law = Law::Linear(LinearStop::with_gap(19.0, 0.0).unwrap());
+        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
+        let system = System::new(model, &load, vec![stop]).unwrap();
+        (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+    }
+
+    /// Between the points before and behind a flip that the path has found, it is found again from the numbers alone.
+    #[test]
+    fn an_event_of_which_only_the_numbers_tell_is_found() {
+        let (system, response) = bilinear();
+        let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+        let start = find_start(&system, &response, 0.6, 1, &settings).unwrap();
+        let mut walk =
+            BranchWalk::new(&system, &response, &start, Side::Down, (0.2, 0.6), &settings).unwrap();
+        let (mut rows, mut points, mut found) = (vec![walk.start_row().unwrap()], Vec::new(), 0);
+        points.push(walk.follower.current().clone());
+        while walk.step(&mut rows).unwrap().is_none() {
+            points.push(walk.follower.current().clone());
+            let [.., before, flip, _] = points.as_slice() else { continue };
+            if flip.events.zeros != 1 {
+                continue;
+            }
+            let (expected, behind) = (flip.parameter(), points[points.len() - 1].clone());
+            walk.outside = None;
+            let last = rows[rows.len() - 1].clone();
+            let before = before.clone();
+            let shown = walk.show_hidden_events(&before, (&behind, &last), Vec::new()).unwrap();
+            assert_eq!(shown.len(), 1, "at {expected} Hz");
+            let event = &shown[0].row;
+            assert!(event.events.flip && event.located.is_some());
+            let off = (event.solution.frequency_hz - expected).abs();
+            assert!(off < 1e-9 * expected, "{off:.1e} Hz off {expected} Hz");
+            found += 1;
+        }
+        assert!(found > 0, "no flip");
+    }
+}
