@@ -58,8 +58,7 @@ impl BranchWalk {
         }
         out.floats(&state.noted);
         out.word(u64::from(state.zeros_near));
-        // Their number is small: the largest word says that nothing is known.
-        out.word(state.outside.map_or(u64::MAX, |(least, most)| u64::from(most) << 32 | u64::from(least)));
+        out.word(numbers_word(state.outside));
         let Counters { evaluations, factorisations, accepted, rejected, short_in_a_row } = state.counters;
         let counts = [evaluations, factorisations, accepted, rejected, short_in_a_row];
         counts.iter().for_each(|&count| out.word(count));
@@ -73,6 +72,7 @@ impl BranchWalk {
         }
         out.word(self.touches.len() as u64);
         self.touches.iter().for_each(|&touches| out.word(u64::from(touches)));
+        out.word(numbers_word(self.outside));
         out.word(u64::from(self.begins_with_present));
         out.word(u64::from(self.origin.is_some()));
         if let Some(origin) = &self.origin {
@@ -105,8 +105,7 @@ impl BranchWalk {
         let length = hertz_per_norm(range_hz);
         let Stored { mut problem, state, evaluations_between, last_rows } =
             read(&mut reader, system, response, (settings, length)).ok_or(OrbitError::Checkpoint)??;
-        let (touches, begins_with_present, origin) =
-            read_walk(&mut reader, problem.node_size() + 1).ok_or(OrbitError::Checkpoint)?;
+        let beside = read_walk(&mut reader, problem.node_size() + 1).ok_or(OrbitError::Checkpoint)?;
         if settings.locates_stability_changes {
             problem.watch_stability();
         }
@@ -134,10 +133,10 @@ impl BranchWalk {
             range_hz,
             last_rows,
             evaluations_between,
-            touches,
-            outside: None,
-            begins_with_present,
-            origin,
+            touches: beside.touches,
+            outside: beside.outside,
+            begins_with_present: beside.begins_with_present,
+            origin: beside.origin,
         })
     }
 }
@@ -225,9 +224,7 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
         tests_before: reader.tests()?,
         noted: reader.floats()?,
         zeros_near: u32::try_from(reader.word()?).ok()?,
-        outside: Some(reader.word()?)
-            .filter(|word| *word != u64::MAX)
-            .map(|word| ((word & 0xffff_ffff) as u32, (word >> 32) as u32)),
+        outside: numbers_of(reader.word()?),
         counters: Counters {
             evaluations: reader.word()?,
             factorisations: reader.word()?,
@@ -275,9 +272,18 @@ fn read_varied(reader: &mut Reader<'_>) -> Option<(u32, ContinuationParameter)> 
     Some((word as u32, ContinuationParameter::Other { parameter, frequency_hz: reader.float()? }))
 }
 
+/// What a walk knows beside its follower.
+struct Beside {
+    touches: Vec<u32>,
+    outside: Option<(u32, u32)>,
+    begins_with_present: bool,
+    origin: Option<Origin>,
+}
+
 /// What a walk knows beside its follower, the start as an orbit of one segment, of that length; `None` if the bytes do not fit or are too many.
-fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<(Vec<u32>, bool, Option<Origin>)> {
+fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<Beside> {
     let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
+    let outside = numbers_of(reader.word()?);
     let begins_with_present = reader.word()? != 0;
     let origin = match reader.word()? {
         0 => None,
@@ -286,7 +292,16 @@ fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<(Vec<u32>, bool, 
     let fits = origin
         .as_ref()
         .is_none_or(|origin| origin.point.point.len() == length && origin.point.tangent.len() == length);
-    (fits && reader.bytes.is_empty()).then_some((touches, begins_with_present, origin))
+    (fits && reader.bytes.is_empty()).then_some(Beside { touches, outside, begins_with_present, origin })
+}
+
+/// Two small numbers, or the largest word where they are not known.
+fn numbers_word(numbers: Option<(u32, u32)>) -> u64 {
+    numbers.map_or(u64::MAX, |(least, most)| u64::from(most) << 32 | u64::from(least))
+}
+
+fn numbers_of(word: u64) -> Option<(u32, u32)> {
+    (word != u64::MAX).then_some(((word & 0xffff_ffff) as u32, (word >> 32) as u32))
 }
 
 /// The ends at which the last point already lies. A walk that stopped for another reason may be tried again.

@@ -11,7 +11,7 @@ use hammerbeam_motion::{
     System,
     exact::{ExactIntegrator, MotionError},
 };
-use hammerbeam_path::{ContinuationPoint, Direction, Follower, Outside, ParameterRange};
+use hammerbeam_path::{ContinuationPoint, Direction, Follower, ParameterRange};
 
 use crate::{
     OrbitError, OrbitSettings, PeriodicSolution, Response, Side,
@@ -41,8 +41,8 @@ pub struct BranchWalk {
     pub(crate) range_hz: (f64, f64),
     /// Touches of each contact at the row before.
     pub(crate) touches: Vec<u32>,
-    /// Multipliers outside the unit circle at the row before, once there is one.
-    pub(crate) outside: Option<Outside>,
+    /// Least and most number of multipliers outside the unit circle at the row before, once there is one.
+    pub(crate) outside: Option<(u32, u32)>,
     /// The present point is still to be given as a row: the walk has left a crossing.
     pub(crate) begins_with_present: bool,
     /// For the density of rows.

@@ -4,7 +4,7 @@
 //! (`density.rs`) may lie where it is outside. Of neighbours among points and rows whose numbers differ, although nothing happens at either that accounts for it, the place between is found by halving. Where the contacts
 //! change, multipliers may jump, and nothing is asked.
 
-use hammerbeam_path::{ContinuationPoint, Events, Outside, solve_between};
+use hammerbeam_path::{ContinuationPoint, Events, solve_between};
 
 use super::{BranchWalk, path_settings, settings::hertz_per_norm};
 use crate::{BranchRow, OrbitError, located, solve::evaluate, stability};
@@ -28,16 +28,17 @@ impl BranchWalk {
         (to, last): (&ContinuationPoint, &BranchRow),
         rows: Vec<Between>,
     ) -> Result<Vec<Between>, OrbitError> {
-        let behind = outside(last, to.events);
+        let behind = outside(&last.solution.floquet_multipliers, to.events);
         let first = match self.outside.replace(behind) {
             Some(outside) => outside,
             None => match self.multipliers_at(from) {
-                Ok(multipliers) => stability::outside(&multipliers, from.events),
+                Ok(multipliers) => outside(&multipliers, from.events),
                 Err(_) => return Ok(rows),
             },
         };
-        let of_rows = rows.iter().map(|between| outside(&between.row, Events::default()));
-        let numbers: Vec<Outside> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
+        let of_rows =
+            rows.iter().map(|between| outside(&between.row.solution.floquet_multipliers, Events::default()));
+        let numbers: Vec<(u32, u32)> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
         let changes = rows.iter().any(|between| between.point.signature != from.signature);
         if changes || to.signature != from.signature || may_be_equal(&numbers) {
             return Ok(rows);
@@ -106,8 +107,10 @@ impl BranchWalk {
     }
 }
 
-fn outside(row: &BranchRow, events: Events) -> Outside {
-    stability::outside(&row.solution.floquet_multipliers, events)
+/// Least and most number of multipliers outside the circle.
+fn outside(multipliers: &[[f64; 2]], events: Events) -> (u32, u32) {
+    let outside = stability::outside(multipliers, events);
+    (outside.least, outside.most)
 }
 
 /// How many are outside, those on the circle by their last digit.
@@ -116,9 +119,9 @@ fn beyond(multipliers: &[[f64; 2]]) -> usize {
 }
 
 /// Whether as many multipliers may be outside at all of these places.
-fn may_be_equal(numbers: &[Outside]) -> bool {
-    let least = numbers.iter().map(|number| number.least).max();
-    let most = numbers.iter().map(|number| number.most).min();
+fn may_be_equal(numbers: &[(u32, u32)]) -> bool {
+    let least = numbers.iter().map(|number| number.0).max();
+    let most = numbers.iter().map(|number| number.1).min();
     least <= most
 }
 
