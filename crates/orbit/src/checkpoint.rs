@@ -22,7 +22,7 @@ use crate::{
 use bytes::{Reader, Writer};
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0008;
+const MAGIC: u64 = 0x4842_5741_4c4b_0009;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.

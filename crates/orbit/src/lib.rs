@@ -14,7 +14,7 @@
 //! | `find.rs`, `beginning.rs`, `catalogue.rs`, `sampling.rs`, `crossings.rs` | all orbits at one frequency: the search, states at which a motion can begin, the orbits known, Newton's method from many states, where branches cross the frequency |
 //! | `solve.rs` | Newton's method at a fixed frequency, and what is stored of a converged orbit |
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
-//! | `walk.rs`, `resegment.rs`, `halves.rs`, `checkpoint.rs` | walking, cutting orbits into more segments on the way, storing a walk |
+//! | `walk.rs`, `walk/`, `resegment.rs`, `halves.rs`, `checkpoint.rs` | walking, step by step, cutting orbits into more segments on the way, storing a walk |
 //! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
 //! | `stop.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |

@@ -70,6 +70,8 @@ pub(crate) struct ShootingProblem {
     at_ends: [Vec<AtEnd>; 2],
     /// See [`ShootingProblem::touches_lacking`].
     touches_lacking: Vec<i32>,
+    /// Whether a segment ends at a touch at which a force sets in with a jump, and the flows have it at both of their ends or at neither.
+    jumps_at_cut: bool,
     failure: Option<MotionError>,
     /// Multipliers at the point evaluated last, once they were asked for.
     multipliers: Option<Result<Vec<[f64; 2]>, NoEigenvalues>>,
@@ -106,6 +108,7 @@ impl ShootingProblem {
             touches: vec![0; contacts],
             at_ends: [Vec::new(), Vec::new()],
             touches_lacking: vec![0; contacts],
+            jumps_at_cut: false,
             failure: None,
             multipliers: None,
             watches_stability: false,
@@ -265,7 +268,7 @@ impl ShootingProblem {
         self.watches_stability = true;
     }
 
-    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is cut at a touch: [`lacking`](hammerbeam_motion::exact::touches_lacking) of each contact over all cuts.
+    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is cut at a touch: [`touches_lacking`](hammerbeam_motion::exact::touches_lacking) of each contact over all cuts.
     pub fn touches_lacking(&self) -> &[i32] {
         &self.touches_lacking
     }

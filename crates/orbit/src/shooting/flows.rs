@@ -1,7 +1,7 @@
 //! The flows of the segments at a point: residuals, matrices, touches; and multipliers where the orbit is cut at a touch.
 
 use hammerbeam_motion::{
-    Stretch,
+    Stretch, System,
     exact::{MotionError, complete_touches, touches_lacking},
 };
 use hammerbeam_path::EvaluationError;
@@ -89,39 +89,26 @@ impl ShootingProblem {
         }
     }
 
-    /// Whether the orbit is cut at a touch at which a force sets in with a jump, and the flows have it at both of their ends or at neither.
-    pub(super) fn jumps_at_cut(&self) -> bool {
-        if self.touches_lacking.iter().all(|&lacking| lacking == 0) {
-            return false;
-        }
-        let elements = self.integrator.system().elements().iter();
-        let jumps = elements.flat_map(|element| {
-            std::iter::repeat_n(element.law.onset_damping() > 0.0, element.law.contacts().len())
-        });
-        jumps.zip(&self.touches_lacking).any(|(jumps, &lacking)| jumps && lacking != 0)
-    }
-
-    /// Multipliers of the orbit of a point with all its nodes carried on to where it is not cut at such a touch. The problem is then evaluated there.
+    /// Multipliers of the orbit of a point with all its nodes carried on to where it is not cut at a touch at which a force sets in with a jump. The problem is then evaluated elsewhere, or not at all.
     pub(super) fn multipliers_cut_elsewhere(
         &mut self,
         point: &[f64],
-    ) -> Result<Result<Vec<[f64; 2]>, NoEigenvalues>, EvaluationError> {
+    ) -> Result<Vec<[f64; 2]>, NoEigenvalues> {
         let phase = self.phase;
-        let mut evaluated = Ok(());
         for part in ELSEWHERE {
             let offset = part * f64::from(self.period_multiple) / self.segments as f64;
-            evaluated = self.carried_nodes(point, offset).and_then(|carried| {
+            let evaluated = self.carried_nodes(point, offset).and_then(|carried| {
                 self.phase = phase + offset;
                 let evaluated = self.evaluate_flows(&carried);
                 self.phase = phase;
                 evaluated
             });
-            if evaluated.is_ok() && !self.jumps_at_cut() {
+            if evaluated.is_ok() && !self.jumps_at_cut {
                 self.accumulate();
-                return Ok(eigenvalues(self.node_size(), self.monodromy()));
+                return eigenvalues(self.node_size(), self.monodromy());
             }
         }
-        evaluated.map(|()| Err(NoEigenvalues))
+        Err(NoEigenvalues)
     }
 
     /// The point whose nodes lie this much later on the motion from those of another one [cycles].
@@ -142,15 +129,27 @@ impl ShootingProblem {
     /// Counts a touch at which the orbit is cut once, whichever side of it the states on both sides are by rounding.
     fn put_touches_right(&mut self) {
         self.touches_lacking.fill(0);
+        self.jumps_at_cut = false;
         let contacts = self.touches.len();
         let [starts, ends] = &self.at_ends;
         for (place, end) in ends.iter().enumerate() {
             let start = starts[(place + contacts) % starts.len()];
-            self.touches_lacking[place % contacts] += touches_lacking(*end, start);
+            let lacking = touches_lacking(*end, start);
+            if lacking != 0 {
+                self.touches_lacking[place % contacts] += lacking;
+                self.jumps_at_cut |= jumps(self.integrator.system(), place % contacts);
+            }
         }
         let pairs = self.touches.iter_mut().zip(&self.touches_lacking);
         pairs.for_each(|(touches, lacking)| *touches = touches.saturating_add_signed(*lacking));
     }
+}
+
+/// Whether the force of a contact, in the order of elements and their contacts, sets in with a jump.
+fn jumps(system: &System, contact: usize) -> bool {
+    let laws = system.elements().iter().map(|element| &element.law);
+    let mut of_contacts = laws.flat_map(|law| std::iter::repeat_n(law, law.contacts().len()));
+    of_contacts.nth(contact).is_some_and(|law| law.onset_damping() > 0.0)
 }
 
 /// `target = factor source` by rows.

@@ -33,13 +33,15 @@ impl BranchWalk {
             Some(outside) => outside,
             None => match self.multipliers_at(from) {
                 Ok(multipliers) => outside(&multipliers, from.events),
-                Err(_) => return Ok(rows),
+                Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(rows),
+                Err(error) => return Err(error),
             },
         };
         let of_rows =
             rows.iter().map(|between| outside(&between.row.solution.floquet_multipliers, Events::default()));
         let numbers: Vec<(u32, u32)> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
-        let changes = rows.iter().any(|between| between.point.signature != from.signature);
+        let corner = from.events.corner || to.events.corner;
+        let changes = corner || rows.iter().any(|between| between.point.signature != from.signature);
         if changes || to.signature != from.signature || may_be_equal(&numbers) {
             return Ok(rows);
         }
@@ -69,16 +71,32 @@ impl BranchWalk {
         // At an event the number is that of either side by rounding.
         let is_far_known = !far.events.any();
         let known = if is_far_known { &far } else { &near };
+        if known.events.any() {
+            return Ok(None);
+        }
         let number = beyond(&self.multipliers_at(known)?);
+        let (mut other_number, mut known_moved) = (None, false);
         for _ in 0..HALVINGS {
             let Ok(middle) = solve_between(&mut self.problem, [&near, &far], 0.5, &settings) else { break };
             self.evaluations_between += middle.evaluations;
-            let is_known = beyond(self.problem.multipliers()?) == number;
+            let here = beyond(self.problem.multipliers()?);
+            let is_known = here == number;
+            if is_known {
+                known_moved = true;
+            } else {
+                other_number = Some(here);
+            }
             if is_known == is_far_known { far = middle } else { near = middle }
         }
         let uncertainty = far.arc_length - near.arc_length;
         let place = if is_far_known { far } else { near };
-        self.event_row(ContinuationPoint { uncertainty, ..place })
+        match other_number {
+            Some(other) if known_moved => {
+                self.event_row(ContinuationPoint { uncertainty, ..place }, number.abs_diff(other))
+            }
+            // It lies at one of the ends, as well as that is known.
+            _ => Ok(None),
+        }
     }
 
     fn multipliers_at(&mut self, point: &ContinuationPoint) -> Result<Vec<[f64; 2]>, OrbitError> {
@@ -86,18 +104,23 @@ impl BranchWalk {
         Ok(self.problem.multipliers()?.to_vec())
     }
 
-    /// The row of an orbit with a multiplier at -1 or a pair on the unit circle.
-    fn event_row(&mut self, mut point: ContinuationPoint) -> Result<Option<Between>, OrbitError> {
+    /// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what so many more or fewer outside tell.
+    fn event_row(
+        &mut self,
+        mut point: ContinuationPoint,
+        change: usize,
+    ) -> Result<Option<Between>, OrbitError> {
         let multipliers = self.multipliers_at(&point)?;
         let off =
             |[re, im]: &[f64; 2]| if *im == 0.0 { (1.0 + re).abs() } else { (re.hypot(*im) - 1.0).abs() };
         let Some(critical) = multipliers.iter().min_by(|a, b| off(a).total_cmp(&off(b))) else {
             return Ok(None);
         };
-        if off(critical) > JUMPS {
+        let is_pair = critical[1] != 0.0;
+        if off(critical) > JUMPS || change != 1 + usize::from(is_pair) {
             return Ok(None);
         }
-        point.events = Events { zeros: if critical[1] == 0.0 { 1 } else { 2 }, ..Events::default() };
+        point.events = Events { zeros: if is_pair { 2 } else { 1 }, ..Events::default() };
         let touches = self.problem.touches().to_vec();
         let at_corners = self.follower.settings().min_step;
         let place = located::Place { point: &point, bend: 0.0, at_corners, touches_before: &touches };

@@ -5,7 +5,7 @@
 //! back, and then it was none.
 
 use super::{Follower, StepOutcome};
-use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem};
+use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem, settings::Settings};
 
 /// Points after which a change of sign is still not beyond doubt that is none.
 const FARTHEST: usize = 200;
@@ -21,11 +21,13 @@ impl Follower {
         if self.looks_ahead || before < 0.0 || self.trial.tangent_parameter() * sign >= 0.0 {
             return Ok(false);
         }
-        let settings = self.settings.clone();
+        // How many points a branch may have does not decide where its folds are.
+        let settings = Settings { max_points: u64::MAX, ..self.settings.clone() };
         let mut ahead = Self::resume(problem, self.state.clone(), self.range, settings);
         ahead.looks_ahead = true;
         let turns = ahead.comes_to_turn(problem);
         self.state.counters.evaluations = ahead.state.counters.evaluations + 1;
+        self.state.counters.factorisations = ahead.state.counters.factorisations;
         let evaluated = problem.evaluate(&self.trial.point);
         evaluated.map_err(|error| Doubt::Corrector(CorrectorError::Evaluation(error)))?;
         Ok(turns)
@@ -37,8 +39,10 @@ impl Follower {
             if self.step(problem) != StepOutcome::Accepted {
                 return false;
             }
-            if self.current().events.fold {
-                return true;
+            let events = self.current().events;
+            // Where the simpler path itself is met the slope is rounding all the way.
+            if events.fold || events.branch_point {
+                return events.fold && !events.branch_point;
             }
             if point > 0 && self.current().tangent_parameter() * self.state.parameter_sign > 0.0 {
                 return false;
