@@ -147,7 +147,7 @@ fn closed_times(
     let of_law = contacts.iter().filter(|contact| keeps_away(&elements[contact.element].law));
     let mut times: Vec<Gap> = of_law
         .map(|contact| Gap {
-            begin: contact.begin.as_ref().map_or(0.0, |begin| begin.time * frequency_hz),
+            begin: contact.since() * frequency_hz,
             end: contact.clear.map_or(cycles, |clear| clear * frequency_hz),
         })
         .collect();
@@ -157,9 +157,7 @@ fn closed_times(
 
 /// Number of the element that is in contact longest without a break, over a motion of that duration [s].
 fn longest_contact(contacts: &[ContactPiece], duration: f64) -> usize {
-    let length = |contact: &ContactPiece| {
-        contact.clear.unwrap_or(duration) - contact.begin.as_ref().map_or(0.0, |begin| begin.time)
-    };
+    let length = |contact: &ContactPiece| contact.clear.unwrap_or(duration) - contact.since();
     let longest = contacts.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
     longest.map_or(0, |contact| contact.element)
 }
@@ -213,7 +211,7 @@ pub(crate) fn search_cut(
     // Of a contact that has parted before, and is still penetrated, the trace has no piece: up to the next one of its element nothing is known to be flight.
     for element in integrator.system().remembered_contacts(frequency_hz, 0.0, state) {
         let next = trace.contacts.iter().find(|contact| contact.element == element);
-        let end = next.map_or(cycles, |next| next.begin.as_ref().map_or(0.0, |at| at.time * frequency_hz));
+        let end = next.map_or(cycles, |next| next.since() * frequency_hz);
         contacts.push(Gap { begin: 0.0, end });
     }
     contacts.sort_by(|a, b| a.begin.total_cmp(&b.begin));
@@ -238,33 +236,21 @@ pub(crate) fn search_cut(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-    use faer::Mat;
     use hammerbeam_motion::{
-        Harmonic, HarmonicForce, Load, LocalElement,
         exact::ExactSettings,
         law::{HertzStop, RestitutionModel, RestitutionStop},
     };
-    use hammerbeam_structure::ReducedModel;
 
     use super::*;
+    use crate::test_oscillator::oscillator;
 
     const GAP: f64 = 0.1;
 
     /// `x'' + 0.1 x' + x = 0.4 cos(2 pi f t)` with a stop after Flores that gives back little.
     fn integrator_of_a_bouncing_mass() -> ExactIntegrator {
-        let model = ReducedModel {
-            natural_frequencies: vec![1.0],
-            damping: Mat::from_fn(1, 1, |_, _| 0.1),
-            points: vec![],
-            support: None,
-            uniform_acceleration: vec![1.0],
-        };
-        let harmonic = Harmonic { order: 1, amplitude: 0.4, phase: 0.0 };
-        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
         let elastic = HertzStop::with_gap(1e3, GAP).unwrap();
         let law = Law::Restitution(RestitutionStop::new(elastic, RestitutionModel::Flores, 0.3).unwrap());
-        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
-        let system = System::new(model, &load, vec![stop]).unwrap();
+        let (system, _) = oscillator(0.1, 0.4, law);
         ExactIntegrator::new(system, ExactSettings::default()).unwrap()
     }
 

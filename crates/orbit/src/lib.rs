@@ -101,6 +101,8 @@ mod state_scale;
 mod stop;
 mod survey;
 mod switch;
+#[cfg(test)]
+mod test_oscillator;
 mod trials;
 mod walk;
 

@@ -74,29 +74,18 @@ pub(crate) fn refine(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-    use faer::Mat;
-    use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::CubicSpring};
-    use hammerbeam_structure::{PointOutput, ReducedModel};
+    use hammerbeam_motion::{Law, System, law::CubicSpring};
 
-    use crate::{BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start};
+    use crate::{
+        BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start,
+        test_oscillator::oscillator,
+    };
 
     const RANGE: (f64, f64) = (0.3, 1.2);
 
     /// `x'' + 0.06 x' + x + x^3 = 3 cos(2 pi f t)`: its 1/3 subharmonic orbits make a closed loop from 0.52 to 1.09 Hz.
     fn duffing() -> (System, Response) {
-        let model = ReducedModel {
-            natural_frequencies: vec![1.0],
-            damping: Mat::from_fn(1, 1, |_, _| 0.06),
-            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-            support: None,
-            uniform_acceleration: vec![1.0],
-        };
-        let harmonic = Harmonic { order: 1, amplitude: 3.0, phase: 0.0 };
-        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-        let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
-        let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
-        let system = System::new(model, &load, vec![spring]).unwrap();
-        (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+        oscillator(0.06, 3.0, Law::Cubic(CubicSpring::new(1.0).unwrap()))
     }
 
     /// The loop from its start, cut into more segments after as many steps as `cuts` says, stored and taken up again after `stored` steps.

@@ -119,7 +119,7 @@ pub(crate) fn find_slow_begin(
         |piece: &&ContactPiece| presses(piece, &contacts, JUST_PRESSES) && begins_slowly(piece, &contacts);
     let first = contacts.iter().filter(|piece| piece.begin.is_some()).find(splits);
     Ok(first.map(|piece| {
-        let time = piece.begin.as_ref().map_or(0.0, |begin| begin.time);
+        let time = piece.since();
         splitting(integrator, piece, start + time * frequency_hz)
     }))
 }

@@ -1,33 +1,18 @@
 //! Folds of a path that lie beside a simpler one, which it has left or comes to: the slope is known badly there, and a change of its sign says nothing until later.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
+#[macro_use]
 mod support;
 
-use hammerbeam_path::{Determinant, EvaluationError, PathProblem, Settings, SingularJacobian};
+use hammerbeam_path::{PathProblem, Settings};
 use support::{folds, graph, steps_of, up};
 
 /// A path of one unknown that leaves a simpler one at `x = 0`.
 struct Leaving<P>(P);
 
 impl<P: PathProblem> PathProblem for Leaving<P> {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
-    }
-    fn weights(&self) -> &[f64] {
-        self.0.weights()
-    }
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.0.evaluate(point)
-    }
-    fn residual(&self) -> &[f64] {
-        self.0.residual()
-    }
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.0.factorise(row)
-    }
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        self.0.solve(right_hand_side);
-    }
+    left_to!(0);
+
     fn distance_to_simpler(&self, point: &[f64]) -> f64 {
         point[0].abs()
     }

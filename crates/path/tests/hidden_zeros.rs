@@ -1,8 +1,10 @@
 //! Zeros of a test function that undo each other within a step, of which the problem knows.
 
+#[macro_use]
+mod support;
+
 use hammerbeam_path::{
-    DenseProblem, Determinant, Direction, EvaluationError, ParameterRange, PathProblem, Settings,
-    SingularJacobian, TestValue, follow,
+    DenseProblem, Direction, EvaluationError, ParameterRange, PathProblem, Settings, TestValue, follow,
 };
 
 /// The line `x = λ` with a point of the plane that moves along it, and two test functions: the parameter less [`OTHER`], and what the point is beyond the unit circle.
@@ -25,29 +27,11 @@ fn beyond([x, y]: [f64; 2]) -> f64 {
 }
 
 impl<P: PathProblem> PathProblem for Passing<P> {
-    fn unknowns(&self) -> usize {
-        self.line.unknowns()
-    }
-
-    fn weights(&self) -> &[f64] {
-        self.line.weights()
-    }
+    left_to!(line but evaluate);
 
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.at = point[1];
         self.line.evaluate(point)
-    }
-
-    fn residual(&self) -> &[f64] {
-        self.line.residual()
-    }
-
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.line.factorise(row)
-    }
-
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        self.line.solve(right_hand_side);
     }
 
     fn tests(&mut self, values: &mut Vec<TestValue>) {

@@ -1,12 +1,11 @@
 //! Solutions that are seen in several ways, as an orbit of several periods that may begin in each of them: a loop closes where it comes to its start seen otherwise.
 
+#[macro_use]
 mod support;
 
 use std::f64::consts::PI;
 
-use hammerbeam_path::{
-    DenseProblem, Determinant, Direction, EvaluationError, PathProblem, SingularJacobian, StopReason, follow,
-};
+use hammerbeam_path::{DenseProblem, Direction, PathProblem, StopReason, follow};
 use support::{range, steps_of};
 
 /// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`, half a turn later.
@@ -22,29 +21,7 @@ fn circle() -> impl PathProblem + Clone {
 struct Twofold<P>(P);
 
 impl<P: PathProblem> PathProblem for Twofold<P> {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
-    }
-
-    fn weights(&self) -> &[f64] {
-        self.0.weights()
-    }
-
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.0.evaluate(point)
-    }
-
-    fn residual(&self) -> &[f64] {
-        self.0.residual()
-    }
-
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.0.factorise(row)
-    }
-
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        self.0.solve(right_hand_side);
-    }
+    left_to!(0);
 
     fn images(&self) -> usize {
         2

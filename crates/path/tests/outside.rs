@@ -1,11 +1,12 @@
 //! Pairs of multipliers that cross the unit circle within a step in which something turns real are found.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
+#[macro_use]
 mod support;
 
 use hammerbeam_path::{
-    Branch, Determinant, Direction, EvaluationError, Events, Outside, ParameterRange, PathProblem, Settings,
-    SingularJacobian, TestValue, follow,
+    Branch, Direction, EvaluationError, Events, Outside, ParameterRange, PathProblem, Settings, TestValue,
+    follow,
 };
 
 /// A path along which multipliers go that depend on the unknown alone, those of a pair one after the other.
@@ -58,26 +59,12 @@ fn pair(half: f64, product: f64) -> Vec<(f64, f64)> {
 }
 
 impl<P: PathProblem> PathProblem for Multiplied<P> {
-    fn unknowns(&self) -> usize {
-        self.path.unknowns()
-    }
-    fn weights(&self) -> &[f64] {
-        self.path.weights()
-    }
+    left_to!(path but evaluate);
+
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.x = point[0];
         self.path.evaluate(point)
     }
-    fn residual(&self) -> &[f64] {
-        self.path.residual()
-    }
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.path.factorise(row)
-    }
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        self.path.solve(right_hand_side);
-    }
-
     /// Of the complex pair nearest to the circle.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         let multipliers = (self.multipliers)(self.x);

@@ -1,11 +1,11 @@
 //! Folds as sharp as grazing makes them: turns within 1e-6 to 1e-8 of the parameter, corners, one-sided powers.
 
+#[macro_use]
 mod support;
 
 use approx::assert_abs_diff_eq;
 use hammerbeam_path::{
-    DenseProblem, Determinant, EvaluationError, MOST_SHORT_STEPS, PathProblem, Settings, SingularJacobian,
-    StopReason, follow_both,
+    DenseProblem, EvaluationError, MOST_SHORT_STEPS, PathProblem, Settings, StopReason, follow_both,
 };
 use support::*;
 
@@ -229,24 +229,11 @@ struct Foreseeing<P> {
 }
 
 impl<P: PathProblem> PathProblem for Foreseeing<P> {
-    fn unknowns(&self) -> usize {
-        self.problem.unknowns()
-    }
-    fn weights(&self) -> &[f64] {
-        self.problem.weights()
-    }
+    left_to!(problem but evaluate);
+
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.place = point[0];
         self.problem.evaluate(point)
-    }
-    fn residual(&self) -> &[f64] {
-        self.problem.residual()
-    }
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.problem.factorise(row)
-    }
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        self.problem.solve(right_hand_side);
     }
     fn signature(&self) -> u64 {
         self.problem.signature()

@@ -1,12 +1,15 @@
 //! A path goes on in other unknowns: it still closes at its start, and what was walked before is known.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
+#[macro_use]
+mod support;
+
 use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;
 use hammerbeam_path::{
-    ContinuationPoint, DenseProblem, Determinant, Direction, EvaluationError, Follower, Node, ParameterRange,
-    PathError, PathProblem, Settings, SingularJacobian, StepOutcome, StopReason,
+    ContinuationPoint, DenseProblem, Direction, Follower, Node, ParameterRange, PathError, PathProblem,
+    Settings, StepOutcome, StopReason,
 };
 
 type Function = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64]) -> u64>;
@@ -34,26 +37,10 @@ impl Circle {
 }
 
 impl PathProblem for Circle {
-    fn unknowns(&self) -> usize {
-        self.0.unknowns()
-    }
-    fn weights(&self) -> &[f64] {
-        self.0.weights()
-    }
+    left_to!(0);
+
     fn memory_weights(&self) -> Vec<f64> {
         vec![1.0, 1.0]
-    }
-    fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
-        self.0.evaluate(point)
-    }
-    fn residual(&self) -> &[f64] {
-        self.0.residual()
-    }
-    fn factorise(&mut self, row: &[f64]) -> Result<Determinant, SingularJacobian> {
-        self.0.factorise(row)
-    }
-    fn solve(&self, right_hand_side: &mut [f64]) {
-        self.0.solve(right_hand_side);
     }
 }
 

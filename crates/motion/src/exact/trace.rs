@@ -55,6 +55,14 @@ pub struct ContactPiece {
     pub energy_lost: f64,
 }
 
+impl ContactPiece {
+    /// When it closed, since the start of the stretch [s]; 0 if it was closed there.
+    #[must_use]
+    pub fn since(&self) -> f64 {
+        self.begin.as_ref().map_or(0.0, |begin| begin.time)
+    }
+}
+
 /// What was written down of a motion.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Trace {

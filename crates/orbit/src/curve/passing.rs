@@ -140,7 +140,7 @@ impl Shooting {
             trace.contacts.iter().filter(|contact| touches.iter().any(|t| t.element == contact.element));
         let distances = of_elements.filter_map(|contact| {
             // Times behind the begin of the orbit [cycles].
-            let from = TOUCH + contact.begin.as_ref().map_or(0.0, |begin| begin.time) * frequency_hz;
+            let from = TOUCH + contact.since() * frequency_hz;
             let to = TOUCH + contact.clear.unwrap_or(length) * frequency_hz;
             let to_ends = from.min(cycles - to);
             let Some(opposite) = opposite else { return Some(to_ends) };

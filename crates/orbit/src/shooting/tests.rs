@@ -1,29 +1,14 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-use faer::Mat;
-use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, System, exact::ExactSettings, law::CubicSpring,
-};
-use hammerbeam_structure::{PointOutput, ReducedModel};
+use hammerbeam_motion::{Law, exact::ExactSettings, law::CubicSpring};
 
 use super::*;
-use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct};
+use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct, test_oscillator::oscillator};
 
 /// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l t)`,
 /// `l^2 + 0.1 l - 2 = 0`.
 fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], OrbitError> {
-    let model = ReducedModel {
-        natural_frequencies: vec![1.0],
-        damping: Mat::from_fn(1, 1, |_, _| 0.1),
-        points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-        support: None,
-        uniform_acceleration: vec![1.0],
-    };
-    let harmonic = Harmonic { order: 1, amplitude: 1e-6, phase: 0.0 };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let law = Law::Cubic(CubicSpring::new(-0.1).unwrap());
-    let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
-    let system = System::new(model, &load, vec![spring]).unwrap();
+    let (system, _) = oscillator(0.1, 1e-6, Law::Cubic(CubicSpring::new(-0.1).unwrap()));
     let hill = vec![10.0_f64.sqrt(), 0.0];
     let scale = StateScale::new(&[1.0], 1.0, hill[0]);
     let integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();

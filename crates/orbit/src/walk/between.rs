@@ -152,27 +152,13 @@ fn may_be_equal(numbers: &[(u32, u32)]) -> bool {
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-    use faer::Mat;
-    use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
-    use hammerbeam_structure::{PointOutput, ReducedModel};
+    use hammerbeam_motion::{Law, System, law::LinearStop};
 
-    use crate::{BranchWalk, OrbitSettings, Response, Side, find_start};
+    use crate::{BranchWalk, OrbitSettings, Response, Side, find_start, test_oscillator::oscillator};
 
     /// `x'' + 0.1 x' + k x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`: harmonic orbits flip between 0.2 and 0.6 Hz.
     fn bilinear() -> (System, Response) {
-        let model = ReducedModel {
-            natural_frequencies: vec![1.0],
-            damping: Mat::from_fn(1, 1, |_, _| 0.1),
-            points: vec![PointOutput { name: "mass".into(), shape: vec![1.0], support_ratio: 0.0 }],
-            support: None,
-            uniform_acceleration: vec![1.0],
-        };
-        let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
-        let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-        let law = Law::Linear(LinearStop::with_gap(19.0, 0.0).unwrap());
-        let stop = LocalElement { name: "stop".into(), shape: vec![1.0], support_ratio: 0.0, law };
-        let system = System::new(model, &load, vec![stop]).unwrap();
-        (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+        oscillator(0.1, 1.0, Law::Linear(LinearStop::with_gap(19.0, 0.0).unwrap()))
     }
 
     /// Between the points before and behind a flip that the path has found, it is found again from the numbers alone.

@@ -1,11 +1,45 @@
 //! Problems with known paths, and what the tests ask of a followed branch.
-#![allow(dead_code, clippy::unwrap_used, reason = "each test file uses a part, and tests may panic")]
+#![allow(
+    dead_code,
+    unused_macros,
+    clippy::unwrap_used,
+    reason = "each test file uses a part, and tests may panic"
+)]
 
 use hammerbeam_path::{
     Branch, ContinuationPoint, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason,
     follow,
 };
 
+/// What a problem leaves to the one in its field: all that has no default, or all but `evaluate`.
+macro_rules! left_to {
+    ($inner:tt) => {
+        left_to!($inner but evaluate);
+        fn evaluate(&mut self, point: &[f64]) -> Result<(), hammerbeam_path::EvaluationError> {
+            self.$inner.evaluate(point)
+        }
+    };
+    ($inner:tt but evaluate) => {
+        fn unknowns(&self) -> usize {
+            self.$inner.unknowns()
+        }
+        fn weights(&self) -> &[f64] {
+            self.$inner.weights()
+        }
+        fn residual(&self) -> &[f64] {
+            self.$inner.residual()
+        }
+        fn factorise(
+            &mut self,
+            row: &[f64],
+        ) -> Result<hammerbeam_path::Determinant, hammerbeam_path::SingularJacobian> {
+            self.$inner.factorise(row)
+        }
+        fn solve(&self, right_hand_side: &mut [f64]) {
+            self.$inner.solve(right_hand_side);
+        }
+    };
+}
 /// A curve in the plane of one unknown and the parameter: `(F, F_x, F_λ, signature)` at `(x, λ)`.
 pub type Implicit = fn(f64, f64) -> (f64, f64, f64, u64);
 
