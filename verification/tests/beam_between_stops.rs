@@ -4,10 +4,8 @@
 //! is the first turned over. Everything here follows from that; no number is printed anywhere.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
+use crate::common::{Rig, paper_beam_with};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{Rig, paper_beam_with};
 use hammerbeam_motion::{
     Law, Stretch,
     exact::{ExactIntegrator, ExactSettings},

@@ -4,9 +4,7 @@
 //! Neimark-Sacker points of the branches, and the periodic windows in between. docs/attractors.md has the table.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
-use common::{Rig, extensive, paper_beam, walk};
+use crate::common::{Rig, extensive, paper_beam, walk};
 use hammerbeam_attractor::{
     Class, Classified, Effort, LyapunovSettings, Observable, Patience, SectionMap, SweepSettings, Sweeper,
     SystemMap, classify, lyapunov,

@@ -7,12 +7,10 @@
 //! the damping alone.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::{PI, SQRT_2, TAU};
 
+use crate::common::{Rig, element_at, force_at, response_of, single_mass};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{Rig, element_at, force_at, response_of, single_mass};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

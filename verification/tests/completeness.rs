@@ -2,11 +2,9 @@
 //! `HAMMERBEAM_EXTENSIVE=1` looks at 200 frequencies and 100 states.
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
-mod common;
-
 use std::sync::{Mutex, OnceLock};
 
-use common::extensive;
+use crate::common::extensive;
 use hammerbeam_orbit::{Matcher, OrbitSettings};
 use hammerbeam_verification::{
     attractors::{Effort, Random},

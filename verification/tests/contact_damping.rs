@@ -4,9 +4,7 @@
 //! The numbers are our own, read off branches over 34 to 45 Hz (docs/conclusions.md); what is asserted is that orbits found afresh at the peaks have them, and their order.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
-use common::{Rig, hertz, paper_beam_with};
+use crate::common::{Rig, hertz, paper_beam_with};
 use hammerbeam_motion::{
     Law,
     law::{HertzStop, RestitutionModel, RestitutionStop},

@@ -1,12 +1,10 @@
 //! What is reported of contacts and maxima, against the balance of momentum and against dense sampling by the general integrator.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Rig, element_at, hertz, masses, paper_beam, response_of};
 use approx::assert_relative_eq;
-use common::{Rig, element_at, hertz, masses, paper_beam, response_of};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Stretch, System,
     general::{GeneralSettings, sample},

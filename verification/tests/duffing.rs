@@ -9,12 +9,10 @@
 //! No publication was found that prints fold frequencies to more digits than its formulas give.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Rig, element_at, force_at, response_of, single_mass, walk_both};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{Rig, element_at, force_at, response_of, single_mass, walk_both};
 use hammerbeam_motion::{Law, Load, System, law::CubicSpring};
 use hammerbeam_orbit::OrbitSettings;
 

@@ -12,12 +12,10 @@
 //! Stops that are out of reach keep the equations linear. Tolerances are those of an orbit (1e-10 of its norm) with a margin of ten.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Rig, Walked, element_at, force_at, masses, response_of, shaken, single_mass, walk_both};
 use approx::assert_abs_diff_eq;
-use common::{Rig, Walked, element_at, force_at, masses, response_of, shaken, single_mass, walk_both};
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, System, law::LinearStop};
 use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, find_start};
 use hammerbeam_structure::{GROUND, ReducedModel};

@@ -5,11 +5,9 @@
 //! calculation with SciPy's `butter(4, ..., analog=True)` and `freqs` gave from 32 768 samples of the motion that simulation settles to.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::paper_beam;
+use crate::common::paper_beam;
 use hammerbeam_motion::{
     Stretch,
     exact::{ExactIntegrator, ExactSettings},

@@ -10,11 +10,9 @@
 //! falls with the duration of a contact, like `k^(-2/5)` for a Hertz contact and `k^(-1/2)` for a linear one.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{Rig, element_at, force_at, response_of, single_mass};
+use crate::common::{Rig, element_at, force_at, response_of, single_mass};
 use hammerbeam_motion::{
     Law, Load, System,
     law::{HertzStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop},

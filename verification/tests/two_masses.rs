@@ -12,12 +12,10 @@
 //! the linear response as `k` tends to zero.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{Rig, force_at, masses, response_of};
 use approx::assert_abs_diff_eq;
-use common::{Rig, force_at, masses, response_of};
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
     general::{GeneralSettings, sample},

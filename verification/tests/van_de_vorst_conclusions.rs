@@ -4,11 +4,9 @@
 //! millimetre; the tolerances are these digits and twice these digits.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{Rig, hertz, paper_beam, paper_beam_model, paper_beam_with, shaken, walk};
+use crate::common::{Rig, hertz, paper_beam, paper_beam_model, paper_beam_with, shaken, walk};
 use hammerbeam_motion::{
     LocalElement, Stretch, System,
     general::{GeneralSettings, sample},

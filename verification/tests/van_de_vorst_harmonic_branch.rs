@@ -15,16 +15,14 @@
 //! The branch is computed once, both ways from 30 Hz, at the default steps.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::sync::OnceLock;
 
-use approx::assert_abs_diff_eq;
-use common::{
+use crate::common::{
     Rig, Walked, paper_beam,
     spectrum::{harmonics, strongest_harmonic},
     walk_both,
 };
+use approx::assert_abs_diff_eq;
 use hammerbeam_orbit::{BranchRow, OrbitSettings, PeriodicSolution, find_start};
 
 const RANGE_HZ: (f64, f64) = (19.0, 110.0);

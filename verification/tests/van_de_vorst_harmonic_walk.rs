@@ -5,11 +5,9 @@
 //! branch of periodic orbits, checked on one that is hard to walk. `HAMMERBEAM_EXTENSIVE=1` walks all of it in steps of 0.001 Hz.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::sync::OnceLock;
 
-use common::{
+use crate::common::{
     Rig, Walked,
     crossings::{crossings, distance},
     extensive, folds, paper_beam, walk, walk_both,

@@ -1,11 +1,9 @@
 //! Basins: the same bits for any number of threads and after a stop, and every cell as the general integrator has it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::{f64::consts::TAU, sync::atomic::AtomicBool};
 
-use common::{element, oscillator};
+use crate::common::{element, oscillator};
 use hammerbeam_attractor::{
     Attractor, AttractorError, Axis, Basins, Class, Effort, Grid, distance, fractions, state_scales,
 };

@@ -1,9 +1,7 @@
 //! A motion that goes on from checkpoints has the bits of one that was not interrupted.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{beam_with, element, hertz, model, paper_beam};
+use crate::common::{beam_with, element, hertz, model, paper_beam};
 use hammerbeam_attractor::{AttractorError, ContactRecord, Simulation, SimulationCheckpoint};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, System,

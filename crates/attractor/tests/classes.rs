@@ -1,11 +1,9 @@
 //! Kinds of attractors, each on motions whose kind is known.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{element, oscillator, paper_beam};
+use crate::common::{element, oscillator, paper_beam};
 use hammerbeam_attractor::{
     Class, Classified, Doubt, Effort, Patience, SectionMap, StepMap, SystemMap, classify,
 };

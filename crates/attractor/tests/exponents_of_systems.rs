@@ -1,11 +1,9 @@
 //! Exponents of systems by the exact integrator: invariants, closed forms, and Ueda's oscillator once more.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{beam_with, element, hertz, oscillator, paper_beam};
+use crate::common::{beam_with, element, hertz, oscillator, paper_beam};
 use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, lyapunov};
 use hammerbeam_motion::{
     Law, System,

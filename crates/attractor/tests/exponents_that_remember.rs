@@ -5,11 +5,9 @@
 //! method goes from one excitation period at whose start the contact is open to the next such one, which is a *leg*.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::collections::VecDeque;
 
-use common::{element, model};
+use crate::common::{element, model};
 use faer::Mat;
 use hammerbeam_attractor::{
     LyapunovSettings, Part, SectionMap, Spectrum, SystemMap, distance, lyapunov, state_scales,

@@ -1,11 +1,9 @@
 //! Laws that remember their impact, where a contact lies over phase 0: the motion is the one whose load has another phase, which has no contact there.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{element, model};
+use crate::common::{element, model};
 use hammerbeam_attractor::{
     AttractorError, Axis, Basins, Class, Effort, Grid, LyapunovSettings, Observable, SectionMap,
     SweepSettings, Sweeper, SystemMap, lyapunov,

@@ -1,11 +1,9 @@
 //! Exponents beside rigid stops and contacts that lose energy: their sums, and what sticking takes.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{beam_with, element, model, oscillator};
+use crate::common::{beam_with, element, model, oscillator};
 use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, Tangents, lyapunov};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, System,

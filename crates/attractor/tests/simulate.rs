@@ -1,11 +1,9 @@
 //! Motion in time: against the general integrator, closed forms, and what contacts must conserve.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{beam_with, element, hertz, oscillator, paper_beam};
+use crate::common::{beam_with, element, hertz, oscillator, paper_beam};
 use hammerbeam_attractor::{AttractorError, ContactRecord, Section, Simulation, poincare};
 use hammerbeam_motion::{
     Law, Stretch, System,

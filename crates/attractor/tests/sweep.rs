@@ -1,9 +1,7 @@
 //! Sweeps and diagrams: hysteresis, and every periodic motion against orbits found by shooting.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{element, oscillator, paper_beam};
+use crate::common::{element, oscillator, paper_beam};
 use hammerbeam_attractor::{
     Class, Effort, Observable, Patience, SweepPoint, SweepSettings, Sweeper, frequencies,
 };

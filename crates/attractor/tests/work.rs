@@ -1,9 +1,7 @@
 //! The work of a period, which no clock has to show: a few per cent above what it is.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::paper_beam;
+use crate::common::paper_beam;
 use hammerbeam_attractor::{SectionMap, SystemMap};
 use hammerbeam_motion::exact::ExactSettings;
 

@@ -1,9 +1,7 @@
 //! Bad input: exit code 2, a message with line and key, and nothing written.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
-use common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use crate::common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 
 /// Every command that reads a study refuses it in the same words, and the folder stays as it was.
 #[track_caller]

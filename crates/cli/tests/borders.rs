@@ -1,9 +1,7 @@
 //! Branches beside the borders of contacts: where one grazes, and where one splits in two.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
-use common::{Workshop, assert_success, stderr, stdout};
+use crate::common::{Workshop, assert_success, stderr, stdout};
 use rusqlite::Connection;
 
 /// Two masses, the first of them driven and beside a stop.

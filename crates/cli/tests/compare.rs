@@ -1,11 +1,9 @@
 //! `compare` and `rig`: results, documents, refusals.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{f64::consts::PI, fmt::Write, fs};
 
-use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 use serde_json::Value;
 
 /// A linear oscillator of 1 kg, eigenfrequency 0.5 Hz, damping 5 %: its one branch is known in closed form.

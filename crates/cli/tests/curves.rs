@@ -1,11 +1,9 @@
 //! Curves of bifurcations beside grazings, and of grazings from both sides, with the real command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{Workshop, assert_success, stdout};
+use crate::common::{Workshop, assert_success, stdout};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 

@@ -1,9 +1,7 @@
 //! Contacts that lose energy, from the study file to verified branches.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
-use common::{Workshop, assert_success, mass_against_a_stop as study, stderr, stdout};
+use crate::common::{Workshop, assert_success, mass_against_a_stop as study, stderr, stdout};
 use serde_json::Value;
 
 /// Two masses whose largest contact force wanders over the border of two steps of the integrator, where the polynomial of neither tells its place well: it is that of the general integrator.

@@ -1,11 +1,9 @@
 //! The table of events, held against the table of solutions.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{Workshop, assert_success};
+use crate::common::{Workshop, assert_success};
 
 /// `x'' + 0.1 x' + x = cos W t` with 19 N/m more above zero: its harmonic branch flips, and branches of doubled period join pairs of flips.
 const BILINEAR: &str = r#"

@@ -1,11 +1,9 @@
 //! Every law of a contact from the study file to verified branches: what bends the resonance, where it sets in, and where the energy goes.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{collections::HashMap, f64::consts::TAU, fs};
 
-use common::{Workshop, assert_success, mass_against_a_stop, stdout};
+use crate::common::{Workshop, assert_success, mass_against_a_stop, stdout};
 use serde_json::{Value, json};
 
 /// Of the study: the mass is 1 kg.

@@ -1,11 +1,9 @@
 //! The command that draws: everything that a folder holds, always the same bytes, and clear refusals.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{RUN, Workshop, assert_bad_input, assert_success, files, short_run, stderr, stdout};
+use crate::common::{RUN, Workshop, assert_bad_input, assert_success, files, short_run, stderr, stdout};
 use serde_json::Value;
 
 const DUFFING: &str = include_str!("../../../studies/duffing.toml");
@@ -72,7 +70,7 @@ fn what_is_not_there_is_refused_with_a_sentence() {
 
 #[test]
 fn the_linear_structure_is_drawn_and_an_error_of_the_reduction_where_there_is_one() {
-    let beam = Workshop::with(common::BEAM);
+    let beam = Workshop::with(crate::common::BEAM);
     assert_success(&beam.hammerbeam(&["modes", "study.toml", "--out", "drawn"]));
     let read = |name: &str| fs::read_to_string(beam.path("drawn").join(name)).unwrap();
     for (name, words) in [
@@ -94,7 +92,7 @@ fn the_linear_structure_is_drawn_and_an_error_of_the_reduction_where_there_is_on
 
 #[test]
 fn an_orbit_is_drawn_with_the_force_of_its_stop() {
-    let workshop = Workshop::with(common::BEAM);
+    let workshop = Workshop::with(crate::common::BEAM);
     let filter = ["--low-pass", "400"];
     let command = ["orbit", "study.toml", "--frequency", "30", "--out", "drawn", "--json"];
     let output = workshop.hammerbeam(&[&command[..], &filter].concat());
@@ -205,7 +203,7 @@ fn branches_over_another_parameter_are_drawn_over_it() {
 /// While a run writes its folder, it can be drawn as far as it has come; before there is anything, a sentence says so.
 #[test]
 fn a_folder_that_is_being_written_is_drawn_as_far_as_it_has_come() {
-    let workshop = Workshop::with(common::TWO_MASSES);
+    let workshop = Workshop::with(crate::common::TWO_MASSES);
     let mut run = std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
         .args(RUN)
         .current_dir(workshop.path(""))

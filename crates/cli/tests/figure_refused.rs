@@ -1,11 +1,9 @@
 //! What the command that draws says of folders that are not whole, are drawn into twice at once, or hold what the font lacks.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{RUN, Workshop, assert_success, files, short_run, stderr, stdout};
+use crate::common::{RUN, Workshop, assert_success, files, short_run, stderr, stdout};
 use serde_json::Value;
 
 /// Solutions whose multipliers are cut: what needs them is named with the solution, everything else is drawn.
@@ -92,7 +90,7 @@ fn one_folder_may_be_drawn_into_by_two_commands_at_once() {
 /// What the font lacks is told, on the terminal and in the document.
 #[test]
 fn characters_that_the_font_lacks_are_told() {
-    let workshop = Workshop::changed(common::TWO_MASSES, "title = \"", "title = \"振動 Größe: ");
+    let workshop = Workshop::changed(crate::common::TWO_MASSES, "title = \"", "title = \"振動 Größe: ");
     assert_success(&workshop.hammerbeam(&RUN));
     let output =
         workshop.hammerbeam(&["figure", "results", "--kind", "structure", "--out", "drawn", "--json"]);

@@ -8,11 +8,9 @@
 //! a quadratic equation for X. Its multipliers have the product `e^2 exp(-c T)` and the sum `-e (a + d) + b (a_+ + e a_-)/v`, with the accelerations `a_- = F cos W t - c v - g` and `a_+ = a_- + c (1 + e) v`.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{f64::consts::TAU, fs};
 
-use common::{Workshop, assert_success, stdout};
+use crate::common::{Workshop, assert_success, stdout};
 use serde_json::Value;
 
 const STUDY: &str = include_str!("../../../studies/impact-oscillator.toml");
@@ -201,12 +199,12 @@ fn a_mass_that_is_held_has_no_acceleration() {
 #[test]
 fn orbits_of_two_periods_end_where_their_impact_vanishes() {
     let workshop = Workshop::exported(&format!("{STUDY}\n[response]\nperiod_multiples = [1, 2]\n"));
-    let of_two = |row: &common::Row| row["period_multiple"] == "2";
+    let of_two = |row: &crate::common::Row| row["period_multiple"] == "2";
     let ends = workshop.table("results/export/ends.csv");
     let grazing: Vec<f64> = ends
         .iter()
         .filter(|row| of_two(row) && row["message"].contains("grazing of a branch of shorter period"))
-        .map(|row| common::number(row, "frequency_hz"))
+        .map(|row| crate::common::number(row, "frequency_hz"))
         .collect();
     let [expected, _] = self::grazing();
     assert!(grazing.iter().any(|hz| (hz / expected - 1.0).abs() < 1e-6), "{grazing:?}, {expected}");

@@ -1,9 +1,7 @@
 //! `--json`: one document on standard output with the keys that scripts rely on, and nothing else.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
-use common::{BEAM, TWO_MASSES, Workshop, assert_success, stdout};
+use crate::common::{BEAM, TWO_MASSES, Workshop, assert_success, stdout};
 use serde_json::Value;
 
 #[track_caller]

@@ -2,8 +2,6 @@
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{
     fs,
     process::{Command, Stdio},
@@ -11,7 +9,7 @@ use std::{
     time::Duration,
 };
 
-use common::{BEAM, Workshop};
+use crate::common::{BEAM, Workshop};
 
 /// Solutions of the small run and of the one with `HAMMERBEAM_EXTENSIVE=1`.
 const SOLUTIONS: [u64; 2] = [500, 100_000];

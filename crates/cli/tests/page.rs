@@ -5,15 +5,13 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::print_stderr, reason = "it has to say that it was skipped")]
 
-mod common;
-
 use std::{
     fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
-use common::{Workshop, assert_success, stderr, stdout};
+use crate::common::{Workshop, assert_success, stderr, stdout};
 use hammerbeam_attractor::{Sample, Simulation};
 use hammerbeam_figure::{
     MeasuredMotion, MotionKind, MultiplierRecords, OrbitRecords, Page, PageBranch, PageImpulse, PageLink,
@@ -30,7 +28,7 @@ const RANGE: &str = "frequency_hz = [30.0, 40.0]";
 
 /// The beam between 30 and 40 Hz, computed, with the number of its branches.
 fn results() -> (Workshop, Value) {
-    let workshop = Workshop::changed(common::BEAM, "frequency_hz = [19.0, 110.0]", RANGE);
+    let workshop = Workshop::changed(crate::common::BEAM, "frequency_hz = [19.0, 110.0]", RANGE);
     let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
     assert_success(&run);
     let document: Value = serde_json::from_str(&stdout(&run)).unwrap();

@@ -1,11 +1,9 @@
 //! Numbers of a study as parameters, every constant of damping of the structure and of stops, and numbers that change the modes: where a branch ends, the study with that value has the same orbit.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{DRIVEN_MASS, Row, Workshop, assert_bad_input, assert_success, number};
+use crate::common::{DRIVEN_MASS, Row, Workshop, assert_bad_input, assert_success, number};
 
 /// Two masses with dampers, the second of them beside a stop.
 const MASSES: &str = r#"

@@ -1,9 +1,7 @@
 //! Structures that rest on their stop at phase 0, in a state that is thousands of times smaller than their orbit.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
-use common::{Workshop, assert_success, stdout};
+use crate::common::{Workshop, assert_success, stdout};
 
 /// 1 kg on 100 N/m, critically damped, pressed with 2 N against a stiff stop; the force of 10 N presses it on at phase 0.
 fn study(phase_rad: f64, tolerance: f64) -> Workshop {

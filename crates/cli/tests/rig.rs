@@ -1,11 +1,9 @@
 //! The virtual rig of the studies folder, on a coarser sweep, through the whole comparison of the paper's section 4.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{Workshop, assert_success, stdout};
+use crate::common::{Workshop, assert_success, stdout};
 use serde_json::Value;
 
 const RIG: &str = include_str!("../../../studies/virtual-rig.toml");

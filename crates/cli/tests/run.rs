@@ -1,8 +1,6 @@
 //! Running, killing, resuming and exporting with the real command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{
     fs,
     process::{Command, Stdio},
@@ -10,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use common::{TWO_MASSES, Workshop, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_success, stderr, stdout};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
@@ -161,7 +159,7 @@ fn two_runs_do_not_write_one_folder() {
     while !workshop.path("results/results.db").exists() {
         sleep(Duration::from_millis(5));
     }
-    common::assert_bad_input(&workshop.hammerbeam(&RUN), &["another run is writing to results"]);
+    crate::common::assert_bad_input(&workshop.hammerbeam(&RUN), &["another run is writing to results"]);
     first.kill().unwrap();
     first.wait().unwrap();
 }

@@ -1,8 +1,6 @@
 //! A study of several branches gives the same exported bytes with any number of threads, after kills, and in pieces.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{
     fs,
     process::{Command, Stdio},
@@ -11,7 +9,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use common::{Workshop, assert_success, stdout};
+use crate::common::{Workshop, assert_success, stdout};
 
 /// A bilinear oscillator with superharmonic and subharmonic branches and doublings of them: a second or two.
 const STUDY: &str = r#"

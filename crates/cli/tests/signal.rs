@@ -1,11 +1,9 @@
 //! The `signal` commands: results, documents, refusals.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{f64::consts::PI, fmt::Write, fs};
 
-use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 use serde_json::Value;
 
 const RATE: f64 = 1000.0;

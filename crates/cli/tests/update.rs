@@ -1,11 +1,9 @@
 //! `hammerbeam update`: what it gives, what it writes, and how it ends where there is nothing to give.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 use serde_json::Value;
 
 /// The eigenfrequencies of the two masses as they are, and the two springs, which start elsewhere.

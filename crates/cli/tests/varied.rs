@@ -1,11 +1,9 @@
 //! Branches in other parameters and curves of bifurcations, with the real command.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::fs;
 
-use common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
+use crate::common::{Row, Workshop, assert_bad_input, assert_success, number, stdout};
 
 const STUDY: &str = include_str!("../../../studies/duffing-in-two-parameters.toml");
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];

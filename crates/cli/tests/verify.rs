@@ -1,11 +1,9 @@
 //! `hammerbeam verify`: what a run stores agrees; what was tampered with is found.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::{fs, process::Output, sync::OnceLock};
 
-use common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 use rusqlite::Connection;
 use serde_json::Value;
 

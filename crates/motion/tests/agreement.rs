@@ -3,9 +3,7 @@
 //! The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the largest entry.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{assert_agreement, beam_with, hertz, paper_beam, settled, uniform_beam};
+use crate::common::{assert_agreement, beam_with, hertz, paper_beam, settled, uniform_beam};
 use hammerbeam_motion::{
     Law, Stretch,
     law::{CubicSpring, LinearStop, TwoSidedStop},
@@ -36,7 +34,7 @@ fn stretches_that_start_and_end_inside_contacts_agree() {
     let system = paper_beam();
     let shape = &system.elements()[0].shape;
     let closed = |state: &[f64]| state.iter().zip(shape).map(|(q, phi)| q * phi).sum::<f64>() > 0.0;
-    let mut exact = common::integrator(&system);
+    let mut exact = crate::common::integrator(&system);
     let mut compared = 0;
     for (frequency_hz, parts) in [(36.0, 300), (53.0, 120), (53.0, 500)] {
         let mut state = settled(&system, frequency_hz, 100, 0.0);

@@ -1,11 +1,9 @@
 //! Loads whose amplitude depends on the frequency: against constant ones at one frequency, and against differences.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{diagonal, element, hertz, model};
+use crate::common::{diagonal, element, hertz, model};
 use hammerbeam_motion::{
     AmplitudeCurve, Flow, Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System, SystemError,
     exact::{ExactIntegrator, ExactSettings},

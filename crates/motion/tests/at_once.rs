@@ -3,11 +3,9 @@
 //! Held against the general integrator, which ends its steps on one boundary after the other.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, diagonal, difference, element, force, hertz, model};
+use crate::common::{assert_agreement, diagonal, difference, element, force, hertz, model};
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

@@ -1,11 +1,9 @@
 //! Contacts that are barely touched, from either side.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, diagonal, element, force, hertz, model};
+use crate::common::{assert_agreement, diagonal, element, force, hertz, model};
 use hammerbeam_motion::{
     HarmonicForce, Law, Load, Parameter, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

@@ -1,11 +1,9 @@
 //! Bounces on stops that lose energy come back as closed forms, the first integral and the sources of the laws say, and volumes shrink as Liouville's formula does.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{damped, element, hunt_crossley, integrator, model, remembering};
+use crate::common::{damped, element, hunt_crossley, integrator, model, remembering};
 use faer::Mat;
 use hammerbeam_motion::{
     Flow, Law, Load, Stretch, System,
@@ -167,7 +165,7 @@ fn records_of_a_bounce_are_those_of_its_speeds() {
         damped(2e4, 400.0, 0.0),
         hunt_crossley(1e8, 0.5, 0.0),
         remembering(1e8, RestitutionModel::Flores, 0.4, 0.0),
-        common::hertz(1e8, 0.0),
+        crate::common::hertz(1e8, 0.0),
     ] {
         let bounce = Bounce::new(mass, law);
         let (_, e) = bounce.restitution(speed, 0.2);

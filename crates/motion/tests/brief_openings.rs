@@ -1,11 +1,9 @@
 //! Contacts that open for an instant between two presses, against closed forms.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{diagonal, element, model};
+use crate::common::{diagonal, element, model};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

@@ -1,11 +1,9 @@
 //! Contacts of all kinds against closed forms and invariants: bounces, chatter, permanent and simultaneous contacts, stiff and soft stops.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{assert_agreement, diagonal, element, hertz, integrator, model};
+use crate::common::{assert_agreement, diagonal, element, hertz, integrator, model};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
@@ -121,8 +119,8 @@ fn a_contact_that_stays_closed_is_a_spring() {
 fn permanent_contact_under_preload_agrees_with_the_general_integrator() {
     for preload in [20.0, 200.0] {
         let law = Law::Hertz(HertzStop::with_preload(1e8, preload).unwrap());
-        let system = common::beam_with(0.015, law);
-        let state = common::settled(&system, 60.0, 40, 0.0);
+        let system = crate::common::beam_with(0.015, law);
+        let state = crate::common::settled(&system, 60.0, 40, 0.0);
         let stretch = Stretch { frequency_hz: 60.0, start: 0.0, end: 1.5 };
         assert_agreement(&system, &stretch, &state, 1e-9, &format!("preload {preload}"));
     }
@@ -253,7 +251,9 @@ fn slow_touches_and_releases_do_not_stall() {
 /// A stretch may end at any instant of a contact: the motion to its end and on from there is that of the whole, whichever instant it is.
 #[test]
 fn a_stretch_that_ends_within_a_contact_ends_there() {
-    for (system, state) in [(common::paper_beam(), vec![0.0; 12]), (common::uniform_beam(8), vec![0.0; 16])] {
+    for (system, state) in
+        [(crate::common::paper_beam(), vec![0.0; 12]), (crate::common::uniform_beam(8), vec![0.0; 16])]
+    {
         let frequency_hz = 36.0;
         let stretch = |start: f64, end: f64| Stretch { frequency_hz, start, end };
         for tolerance in [1e-9, 1e-11, 1e-12] {

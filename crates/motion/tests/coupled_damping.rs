@@ -1,11 +1,9 @@
 //! Dampers that couple modes: the block coordinates against the matrix exponential and the general integrator.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, element, hertz, modal_damping, model};
+use crate::common::{assert_agreement, element, hertz, modal_damping, model};
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Load, Stretch, System,

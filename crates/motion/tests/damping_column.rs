@@ -1,11 +1,9 @@
 //! The column of the flow by the added damping ratio, against the variational equations of the general integrator (not differences), and a closed form.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{element, hertz, modal_damping, model, paper_beam, settled, uniform_beam};
+use crate::common::{element, hertz, modal_damping, model, paper_beam, settled, uniform_beam};
 use faer::{Mat, c64};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System,

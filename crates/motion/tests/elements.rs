@@ -1,11 +1,9 @@
 //! The exact integrator against the general one: kinds of elements, loads and modes, and several elements at once.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{assert_agreement, diagonal, element, force, hertz, model, settled};
+use crate::common::{assert_agreement, diagonal, element, force, hertz, model, settled};
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
@@ -26,7 +24,7 @@ fn structure(damping: Mat<f64>) -> ReducedModel {
 }
 
 fn light() -> Mat<f64> {
-    common::modal_damping(&FREQUENCIES, 0.02)
+    crate::common::modal_damping(&FREQUENCIES, 0.02)
 }
 
 fn coupled() -> Mat<f64> {
@@ -131,10 +129,10 @@ fn two_equal_stops_act_as_one_of_twice_the_stiffness() {
         let two = with(vec![element(&TIP, 0.0, hertz(1e8, 2e-4)), element(&TIP, 0.0, hertz(1e8, 2e-4))]);
         let state = settled(&one, frequency_hz, 12, 0.15);
         let stretch = Stretch { frequency_hz, start: 0.15, end: 1.15 };
-        let (mut one, mut two) = (common::integrator(&one), common::integrator(&two));
+        let (mut one, mut two) = (crate::common::integrator(&one), crate::common::integrator(&two));
         let expected = one.flow(&stretch, &state).unwrap();
         let found = two.flow(&stretch, &state).unwrap();
-        let error = common::difference(two.system(), &stretch, &found, &expected);
+        let error = crate::common::difference(two.system(), &stretch, &found, &expected);
         assert!(error.largest() < BOUND, "{error:?}");
         assert!(one.touches()[0] > 0 && two.touches() == [one.touches()[0]; 2], "{:?}", two.touches());
     }
@@ -179,7 +177,7 @@ fn rigid_body_modes_agree() {
     ];
     for (what, frequencies, damping) in cases {
         let system = bouncing(frequencies, damping);
-        let mut exact = common::integrator(&system);
+        let mut exact = crate::common::integrator(&system);
         let found = exact.advance(&BOUNCES, &START).unwrap();
         assert!(exact.touches()[0] > 0, "{what}: no contact");
         let settings = GeneralSettings::with_tolerance(1e-12).state_only();

@@ -1,11 +1,9 @@
 //! Contacts that lose energy: both integrators agree on flows, observations and where contacts part and end, also in stretches that start or end within them.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{
+use crate::common::{
     assert_agreement, beam_with, damped, diagonal, element, hunt_crossley, integrator, model, remembering,
     settled,
 };
@@ -129,7 +127,7 @@ fn no_loss_is_the_elastic_law() {
     let linear = LinearStop::with_gap(1e5, 0.0).unwrap();
     assert_eq!(Law::Linear(linear.with_damping(0.0).unwrap()), Law::Linear(linear));
     let system = beam_with(0.015, hunt_crossley(4.5e9, 0.0, 0.0));
-    let elastic = beam_with(0.015, common::hertz(4.5e9, 0.0));
+    let elastic = beam_with(0.015, crate::common::hertz(4.5e9, 0.0));
     let state = settled(&elastic, 36.0, 20, 0.0);
     let stretch = Stretch { frequency_hz: 36.0, start: 0.0, end: 1.0 };
     let [found, expected] = [&system, &elastic].map(|s| integrator(s).advance(&stretch, &state).unwrap());

@@ -1,11 +1,9 @@
 //! The general integrator through contacts: sensitivities against differences, closed forms, and invariants.
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod general_common;
-
 use std::f64::consts::{PI, TAU};
 
-use general_common::{
+use crate::general_common::{
     assert_columns_close, assert_near, diagonal, difference, flow_error, harmonic_force, model, supported,
 };
 use hammerbeam_motion::{

@@ -1,12 +1,10 @@
 //! The general integrator against closed forms of linear systems.
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod general_common;
-
 use std::f64::consts::TAU;
 
+use crate::general_common::{assert_columns_close, assert_near, diagonal, harmonic_force, model};
 use faer::c64;
-use general_common::{assert_columns_close, assert_near, diagonal, harmonic_force, model};
 use hammerbeam_motion::{
     Flow, Load, Stretch, System,
     general::{GeneralSettings, advance, sample},

@@ -1,13 +1,10 @@
 //! Maxima and contacts by the general integrator: closed forms, and the maxima of the exact one.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-mod general_common;
-
 use std::f64::consts::TAU;
 
-use common::{element, paper_beam, settled};
-use general_common::{assert_near, diagonal, harmonic_force, model, supported};
+use crate::common::{element, paper_beam, settled};
+use crate::general_common::{assert_near, diagonal, harmonic_force, model, supported};
 use hammerbeam_motion::{
     Harmonic, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

@@ -1,12 +1,10 @@
 //! The general integrator against that of another library (order eight too, but its own code and norms).
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-mod general_common;
-
 use std::f64::consts::TAU;
 
+use crate::general_common::{column_error, diagonal, harmonic_force, model, supported};
 use differential_equations::prelude::*;
-use general_common::{column_error, diagonal, harmonic_force, model, supported};
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralSettings, advance},

@@ -1,12 +1,9 @@
 //! The general integrator where it is tried hardest: rigid modes, states that are zero, stops that act at one instant, every damping.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-mod general_common;
-
-use common::{assert_agreement, element};
+use crate::common::{assert_agreement, element};
+use crate::general_common::{assert_near, diagonal, flow_error, harmonic_force, model, supported};
 use faer::Mat;
-use general_common::{assert_near, diagonal, flow_error, harmonic_force, model, supported};
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralFlow, GeneralSettings, advance},
@@ -180,11 +177,11 @@ fn every_kind_of_system_is_integrated() {
             let counts = run(&system, &stretch, &state, tolerance).counts;
             assert!(counts.steps < 1000 + 40 * counts.crossings, "case {case} at {tolerance:e}: {counts:?}");
         }
-        let mut exact = common::integrator(&system);
+        let mut exact = crate::common::integrator(&system);
         // That one gives up now and then, where contacts begin within rounding of the start.
         if let Ok(expected) = exact.flow(&stretch, &state) {
             let found = run(&system, &stretch, &state, 1e-12).flow;
-            let error = common::difference(&system, &stretch, &found, &expected).largest();
+            let error = crate::common::difference(&system, &stretch, &found, &expected).largest();
             assert!(error < 1e-7, "case {case}: {error:e}");
             contacts += exact.touches().iter().sum::<u32>();
             compared += 1;
@@ -196,8 +193,8 @@ fn every_kind_of_system_is_integrated() {
 /// Six periods of the paper's beam in one stretch are six stretches of one.
 #[test]
 fn a_long_stretch_is_the_product_of_its_parts() {
-    let system = common::paper_beam();
-    let start = common::settled(&system, 36.0, 50, 0.0);
+    let system = crate::common::paper_beam();
+    let start = crate::common::settled(&system, 36.0, 50, 0.0);
     let whole = run(&system, &Stretch { frequency_hz: 36.0, start: 0.0, end: 6.0 }, &start, 1e-12).flow;
     let (mut state, mut product) = (start, Mat::<f64>::identity(12, 12));
     for cycle in 0..6 {
@@ -207,7 +204,7 @@ fn a_long_stretch_is_the_product_of_its_parts() {
     }
     let scale = product.norm_max();
     assert!((&whole.by_state - &product).norm_max() < 1e-8 * scale);
-    assert!(general_common::column_error(&whole.state, &state) < 1e-8);
+    assert!(crate::general_common::column_error(&whole.state, &state) < 1e-8);
 }
 
 /// `q = sin(w t)` just touches its level, at any place within a step, borders included. The touch lasts `2 acos(1 - depth) / w`.

@@ -1,9 +1,7 @@
 //! Rigid stops that hold while other elements act, in closed form: a spring as an element or in the structure, rest, lift, and the touch soon after it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{cubic, diagonal, element, force, hertz, integrator, model, rigid};
+use crate::common::{cubic, diagonal, element, force, hertz, integrator, model, rigid};
 use hammerbeam_motion::{Flow, Law, Load, LocalElement, Stretch, System, law::LinearStop};
 use hammerbeam_structure::{Connection, Damping, Lumped, LumpedMass, Reduction};
 

@@ -1,9 +1,7 @@
 //! Rigid stops that stick while other elements act: agreement of both integrators, and of sensitivities with differences. Closed forms: `held_closed_forms.rs`.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{
+use crate::common::{
     assert_agreement, cubic, damped, diagonal, differences::assert_sensitivities, element, force, hertz,
     hunt_crossley, integrator, model, remembering, rigid, settled,
 };

@@ -1,11 +1,9 @@
 //! What must hold of every flow of the exact integrator: derivatives, volumes, convergence, and pieces that make a whole.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{beam_with, difference, element, hertz, model, paper_beam, settled};
+use crate::common::{beam_with, difference, element, hertz, model, paper_beam, settled};
 use faer::Mat;
 use hammerbeam_motion::{
     Flow, Harmonic, HarmonicForce, Law, Load, Stretch, System,

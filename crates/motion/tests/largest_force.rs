@@ -1,9 +1,7 @@
 //! Largest forces and accelerations where the law depends on the velocity, against the general integrator.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{diagonal, element, force, model, settled};
+use crate::common::{diagonal, element, force, model, settled};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

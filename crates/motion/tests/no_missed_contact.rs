@@ -4,11 +4,9 @@
 //! displacements of millimetres: rounding decides only below some 1e-16 m.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{diagonal, element, model};
+use crate::common::{diagonal, element, model};
 use faer::c64;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Stretch, System,
@@ -136,7 +134,7 @@ impl Flight {
         let system = self.system(level, hertz);
         let state: Vec<f64> =
             (0..2).flat_map(|part| self.modes.iter().map(move |mode| mode.start[part])).collect();
-        let mut exact = common::integrator(&system);
+        let mut exact = crate::common::integrator(&system);
         let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: time * self.frequency_hz };
         exact.advance(&stretch, &state).unwrap();
         exact.touches()[0]

@@ -5,11 +5,9 @@
 //! Displacements are millimetres about a preload of up to a tenth of a metre: computations in short and in long steps differ by up to 1e-11 m.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{diagonal, element, model};
+use crate::common::{diagonal, element, model};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

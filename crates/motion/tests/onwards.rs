@@ -1,9 +1,7 @@
 //! Flows that go on within a contact whose law remembers its impact: chained, they are the flow over the whole.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{beam_with, integrator, settled};
+use crate::common::{beam_with, integrator, settled};
 use hammerbeam_motion::{
     Law, Stretch,
     exact::MotionError,

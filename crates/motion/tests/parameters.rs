@@ -1,11 +1,9 @@
 //! Derivatives of flows by parameters of the system, against differences of both integrators and a closed form.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::{f64::consts::TAU, sync::Arc};
 
-use common::{element, hertz, modal_damping, model, paper_beam, settled};
+use crate::common::{element, hertz, modal_damping, model, paper_beam, settled};
 use faer::Mat;
 use hammerbeam_motion::{
     DampingPart, Family, Harmonic, HarmonicForce, Law, Load, Member, Parameter, ParameterError, Stretch,

@@ -1,9 +1,7 @@
 //! Acceleration of a point from the forces that a motion tells: the derivative of its velocity, whatever the law remembers.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{beam_with, element, force, hertz, integrator, rigid, settled};
+use crate::common::{beam_with, element, force, hertz, integrator, rigid, settled};
 use hammerbeam_motion::{
     Law, Load, Stretch, System,
     law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop},
@@ -70,7 +68,7 @@ fn acceleration_of_the_beam_is_the_slope_of_its_velocity_in_every_contact() {
 /// A constant force presses the mass on a stop, where it comes to rest: no acceleration there, only with the force of the stop.
 #[test]
 fn held_mass_has_no_acceleration() {
-    let model = common::model(&[1.0], common::diagonal(&[0.1]));
+    let model = crate::common::model(&[1.0], crate::common::diagonal(&[0.1]));
     let load = Load { support: vec![], forces: vec![force(&[1.0], 0, 0.9, 0.0)] };
     let system = System::new(model, &load, vec![element(&[1.0], 0.0, rigid(0.3, 0.2))]).unwrap();
     let stretch = Stretch { frequency_hz: 0.01, start: 0.0, end: 1.0 };

@@ -1,11 +1,9 @@
 //! Contacts of the level of a rigid stop: what a held stop keeps at penetration zero neither closes nor opens by rounding, and has no force.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{diagonal, difference, element, force, model, rigid};
+use crate::common::{diagonal, difference, element, force, model, rigid};
 use hammerbeam_motion::{
     Flow, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

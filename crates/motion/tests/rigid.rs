@@ -1,9 +1,7 @@
 //! Rigid stops: bounces in closed form, energy, chatter to its end, and exact sensitivities through all of it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{
+use crate::common::{
     assert_agreement, beam_with, diagonal, differences::assert_sensitivities, element, integrator, model,
     rigid, settled,
 };
@@ -320,7 +318,7 @@ fn what_is_not_followed_is_refused() {
     assert!(matches!(system.parameter(stiffness), Err(ParameterError::NoStiffness { .. })));
     let other = falling_ball(0.5, 1.0, 1.0).with_parameter(Parameter::Restitution { element: 0 }, 2.0);
     assert!(matches!(other, Err(ParameterError::Law { .. })));
-    let beam = beam_with(0.015, common::hertz(1e9, 0.0));
+    let beam = beam_with(0.015, crate::common::hertz(1e9, 0.0));
     let error = beam.parameter(Parameter::Restitution { element: 0 });
     assert!(matches!(error, Err(ParameterError::NoRestitution { .. })));
 }

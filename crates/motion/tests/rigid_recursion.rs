@@ -1,11 +1,9 @@
 //! Chatter and sticking of one mass against a recursion of its own: closed form from impact to impact, impacts by sampling and bisection.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{diagonal, element, integrator, model};
+use crate::common::{diagonal, element, integrator, model};
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, Stretch, System, law::RigidStop};
 
 /// `x'' + c x' + x = h + f cos(w t)`, `x <= 0`, `x' -> -e x'`.

@@ -3,9 +3,7 @@
 //! The flows of both integrators against differences of their own motions.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{
+use crate::common::{
     damped,
     differences::{assert_by_state, assert_sensitivities},
     element, force, hunt_crossley, integrator, model, remembering, rigid,

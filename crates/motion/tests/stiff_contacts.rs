@@ -1,11 +1,9 @@
 //! Very stiff contacts: the sensitivities keep the energy as well as rounding of the displacement lets them.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{diagonal, element, force, hertz, integrator, model};
+use crate::common::{diagonal, element, force, hertz, integrator, model};
 use hammerbeam_motion::{Load, Stretch, System};
 
 /// Natural circular frequency [rad/s], constant force [N], gap [m].

@@ -1,9 +1,7 @@
 //! Work counts of fixed motions, so that a slow-down that no clock shows still fails. Budgets lie a little above what was measured.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{integrator, paper_beam, settled, uniform_beam};
+use crate::common::{integrator, paper_beam, settled, uniform_beam};
 use hammerbeam_motion::{Stretch, System, exact::ExactCounts};
 
 /// Work of a flow over one cycle from the state after `cycles` cycles from rest, and the contacts on the way.
@@ -64,7 +62,7 @@ fn steps_grow_slower_than_the_modes() {
 /// Long after the last contact, and with a gap that is never reached, a look takes a good part of the cycle.
 #[test]
 fn quiet_flights_need_few_looks() {
-    let system = common::beam_with(0.015, common::hertz(4.5e9, 5e-3));
+    let system = crate::common::beam_with(0.015, crate::common::hertz(4.5e9, 5e-3));
     let (found, contacts) = work(&system, 60.0, 30, true);
     assert_eq!(contacts, 0);
     assert_within(found, [4, 0, 0], "60 Hz");

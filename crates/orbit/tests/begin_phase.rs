@@ -6,9 +6,7 @@
 
 use std::f64::consts::PI;
 
-mod common;
-
-use common::unit_mass;
+use crate::common::unit_mass;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings, MotionError},

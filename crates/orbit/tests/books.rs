@@ -4,9 +4,7 @@
 //! leaves the unit circle, turns real and comes back at +1 within 3e-5 Hz.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::events::{Subject, general_multipliers, step_of, whole};
+use crate::common::events::{Subject, general_multipliers, step_of, whole};
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, System,
     law::{HertzStop, LinearStop},

@@ -3,11 +3,9 @@
 //! The distances of successive doublings tend to the ratio 4.669 (Feigenbaum, J. Stat. Phys. 19 (1978), 25-52); after three of them it is near, not there.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::sync::OnceLock;
 
-use common::events::{
+use crate::common::events::{
     Subject, general_multipliers, leaving, oscillator, settled_period, side, step_of, with,
 };
 use hammerbeam_motion::{Law, law::LinearStop};

@@ -5,11 +5,9 @@
 //! better. Its multipliers are those of both, so a fold-flip is where a fold of the one has the frequency of a flip of the other.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::events::{general_multipliers, oscillator};
+use crate::common::events::{general_multipliers, oscillator};
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};
 use hammerbeam_orbit::{

@@ -4,11 +4,9 @@
 //! on branches of their own, which are followed without the others.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{
+use crate::common::{
     events::general_multipliers,
     independent::{
         Case, Part, cubic, curve, events, events_up_to, marked, nearest, oscillator, resting_pair, stop,

@@ -1,11 +1,9 @@
 //! Flips and Neimark-Sacker points that change their criticality, found again by what branches off there and by the motion beside the orbit, which know nothing of normal forms.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{
+use crate::common::{
     events::{alternation, leaving, side, with},
     independent::{
         Case, curve, events, marked, oscillator, stop, together, two_modes, with as with_parameter,
@@ -126,7 +124,7 @@ fn bend_at(case: &Case, row: &CurveRow, range_hz: (f64, f64)) -> f64 {
 
 #[test]
 fn degenerate_flips_beside_a_contact_are_where_doubled_orbits_change_the_side_of_the_flip() {
-    let case = common::beam();
+    let case = crate::common::beam();
     let range_hz = (54.5, 62.0);
     let start = reach_orbit(&case.0, &case.1, (57.0, 1), &OrbitSettings::default(), &mut || false).unwrap();
     let (rows, _) = side(&case, &start, Side::Down, range_hz, &OrbitSettings::for_range(range_hz));

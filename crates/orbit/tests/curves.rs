@@ -1,9 +1,7 @@
 //! Curves of bifurcations in two parameters: against closed forms, and against branches in the frequency at fixed values of the second parameter.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{beam, duffing};
+use crate::common::{beam, duffing};
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};
 use hammerbeam_orbit::{

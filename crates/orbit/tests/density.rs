@@ -3,9 +3,7 @@
 //! The orbit between two rows is solved on its own, at the frequency in the middle, by Newton's method from the mean of both.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::{beam, duffing};
+use crate::common::{beam, duffing};
 use hammerbeam_motion::System;
 use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Side, find_start};
 

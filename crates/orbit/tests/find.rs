@@ -1,11 +1,9 @@
 //! All orbits at one frequency, against Newton's method from a thousand random states of a single-mass system.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::cmp::Reverse;
 
-use common::duffing;
+use crate::common::duffing;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},

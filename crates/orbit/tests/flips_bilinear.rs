@@ -9,11 +9,9 @@
 //! the force has no jump, so the fundamental matrix is the product of the exponentials. Newton's method with differences solves them.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{
+use crate::common::{
     events::{
         Subject, alternation, assert_same, exponent, general_multipliers, growth, leaving, oscillator,
         settled_period, side, sorted, step_of, whole, with,

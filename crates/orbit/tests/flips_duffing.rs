@@ -2,9 +2,7 @@
 //! asymmetric pair that leaves the symmetric orbits. A spring of 1e-6 N/m gives states their scale and changes nothing else.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::events::{
+use crate::common::events::{
     Subject, alternation, assert_same, exponent, general_multipliers, growth, leaving, oscillator,
     settled_period, side, sorted, step_of, with,
 };
@@ -60,7 +58,7 @@ fn a_multiplier_is_minus_one_by_the_variational_equations_too() {
 fn flips_do_not_depend_on_step_start_or_segments() {
     let expected = frequencies(&flips(0.28, &step_of(5e-4)));
     for (start_hz, step, segments) in [(0.28, 2e-3, 1), (0.27, 2e-4, 1), (0.28, 5e-4, 4), (0.29, 5e-4, 3)] {
-        let settings = OrbitSettings { max_step_hz: step, ..common::with_segments(segments) };
+        let settings = OrbitSettings { max_step_hz: step, ..crate::common::with_segments(segments) };
         assert_same(&frequencies(&flips(start_hz, &settings)), &expected, 1e-8, "steps and segments");
     }
 }

@@ -5,11 +5,9 @@
 //! with the force p on the undeformed oscillator is pressed in by `g = p/(k K)` at rest, `K = 1 + k`; between the frequencies it opens for an instant in every period.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::walk;
+use crate::common::walk;
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
 use hammerbeam_orbit::{OrbitSettings, Response, Side, find_start};

@@ -5,11 +5,9 @@
 //! unless the orbit that touches has turned back before.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::events::{Subject, assert_same, oscillator, side, step_of, whole, with};
+use crate::common::events::{Subject, assert_same, oscillator, side, step_of, whole, with};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,
     law::{HertzStop, LinearStop, TwoSidedStop},

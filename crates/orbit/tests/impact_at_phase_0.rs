@@ -8,11 +8,9 @@
 //! `phi` that of the impact at [`MIDDLE`] it comes at phase 0 there.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::unit_mass;
+use crate::common::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::RigidStop};
 use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start};
 

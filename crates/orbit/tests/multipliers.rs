@@ -1,11 +1,9 @@
 //! Floquet multipliers: unchanged by the number of segments and by the tolerances, and equal to what other means give.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::{f64::consts::TAU, sync::OnceLock};
 
-use common::{beam, chain, recomputed, walk_both, with_segments};
+use crate::common::{beam, chain, recomputed, walk_both, with_segments};
 use faer::Mat;
 use hammerbeam_motion::{
     Stretch, System,

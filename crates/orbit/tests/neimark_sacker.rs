@@ -1,9 +1,7 @@
 //! Neimark-Sacker points of the paper's beam on its harmonic branch: the pair has modulus one, and motion beside them does what it says.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::{
+use crate::common::{
     beam,
     events::{apart, assert_same, general_advance, general_multipliers, sorted, step_of, whole, with},
 };
@@ -42,7 +40,7 @@ fn neimark_sacker_points_do_not_depend_on_step_or_segments() {
         |settings: &OrbitSettings| sorted(&with(&rows(settings), |events| events.neimark_sacker));
     let expected = frequencies(&step_of(0.02));
     for (step, segments) in [(0.05, 1), (0.02, 4)] {
-        let settings = OrbitSettings { max_step_hz: step, ..common::with_segments(segments) };
+        let settings = OrbitSettings { max_step_hz: step, ..crate::common::with_segments(segments) };
         assert_same(&frequencies(&settings), &expected, 1e-8, "steps and segments");
     }
 }

@@ -1,9 +1,7 @@
 //! Curves of folds that come to orbits which are their own image: to orbits of half the period, and to symmetric ones.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{
+use crate::common::{
     events::{leaving, side, with},
     independent::{Case, curve, marked, with as with_parameter},
 };

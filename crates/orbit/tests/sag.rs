@@ -4,9 +4,9 @@
 //! and beside a linear oscillator, not coupled with it, that moves some thousand times as much. Its branches are those without either.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::events::{Subject, alternation, assert_same, leaving, oscillator, sorted, step_of, whole, with};
+use crate::common::events::{
+    Subject, alternation, assert_same, leaving, oscillator, sorted, step_of, whole, with,
+};
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
 use hammerbeam_orbit::{Response, Side, StopReason, find_start};

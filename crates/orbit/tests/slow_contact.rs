@@ -4,9 +4,7 @@
 //! A mass bounces on a stop, once more with each fall of the frequency, and the last bounce begins ever more slowly.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::events::{general_multipliers, misses_itself_by, side};
+use crate::common::events::{general_multipliers, misses_itself_by, side};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,
     law::{HertzStop, RestitutionModel, RestitutionStop},

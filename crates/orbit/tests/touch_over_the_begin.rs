@@ -4,11 +4,9 @@
 //! The load is given the phase at which the begin or the end of the contact of one orbit lies on phase 0 to rounding, and phases a rounding beside it, so that the states at both ends of the orbit lie on either side of it.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::events::{Subject, general_multipliers, oscillator_driven_at, step_of, whole, with};
+use crate::common::events::{Subject, general_multipliers, oscillator_driven_at, step_of, whole, with};
 use hammerbeam_motion::{
     Law, Stretch,
     exact::{ExactIntegrator, ExactSettings},

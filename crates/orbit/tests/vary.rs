@@ -1,9 +1,7 @@
 //! Branches in other parameters than the frequency: against closed forms, and against branches in the frequency.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-mod common;
-
-use common::{beam, duffing};
+use crate::common::{beam, duffing};
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law::LinearStop,

@@ -1,9 +1,7 @@
 //! A walk that is stored and taken up again goes on with the same bits.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::unit_mass;
+use crate::common::unit_mass;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::HertzStop};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitError, OrbitSettings, Response, Segments, Side, find_start,

@@ -4,9 +4,7 @@
 //! what was measured, so that a change which costs evaluations is seen.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-mod common;
-
-use common::{beam, orbit_at, walk};
+use crate::common::{beam, orbit_at, walk};
 use hammerbeam_orbit::{OrbitSettings, Side};
 
 /// Evaluations per accepted solution on the way from one frequency to the other.

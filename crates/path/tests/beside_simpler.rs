@@ -1,11 +1,8 @@
 //! Folds of a path that lie beside a simpler one, which it has left or comes to: the slope is known badly there, and a change of its sign says nothing until later.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
-#[macro_use]
-mod support;
-
+use crate::support::{folds, graph, steps_of, up};
 use hammerbeam_path::{PathProblem, Settings};
-use support::{folds, graph, steps_of, up};
 
 /// A path of one unknown that leaves a simpler one at `x = 0`.
 struct Leaving<P>(P);

@@ -1,10 +1,8 @@
 //! Simple branch points are recognised, recorded, and walked through.
 
-mod support;
-
+use crate::support::*;
 use approx::assert_abs_diff_eq;
 use hammerbeam_path::{Branch, Direction, Settings, StopReason, follow};
-use support::*;
 
 /// `λ x − x³ = 0`: the stem `x = 0` and the arms `λ = x²`.
 fn pitchfork(x: f64, l: f64) -> (f64, f64, f64, u64) {

@@ -1,8 +1,5 @@
 //! Zeros of a test function that undo each other within a step, of which the problem knows.
 
-#[macro_use]
-mod support;
-
 use hammerbeam_path::{
     DenseProblem, Direction, EvaluationError, ParameterRange, PathProblem, Settings, TestValue, follow,
 };

@@ -1,12 +1,9 @@
 //! Solutions that are seen in several ways, as an orbit of several periods that may begin in each of them: a loop closes where it comes to its start seen otherwise.
 
-#[macro_use]
-mod support;
-
 use std::f64::consts::PI;
 
+use crate::support::{range, steps_of};
 use hammerbeam_path::{DenseProblem, Direction, PathProblem, StopReason, follow};
-use support::{range, steps_of};
 
 /// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`, half a turn later.
 fn circle() -> impl PathProblem + Clone {

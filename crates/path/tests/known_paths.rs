@@ -1,10 +1,8 @@
 //! Smooth paths in closed form: what is on them, in which order, and at which price.
 
-mod support;
-
+use crate::support::*;
 use approx::assert_abs_diff_eq;
 use hammerbeam_path::{Settings, StopReason, follow_both};
-use support::*;
 
 fn circle(x: f64, l: f64) -> (f64, f64, f64, u64) {
     (x * x + l * l - 1.0, 2.0 * x, 2.0 * l, 0)

@@ -1,9 +1,7 @@
 //! Rounding in the residual, as from an integrator with a tolerance, neither stops a branch nor invents events.
 
-mod support;
-
+use crate::support::*;
 use approx::assert_abs_diff_eq;
-use support::*;
 
 /// Noise of this size, a fixed function of the point: the same point always gives the same bits.
 fn noise(x: f64, l: f64, size: f64) -> f64 {

@@ -1,9 +1,6 @@
 //! Pairs of multipliers that cross the unit circle within a step in which something turns real are found.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
-#[macro_use]
-mod support;
-
 use hammerbeam_path::{
     Branch, Direction, EvaluationError, Events, Outside, ParameterRange, PathProblem, Settings, TestValue,
     follow,
@@ -29,7 +26,7 @@ fn normal() -> Multiplied<impl PathProblem> {
         let product = 1.0 + 0.1 * ((x - CROSSING) / -CROSSING).tanh();
         pair(0.5 * (1.0 + product + x.tanh()), product)
     };
-    Multiplied { path: support::graph(|x| (-x * x, -2.0 * x, 0)), multipliers, x: 0.0 }
+    Multiplied { path: crate::support::graph(|x| (-x * x, -2.0 * x, 0)), multipliers, x: 0.0 }
 }
 
 /// Half-way between the two crossings, and how far they are from it.
@@ -44,7 +41,7 @@ fn passing() -> Multiplied<impl PathProblem> {
         all.extend(pair(-3.0 - 2.0 * (x - middle), 9.0));
         all
     };
-    Multiplied { path: support::graph(|x| (x, 1.0, 0)), multipliers, x: 0.0 }
+    Multiplied { path: crate::support::graph(|x| (x, 1.0, 0)), multipliers, x: 0.0 }
 }
 
 /// Two multipliers by half their sum, and their product.

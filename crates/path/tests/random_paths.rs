@@ -1,10 +1,8 @@
 //! Random paths whose folds are known by other means, in random coordinates.
 
-mod support;
-
+use crate::support::*;
 use hammerbeam_path::{DenseProblem, Settings, StopReason};
 use proptest::prelude::*;
-use support::*;
 
 /// `λ = x + Σ a_k sin(k x + φ_k)`.
 fn series(terms: &[(f64, f64)], x: f64) -> (f64, f64) {

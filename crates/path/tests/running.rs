@@ -1,12 +1,10 @@
 //! Running a follower: work, checkpoints, reasons to stop.
 
-mod support;
-
+use crate::support::*;
 use hammerbeam_path::{
     Checkpoint, ContinuationPoint, DenseProblem, Direction, EvaluationError, Events, Follower, PathError,
     PathProblem, Settings, StepOutcome, StopReason, follow,
 };
-use support::*;
 
 fn wave(x: f64, l: f64) -> (f64, f64, f64, u64) {
     (x - (3.0 * l).sin(), 1.0, -3.0 * (3.0 * l).cos(), 0)

@@ -1,13 +1,10 @@
 //! Folds as sharp as grazing makes them: turns within 1e-6 to 1e-8 of the parameter, corners, one-sided powers.
 
-#[macro_use]
-mod support;
-
+use crate::support::*;
 use approx::assert_abs_diff_eq;
 use hammerbeam_path::{
     DenseProblem, EvaluationError, MOST_SHORT_STEPS, PathProblem, Settings, StopReason, follow_both,
 };
-use support::*;
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
 

@@ -1,10 +1,8 @@
 //! Sheets 1e-4 apart are not mistaken for each other, and no stretch is walked twice.
 
-mod support;
-
+use crate::support::*;
 use approx::assert_abs_diff_eq;
 use hammerbeam_path::{DenseProblem, PathProblem, Settings, StopReason};
-use support::*;
 
 const STEPS: [f64; 3] = [0.05, 0.01, 0.001];
 

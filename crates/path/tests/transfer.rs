@@ -1,9 +1,6 @@
 //! A path goes on in other unknowns: it still closes at its start, and what was walked before is known.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-#[macro_use]
-mod support;
-
 use std::f64::consts::TAU;
 
 use approx::assert_relative_eq;

@@ -11,8 +11,6 @@
 //! several per cent with its beginning, so each case is run from five beginnings.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod systems;
-
 use std::f64::consts::PI;
 
 use hammerbeam_signal::{
@@ -22,7 +20,7 @@ use hammerbeam_signal::{
     },
 };
 
-use systems::{henon, logistic, lorenz, roessler};
+use crate::systems::{henon, logistic, lorenz, roessler};
 
 /// A system: series, sampling rate, delay and dimension, exponent.
 type System = (fn(f64, usize) -> Vec<f64>, f64, (usize, usize), f64);

@@ -14,12 +14,10 @@
 //! fifth too small. Single records of 2000 samples scatter by tens of per cent, theirs, too, as their table 3 shows.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod systems;
-
 use std::ops::Range;
 
+use crate::systems::{henon, logistic, lorenz, roessler};
 use hammerbeam_signal::exponent::{DivergenceSettings, EmbeddingChoice, StraightPart, embedding, rosenstein};
-use systems::{henon, logistic, lorenz, roessler};
 
 /// A system: series, samples, sampling rate, delay, exponent.
 type Example = (fn(f64, usize) -> Vec<f64>, usize, f64, usize, f64);

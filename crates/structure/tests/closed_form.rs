@@ -1,12 +1,10 @@
 //! Uniform beams against the wavenumbers of the closed form, `w = beta^2 sqrt(EI / (rho A l^4))`.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::common::{bare, unit_beam};
 use approx::assert_relative_eq;
-use common::{bare, unit_beam};
 use hammerbeam_structure::{BeamPoint, End};
 
 /// First wavenumbers `beta` of a unit beam, rigid-body modes included as 0.

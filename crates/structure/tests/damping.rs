@@ -1,10 +1,8 @@
 //! Damping: modal, Rayleigh and discrete dampers.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
+use crate::common::{bare, lumped, paper_beam, unit_beam};
 use approx::assert_relative_eq;
-use common::{bare, lumped, paper_beam, unit_beam};
 use hammerbeam_structure::{BeamPoint, Damping, End, ModalRatios, ReducedModel, Reduction, StructureError};
 
 fn two_masses(damping: &Damping, dampers: &[(&str, &str, f64)]) -> Result<ReducedModel, StructureError> {

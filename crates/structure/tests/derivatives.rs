@@ -1,10 +1,8 @@
 //! Derivatives of eigenfrequencies: against closed forms, and against differences.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-
+use crate::common::{bare, paper_beam, unit_beam};
 use approx::assert_relative_eq;
-use common::{bare, paper_beam, unit_beam};
 use hammerbeam_structure::{Beam, BeamChange, BeamPoint, Boundary, End, PointChange, Section};
 
 fn derivatives(beam: &Beam, boundary: Boundary, change: &BeamChange) -> Vec<f64> {

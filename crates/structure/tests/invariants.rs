@@ -1,12 +1,10 @@
 //! What every reduction keeps: rigid bodies, mass, static flexibility, frequencies below the cut-off.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::{bare, lumped, paper_beam, unit_beam};
 use approx::assert_relative_eq;
-use common::{bare, lumped, paper_beam, unit_beam};
 use hammerbeam_structure::{BeamPoint, Damping, End, OutlinePoint, Reduced, Reduction, Structure};
 
 const METHODS: [fn(f64) -> Reduction; 2] = [

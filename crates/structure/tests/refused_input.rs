@@ -1,9 +1,7 @@
 //! Input that is no structure, and what the user is told.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
-use common::{bare, lumped, paper_beam, unit_beam};
+use crate::common::{bare, lumped, paper_beam, unit_beam};
 use hammerbeam_structure::{Beam, BeamPoint, Damping, End, Lumped, Reduction, StructureError};
 
 fn message(beam: &Beam) -> String {

@@ -1,10 +1,8 @@
 //! Support motion: static shape, inertia, dampers, at one place or several.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
-mod common;
-
+use crate::common::{bare, lumped, paper_beam, unit_beam};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use common::{bare, lumped, paper_beam, unit_beam};
 use faer::{Mat, c64, linalg::solvers::Solve};
 use hammerbeam_structure::{BeamPoint, Damping, End, ReducedModel, Reduction, Structure};
 

@@ -2,11 +2,8 @@
 
 use std::fs;
 
-use crate::{
-    DUFFING,
-    common::{Workshop, assert_bad_input, assert_success},
-    document, table,
-};
+use super::{DUFFING, document, table};
+use crate::common::{Workshop, assert_bad_input, assert_success};
 
 pub const BASINS: [&str; 11] = [
     "basins",

@@ -4,11 +4,8 @@ use std::f64::consts::TAU;
 
 use serde_json::Value;
 
-use crate::{
-    DUFFING,
-    common::{Workshop, assert_success},
-    document,
-};
+use super::{DUFFING, document};
+use crate::common::{Workshop, assert_success};
 
 /// Attractors of a grid over the state of a mass, with the branches of a run beside it.
 fn attractors(workshop: &Workshop, frequency: &str, [x, y]: [&str; 2]) -> Vec<Value> {

@@ -9,13 +9,8 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags};
 
-use crate::{
-    DUFFING,
-    basins::BASINS,
-    column,
-    common::{Workshop, assert_success, interrupted, stderr},
-    remembering, table,
-};
+use super::{DUFFING, basins::BASINS, column, remembering, table};
+use crate::common::{Workshop, assert_success, interrupted, stderr};
 
 /// Basins that were killed three times have the bytes of those that were not, on another number of threads.
 #[test]

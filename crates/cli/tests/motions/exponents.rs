@@ -1,10 +1,7 @@
 //! `lyapunov`: exponents of one motion and of a series.
 
-use crate::{
-    DUFFING, column,
-    common::{BEAM, Workshop, stdout},
-    document, table,
-};
+use super::{DUFFING, column, document, table};
+use crate::common::{BEAM, Workshop, stdout};
 
 #[test]
 fn lyapunov_tells_exponents_their_sum_and_their_convergence() {

@@ -2,11 +2,8 @@
 
 use std::fs;
 
-use crate::{
-    DUFFING, column,
-    common::{Workshop, assert_success, stdout},
-    table,
-};
+use super::{DUFFING, column, table};
+use crate::common::{Workshop, assert_success, stdout};
 
 /// Commands in one folder, in the order of their numbers, with the tables of each.
 const REQUESTS: [(&[&str], &[&str]); 5] = [

@@ -1,10 +1,7 @@
 //! What `--initial` refuses, command by command.
 
-use crate::{
-    IMPACT_OSCILLATOR,
-    common::{Workshop, assert_bad_input, short_run, stderr},
-    remembering,
-};
+use super::{IMPACT_OSCILLATOR, remembering};
+use crate::common::{Workshop, assert_bad_input, short_run, stderr};
 
 /// Behind a rigid stop, or within a contact that remembers its impact; of `simulate` see `refused.rs`.
 #[test]

@@ -7,10 +7,9 @@ use hammerbeam_study::{
     store::{SimulatedChunk, SimulationLayout, StoreError},
 };
 
-use crate::{
-    DUFFING, IMPACT_OSCILLATOR,
-    common::{BEAM, DRIVEN_MASS, Workshop, assert_bad_input, assert_success, interrupted, stderr, stdout},
-    remembering,
+use super::{DUFFING, IMPACT_OSCILLATOR, remembering};
+use crate::common::{
+    BEAM, DRIVEN_MASS, Workshop, assert_bad_input, assert_success, interrupted, stderr, stdout,
 };
 
 const TABLES: [&str; 3] = ["samples", "contacts", "stroboscopic"];

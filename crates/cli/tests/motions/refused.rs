@@ -2,11 +2,8 @@
 
 use serde_json::Value;
 
-use crate::{
-    IMPACT_OSCILLATOR,
-    common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout},
-    document, remembering,
-};
+use super::{IMPACT_OSCILLATOR, document, remembering};
+use crate::common::{BEAM, TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 
 #[test]
 fn options_that_make_no_sense_are_refused() {

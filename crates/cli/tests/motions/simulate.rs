@@ -1,10 +1,7 @@
 //! `simulate`: samples, contacts, sections, initial states.
 
-use crate::{
-    DUFFING, column,
-    common::{BEAM, Workshop, assert_bad_input, assert_success},
-    document, table,
-};
+use super::{DUFFING, column, document, table};
+use crate::common::{BEAM, Workshop, assert_bad_input, assert_success};
 
 #[test]
 fn simulate_writes_samples_contacts_and_a_section() {

@@ -2,11 +2,8 @@
 
 use serde_json::Value;
 
-use crate::{
-    DUFFING,
-    common::{Workshop, assert_success},
-    document, table,
-};
+use super::{DUFFING, document, table};
+use crate::common::{Workshop, assert_success};
 
 /// The hardening spring between its folds: two motions, each of which is found on its branch.
 #[test]

@@ -4,7 +4,7 @@ use hammerbeam_figure::{
     BasinMap, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
 
-use crate::samples::{basins, sweep};
+use super::samples::{basins, sweep};
 
 #[test]
 fn basins_name_class_period_branch_and_fraction() {

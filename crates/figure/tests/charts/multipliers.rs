@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::{MultiplierDiagram, Multipliers, Style};
 
-use crate::samples::multipliers;
+use super::samples::multipliers;
 
 #[test]
 fn multipliers_that_are_infinite_are_left_out_and_counted() {

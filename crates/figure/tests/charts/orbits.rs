@@ -2,7 +2,7 @@
 
 use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style};
 
-use crate::samples::{orbit, struck};
+use super::samples::{orbit, struck};
 
 #[test]
 fn impulses_stand_in_a_panel_of_their_own_with_their_unit() {

@@ -4,8 +4,6 @@
 mod basins;
 mod closed;
 mod coexisting;
-#[path = "../common/mod.rs"]
-mod common;
 mod ended;
 mod exponents;
 mod exported;
@@ -18,7 +16,7 @@ mod sweep;
 
 use std::fs;
 
-use common::{Workshop, assert_success, stderr, stdout};
+use crate::common::{Workshop, assert_success, stderr, stdout};
 use serde_json::Value;
 
 const DUFFING: &str = include_str!("../../../../studies/duffing.toml");

@@ -1,0 +1,14 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod basins;
+mod checkpoint;
+mod classes;
+mod common;
+mod exponents_of_systems;
+mod exponents_that_remember;
+mod memory;
+mod published_exponents;
+mod rigid;
+mod simulate;
+mod sweep;
+mod work;

@@ -1,0 +1,27 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod bad_input;
+mod borders;
+mod common;
+mod compare;
+mod curves;
+mod energy_loss;
+mod events;
+mod every_law;
+mod figure;
+mod figure_refused;
+mod impact_oscillator;
+mod json;
+mod memory;
+mod motions;
+mod overlay;
+mod page;
+mod parameters;
+mod resting;
+mod rig;
+mod run;
+mod same_bytes;
+mod signal;
+mod update;
+mod varied;
+mod verify;

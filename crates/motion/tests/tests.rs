@@ -1,0 +1,37 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod agreement;
+mod amplitude;
+mod at_once;
+mod barely_touched;
+mod bounces;
+mod brief_openings;
+mod common;
+mod contacts;
+mod coupled_damping;
+mod damping_column;
+mod elements;
+mod energy_loss;
+mod general_common;
+mod general_contact;
+mod general_fields;
+mod general_linear;
+mod general_observe;
+mod general_oracle;
+mod general_robust;
+mod general_switching;
+mod held_closed_forms;
+mod held_forces;
+mod invariants;
+mod largest_force;
+mod no_missed_contact;
+mod no_missed_touch;
+mod onwards;
+mod parameters;
+mod point_motion;
+mod resting_contacts;
+mod rigid;
+mod rigid_recursion;
+mod stick_at_speed;
+mod stiff_contacts;
+mod work;

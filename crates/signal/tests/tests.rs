@@ -1,0 +1,10 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod classify;
+mod decay;
+mod exact_filters;
+mod exponent;
+mod formats;
+mod rosenstein_1993;
+mod scipy;
+mod systems;

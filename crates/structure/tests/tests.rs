@@ -1,0 +1,9 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod closed_form;
+mod common;
+mod damping;
+mod derivatives;
+mod invariants;
+mod refused_input;
+mod support_motion;

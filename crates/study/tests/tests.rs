@@ -1,0 +1,6 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod comparison;
+mod comparison_minima;
+mod update;
+mod update_data;

@@ -1,0 +1,20 @@
+//! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
+
+mod beam_between_stops;
+mod beam_chaos;
+mod bilinear_oscillator;
+mod common;
+mod completeness;
+mod contact_damping;
+mod contacts;
+mod duffing;
+mod linear;
+mod measuring_filter;
+mod shaw_holmes_1983;
+mod two_masses;
+mod van_de_vorst_conclusions;
+mod van_de_vorst_eigenfrequencies;
+mod van_de_vorst_harmonic_branch;
+mod van_de_vorst_harmonic_walk;
+mod van_de_vorst_measured_modes;
+mod whole_runs;
