@@ -1,6 +1,6 @@
 //! Why a command does not end well, and with which exit code.
 
-use std::{io, process::ExitCode};
+use std::process::ExitCode;
 
 use hammerbeam_signal::SignalError;
 use hammerbeam_study::{
@@ -9,6 +9,7 @@ use hammerbeam_study::{
     export::ExportError,
     rig::RigError,
     run::RunError,
+    whole_file::WriteError,
 };
 
 /// Why a command does not end well.
@@ -94,17 +95,18 @@ impl From<ExportError> for Failure {
     fn from(error: ExportError) -> Self {
         match error {
             ExportError::Store(error) => error.into(),
-            ExportError::Write { ref source, .. } if is_full(source) => Self::NoResult(error.to_string()),
+            ExportError::Write(error) => error.into(),
             // The user named the folder; the message has the cause already.
             other => Self::BadInput(other.to_string()),
         }
     }
 }
 
-/// Whether there is no room left, as opposed to a wrong folder.
-fn is_full(error: &io::Error) -> bool {
-    use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
-    matches!(error.kind(), StorageFull | QuotaExceeded | FileTooLarge)
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        // The user named the folder, but not how much room there is in it.
+        if error.is_full() { Self::NoResult(error.to_string()) } else { Self::BadInput(error.to_string()) }
+    }
 }
 
 impl From<ComparisonError> for Failure {
@@ -170,6 +172,6 @@ impl From<SignalError> for Failure {
 
 impl From<anyhow::Error> for Failure {
     fn from(error: anyhow::Error) -> Self {
-        Self::Other(error)
+        error.downcast::<WriteError>().map_or_else(Self::Other, Self::from)
     }
 }

@@ -25,7 +25,6 @@ use crate::{
     failure::Failure,
 };
 
-pub(crate) use drawn::replace;
 pub use drawn::{Album, Drawn, Files};
 
 /// Resolution of the PNG files, in pixels per inch, where none is asked for.

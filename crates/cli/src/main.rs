@@ -10,6 +10,7 @@ mod figures;
 mod initial;
 mod interrupt;
 mod kept;
+mod memory;
 mod motion_args;
 mod numbers;
 mod output;

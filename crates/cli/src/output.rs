@@ -1,7 +1,11 @@
 //! Standard output: text, or one JSON document.
 
-use std::io::Write;
+use std::{
+    borrow::Cow,
+    io::{self, Write},
+};
 
+use hammerbeam_signal::limits::is_control;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -16,14 +20,18 @@ pub struct Output {
 
 impl Output {
     /// Gives a result: the document, or the text.
-    pub fn give(self, document: &impl Serialize, text: impl FnOnce() -> String) {
-        if self.json {
+    ///
+    /// # Errors
+    /// Standard output does not take it: a full disk, say.
+    pub fn give(self, document: &impl Serialize, text: impl FnOnce() -> String) -> Result<(), Failure> {
+        let written = if self.json {
             let document =
                 serde_json::to_string_pretty(document).expect("results are plain data with text keys");
-            print(&document);
+            print(&document)
         } else {
-            print(text().trim_end());
-        }
+            print(&printable(text().trim_end()))
+        };
+        written.map_err(|error| Failure::NoResult(format!("cannot write to standard output: {error}")))
     }
 
     /// Tells a failure on standard error, and in JSON as the one document.
@@ -31,20 +39,35 @@ impl Output {
         match failure {
             Failure::Study(report) => anstream::eprintln!("{}", report.render(true)),
             Failure::Interrupted(message) | Failure::Disagreement(message) => {
-                anstream::eprintln!("{message}");
+                anstream::eprintln!("{}", printable(message));
             }
-            other => anstream::eprintln!("error: {}", other.message()),
+            other => anstream::eprintln!("error: {}", printable(&other.message())),
         }
         // Disagreements have their document.
         if self.json && !matches!(failure, Failure::Disagreement(_)) {
-            print(&format!("{:#}", json!({ "error": document(failure) })));
+            // The exit code says already that there is no result.
+            let _ = print(&format!("{:#}", json!({ "error": document(failure) })));
         }
     }
 }
 
 /// Prints a text; a reader that has gone away (`| head`) is no failure.
-fn print(text: &str) {
-    let _ = writeln!(anstream::stdout(), "{text}");
+fn print(text: &str) -> io::Result<()> {
+    let mut stdout = anstream::stdout();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
+}
+
+/// A text without what a terminal would obey: names and words out of files may hold anything.
+fn printable(text: &str) -> Cow<'_, str> {
+    let obeyed = |character: char| is_control(character) && !['\n', '\t'].contains(&character);
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |character: char| if obeyed(character) { char::REPLACEMENT_CHARACTER } else { character };
+    Cow::Owned(text.chars().map(shown).collect())
 }
 
 /// A failure for programs: message, exit code, and the faults of a study with their places.
@@ -63,6 +86,20 @@ fn document(failure: &Failure) -> Value {
             })
         };
         document["problems"] = report.problems.iter().map(fault).collect();
+        if report.left_out > 0 {
+            document["problems_left_out"] = json!(report.left_out);
+        }
     }
     document
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_terminal_gets_nothing_to_obey() {
+        let text = "a\u{1b}[31m\r\u{9b}2J\u{202e}b\nc\td \u{e4}";
+        assert_eq!(printable(text), "a\u{fffd}[31m\u{fffd}\u{fffd}2J\u{fffd}b\nc\td \u{e4}");
+    }
 }

@@ -253,7 +253,7 @@ fn folders_that_cannot_be_made_are_bad_input() {
 #[test]
 fn results_folder_of_another_version() {
     let workshop = with_results();
-    let connection = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let connection = crate::common::database(workshop.path("results/results.db"));
     connection.execute("UPDATE about SET value = '0' WHERE key = 'data_version'", []).unwrap();
     connection.close().unwrap();
     let before = workshop.listing();
@@ -265,4 +265,94 @@ fn results_folder_of_another_version() {
         assert_bad_input(&workshop.hammerbeam(arguments), &["data version 0"]);
     }
     assert_eq!(workshop.listing(), before, "something was written");
+}
+
+/// A study of so many masses in a row, with so many stops at a point that is not there.
+fn large_study(masses: usize, stops: usize) -> String {
+    let mass = |k: usize| format!("{{ name = \"m{k}\", mass_kg = 1.0 }}");
+    let all: Vec<String> = (0..masses).map(mass).collect();
+    let mut text = format!("[structure]\nkind = \"lumped\"\nmass = [{}]\n", all.join(", "));
+    text += "[excitation]\nkind = \"force\"\nat = \"m0\"\namplitude_n = 1.0\nfrequency_hz = [0.01, 0.1]\n";
+    (0..stops).for_each(|_| text += "[[stop]]\nat = \"nowhere\"\nlaw = \"linear\"\nstiffness_n_m = -1.0\n");
+    text
+}
+
+/// Neither a list that is too long to be computed with nor thousands of faults take longer than a sentence.
+#[test]
+fn very_long_lists_are_refused_and_of_very_many_faults_the_first_hundred_are_shown() {
+    for (text, expected) in [
+        (large_study(20_000, 0), "`mass` has 20000 entries"),
+        (large_study(1, 20_000), "`stop` has 20000 entries"),
+        (large_study(1, 900), "more"),
+        (format!("title = \"{}\"\n", "x".repeat(100_000)), "`title` is 100000 bytes long"),
+    ] {
+        let workshop = Workshop::with(&text);
+        let begun = std::time::Instant::now();
+        let output = workshop.hammerbeam(&["check", "study.toml"]);
+        assert_bad_input(&output, &[expected]);
+        assert!(output.stderr.len() < 300_000, "{} bytes", output.stderr.len());
+        assert!(begun.elapsed().as_secs() < 20, "{expected}: {:?}", begun.elapsed());
+    }
+}
+
+/// Texts that a terminal would obey, or that would end a row of a table.
+#[test]
+fn titles_and_names_with_control_characters_are_refused() {
+    for (text, code) in
+        [("\\u001b[31mred", "U+001B"), ("a\\rb", "U+000D"), ("a\\nb", "U+000A"), ("\\u202eb", "U+202E")]
+    {
+        let workshop = Workshop::changed(TWO_MASSES, "title = \"", &format!("title = \"{text}"));
+        let sentence = format!("`title` has the control character {code}");
+        let output = workshop.hammerbeam(&["check", "study.toml"]);
+        assert_bad_input(&output, &[&sentence]);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(!text.contains(['\u{1b}', '\r', '\u{202e}']), "{text:?}");
+    }
+}
+
+/// What is no file of a study, or none that ends.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_without_end_is_refused() {
+    let workshop = Workshop::with(TWO_MASSES);
+    let sentence = "larger than 16 MiB, the most that is read";
+    assert_bad_input(&workshop.hammerbeam(&["check", "/dev/zero"]), &[sentence]);
+    let sentence = "larger than 256 MiB, the most that is read";
+    assert_bad_input(&workshop.hammerbeam(&["signal", "spectrum", "/dev/zero"]), &[sentence]);
+}
+
+/// Every command that makes a folder says the same of one that cannot be made, with the same exit code.
+#[test]
+fn a_folder_that_cannot_be_written_is_exit_code_2_everywhere() {
+    let workshop = with_results();
+    std::fs::write(workshop.path("file"), "").unwrap();
+    for arguments in [
+        &["run", "study.toml", "--out", "file/results"][..],
+        &["export", "results", "--format", "csv", "--out", "file/tables"],
+        &["figure", "results", "--out", "file/figures"],
+        &["new", "file/study"],
+    ] {
+        assert_bad_input(&workshop.hammerbeam(arguments), &["file/"]);
+    }
+}
+
+/// A disk without room is an error, a reader that has gone away is none.
+#[cfg(target_os = "linux")]
+#[test]
+fn standard_output_that_takes_nothing_is_an_error_and_a_closed_pipe_is_none() {
+    let workshop = Workshop::with(TWO_MASSES);
+    for arguments in [&["check", "study.toml"][..], &["check", "study.toml", "--json"]] {
+        let run = |stdout: std::process::Stdio| {
+            let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"));
+            command.args(arguments).current_dir(workshop.path("")).stdout(stdout);
+            command.stderr(std::process::Stdio::piped()).output().unwrap()
+        };
+        let full = run(std::fs::File::options().write(true).open("/dev/full").unwrap().into());
+        assert_eq!(full.status.code(), Some(1));
+        let text = String::from_utf8(full.stderr).unwrap();
+        assert!(text.contains("cannot write to standard output"), "{text}");
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        assert_eq!(run(writer.into()).status.code(), Some(0));
+    }
 }

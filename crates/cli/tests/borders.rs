@@ -2,7 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::common::{Workshop, assert_success, stderr, stdout};
-use rusqlite::Connection;
 
 /// Two masses, the first of them driven and beside a stop.
 fn two_masses(frequencies: &str, max_step: &str, stop: &str) -> Workshop {
@@ -53,7 +52,7 @@ fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
     let stop = "law = \"linear\"\nstiffness_n_m = 20.0\ndamping_n_s_m = 0.5\ngap_m = 0.5";
     let workshop = two_masses("[0.129, 0.132]", "1e-5", stop);
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
-    let connection = Connection::open(workshop.path("results/results.db")).unwrap();
+    let connection = crate::common::database(workshop.path("results/results.db"));
     let corner = "SELECT id FROM solution WHERE events & 1 AND events & 16";
     let corner: i64 = connection.query_row(corner, [], |row| row.get(0)).expect("no fold at a grazing");
     let verify = || workshop.hammerbeam(&["verify", "results", "--all"]);

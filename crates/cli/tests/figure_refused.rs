@@ -11,7 +11,7 @@ use serde_json::Value;
 fn a_damaged_solution_costs_only_the_figures_that_need_it() {
     let workshop = short_run("");
     let whole = files(&workshop, &["--out", "whole"]);
-    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let database = crate::common::database(workshop.path("results/results.db"));
     let of_branch =
         "UPDATE solution SET multipliers = x'00' WHERE id >> 33 = (SELECT id FROM start WHERE branch = 1)";
     assert!(database.execute(of_branch, []).unwrap() > 0);
@@ -34,7 +34,7 @@ fn a_damaged_solution_costs_only_the_figures_that_need_it() {
 #[test]
 fn missing_solutions_are_named_and_cost_only_the_figures_that_need_them() {
     let workshop = short_run("");
-    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let database = crate::common::database(workshop.path("results/results.db"));
     // Keys hold the start above bit 33, the side in bit 32, and the number on that side.
     let of =
         |side: u8| format!("id >> 33 = (SELECT id FROM start WHERE branch = 1) AND id >> 32 & 1 = {side}");
@@ -108,7 +108,7 @@ fn characters_that_the_font_lacks_are_told() {
 #[test]
 fn a_damaged_solution_between_those_that_are_drawn_is_told() {
     let workshop = short_run("[continuation]\nmax_step_hz = 0.0001\n");
-    let database = rusqlite::Connection::open(workshop.path("results/results.db")).unwrap();
+    let database = crate::common::database(workshop.path("results/results.db"));
     let one = |query: &str| database.query_row(query, [], |row| row.get::<_, i64>(0)).unwrap();
     // Keys hold the start above bit 33, the side in bit 32, and the number on that side; the down side comes first, reversed.
     let of_branch = "id >> 33 = (SELECT id FROM start WHERE branch = 1)";

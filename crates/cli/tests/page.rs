@@ -21,7 +21,6 @@ use hammerbeam_figure::{
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};
 use hammerbeam_orbit::{Side, states_at_phase};
 use hammerbeam_study::{Model, Store, StudyFile};
-use rusqlite::Connection;
 use serde_json::{Value, json};
 
 const RANGE: &str = "frequency_hz = [30.0, 40.0]";
@@ -118,7 +117,7 @@ fn multipliers(workshop: &Workshop) -> Value {
 
 /// A walk that has not ended is told on the page.
 fn while_a_run_writes(workshop: &Workshop) {
-    let database = Connection::open(workshop.path("results/results.db")).unwrap();
+    let database = crate::common::database(workshop.path("results/results.db"));
     database.execute("UPDATE walk SET stop_kind = NULL WHERE id = (SELECT min(id) FROM walk)", []).unwrap();
     database.close().unwrap();
     assert_success(&workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "unfinished"]));
@@ -129,7 +128,7 @@ fn while_a_run_writes(workshop: &Workshop) {
 
 /// Nothing is left to show.
 fn without_anything(workshop: &Workshop) {
-    let database = Connection::open(workshop.path("results/results.db")).unwrap();
+    let database = crate::common::database(workshop.path("results/results.db"));
     database.execute_batch("DELETE FROM solution; DELETE FROM walk; DELETE FROM start;").unwrap();
     database.close().unwrap();
     let drawn = workshop.hammerbeam(&["figure", "results", "--kind", "page", "--out", "drawn"]);

@@ -332,3 +332,31 @@ fn nothing_found_is_exit_code_1() {
     let document: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!(document["error"]["exit_code"], 1);
 }
+
+/// Numbers that ask for more samples than there is room for, and samples whose squares are not finite, are refused in a sentence.
+#[test]
+fn what_is_beyond_all_bounds_is_refused() {
+    let rows = |factor: &str| -> String {
+        (0..1000)
+            .map(|k| format!("{:.4},{:.6}{factor}\n", 1e-3 * f64::from(k), (0.1 * f64::from(k)).sin()))
+            .collect()
+    };
+    let title = "time (s),displacement (m)\n";
+    let workshop = Workshop::with("");
+    let write = |name: &str, text: String| fs::write(workshop.path(name), text).unwrap();
+    write("usual.csv", format!("{title}{}", rows("")));
+    write("gap.csv", format!("{title}{}1.7e9,0.5\n", rows("")));
+    write("huge.csv", format!("{title}{}", rows("e300")));
+    write("tiny.csv", format!("{title}{}", rows("e-300")));
+    let chain = ["signal", "chain", "usual.csv", "--sensor", "displacement", "--sampling", "1e12"];
+    for (arguments, sentence) in [
+        (&["signal", "spectrum", "gap.csv", "--repair", "gaps"][..], "at most 33554432 are worked with"),
+        (&chain[..], "must be at most 33554432"),
+        (&["signal", "filter", "usual.csv", "--resample", "5e8"][..], "the new sampling rate"),
+        (&["signal", "classify", "usual.csv", "--frequency", "1e-18"][..], "needs at least"),
+        (&["signal", "spectrum", "huge.csv"][..], "must be 0 or from 1e-60 to 1e60"),
+        (&["signal", "classify", "tiny.csv", "--frequency", "15.9"][..], "must be 0 or from 1e-60 to 1e60"),
+    ] {
+        assert_bad_input(&workshop.hammerbeam(arguments), &[sentence]);
+    }
+}

@@ -4,7 +4,6 @@
 use std::{fs, process::Output, sync::OnceLock};
 
 use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
-use rusqlite::Connection;
 use serde_json::Value;
 
 /// Two masses around their second resonance, with contacts and folds, in steps that make some hundred solutions.
@@ -23,7 +22,7 @@ fn tampered(statement: &str) -> Workshop {
     fs::create_dir(workshop.path("results")).unwrap();
     let copy = workshop.path("results/results.db");
     fs::copy(results().path("results/results.db"), &copy).unwrap();
-    let connection = Connection::open(copy).unwrap();
+    let connection = crate::common::database(copy);
     let changed = connection.execute(statement, []).unwrap();
     assert!(changed > 0, "{statement} changes nothing");
     workshop
@@ -31,14 +30,14 @@ fn tampered(statement: &str) -> Workshop {
 
 /// Key of the stored solution in the middle.
 fn middle() -> i64 {
-    let connection = Connection::open(results().path("results/results.db")).unwrap();
+    let connection = crate::common::database(results().path("results/results.db"));
     let select = "SELECT id FROM solution ORDER BY id LIMIT 1 OFFSET (SELECT count(*) / 2 FROM solution)";
     connection.query_row(select, [], |row| row.get(0)).unwrap()
 }
 
 /// One entry of a blob multiplied, as an SQL literal.
 fn blob_with(column: &str, key: i64, index: usize, factor: f64) -> String {
-    let connection = Connection::open(results().path("results/results.db")).unwrap();
+    let connection = crate::common::database(results().path("results/results.db"));
     let select = format!("SELECT {column} FROM solution WHERE id = {key}");
     let mut bytes: Vec<u8> = connection.query_row(&select, [], |row| row.get(0)).unwrap();
     let entry = &mut bytes[8 * index..8 * (index + 1)];
@@ -220,7 +219,7 @@ fn the_force_of_a_contact_is_judged_by_its_own_depth() {
     assert!(weak.count() > 2, "the spring is not just touched");
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
     // A force as strong as usual that is wrong by a millionth is found.
-    let connection = Connection::open(workshop.path("results/results.db")).unwrap();
+    let connection = crate::common::database(workshop.path("results/results.db"));
     let wrong = "UPDATE solution SET max_contact_force_n = max_contact_force_n * 1.000001 \
         WHERE max_contact_force_n = (SELECT max(max_contact_force_n) FROM solution)";
     assert!(connection.execute(wrong, []).unwrap() > 0);
@@ -258,7 +257,7 @@ fn values(table: &str, name: &str) -> Vec<f64> {
 #[test]
 fn a_folder_without_solutions_is_exit_code_1() {
     let workshop = tampered("DELETE FROM solution");
-    let connection = Connection::open(workshop.path("results/results.db")).unwrap();
+    let connection = crate::common::database(workshop.path("results/results.db"));
     connection.execute("UPDATE walk SET solutions = 0", []).unwrap();
     drop(connection);
     let output = workshop.hammerbeam(&["verify", "results", "--json"]);

@@ -20,6 +20,7 @@
 //! | file | what |
 //! |---|---|
 //! | `unit.rs` | units as people write them |
+//! | `limits.rs` | what is read and made at most |
 //! | `raw.rs`, `record.rs` | what a file says; what is worked with |
 //! | `read/` | CSV, universal files, WAV, NumPy, MATLAB |
 //! | `points/` | tables of measured points: maxima over the excitation frequency |
@@ -47,6 +48,7 @@ pub mod filter;
 mod finding;
 mod fourier;
 pub mod judge;
+pub mod limits;
 pub mod points;
 pub mod random;
 pub mod raw;

@@ -54,6 +54,7 @@ pub mod summary;
 pub mod update;
 pub mod varied;
 pub mod verify;
+pub mod whole_file;
 
 pub use crossings::{PlacedRow, StoredBranch, StoredBranches, corrected};
 pub use document::{Problem, Report};

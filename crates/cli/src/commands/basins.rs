@@ -53,7 +53,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     if result.lost() == total {
         return Err(Failure::NoResult(format!("no motion from any of the {total} cells: {NOT_COMPUTED}")));
     }
-    output.give(&result.document(), || result.text());
+    output.give(&result.document(), || result.text())?;
     Ok(())
 }
 

@@ -18,7 +18,7 @@ pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     drift::warn(&model.drifts());
-    output.give(&document(&file.study, &model), || text(&file.study, &model));
+    output.give(&document(&file.study, &model), || text(&file.study, &model))?;
     Ok(())
 }
 

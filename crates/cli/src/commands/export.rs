@@ -32,6 +32,6 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
             exported.rows
         );
         std::iter::once(first).chain(varied).collect::<Vec<_>>().join("\n")
-    });
+    })?;
     Ok(())
 }

@@ -36,8 +36,9 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
         refused.iter().map(|(name, reason)| json!({ "figure": name, "reason": reason })).collect();
     let document =
         json!({ "folder": folder, "files": files, "not_drawn": refused, "characters_not_in_font": lacking });
-    output
-        .give(&document, || format!("{} files in {}:\n{}", files.len(), folder.display(), files.join("\n")));
+    output.give(&document, || {
+        format!("{} files in {}:\n{}", files.len(), folder.display(), files.join("\n"))
+    })?;
     Ok(())
 }
 

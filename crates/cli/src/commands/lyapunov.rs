@@ -75,7 +75,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::Interrupted(message));
     }
     let results: Vec<Outcome> = records.iter().map(|record| Outcome { options, record }).collect();
-    output.give(&document(options, &results), || text(&results));
+    output.give(&document(options, &results), || text(&results))?;
     Ok(())
 }
 

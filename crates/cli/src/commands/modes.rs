@@ -23,7 +23,7 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
         figures::draw_linear(&mut drawn, &file, &model);
         document["figures"] = json!(drawn.finish()?.names);
     }
-    output.give(&document, || text(&model.tables));
+    output.give(&document, || text(&model.tables))?;
     Ok(())
 }
 

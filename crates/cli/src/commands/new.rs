@@ -36,6 +36,6 @@ pub fn run(options: &NewOptions, output: Output) -> Result<(), Failure> {
             "{shown} is written. Next:\n  hammerbeam check {shown}\n  hammerbeam run {shown} --out {}",
             folder.join("results").display()
         )
-    });
+    })?;
     Ok(())
 }

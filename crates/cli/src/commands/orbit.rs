@@ -54,7 +54,7 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
         figures::orbit::draw((&model, &file.study.title), &orbits, low_pass_hz, &mut drawn)?;
         document["figures"] = json!(drawn.finish()?.names);
     }
-    output.give(&document, || text(first, others, &file.study.response.point));
+    output.give(&document, || text(first, others, &file.study.response.point))?;
     Ok(())
 }
 

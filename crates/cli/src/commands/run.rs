@@ -58,7 +58,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
                 Ok(_) if summary.branches.is_empty() => Err(Failure::NoResult(summary.nothing())),
                 Ok(figures) => {
                     let figures = figures.names;
-                    output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()));
+                    output.give(&summary.document(&figures), || summary.text(&figures, begun.elapsed()))?;
                     Ok(())
                 }
             }

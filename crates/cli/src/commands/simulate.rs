@@ -68,7 +68,7 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     if done < total {
         return Err(Failure::Interrupted(format!("interrupted; {}", told::fate(&layout, done, &kept))));
     }
-    output.give(&summary.document(options), || summary.text(options));
+    output.give(&summary.document(options), || summary.text(options))?;
     Ok(())
 }
 

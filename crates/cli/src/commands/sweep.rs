@@ -68,7 +68,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult("no motion could be computed".to_owned()));
     }
     let result = Outcome { options, found: &found, branches: &on_branches, dof: model.system.dof() };
-    output.give(&result.document(), || result.text());
+    output.give(&result.document(), || result.text())?;
     Ok(())
 }
 

@@ -10,6 +10,7 @@ use hammerbeam_study::{
         CandidateError, DataError, FittedDatum, FittedParameter, Observation, Update, UpdateData,
         UpdateError, UpdateSettings, update,
     },
+    whole_file::{WriteError, replace},
 };
 use serde_json::{Value, json};
 
@@ -41,7 +42,7 @@ pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
     for finding in &found.findings {
         anstream::eprintln!("warning: {finding}");
     }
-    output.give(&document, || text(&found, &data, options));
+    output.give(&document, || text(&found, &data, options))?;
     Ok(())
 }
 
@@ -89,8 +90,7 @@ fn not_converged(found: &Update) -> Option<String> {
 }
 
 fn write(folder: &Path, options: &UpdateOptions, found: &Update, document: &Value) -> Result<(), Failure> {
-    let cannot =
-        |error: std::io::Error| Failure::BadInput(format!("cannot write {}: {error}", folder.display()));
+    let cannot = |source| WriteError { path: folder.to_owned(), source };
     fs::create_dir_all(folder).map_err(cannot)?;
     let study = folder.join(STUDY);
     let same =
@@ -102,8 +102,8 @@ fn write(folder: &Path, options: &UpdateOptions, found: &Update, document: &Valu
         )));
     }
     let document = serde_json::to_string_pretty(document).context("cannot write the document")?;
-    fs::write(&study, &found.study_text).map_err(cannot)?;
-    fs::write(folder.join(DOCUMENT), document + "\n").map_err(cannot)
+    replace(&study, found.study_text.as_bytes())?;
+    Ok(replace(&folder.join(DOCUMENT), (document + "\n").as_bytes())?)
 }
 
 fn document(found: &Update, data: &UpdateData) -> Value {

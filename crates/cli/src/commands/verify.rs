@@ -43,7 +43,7 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
     if verification.stored == 0 {
         return Err(Failure::NoResult(format!("no solutions are stored in {folder}")));
     }
-    output.give(&document(&verification, &settings), || text(&verification, &folder, begun.elapsed()));
+    output.give(&document(&verification, &settings), || text(&verification, &folder, begun.elapsed()))?;
     if verification.disagreements.is_empty() {
         return Ok(());
     }

@@ -10,8 +10,8 @@ use std::{
     },
 };
 
-use anyhow::Context;
 use hammerbeam_figure::{Figure, FigureError};
+use hammerbeam_study::whole_file::{WriteError, replace};
 
 use super::RESOLUTION;
 use crate::{
@@ -76,7 +76,8 @@ pub struct Files {
 impl<'a> Drawn<'a> {
     /// Into a folder, made if it is not there, one file after the other.
     pub fn into(folder: &'a Path) -> anyhow::Result<Self> {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+        let cannot = |source| WriteError { path: folder.to_owned(), source };
+        fs::create_dir_all(folder).map_err(cannot)?;
         Ok(Self {
             folder,
             resolution: RESOLUTION,
@@ -115,7 +116,7 @@ impl<'a> Drawn<'a> {
 
     /// Writes a file that is no figure.
     pub fn write(&mut self, name: &str, content: impl FnOnce() -> String + Send + 'static) {
-        self.hand(vec![name.to_owned()], move |paths| replace(&paths[0], content().as_bytes()));
+        self.hand(vec![name.to_owned()], move |paths| Ok(replace(&paths[0], content().as_bytes())?));
     }
 
     /// Hands over what writes these files.
@@ -189,9 +190,9 @@ impl Album for Drawn<'_> {
                     formats.iter().map(|format| format!("{name}.{}", format.suffix())).collect();
                 self.hand(names, move |paths| {
                     formats.iter().zip(paths).try_for_each(|(format, path)| match format {
-                        FigureFormat::Svg => replace(path, figure.svg().as_bytes()),
-                        FigureFormat::Png => replace(path, &figure.png(resolution)?),
-                        FigureFormat::Pdf => replace(path, &figure.pdf()?),
+                        FigureFormat::Svg => Ok(replace(path, figure.svg().as_bytes())?),
+                        FigureFormat::Png => Ok(replace(path, &figure.png(resolution)?)?),
+                        FigureFormat::Pdf => Ok(replace(path, &figure.pdf()?)?),
                     })
                 });
             }
@@ -207,43 +208,4 @@ impl Album for Drawn<'_> {
 
 fn is_raised(interrupt: Option<&Interrupt>) -> bool {
     interrupt.is_some_and(Interrupt::raised)
-}
-
-/// Writes a file so that it is there complete or not at all, whoever else writes it at the same time.
-pub(crate) fn replace(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    static WRITTEN: AtomicU64 = AtomicU64::new(0);
-    let mut unfinished = path.as_os_str().to_owned();
-    unfinished.push(format!(".{}-{}.part", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed)));
-    let written = fs::write(&unfinished, bytes).and_then(|()| fs::rename(&unfinished, path));
-    if written.is_err() {
-        // What is left of it is of no use; that the file cannot be written is told, not that this cannot be taken away.
-        let _ = fs::remove_file(&unfinished);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every writer ends with its own bytes whole or with those of another one, and nothing else is left in the folder.
-    #[test]
-    fn one_file_is_written_by_several_at_once_and_nothing_is_left_of_a_failure() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("page.html");
-        std::thread::scope(|scope| {
-            for writer in 0..8_u8 {
-                let path = &path;
-                scope.spawn(move || (0..20).for_each(|_| replace(path, &vec![writer; 200_000]).unwrap()));
-            }
-        });
-        let bytes = fs::read(&path).unwrap();
-        assert!(bytes.len() == 200_000 && bytes.iter().all(|byte| *byte == bytes[0]));
-        fs::create_dir(folder.path().join("taken")).unwrap();
-        assert!(replace(&folder.path().join("taken"), b"x").is_err());
-        let mut names: Vec<_> =
-            fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        names.sort();
-        assert_eq!(names, ["page.html", "taken"]);
-    }
 }

@@ -1,6 +1,7 @@
 //! What the tests of the command share.
 
 #![allow(dead_code, reason = "every test file uses its own part")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::{
     collections::BTreeMap,
@@ -12,6 +13,13 @@ use std::{
 use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
+
+/// A results database, to be changed as the program itself would change it: with the checksums of its rows.
+pub fn database(path: impl AsRef<Path>) -> rusqlite::Connection {
+    let connection = rusqlite::Connection::open(path).unwrap();
+    hammerbeam_study::store::add_checksums(&connection).unwrap();
+    connection
+}
 
 /// A beam with a stop, as in the studies folder.
 pub const BEAM: &str = include_str!("../../../../studies/beam-with-stop.toml");

@@ -23,6 +23,7 @@ use crate::{
     filter::Sections,
     finding::Finding,
     fourier::{backward, forward},
+    limits::ensure_count,
     random::Random,
     record::{Channel, Record},
     resample::Interpolation,
@@ -225,6 +226,7 @@ fn sampled(samples: &[f64], step: f64, motion: Motion) -> Result<Vec<f64>, Signa
     )?;
     let interpolation = Interpolation::new();
     let length = samples.len() as f64;
+    ensure_count(length / step)?;
     // A little is allowed for rounding: a rate that divides the record evenly gives all its samples.
     if motion == Motion::Periodic {
         let count = (length / step - 1e-6).ceil() as usize;

@@ -127,7 +127,7 @@ pub fn classify(
     ensure("the excitation frequency", excitation_hz, allowed, holds)?;
     ensure("the largest period multiple", settings.most as f64, "at least 1", settings.most >= 1)?;
     let given = excitation_hz / sampling_rate_hz;
-    let needed = (PIECES as f64 / given).ceil() as usize + 1;
+    let needed = ((PIECES as f64 / given).ceil() as usize).saturating_add(1);
     ensure_series("telling whether a motion repeats", series, needed)?;
     if series.iter().all(|value| *value == series[0]) {
         return Err(SignalError::Constant);

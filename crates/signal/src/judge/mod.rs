@@ -15,6 +15,7 @@ mod times;
 
 use crate::{
     finding::{Finding, Repairs},
+    limits::{LARGEST_SAMPLE, MOST_SAMPLES, SMALLEST_SAMPLE},
     raw::{Axis, RawChannel, RawGroup, RawRecord},
     record::{Channel, Record},
     unit::{Quantity, unit},
@@ -46,6 +47,14 @@ pub enum RecordError {
     /// Samples that are no numbers.
     #[error("channel \"{channel}\" misses {count} of {of} samples, the first is sample {first}")]
     Missing { channel: String, count: usize, of: usize, first: usize },
+    /// Samples of which squares cannot be had.
+    #[error(
+        "the largest sample of channel \"{channel}\" is {found:e} in magnitude, must be 0 or from {SMALLEST_SAMPLE:e} to {LARGEST_SAMPLE:e}"
+    )]
+    Magnitude { channel: String, found: f64 },
+    /// Gaps that are too long to be filled.
+    #[error("filled up the record would have {samples:e} samples, at most {MOST_SAMPLES} are worked with")]
+    TooLong { samples: f64 },
     /// Times that are no numbers.
     #[error("{count} times are missing, the first is that of sample {first}")]
     TimeMissing { count: usize, first: usize },
@@ -97,7 +106,9 @@ impl RawRecord {
             missing::fill(channel, &terms.repairs, &mut findings)?;
             clipping::look(channel, &mut findings);
         }
-        let channels = channels.into_iter().map(|channel| in_si(channel, &mut findings)).collect();
+        let channels: Vec<Channel> =
+            channels.into_iter().map(|channel| in_si(channel, &mut findings)).collect();
+        channels.iter().try_for_each(ensure_magnitude)?;
         Ok(Record { sampling_rate_hz: 1.0 / grid.step_s, start_s: grid.start_s, channels, findings })
     }
 }
@@ -164,6 +175,14 @@ fn equal_lengths(
     group.channels.iter_mut().for_each(|channel| channel.samples.truncate(shortest));
     findings.push(Finding::Shortened { length: shortest, longest });
     Ok((group.axis, group.channels))
+}
+
+fn ensure_magnitude(channel: &Channel) -> Result<(), RecordError> {
+    let found = channel.samples.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    if found == 0.0 || (SMALLEST_SAMPLE..=LARGEST_SAMPLE).contains(&found) {
+        return Ok(());
+    }
+    Err(RecordError::Magnitude { channel: channel.name.clone(), found })
 }
 
 fn in_si(channel: RawChannel, findings: &mut Vec<Finding>) -> Channel {

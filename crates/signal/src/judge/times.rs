@@ -7,6 +7,7 @@
 use crate::{
     finding::Finding,
     judge::{RecordError, Terms},
+    limits::MOST_SAMPLES,
     raw::{Axis, RawChannel},
 };
 
@@ -159,6 +160,10 @@ fn without_gaps(
     }
     if !terms.repairs.gaps {
         return Err(RecordError::Gaps { count: gaps.len(), time_s, longest_s, step_s: step });
+    }
+    let samples = channels.len() as f64 * (times[times.len() - 1] - times[0]) / step;
+    if samples > MOST_SAMPLES as f64 {
+        return Err(RecordError::TooLong { samples });
     }
     let old = std::mem::take(times);
     *times = filled(&old, &gaps, |a, b, part| a + (b - a) * part, &old, step);

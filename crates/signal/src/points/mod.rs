@@ -23,7 +23,11 @@ mod table;
 
 use std::path::Path;
 
-use crate::{Finding, SignalError, unit::Quantity};
+use crate::{
+    Finding, SignalError,
+    limits::{self, LARGEST_FILE},
+    unit::Quantity,
+};
 
 pub use table::parse;
 
@@ -206,6 +210,7 @@ pub enum PointsError {
 /// # Errors
 /// [`SignalError::File`], [`SignalError::Points`].
 pub fn read(path: &Path) -> Result<MeasuredTable, SignalError> {
-    let bytes = std::fs::read(path).map_err(|source| SignalError::File { path: path.to_owned(), source })?;
+    let bytes = limits::read_bytes(path, LARGEST_FILE)
+        .map_err(|source| SignalError::File { path: path.to_owned(), source })?;
     parse(&bytes).map_err(|source| SignalError::Points { path: path.to_owned(), source })
 }

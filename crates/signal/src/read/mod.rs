@@ -25,7 +25,13 @@ mod wav;
 
 use std::path::Path;
 
-use crate::{error::SignalError, judge::Terms, raw::RawRecord, record::Record};
+use crate::{
+    error::SignalError,
+    judge::Terms,
+    limits::{self, LARGEST_FILE, is_control},
+    raw::RawRecord,
+    record::Record,
+};
 
 /// A format of files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,6 +114,9 @@ pub enum ReadError {
     /// The file contradicts its own format.
     #[error("not as the format has it: {what}")]
     Malformed { what: String },
+    /// An archive that grows beyond all bounds when it is unpacked.
+    #[error("it unpacks to more than {} MiB, the most that is read", LARGEST_FILE >> 20)]
+    TooLarge,
     /// A sampling rate that contradicts another one in the file.
     #[error("the file names two sampling rates, {first} Hz and {second} Hz")]
     TwoRates { first: f64, second: f64 },
@@ -121,14 +130,20 @@ pub fn parse(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     if bytes.trim_ascii().is_empty() {
         return Err(ReadError::Empty);
     }
-    match Format::of(bytes) {
+    let mut raw = match Format::of(bytes) {
         Format::Csv => csv::read(bytes),
         Format::Universal => uff::read(bytes),
         Format::Wav => wav::read(bytes),
         Format::Npy => npy::read(bytes),
         Format::Npz => npz::read(bytes),
         Format::Matlab => mat::read(bytes),
+    }?;
+    // Names go into tables and onto terminals.
+    for channel in raw.groups.iter_mut().flat_map(|group| &mut group.channels) {
+        let texts = [Some(&mut channel.name), channel.unit.as_mut()];
+        texts.into_iter().flatten().for_each(|text| *text = text.replace(is_control, "\u{fffd}"));
     }
+    Ok(raw)
 }
 
 /// Reads what a file says.
@@ -138,7 +153,8 @@ pub fn parse(bytes: &[u8]) -> Result<RawRecord, ReadError> {
 /// # Errors
 /// [`SignalError::File`], [`SignalError::Read`].
 pub fn read_raw(path: &Path) -> Result<(RawRecord, Format), SignalError> {
-    let bytes = std::fs::read(path).map_err(|source| SignalError::File { path: path.to_owned(), source })?;
+    let bytes = limits::read_bytes(path, LARGEST_FILE)
+        .map_err(|source| SignalError::File { path: path.to_owned(), source })?;
     let raw = parse(&bytes).map_err(|source| SignalError::Read { path: path.to_owned(), source })?;
     Ok((raw, Format::of(&bytes)))
 }

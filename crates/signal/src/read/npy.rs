@@ -49,6 +49,10 @@ pub(super) fn arrays(bytes: &[u8], name: &str) -> Result<Vec<Array>, ReadError> 
         .filter(|_| size > 0)
         .ok_or_else(|| malformed(format!("{name} has a shape that cannot be")))?;
     let data = bytes.take(expected, "the array")?;
+    if expected == 0 {
+        // However long its other sides are.
+        return Ok(Vec::new());
+    }
     let mut offset = 0;
     let mut arrays = Vec::new();
     for (name, entry) in columns {

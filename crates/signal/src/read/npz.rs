@@ -10,14 +10,15 @@ use std::io::Read;
 use flate2::{Crc, read::DeflateDecoder};
 
 use super::{ReadError, arrays::arrange, bytes::Bytes, npy};
-use crate::{finding::Finding, raw::RawRecord};
+use crate::{finding::Finding, limits::LARGEST_FILE, raw::RawRecord};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     let mut arrays = Vec::new();
     let mut findings = Vec::new();
+    let mut room = LARGEST_FILE;
     for entry in directory(bytes)? {
         match entry.name.strip_suffix(".npy") {
-            Some(name) => match npy::arrays(&entry.content(bytes)?, name) {
+            Some(name) => match npy::arrays(&entry.content(bytes, &mut room)?, name) {
                 Ok(found) => arrays.extend(found),
                 Err(ReadError::Unsupported { what, .. }) => {
                     findings.push(Finding::LeftOut { name: name.to_owned(), reason: what });
@@ -73,7 +74,10 @@ fn entry(directory: &mut Bytes) -> Result<Entry, ReadError> {
 
 impl Entry {
     /// Its content, decompressed.
-    fn content(&self, bytes: &[u8]) -> Result<Vec<u8>, ReadError> {
+    ///
+    /// * `room`: bytes that the archive may still unpack to.
+    fn content(&self, bytes: &[u8], room: &mut u64) -> Result<Vec<u8>, ReadError> {
+        *room = room.checked_sub(self.size as u64).ok_or(ReadError::TooLarge)?;
         let what = "a file of the archive";
         let truncated = || ReadError::Truncated { what: format!("{} is not whole", self.name) };
         let mut local = Bytes::new(bytes.get(self.offset..).ok_or_else(truncated)?, false);

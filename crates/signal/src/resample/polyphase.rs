@@ -9,7 +9,10 @@
 
 use std::f64::consts::PI;
 
-use crate::error::{SignalError, ensure, ensure_series};
+use crate::{
+    error::{SignalError, ensure, ensure_series},
+    limits::ensure_count,
+};
 
 const BETA: f64 = 5.0;
 /// Zeros of the sinc to each side.
@@ -91,6 +94,7 @@ pub fn resample(series: &[f64], ratio: Ratio) -> Result<Vec<f64>, SignalError> {
         return Ok(series.to_vec());
     }
     let half = ZEROS * up.max(down);
+    ensure_count(series.len() as f64 * ratio.value())?;
     let filter = filter(half, up.max(down), up as f64);
     let length = (series.len() * up).div_ceil(down);
     let value = |m: usize| {

@@ -43,7 +43,7 @@ pub fn folded(
     ensure("the excitation frequency", frequency_hz, "more than 0", frequency_hz > 0.0)?;
     ensure("the number of periods", periods as f64, "at least 1", periods > 0)?;
     let samples_of_piece = periods as f64 * sampling_rate_hz / frequency_hz;
-    let needed = (PIECES as f64 * samples_of_piece).ceil() as usize + 1;
+    let needed = ((PIECES as f64 * samples_of_piece).ceil() as usize).saturating_add(1);
     ensure_series("averaging over periods", samples, needed)?;
     let length = periods * per_period;
     let lines = ((KNOWN_BELOW * samples_of_piece) as usize).min(length.saturating_sub(1) / 2);
@@ -59,7 +59,7 @@ pub fn folded(
     let pieces = (last - first).max(0) as usize;
     if pieces < PIECES {
         // A piece is lost where none begins with the record.
-        let needed = ((PIECES + 1) as f64 * samples_of_piece).ceil() as usize + 1;
+        let needed = (((PIECES + 1) as f64 * samples_of_piece).ceil() as usize).saturating_add(1);
         return Err(SignalError::TooShort { what: "averaging over periods", found: samples.len(), needed });
     }
     // As many phases as the record has samples at least.

@@ -25,12 +25,19 @@ pub struct Report {
     text: String,
     /// The faults, in the order of the text.
     pub problems: Vec<Problem>,
+    /// Number of further faults.
+    pub left_out: usize,
 }
 
 impl Report {
     pub(crate) fn new(name: &str, text: &str, mut problems: Vec<Problem>) -> Self {
         problems.sort_by_key(|problem| problem.span.as_ref().map_or(usize::MAX, |span| span.start));
-        Self { name: name.to_owned(), text: text.to_owned(), problems }
+        Self { name: name.to_owned(), text: text.to_owned(), problems, left_out: 0 }
+    }
+
+    /// The same with further faults that are only counted.
+    pub(crate) fn and(self, left_out: usize) -> Self {
+        Self { left_out, ..self }
     }
 
     /// Line and column of a fault, both counted from 1; `None` if it stands nowhere in the text.
@@ -47,25 +54,42 @@ impl Report {
     #[must_use]
     pub fn render(&self, styled: bool) -> String {
         let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
-        let shown: Vec<String> =
+        let mut shown: Vec<String> =
             self.problems.iter().map(|problem| renderer.render(&[self.group(problem)])).collect();
+        if self.left_out > 0 {
+            shown.push(format!("and {} more", self.left_out));
+        }
         shown.join("\n\n")
     }
 
     fn group<'a>(&'a self, problem: &'a Problem) -> Group<'a> {
         let title = Level::ERROR.primary_title(&problem.message);
         let mut group = match &problem.span {
-            Some(span) => title.element(
-                Snippet::source(&self.text)
-                    .path(&self.name)
-                    .annotation(AnnotationKind::Primary.span(self.clip(span)).label(&problem.key)),
-            ),
+            Some(span) => {
+                let (span, line) = (self.clip(span), self.line(span.start));
+                let number = self.text[..line.start].matches('\n').count() + 1;
+                let span = span.start - line.start..span.end - line.start;
+                title.element(
+                    Snippet::source(&self.text[line])
+                        .line_start(number)
+                        .path(&self.name)
+                        .annotation(AnnotationKind::Primary.span(span).label(&problem.key)),
+                )
+            }
             None => Group::with_title(title),
         };
         for help in &problem.help {
             group = group.element(Level::HELP.message(help));
         }
         group
+    }
+
+    /// The line around a place, without its end; the rest of the text is not looked through for each fault.
+    fn line(&self, place: usize) -> Range<usize> {
+        let place = boundary(&self.text, place);
+        let start = self.text[..place].rfind('\n').map_or(0, |newline| newline + 1);
+        let end = self.text[place..].find('\n').map_or(self.text.len(), |newline| place + newline);
+        start..end
     }
 
     /// The span cut to its first line: a table may span the rest of the file.

@@ -8,6 +8,9 @@ use std::{
 
 use super::Problem;
 
+/// Faults that are kept; nobody reads more, and of a file that is something else altogether there would be thousands.
+const MOST_PROBLEMS: usize = 100;
+
 /// Collects faults and the places of keys while a document is read.
 #[derive(Debug, Default)]
 pub(crate) struct Reading {
@@ -20,7 +23,9 @@ impl Reading {
     /// Notes a fault at a place.
     pub(crate) fn problem(&self, key: &str, span: Option<Range<usize>>, message: String, help: Vec<String>) {
         self.count.set(self.count.get() + 1);
-        self.problems.borrow_mut().push(Problem { key: key.to_owned(), span, message, help });
+        if self.count.get() <= MOST_PROBLEMS {
+            self.problems.borrow_mut().push(Problem { key: key.to_owned(), span, message, help });
+        }
     }
 
     /// Notes where a key stands.
@@ -33,8 +38,10 @@ impl Reading {
         self.count.get()
     }
 
-    pub(crate) fn into_parts(self) -> (Vec<Problem>, BTreeMap<String, Range<usize>>) {
-        (self.problems.into_inner(), self.places.into_inner())
+    /// The faults, the number of further ones that are left out, and the places of the keys.
+    pub(crate) fn into_parts(self) -> (Vec<Problem>, usize, BTreeMap<String, Range<usize>>) {
+        let left_out = self.count.get().saturating_sub(MOST_PROBLEMS);
+        (self.problems.into_inner(), left_out, self.places.into_inner())
     }
 }
 

@@ -6,6 +6,9 @@ use toml::de::DeTable;
 
 use super::{Reading, Value, closest};
 
+/// Elements of an array of tables: masses, springs, stops.
+const MOST_TABLES: usize = 1000;
+
 /// A table of the document; what is never asked for is an unknown key.
 pub(crate) struct Table<'a> {
     reading: &'a Reading,
@@ -61,6 +64,11 @@ impl<'a> Table<'a> {
         let Some(elements) = value.array_of(&format!("tables, written [[{}]]", self.path_of(key))) else {
             return Vec::new();
         };
+        if elements.len() > MOST_TABLES {
+            let found = format!("`{key}` has {} entries", elements.len());
+            self.problem(key, found, vec![format!("allowed: at most {MOST_TABLES} tables")]);
+            return Vec::new();
+        }
         elements.iter().filter_map(Value::table).collect()
     }
 

@@ -4,7 +4,14 @@ use std::ops::Range;
 
 use toml::de::{DeFloat, DeInteger, DeValue};
 
+use hammerbeam_signal::limits::is_control;
+
 use super::{Quantity, Reading, Table, closest};
+
+/// Entries of a list.
+const LONGEST_LIST: usize = 10_000;
+/// Bytes of a text.
+const LONGEST_TEXT: usize = 1000;
 
 /// A value with its key path and its place; the readers give `None` after noting what is wrong.
 pub(crate) struct Value<'a> {
@@ -92,9 +99,22 @@ impl<'a> Value<'a> {
     /// A string.
     pub(crate) fn text(&self) -> Option<&'a str> {
         match self.value {
-            DeValue::String(text) => Some(text.as_ref()),
+            DeValue::String(text) => self.visible(text.as_ref()),
             _ => self.wrong_type("a string"),
         }
+    }
+
+    /// Refuses a text that is very long or has characters that are not seen, which terminals obey and tables stumble over.
+    fn visible(&self, text: &'a str) -> Option<&'a str> {
+        let fault = if let Some(found) = text.chars().find(|character| is_control(*character)) {
+            format!("`{}` has the control character U+{:04X}", self.key(), u32::from(found))
+        } else if text.len() > LONGEST_TEXT {
+            format!("`{}` is {} bytes long", self.key(), text.len())
+        } else {
+            return Some(text);
+        };
+        self.problem(fault, vec![format!("allowed: one line of at most {LONGEST_TEXT} bytes")]);
+        None
     }
 
     /// Whether the value is a string.
@@ -142,6 +162,11 @@ impl<'a> Value<'a> {
         let DeValue::Array(elements) = self.value else {
             return self.wrong_type(&format!("a list of {what}"));
         };
+        if elements.len() > LONGEST_LIST {
+            let found = format!("`{}` has {} entries", self.key(), elements.len());
+            self.problem(found, vec![format!("allowed: at most {LONGEST_LIST} entries")]);
+            return None;
+        }
         let element = |(index, element): (usize, &'a toml::Spanned<DeValue<'a>>)| {
             let path = format!("{}[{index}]", self.path);
             self.reading.note_place(&path, element.span());

@@ -1,10 +1,6 @@
 //! Ends of branches and curves as CSV, each with its last state.
 
-use std::{
-    fs::File,
-    io::{BufWriter, Write},
-    path::Path,
-};
+use std::{io::Write, path::Path};
 
 use hammerbeam_orbit::Side;
 
@@ -16,6 +12,7 @@ use super::{
 use crate::{
     store::{PieceRecord, Store},
     varied::is_closed,
+    whole_file::WriteError,
 };
 
 /// Columns of `ends.csv`.
@@ -38,7 +35,7 @@ pub const PARAMETER_END_COLUMNS: [&str; 10] = [
 
 /// One row per side of a branch: how it ended, and the state `[q; q']` of its last solution at the phase at which that begins.
 pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", END_COLUMNS.join(",")).map_err(failed)?;
     for branch in store.branches()? {
         for (side, name, walk) in [(Side::Down, "down", &branch.down), (Side::Up, "up", &branch.up)] {
@@ -71,10 +68,10 @@ pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) ->
 pub(super) fn write_varied_ends(
     store: &Store,
     pieces: &[&PieceRecord],
-    writer: &mut BufWriter<File>,
+    writer: &mut impl Write,
     path: &Path,
 ) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", header(pieces, &PARAMETER_END_COLUMNS)).map_err(failed)?;
     for piece in pieces {
         for branch in &piece.branches {

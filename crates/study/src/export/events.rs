@@ -1,15 +1,17 @@
 //! Events as CSV: along branches in the frequency, and along branches in parameters.
 
 use std::{
-    fs::File,
-    io::{self, BufWriter, Write},
+    io::{self, Write},
     path::Path,
 };
 
 use hammerbeam_orbit::{ContactChange, EventStatus, Events, LocatedEvent, Side};
 
 use super::{ExportError, varied::start_of_row};
-use crate::store::{PieceRecord, Store, solution_key};
+use crate::{
+    store::{PieceRecord, Store, solution_key},
+    whole_file::WriteError,
+};
 
 /// Columns of `events.csv`.
 pub const EVENT_COLUMNS: [&str; 13] = [
@@ -50,7 +52,7 @@ pub const PARAMETER_EVENT_COLUMNS: [&str; 16] = [
 
 /// One row per event of the branches in the frequency.
 pub(super) fn write_events(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", EVENT_COLUMNS.join(",")).map_err(failed)?;
     for branch in store.branches()? {
         let (down, mut number) = (branch.down.solutions, 0);
@@ -77,10 +79,10 @@ pub(super) fn write_events(store: &Store, writer: &mut impl Write, path: &Path) 
 pub(super) fn write_parameter_events(
     store: &Store,
     pieces: &[&PieceRecord],
-    writer: &mut BufWriter<File>,
+    writer: &mut impl Write,
     path: &Path,
 ) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", PARAMETER_EVENT_COLUMNS.join(",")).map_err(failed)?;
     for piece in pieces {
         for branch in &piece.branches {

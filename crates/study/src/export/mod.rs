@@ -8,8 +8,7 @@ mod table;
 mod varied;
 
 use std::{
-    fs::File,
-    io::{self, BufWriter, Write},
+    io::{self, Write},
     path::{Path, PathBuf},
 };
 
@@ -22,10 +21,12 @@ pub use table::{Table, header, number, word};
 use ends::write_ends;
 use events::write_events;
 use motions::export_motions;
-use table::WholeFile;
 use varied::export_varied;
 
-use crate::store::{BranchRecord, Row, Store, StoreError};
+use crate::{
+    store::{BranchRecord, Row, Store, StoreError},
+    whole_file::{WholeFile, WriteError},
+};
 
 /// Columns of `branches.csv`; the first twelve are fixed, further ones follow after them.
 pub const COLUMNS: [&str; 15] = [
@@ -54,9 +55,8 @@ pub enum ExportError {
     #[error(transparent)]
     Store(#[from] StoreError),
     /// The file cannot be written.
-    #[error("cannot write {}: {source}", path.display())]
-    #[expect(missing_docs, reason = "the message names its fields")]
-    Write { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Write(#[from] WriteError),
 }
 
 /// What was exported.
@@ -99,16 +99,16 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
 /// Writes a file that appears complete or not at all.
 pub(crate) fn write_whole<T>(
     path: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> Result<T, ExportError>,
+    write: impl FnOnce(&mut WholeFile) -> Result<T, ExportError>,
 ) -> Result<T, ExportError> {
-    let mut file = WholeFile::begin(path.to_owned())?;
-    let written = write(&mut file.writer)?;
+    let mut file = WholeFile::begin(path)?;
+    let written = write(&mut file)?;
     file.finish()?;
     Ok(written)
 }
 
 fn write_csv(store: &Store, writer: &mut impl Write, path: &Path) -> Result<u64, ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", COLUMNS.join(",")).map_err(failed)?;
     let mut count = 0;
     for branch in store.branches()? {

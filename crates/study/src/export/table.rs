@@ -1,70 +1,12 @@
-//! Files that appear complete or not at all, and tables of comma-separated values in them.
+//! Tables of comma-separated values.
 
 use std::{
-    fs::{self, File},
-    io::{self, BufWriter, Write},
+    io::Write,
     path::{Path, PathBuf},
 };
 
 use super::ExportError;
-
-/// A file that is written beside its place and moved there when it is finished; what is not finished leaves nothing behind.
-#[derive(Debug)]
-pub(super) struct WholeFile {
-    path: PathBuf,
-    /// Closed before its part is removed, as fields are let go in their order.
-    pub writer: BufWriter<File>,
-    part: Part,
-}
-
-impl WholeFile {
-    /// Begins a file; its folder is made if it is not there.
-    pub fn begin(path: PathBuf) -> Result<Self, ExportError> {
-        let unfinished = path.with_extension("csv.part");
-        let folder = path.parent().unwrap_or_else(|| Path::new("."));
-        match fs::create_dir_all(folder).and_then(|()| File::create(&unfinished)) {
-            Ok(file) => Ok(Self { path, writer: BufWriter::new(file), part: Part(Some(unfinished)) }),
-            Err(source) => Err(ExportError::Write { path, source }),
-        }
-    }
-
-    /// Moves the file to its place.
-    pub fn finish(self) -> Result<PathBuf, ExportError> {
-        let Self { path, writer, part } = self;
-        let moved = writer
-            .into_inner()
-            .map_err(io::IntoInnerError::into_error)
-            .and_then(|file| file.sync_all())
-            .and_then(|()| part.rename(&path));
-        match moved {
-            Ok(()) => Ok(path),
-            Err(source) => Err(ExportError::Write { path, source }),
-        }
-    }
-}
-
-/// A file that goes away unless it gets another name.
-#[derive(Debug)]
-struct Part(Option<PathBuf>);
-
-impl Part {
-    fn rename(mut self, to: &Path) -> io::Result<()> {
-        if let Some(from) = &self.0 {
-            fs::rename(from, to)?;
-        }
-        self.0 = None;
-        Ok(())
-    }
-}
-
-impl Drop for Part {
-    fn drop(&mut self) {
-        if let Some(path) = &self.0 {
-            // Nothing better can be done where that fails.
-            fs::remove_file(path).ok();
-        }
-    }
-}
+use crate::whole_file::{WholeFile, WriteError};
 
 /// A table that is being written; it gets its name when it is finished.
 #[derive(Debug)]
@@ -78,7 +20,7 @@ impl Table {
     /// # Errors
     /// [`ExportError::Write`].
     pub fn begin(folder: &Path, name: &str, header: &[String]) -> Result<Self, ExportError> {
-        let mut table = Self { file: WholeFile::begin(folder.join(name))? };
+        let mut table = Self { file: WholeFile::begin(&folder.join(name))? };
         table.row(header)?;
         Ok(table)
     }
@@ -88,8 +30,8 @@ impl Table {
     /// # Errors
     /// [`ExportError::Write`].
     pub fn row(&mut self, entries: &[String]) -> Result<(), ExportError> {
-        writeln!(self.file.writer, "{}", entries.join(","))
-            .map_err(|source| ExportError::Write { path: self.file.path.clone(), source })
+        let written = writeln!(self.file, "{}", entries.join(","));
+        Ok(written.map_err(|source| WriteError { path: self.file.path().to_owned(), source })?)
     }
 
     /// Gives the table its name.
@@ -97,7 +39,7 @@ impl Table {
     /// # Errors
     /// [`ExportError::Write`].
     pub fn finish(self) -> Result<PathBuf, ExportError> {
-        self.file.finish()
+        Ok(self.file.finish()?)
     }
 }
 
@@ -114,7 +56,7 @@ pub(super) fn optional(value: Option<impl ToString>) -> String {
 
 /// A text in which a comma, a quotation mark or an end of line would change the columns, in quotation marks.
 pub(super) fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
+    if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text.to_owned()
@@ -135,6 +77,8 @@ pub fn word(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     /// Neither a table that is given up nor one that cannot get its name.

@@ -1,15 +1,17 @@
 //! Branches in parameters and curves of bifurcations as CSV.
 
 use std::{
-    fs::File,
-    io::{BufWriter, Write},
+    io::Write,
     path::{Path, PathBuf},
 };
 
 use super::{
     ExportError, ends::write_varied_ends, events::write_parameter_events, table::quoted, write_whole,
 };
-use crate::store::{PieceBranchRecord, PieceRecord, Store};
+use crate::{
+    store::{PieceBranchRecord, PieceRecord, Store},
+    whole_file::{WholeFile, WriteError},
+};
 
 /// Columns of `parameter_branches.csv`.
 pub const PARAMETER_COLUMNS: [&str; 18] = [
@@ -64,15 +66,15 @@ pub(crate) fn export_varied(store: &Store, folder: &Path) -> Result<Vec<PathBuf>
 }
 
 /// Writes the pieces, of one kind, as one table.
-type TableWriter = fn(&Store, &[&PieceRecord], &mut BufWriter<File>, &Path) -> Result<(), ExportError>;
+type TableWriter = fn(&Store, &[&PieceRecord], &mut WholeFile, &Path) -> Result<(), ExportError>;
 
 fn write_rows(
     store: &Store,
     pieces: &[&PieceRecord],
-    writer: &mut BufWriter<File>,
+    writer: &mut impl Write,
     path: &Path,
 ) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", header(pieces, &PARAMETER_COLUMNS)).map_err(failed)?;
     for piece in pieces {
         for branch in &piece.branches {

@@ -2,11 +2,12 @@
 
 use std::{
     collections::BTreeMap,
-    fs, io,
+    io,
     ops::Range,
     path::{Path, PathBuf},
 };
 
+use hammerbeam_signal::limits::{self, LARGEST_TEXT};
 use serde::Serialize;
 use toml::de::DeTable;
 
@@ -109,7 +110,7 @@ impl StudyFile {
     /// # Errors
     /// [`StudyError`]: the file cannot be read, or something in it is not allowed.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
-        let text = fs::read_to_string(path)
+        let text = limits::read_text(path, LARGEST_TEXT)
             .map_err(|source| StudyError::Unreadable { path: path.to_owned(), source })?;
         Self::parse(&path.display().to_string(), text)
     }
@@ -130,10 +131,10 @@ impl StudyFile {
     fn parse_with(name: &str, text: String, pieces: bool) -> Result<Self, StudyError> {
         let reading = Reading::default();
         let study = read_text(&text, &reading, pieces);
-        let (problems, places) = reading.into_parts();
+        let (problems, left_out, places) = reading.into_parts();
         match study {
             Some(study) if problems.is_empty() => Ok(Self { name: name.to_owned(), text, study, places }),
-            _ => Err(StudyError::Invalid(Report::new(name, &text, problems))),
+            _ => Err(StudyError::Invalid(Report::new(name, &text, problems).and(left_out))),
         }
     }
 

@@ -35,7 +35,7 @@ impl Store {
     /// # Errors
     /// The database refuses, or the cells before it are not done; nothing of the round is there then.
     pub fn append_round(&mut self, request: i64, round: &Round, known: usize) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         let first = round.first as u64;
         requests::advance(&transaction, request, (first, first + round.cells.len() as u64))?;
         for (index, cell) in round.cells.iter().enumerate() {

@@ -5,6 +5,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use rusqlite::ErrorCode;
+
 /// Why a results folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -54,9 +56,32 @@ pub enum StoreError {
     /// The folder cannot be made or written.
     #[error("cannot write to {}: {source}", folder.display())]
     Folder { folder: PathBuf, source: io::Error },
+    /// Something else than rows of solutions is not as it was written.
+    #[error(
+        "results.db is damaged: {what}; put back a copy of it, or let a run of the study into a new folder compute everything again"
+    )]
+    DamagedFile { what: String },
+    /// What is stored of a solution is not what was written.
+    #[error("it is not as it was stored; a run of the study into a new folder computes it again")]
+    OtherThanStored,
+    /// Another run has begun to write, though this one held the lock: someone has removed it.
+    #[error("another run has begun to write to {}; what this one had stored is kept, nothing more was added", folder.display())]
+    TakenOver { folder: PathBuf },
+    /// The database is not where it was.
+    #[error("{} was removed or replaced while it was written; what was stored in it is gone with it", database.display())]
+    Gone { database: PathBuf },
     /// The database refuses.
     #[error("results database: {0}")]
-    Database(#[from] rusqlite::Error),
+    Database(#[source] rusqlite::Error),
+}
+
+impl From<rusqlite::Error> for StoreError {
+    fn from(error: rusqlite::Error) -> Self {
+        match error.sqlite_error_code() {
+            Some(ErrorCode::DatabaseCorrupt) => Self::DamagedFile { what: error.to_string() },
+            _ => Self::Database(error),
+        }
+    }
 }
 
 impl StoreError {
@@ -79,13 +104,20 @@ impl StoreError {
     /// Whether the user pointed at the wrong folder, as opposed to a disk that refuses.
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
+        use ErrorCode::{CannotOpen, PermissionDenied, ReadOnly};
+        if let Self::Database(error) = self {
+            return matches!(error.sqlite_error_code(), Some(CannotOpen | PermissionDenied | ReadOnly));
+        }
         !matches!(
             self,
-            Self::Database(_)
-                | Self::Damaged { .. }
+            Self::Damaged { .. }
                 | Self::DamagedSolution { .. }
                 | Self::MissingSolutions { .. }
                 | Self::DamagedMotion { .. }
+                | Self::DamagedFile { .. }
+                | Self::OtherThanStored
+                | Self::TakenOver { .. }
+                | Self::Gone { .. }
                 | Self::Unknown { .. }
                 | Self::OutOfOrder { .. }
         )

@@ -108,6 +108,7 @@ impl Store {
     /// # Errors
     /// The database refuses, or they are damaged.
     pub fn multipliers(&self, key: i64) -> Result<Vec<[f64; 2]>, StoreError> {
+        self.check_solution(key).map_err(|error| self.damaged(key, error))?;
         let select = "SELECT multipliers FROM solution WHERE id = ?1";
         let bytes: Vec<u8> = self.connection.prepare_cached(select)?.query_row([key], |row| row.get(0))?;
         pairs(&bytes)

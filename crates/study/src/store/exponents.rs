@@ -51,7 +51,7 @@ impl Store {
         piece: u64,
         record: &ExponentRecord,
     ) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         requests::advance(&transaction, request, (piece, piece + 1))?;
         let spectrum = &record.spectrum;
         let pairs: Vec<f64> =

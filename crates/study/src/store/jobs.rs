@@ -117,7 +117,7 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn add_jobs(&mut self, jobs: &[(JobKind, f64, Option<i64>, u32)]) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         for (kind, frequency_hz, source, depth) in jobs {
             let insert = "INSERT OR IGNORE INTO job (id, kind, frequency_hz, source, depth)
                 SELECT coalesce(max(id) + 1, 0), ?1, ?2, ?3, ?4 FROM job";
@@ -163,7 +163,7 @@ impl Store {
     ) -> Result<(), StoreError> {
         let one_sided = (job.kind == JobKind::Doubling).then(|| StoredReason::of_crossing(job.frequency_hz));
         let source = job.source.map(|key| self.event(key)).transpose()?.flatten();
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
         transaction.execute(update, params![job.id, message])?;
         for (start, key) in starts.iter().zip(job.id * MOST_STARTS..(job.id + 1) * MOST_STARTS) {
@@ -205,10 +205,12 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn accept_start(&mut self, key: u32) -> Result<u32, StoreError> {
+        let transaction = self.write()?;
         let newest: Option<u32> =
-            self.connection.query_row("SELECT max(branch) FROM start", [], |row| row.get(0))?;
+            transaction.query_row("SELECT max(branch) FROM start", [], |row| row.get(0))?;
         let branch = newest.unwrap_or(0) + 1;
-        self.connection.execute("UPDATE start SET branch = ?2 WHERE id = ?1", params![key, branch])?;
+        transaction.execute("UPDATE start SET branch = ?2 WHERE id = ?1", params![key, branch])?;
+        transaction.commit()?;
         Ok(branch)
     }
 
@@ -217,7 +219,7 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn drop_start(&mut self, key: u32) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         for side in [Side::Up, Side::Down] {
             forget_walked(&transaction, walk_id(key, side))?;
         }
@@ -233,7 +235,7 @@ impl Store {
     /// The database refuses.
     pub fn drop_walk(&mut self, key: u32, side: Side) -> Result<(), StoreError> {
         let walk = walk_id(key, side);
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         forget_walked(&transaction, walk)?;
         let update = "UPDATE walk SET solutions = 0, checkpoint = NULL WHERE id = ?1";
         transaction.execute(update, [walk])?;
@@ -246,7 +248,9 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn finish_job(&mut self, job: u32, outcome: &str) -> Result<(), StoreError> {
-        self.connection.execute("UPDATE job SET outcome = ?2 WHERE id = ?1", params![job, outcome])?;
+        let transaction = self.write()?;
+        transaction.execute("UPDATE job SET outcome = ?2 WHERE id = ?1", params![job, outcome])?;
+        transaction.commit()?;
         Ok(())
     }
 
@@ -256,7 +260,7 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn take_back_to(&mut self, start: u32) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         let job = start / MOST_STARTS;
         let later = first_key(walk_id(start + 1, Side::Up));
         transaction.execute("DELETE FROM event WHERE solution >= ?1", [later])?;

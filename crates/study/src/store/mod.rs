@@ -9,12 +9,14 @@
 
 mod basins;
 mod blob;
+mod checksum;
 mod class;
 mod error;
 mod event;
 mod exponents;
 mod jobs;
 mod lock;
+mod place;
 mod read;
 mod requests;
 mod schema;
@@ -32,8 +34,9 @@ use std::{
 };
 
 use hammerbeam_orbit::{Side, StopReason};
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
 
+pub use checksum::add_checksums;
 pub use error::StoreError;
 pub use event::VariedEvent;
 pub use exponents::ExponentRecord;
@@ -52,6 +55,7 @@ pub(crate) use write::{Continuation, Memory};
 
 use crate::file::StudyFile;
 use lock::Lock;
+use place::Place;
 
 /// Name of the database in a results folder.
 pub const DATABASE: &str = "results.db";
@@ -63,7 +67,19 @@ const READER: Duration = Duration::from_secs(5);
 pub struct Store {
     connection: Connection,
     folder: PathBuf,
-    lock: Option<Lock>,
+    /// Keys of the solutions that were found damaged, in increasing order.
+    damaged: Vec<i64>,
+    writing: Option<Writing>,
+}
+
+/// What a run that writes holds.
+#[derive(Debug)]
+struct Writing {
+    _lock: Lock,
+    /// Its number.
+    writer: u64,
+    /// Where its database is.
+    place: Place,
 }
 
 /// How a walk ended, as it is stored.
@@ -96,8 +112,15 @@ impl Store {
         schema::check_study(&connection, folder, file)?;
         connection.pragma_update(None, "journal_mode", "WAL")?;
         connection.pragma_update(None, "synchronous", "NORMAL")?;
-        schema::create_or_update(&mut connection, file)?;
-        Ok(Self { connection, folder: folder.to_owned(), lock: Some(lock) })
+        let writer = schema::create_or_update(&mut connection, file)?;
+        let damaged = checksum::check(&connection)?;
+        let writing = Writing { _lock: lock, writer, place: Place::of(&database)? };
+        let store = Self { connection, folder: folder.to_owned(), damaged, writing: Some(writing) };
+        // Nothing is computed behind a solution that may be another one.
+        match store.damaged.first() {
+            Some(key) => Err(store.damaged(*key, StoreError::OtherThanStored)),
+            None => Ok(store),
+        }
     }
 
     /// Opens a results folder for reading.
@@ -112,7 +135,23 @@ impl Store {
         roll_back(&database)?;
         let connection = open(&database, OpenFlags::SQLITE_OPEN_READ_ONLY)?;
         schema::check_version(&connection, folder)?;
-        Ok(Self { connection, folder: folder.to_owned(), lock: None })
+        let damaged = checksum::check(&connection)?;
+        Ok(Self { connection, folder: folder.to_owned(), damaged, writing: None })
+    }
+
+    /// Begins a transaction that writes, if this is still the run that writes, to the database that is still there.
+    ///
+    /// The lock of the folder alone does not say so: someone may have removed it, and then another run takes it as well. That run has the
+    /// next number, and the one before it adds nothing more.
+    fn write(&mut self) -> Result<Transaction<'_>, StoreError> {
+        let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        if let Some(writing) = &self.writing {
+            writing.place.check()?;
+            if schema::writer(&transaction)? != writing.writer {
+                return Err(StoreError::TakenOver { folder: self.folder.clone() });
+            }
+        }
+        Ok(transaction)
     }
 
     /// The results folder.
@@ -127,7 +166,8 @@ impl Store {
     /// # Errors
     /// The disk refuses; everything is stored all the same.
     pub fn finish(self) -> Result<(), StoreError> {
-        if self.lock.is_some() {
+        if let Some(writing) = &self.writing {
+            writing.place.check()?;
             let begun = Instant::now();
             while let Err(error) = self.connection.pragma_update(None, "journal_mode", "DELETE") {
                 match error.sqlite_error_code() {
@@ -293,8 +333,11 @@ fn roll_back(database: &Path) -> Result<(), StoreError> {
 }
 
 fn open(database: &Path, flags: OpenFlags) -> Result<Connection, StoreError> {
+    // As a path from here, or a folder named `file:x` would be read as an address.
+    let database = Path::new(".").join(database);
     let connection = Connection::open_with_flags(database, flags | OpenFlags::SQLITE_OPEN_NO_MUTEX)?;
     connection.busy_timeout(READER)?;
+    add_checksums(&connection)?;
     Ok(connection)
 }
 

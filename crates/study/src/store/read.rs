@@ -163,7 +163,8 @@ impl Store {
             let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
             while let Some(row) = rows.next().map_err(failed)? {
                 let key = row.get(2).map_err(failed)?;
-                take(read_multipliers(row, 0).map_err(|error| self.damaged(key, error)))?;
+                let read = self.check_solution(key).and_then(|()| read_multipliers(row, 0));
+                take(read.map_err(|error| self.damaged(key, error)))?;
             }
         }
         Ok(())
@@ -203,7 +204,8 @@ impl Store {
         let mut rows = statement.query(params![first_key(walk), first_key(walk + 1)]).map_err(failed)?;
         while let Some(row) = rows.next().map_err(failed)? {
             let key = row.get(13).map_err(failed)?;
-            take(read_row(row).map_err(|error| self.damaged(key, error.into()))?)?;
+            let read = self.check_solution(key).and_then(|()| Ok(read_row(row)?));
+            take(read.map_err(|error| self.damaged(key, error))?)?;
         }
         Ok(())
     }
@@ -228,11 +230,20 @@ impl Store {
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, key >> 33])?;
         let Some(row) = rows.next()? else { return Err(self.missing(key, key)) };
-        read_solution(row).map_err(|error| self.damaged(key, error))
+        let read = self.check_solution(key).and_then(|()| read_solution(row));
+        read.map_err(|error| self.damaged(key, error))
+    }
+
+    /// Refuses a solution that was found damaged when the folder was opened.
+    pub(super) fn check_solution(&self, key: i64) -> Result<(), StoreError> {
+        match self.damaged.binary_search(&key) {
+            Ok(_) => Err(StoreError::OtherThanStored),
+            Err(_) => Ok(()),
+        }
     }
 
     /// Says which solution it is that cannot be read.
-    fn damaged(&self, key: i64, error: StoreError) -> StoreError {
+    pub(super) fn damaged(&self, key: i64, error: StoreError) -> StoreError {
         let (branch, side) = self.place_of(key);
         StoreError::DamagedSolution { branch, side, number: key as u32, source: Box::new(error) }
     }

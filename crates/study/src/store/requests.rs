@@ -79,7 +79,9 @@ impl Store {
         pieces: u64,
     ) -> Result<RequestRecord, StoreError> {
         let insert = "INSERT OR IGNORE INTO request (kind, words, pieces) VALUES (?1, ?2, ?3)";
-        self.connection.execute(insert, params![kind.name(), words, pieces as i64])?;
+        let transaction = self.write()?;
+        transaction.execute(insert, params![kind.name(), words, pieces as i64])?;
+        transaction.commit()?;
         let select = "SELECT id, done FROM request WHERE kind = ?1 AND words = ?2";
         let (id, done): (i64, i64) =
             self.connection

@@ -2,19 +2,22 @@
 
 use std::path::Path;
 
-use rusqlite::{Connection, OptionalExtension, params};
+use rusqlite::{Connection, OptionalExtension, TransactionBehavior, params};
 
-use super::{StoreError, event::COLUMNS};
+use super::{StoreError, checksum, event::COLUMNS, varied::TABLES_OF_PIECES};
 use crate::{
     file::StudyFile,
     identity::{DATA_VERSION, differences},
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 6;
+pub const SCHEMA_VERSION: u32 = 7;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
+
+/// What is noted of the newest writer: its number.
+const WRITER: &str = "writer";
 
 const TABLES: &str = "
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
@@ -225,15 +228,15 @@ fn about(connection: &Connection, key: &str) -> Result<String, StoreError> {
 }
 
 /// Makes the tables if they are not there, all at once, and notes the text of the study.
-pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) -> Result<(), StoreError> {
-    let transaction = connection.transaction()?;
+///
+/// # Returns
+/// The number of this writer, one more than that of the last one.
+pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) -> Result<u64, StoreError> {
+    let transaction = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
     let tables: i64 = transaction.query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get(0))?;
     if tables == 0 {
         transaction.pragma_update(None, "application_id", APPLICATION_ID)?;
-        transaction.execute_batch(TABLES)?;
-        transaction
-            .execute_batch(&format!("CREATE TABLE event (solution INTEGER PRIMARY KEY, {COLUMNS});"))?;
-        transaction.execute_batch(TABLES_OF_MOTIONS)?;
+        create_tables(&transaction)?;
         let fixed = [
             ("schema_version", SCHEMA_VERSION.to_string()),
             ("data_version", DATA_VERSION.to_string()),
@@ -247,8 +250,25 @@ pub(super) fn create_or_update(connection: &mut Connection, file: &StudyFile) ->
     }
     note(&transaction, "title", &file.study.title)?;
     note(&transaction, "study", &file.text)?;
+    let writer = 1 + writer(&transaction)?;
+    note(&transaction, WRITER, &writer.to_string())?;
     transaction.commit()?;
-    Ok(())
+    Ok(writer)
+}
+
+/// Number of the newest writer.
+pub(super) fn writer(connection: &Connection) -> Result<u64, StoreError> {
+    Ok(about(connection, WRITER)?.parse().unwrap_or_default())
+}
+
+/// Makes all tables.
+pub(super) fn create_tables(connection: &Connection) -> Result<(), StoreError> {
+    let events = format!(
+        "CREATE TABLE event (solution INTEGER PRIMARY KEY, {COLUMNS});
+        CREATE TABLE piece_event (piece INTEGER, branch INTEGER, place INTEGER, {COLUMNS},
+        PRIMARY KEY (piece, branch, place)) WITHOUT ROWID;"
+    );
+    Ok(checksum::create(connection, &[TABLES, TABLES_OF_PIECES, TABLES_OF_MOTIONS, &events].concat())?)
 }
 
 fn note(connection: &Connection, key: &str, value: &str) -> Result<(), StoreError> {

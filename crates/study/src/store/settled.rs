@@ -55,7 +55,7 @@ impl Store {
         piece: u64,
         motions: &[SettledMotion],
     ) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         requests::advance(&transaction, request, (piece, piece + 1))?;
         let count = "SELECT count(*) FROM settled WHERE request = ?1";
         let known: i64 = transaction.query_row(count, [request], |row| row.get(0))?;

@@ -109,7 +109,7 @@ impl Store {
         first: u64,
         chunk: &SimulatedChunk,
     ) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         requests::advance(&transaction, request, (first, first + chunk.periods))?;
         let SimulationCheckpoint { state, periods: observed, open, impact_speeds } = &chunk.checkpoint;
         let insert = "INSERT INTO simulated (request, first, periods, samples, section, contacts, unfinished, observed, state, open, impact_speeds)

@@ -179,6 +179,7 @@ fn a_journal_left_by_a_kill_is_rolled_back_by_whoever_comes_next() {
         store.finish().unwrap();
         let database = folder.path().join(DATABASE);
         let writing = Connection::open(&database).unwrap();
+        add_checksums(&writing).unwrap();
         writing.execute_batch("PRAGMA cache_size = 1; BEGIN; UPDATE about SET value = 'half';").unwrap();
         let long = "x".repeat(100_000);
         for number in 0..20 {
@@ -199,4 +200,167 @@ fn a_journal_left_by_a_kill_is_rolled_back_by_whoever_comes_next() {
         assert_eq!(store.branches().unwrap().len(), 1);
         assert_ne!(store.about("title").unwrap(), "half");
     }
+}
+
+/// All that a folder gives: rows with their nodes, multipliers and events, or the error.
+fn everything(folder: &Path) -> Result<String, StoreError> {
+    let store = Store::open(folder)?;
+    let mut all = format!("{:?} {:?} {:?}", store.branches()?, store.jobs()?, store.starts()?);
+    all += &format!("{:?} {}", store.requests()?, store.about("title")?);
+    for branch in store.branches()? {
+        for side in [Side::Up, Side::Down] {
+            let rows = store.walked(branch.start, side)?;
+            all += &format!("{rows:?} {:?}", store.checkpoint(branch.start, side)?);
+            for number in 0..rows.len() as u32 {
+                let key = solution_key(branch.start, side, number);
+                all += &format!("{:?} {:?}", store.solution_of_key(key)?, store.event(key)?);
+            }
+        }
+    }
+    Ok(all)
+}
+
+/// A finished folder with some of everything that a walk leaves.
+fn walked_folder(folder: &Path) {
+    let mut store = Store::open_for_run(folder, &study(STUDY)).unwrap();
+    let key = begin(&mut store);
+    let located = hammerbeam_orbit::LocatedEvent {
+        status: hammerbeam_orbit::EventStatus::Located,
+        uncertainty: 1e-9,
+        multiplier: Some([1.0, 0.0]),
+        direction: vec![0.5, -0.5],
+        contacts: Vec::new(),
+        breaks_symmetry: false,
+    };
+    let row = |number: u32| {
+        let fold = number % 10 == 3;
+        BranchRow {
+            solution: solution(0.3 + 0.001 * f64::from(number)),
+            parameter: None,
+            events: Events { fold, ..Events::default() },
+            located: fold.then(|| located.clone()),
+        }
+    };
+    let rows: Vec<BranchRow> = (0..60).map(row).collect();
+    let memory = Memory { checkpoint: b"checkpoint", journal: &[3; 9000] };
+    store.append(key, Side::Up, &rows, Continuation::GoesOn(memory)).unwrap();
+    store.finish().unwrap();
+}
+
+/// Every bit of a page is looked at sooner or later: one of each tenth byte or so, and whole stretches.
+#[test]
+fn a_damaged_file_gives_an_error_or_what_was_stored() {
+    let (whole, damaged) = (tempdir().unwrap(), tempdir().unwrap());
+    walked_folder(whole.path());
+    let expected = everything(whole.path()).unwrap();
+    let bytes = fs::read(whole.path().join(DATABASE)).unwrap();
+    let (mut found, mut state) = (0, 30_u64);
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    const DAMAGES: usize = 600;
+    for number in 0..DAMAGES {
+        let mut other = bytes.clone();
+        let place = random(bytes.len());
+        match number % 6 {
+            0..4 => other[place] ^= 1 << random(8),
+            4 => other[place..].iter_mut().take(random(600)).for_each(|byte| *byte = 0),
+            _ => other.truncate(place),
+        }
+        fs::write(damaged.path().join(DATABASE), other).unwrap();
+        match everything(damaged.path()) {
+            Ok(all) => assert!(all == expected, "damage {number} at byte {place} changes something"),
+            Err(_) => found += 1,
+        }
+        let _ = fs::remove_file(damaged.path().join(format!("{DATABASE}-journal")));
+    }
+    // The rest fell into room that no row uses.
+    assert!(found > DAMAGES / 4, "only {found}");
+}
+
+/// The number of a peak, one bit of it changed: what needs the row is refused, and a run does not go on behind it.
+#[test]
+fn a_changed_bit_of_a_number_is_found_and_named_by_its_place() {
+    let folder = tempdir().unwrap();
+    walked_folder(folder.path());
+    let path = folder.path().join(DATABASE);
+    let mut bytes = fs::read(&path).unwrap();
+    let number = 0.321_f64.to_be_bytes();
+    // Pages that were split keep copies in room that no row uses.
+    let places: Vec<usize> = (0..bytes.len() - 8).filter(|at| bytes[*at..*at + 8] == number).collect();
+    assert!(!places.is_empty());
+    places.iter().for_each(|place| bytes[place + 1] ^= 8);
+    fs::write(&path, bytes).unwrap();
+    let sentence = "solution 22 on the up side of branch 1 is damaged: it is not as it was stored";
+    let store = Store::open(folder.path()).unwrap();
+    let Err(error) = store.walked(store.branches().unwrap()[0].start, Side::Up) else { panic!("not found") };
+    assert!(error.to_string().starts_with(sentence) && error.is_of_solutions(), "{error}");
+    let error = Store::open_for_run(folder.path(), &study(STUDY)).unwrap_err();
+    assert!(error.to_string().starts_with(sentence) && !error.is_bad_input(), "{error}");
+}
+
+#[test]
+fn values_that_databases_convert_keep_their_checksums() {
+    let folder = tempdir().unwrap();
+    let mut store = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+    let key = begin(&mut store);
+    let row = |frequency_hz: f64, residual: f64| BranchRow {
+        solution: PeriodicSolution { residual, ..solution(frequency_hz) },
+        parameter: None,
+        events: Events::default(),
+        located: None,
+    };
+    let rows = [row(3.0, -0.0), row(1e300, f64::MIN_POSITIVE / 8.0), row(4e18, f64::INFINITY)];
+    let reason = StoredReason::not_begun("\u{0}\u{e9}\u{10ffff}");
+    store.append(key, Side::Up, &rows, Continuation::Ended(&reason)).unwrap();
+    store.finish().unwrap();
+    assert_eq!(everything(folder.path()).unwrap().matches("frequency_hz: 3.0").count(), 2);
+}
+
+/// The lock is a file, and someone may remove it.
+#[test]
+fn of_two_runs_that_hold_a_lock_the_first_adds_nothing_more() {
+    let folder = tempdir().unwrap();
+    let mut first = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+    let key = begin(&mut first);
+    fs::remove_file(folder.path().join("run.lock")).unwrap();
+    let mut second = Store::open_for_run(folder.path(), &study(STUDY)).unwrap();
+    let reason = StoredReason::not_begun("no");
+    let error = first.append(key, Side::Up, &[], Continuation::Ended(&reason)).unwrap_err();
+    assert!(matches!(error, StoreError::TakenOver { .. }) && !error.is_bad_input(), "{error}");
+    assert!(first.add_jobs(&[(JobKind::Survey, 0.3, None, 0)]).is_err());
+    assert!(first.finish_job(0, "done").is_err() && first.accept_start(key).is_err());
+    assert!(first.request(RequestKind::Sweep, "from = 1", 3).is_err());
+    second.append(key, Side::Up, &[], Continuation::Ended(&reason)).unwrap();
+    assert_eq!(second.jobs().unwrap().len(), 1);
+}
+
+#[test]
+fn a_database_that_was_removed_is_noticed_at_the_next_write() {
+    let folder = tempdir().unwrap();
+    let results = folder.path().join("results");
+    for put_back in [false, true] {
+        let mut store = Store::open_for_run(&results, &study(STUDY)).unwrap();
+        begin(&mut store);
+        fs::remove_dir_all(&results).unwrap();
+        if put_back {
+            fs::create_dir(&results).unwrap();
+            fs::write(results.join(DATABASE), "").unwrap();
+        }
+        let error = store.add_jobs(&[(JobKind::Survey, 0.3, None, 0)]).unwrap_err();
+        assert!(matches!(error, StoreError::Gone { .. }) && !error.is_bad_input(), "{error}");
+        assert!(matches!(store.finish(), Err(StoreError::Gone { .. })));
+    }
+}
+
+#[test]
+fn a_folder_may_have_the_name_of_an_address() {
+    let folder = tempdir().unwrap();
+    let place = folder.path().join("file:x?mode=memory");
+    let mut store = Store::open_for_run(&place, &study(STUDY)).unwrap();
+    begin(&mut store);
+    store.finish().unwrap();
+    assert!(place.join(DATABASE).is_file());
+    assert_eq!(Store::open(&place).unwrap().branches().unwrap().len(), 1);
 }

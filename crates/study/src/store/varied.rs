@@ -1,25 +1,22 @@
 //! What is computed beside the branches in the frequency: branches in other parameters, and curves of bifurcations.
 //!
 //! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition; its number is its place in the study. A piece is stored whole, in one
-//! transaction, so a run that is stopped computes again only the pieces that it was at. Tables are made when the first piece is stored.
+//! transaction, so a run that is stopped computes again only the pieces that it was at.
 
 use hammerbeam_orbit::{LocatedEvent, PeriodicSolution};
 use rusqlite::params;
 
-use super::{
-    Store, StoreError, blob,
-    event::{COLUMNS, insert_event},
-};
+use super::{Store, StoreError, blob, event::insert_event};
 
-const TABLES: &str = "
-CREATE TABLE IF NOT EXISTS piece (
+pub(super) const TABLES_OF_PIECES: &str = "
+CREATE TABLE piece (
     id INTEGER PRIMARY KEY,
     definition TEXT NOT NULL UNIQUE,
     kind TEXT NOT NULL CHECK (kind IN ('vary', 'curve')),
     parameter TEXT NOT NULL,
     message TEXT
 );
-CREATE TABLE IF NOT EXISTS piece_branch (
+CREATE TABLE piece_branch (
     piece INTEGER NOT NULL REFERENCES piece (id),
     branch INTEGER NOT NULL,
     period_multiple INTEGER NOT NULL,
@@ -28,7 +25,7 @@ CREATE TABLE IF NOT EXISTS piece_branch (
     down TEXT NOT NULL,
     PRIMARY KEY (piece, branch)
 ) WITHOUT ROWID;
-CREATE TABLE IF NOT EXISTS piece_row (
+CREATE TABLE piece_row (
     piece INTEGER NOT NULL,
     branch INTEGER NOT NULL,
     place INTEGER NOT NULL,
@@ -164,17 +161,9 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn has_piece(&self, piece: &Piece) -> Result<bool, StoreError> {
-        if !self.has_pieces()? {
-            return Ok(false);
-        }
         let select = "SELECT count(*) FROM piece WHERE definition = ?1";
         let count: u32 = self.connection.query_row(select, [&piece.definition], |row| row.get(0))?;
         Ok(count > 0)
-    }
-
-    fn has_pieces(&self) -> Result<bool, StoreError> {
-        let select = "SELECT count(*) FROM sqlite_master WHERE name = 'piece_row'";
-        Ok(self.connection.query_row(select, [], |row| row.get::<_, u32>(0))? > 0)
     }
 
     /// Throws away pieces that the study does not ask for any more, and gives the others the numbers of their places in it.
@@ -182,10 +171,7 @@ impl Store {
     /// # Errors
     /// The database refuses; nothing is changed then.
     pub fn keep_pieces(&mut self, wanted: &[Piece]) -> Result<(), StoreError> {
-        if !self.has_pieces()? {
-            return Ok(());
-        }
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         // Branches lose and find their pieces on the way.
         transaction.pragma_update(None, "defer_foreign_keys", true)?;
         let stored: Vec<(u32, String)> = transaction
@@ -228,12 +214,7 @@ impl Store {
         branches: &[VariedBranch],
         message: Option<&str>,
     ) -> Result<(), StoreError> {
-        let transaction = self.connection.transaction()?;
-        transaction.execute_batch(TABLES)?;
-        transaction.execute_batch(&format!(
-            "CREATE TABLE IF NOT EXISTS piece_event (piece INTEGER, branch INTEGER, place INTEGER, {COLUMNS},
-            PRIMARY KEY (piece, branch, place)) WITHOUT ROWID;"
-        ))?;
+        let transaction = self.write()?;
         let kind = if piece.is_curve { "curve" } else { "vary" };
         transaction.execute(
             "INSERT INTO piece (id, definition, kind, parameter, message) VALUES (?1, ?2, ?3, ?4, ?5)",
@@ -263,9 +244,6 @@ impl Store {
     /// # Errors
     /// The database refuses.
     pub fn pieces(&self) -> Result<Vec<PieceRecord>, StoreError> {
-        if !self.has_pieces()? {
-            return Ok(Vec::new());
-        }
         let mut statement = self
             .connection
             .prepare("SELECT id, kind = 'curve', parameter, message FROM piece ORDER BY id")?;

@@ -38,7 +38,7 @@ impl Store {
         continuation: Continuation<'_>,
     ) -> Result<(), StoreError> {
         let walk = walk_id(start, side);
-        let transaction = self.connection.transaction()?;
+        let transaction = self.write()?;
         let stored: i64 =
             transaction.query_row("SELECT solutions FROM walk WHERE id = ?1", [walk], |row| row.get(0))?;
         for (row, key) in rows.iter().zip(first_key(walk) + stored..) {

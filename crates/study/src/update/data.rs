@@ -1,11 +1,12 @@
 //! What an update is told: parameters to fit, and data with their standard deviations.
 
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
 use hammerbeam_fit::{Bounds, Deviations};
+use hammerbeam_signal::limits::{self, LARGEST_TEXT};
 
 use crate::{Report, StudyFile, number::Number};
 
@@ -148,7 +149,7 @@ impl UpdateData {
     /// # Errors
     /// [`DataError`]: the file cannot be read, or something in it is not allowed.
     pub fn read(path: &Path, study: &StudyFile) -> Result<Self, DataError> {
-        let text = fs::read_to_string(path)
+        let text = limits::read_text(path, LARGEST_TEXT)
             .map_err(|source| DataError::Unreadable { path: path.to_owned(), source })?;
         Self::parse(&path.display().to_string(), text, study)
     }

@@ -34,14 +34,14 @@ impl Source {
 pub(super) fn parse(name: &str, text: String, study: &StudyFile) -> Result<UpdateData, Report> {
     let reading = Reading::default();
     let read = read_text(&text, &reading, study);
-    let (problems, places) = reading.into_parts();
+    let (problems, left_out, places) = reading.into_parts();
     match read {
         Some(read) if problems.is_empty() => {
             let source = Source { name: name.to_owned(), text, places };
             let Read { title, deviations, parameters, orbits, data } = read;
             Ok(UpdateData { title, deviations, parameters, orbits, data, source })
         }
-        _ => Err(Report::new(name, &text, problems)),
+        _ => Err(Report::new(name, &text, problems).and(left_out)),
     }
 }
 

@@ -98,7 +98,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         let mut text = text::text(options, &measured, (&compared, &point), (&folder, &files));
         notes.iter().for_each(|note| text.push_str(&format!("\nnote: {note}")));
         text
-    });
+    })?;
     Ok(())
 }
 

@@ -1,12 +1,12 @@
 //! Tables of a comparison.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
-use anyhow::Context;
 use hammerbeam_signal::{Quantity, points::MeasuredPoint};
 use hammerbeam_study::{
     comparison::{Comparison, PointOutcome},
     export::{Table, header, number, word},
+    whole_file::replace,
 };
 
 use crate::failure::Failure;
@@ -111,7 +111,7 @@ pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Optio
     }
     text.push_str("]\n");
     let name = "excitation.toml".to_owned();
-    fs::write(folder.join(&name), text).with_context(|| format!("cannot write {name}"))?;
+    replace(&folder.join(&name), text.as_bytes())?;
     let notes = spread(&means).chain(beside(&means)).collect();
     Ok(Some(Amplitudes { name, notes }))
 }

@@ -71,7 +71,7 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let table = options.out.as_deref().map(|folder| give::write(folder, &laid)).transpose()?;
     output.give(&give::document(&laid, options, table.as_deref()), || {
         give::text(&laid, options, table.as_deref())
-    });
+    })?;
     Ok(())
 }
 

@@ -101,7 +101,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let mut document = document;
     document["folder"] = serde_json::json!(options.out);
     document["files"] = serde_json::json!(files);
-    output.give(&document, || report::text(&found, &options.out, &files));
+    output.give(&document, || report::text(&found, &options.out, &files))?;
     Ok(())
 }
 

@@ -5,6 +5,7 @@ use std::{fmt::Write, path::Path};
 use hammerbeam_study::{
     comparison::{Filter, PointOutcome},
     rig::{Filtered, FilteredBranch, FilteredRatio},
+    whole_file::replace,
 };
 use serde_json::Value;
 
@@ -12,7 +13,6 @@ use super::{Found, signals, tables};
 use crate::{
     commands::compare::{estimate, fit_notes, gaps},
     failure::Failure,
-    figures::replace,
 };
 
 /// Solutions that a branch has at least to stand in the report on its own.

@@ -46,7 +46,7 @@ pub fn run(options: &ChainOptions, output: Output) -> Result<(), Failure> {
     document["seed"] = json!(options.seed);
     document["measured_findings"] = json!(input::findings(&measured));
     document["results"] = json!(path);
-    output.give(&document, || text(&input, &chain, &measured, path.as_deref()));
+    output.give(&document, || text(&input, &chain, &measured, path.as_deref()))?;
     Ok(())
 }
 

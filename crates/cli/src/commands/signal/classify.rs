@@ -28,7 +28,7 @@ pub fn run(options: &ClassifyOptions, output: Output) -> Result<(), Failure> {
         ..ClassifySettings::default()
     };
     let found = classify(&input.channel().samples, rate, frequency, &settings)?;
-    output.give(&document(&input, &found), || text(&input, &found));
+    output.give(&document(&input, &found), || text(&input, &found))?;
     Ok(())
 }
 

@@ -17,7 +17,8 @@ pub fn run(options: &DecrementOptions, output: Output) -> Result<(), Failure> {
     let decay = free_decay(samples, rate, &settings)?;
     // Too few maxima are no reason to withhold the fit.
     let classical = decrement(samples, rate, &decay).ok();
-    output.give(&document(&input, &decay, classical.as_ref()), || text(&input, &decay, classical.as_ref()));
+    output
+        .give(&document(&input, &decay, classical.as_ref()), || text(&input, &decay, classical.as_ref()))?;
     Ok(())
 }
 

@@ -40,6 +40,6 @@ pub fn run(options: &EnvelopeOptions, output: Output) -> Result<(), Failure> {
         lines.extend(path.as_ref().map(|path| format!("{path}: the envelope")));
         lines.extend(input.notes());
         lines.join("\n")
-    });
+    })?;
     Ok(())
 }

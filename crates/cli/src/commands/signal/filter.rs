@@ -42,7 +42,7 @@ pub fn run(options: &FilterOptions, output: Output) -> Result<(), Failure> {
         document["results"] = json!(path);
         document
     };
-    output.give(&document(), || text(&input, &filtered, path.as_deref()));
+    output.give(&document(), || text(&input, &filtered, path.as_deref()))?;
     Ok(())
 }
 

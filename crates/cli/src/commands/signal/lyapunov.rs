@@ -43,7 +43,7 @@ pub fn run(options: &ExponentOptions, output: Output) -> Result<(), Failure> {
     let found = found.checked()?;
     let path = write(&found, options, rate)?;
     let document = found.document(&input, &embedding, path.as_deref());
-    output.give(&document, || found.text(&input, &embedding, path.as_deref()));
+    output.give(&document, || found.text(&input, &embedding, path.as_deref()))?;
     Ok(())
 }
 

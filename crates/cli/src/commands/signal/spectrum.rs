@@ -33,7 +33,7 @@ pub fn run(options: &SpectrumOptions, output: Output) -> Result<(), Failure> {
     document["lines"] =
         lines.iter().map(|line| json!({ "frequency_hz": line.frequency_hz, "value": line.value })).collect();
     document["results"] = json!(path);
-    output.give(&document, || text(&input, (&spectrum, &lines), options, path.as_deref()));
+    output.give(&document, || text(&input, (&spectrum, &lines), options, path.as_deref()))?;
     Ok(())
 }
 

@@ -1,10 +1,13 @@
 //! Measured points of the comparisons that a results folder holds, read back from their tables.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use anyhow::{Context, anyhow};
 use hammerbeam_figure::{MeasuredMotion, PageMeasured, PageMeasuredPoint, Quantity as Drawing, plain_number};
-use hammerbeam_signal::Quantity;
+use hammerbeam_signal::{
+    Quantity,
+    limits::{self, LARGEST_FILE},
+};
 
 use super::Drawn;
 
@@ -46,7 +49,7 @@ fn note(cut_off_hz: f64) -> String {
 /// Points of a table, and the cut-off of the filter that the branches were behind (Hz), if there was one.
 fn read(path: &Path, quantity: Quantity) -> anyhow::Result<(Vec<PageMeasuredPoint>, Option<f64>)> {
     let shown = path.display();
-    let text = fs::read_to_string(path).with_context(|| format!("cannot read {shown}"))?;
+    let text = limits::read_text(path, LARGEST_FILE).with_context(|| format!("cannot read {shown}"))?;
     let mut lines = text.lines();
     let titles: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
     let column = |title: &str| titles.iter().position(|found| *found == title);

@@ -72,10 +72,15 @@ pub(super) fn numbers(element: &Element, big_endian: bool) -> Result<Vec<f64>, R
     }
 }
 
-pub(super) fn inflate(data: &[u8]) -> Result<Vec<u8>, ReadError> {
+/// A variable, decompressed.
+///
+/// * `room`: bytes that the file may still unpack to.
+pub(super) fn inflate(data: &[u8], room: &mut u64) -> Result<Vec<u8>, ReadError> {
     let mut inflated = Vec::new();
     ZlibDecoder::new(data)
+        .take(*room + 1)
         .read_to_end(&mut inflated)
         .map_err(|_| ReadError::Truncated { what: "a compressed variable is not whole".to_owned() })?;
+    *room = room.checked_sub(inflated.len() as u64).ok_or(ReadError::TooLarge)?;
     Ok(inflated)
 }

@@ -13,7 +13,7 @@ use super::{
     arrays::{Array, arrange},
     bytes::{Bytes, Stored},
 };
-use crate::{finding::Finding, raw::RawRecord};
+use crate::{finding::Finding, limits::LARGEST_FILE, raw::RawRecord};
 use element::{Element, Kind, next, numbers};
 
 const STRUCTURE: u32 = 2;
@@ -62,10 +62,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawRecord, ReadError> {
     };
     let mut rest = Bytes::new(&bytes[128..], big_endian);
     let mut content = Content::default();
+    let mut room = LARGEST_FILE;
     while rest.len() >= 8 {
         match next(&mut rest)? {
             Element { kind: Kind::Compressed, data } => {
-                let inflated = element::inflate(data)?;
+                let inflated = element::inflate(data, &mut room)?;
                 let inner = next(&mut Bytes::new(&inflated, big_endian))?;
                 content.take(&inner, big_endian, "")?;
             }
