@@ -13,8 +13,8 @@
 //! propagator for each block (a mode, or a pair of eigenvalues where dampers couple modes). Over the flight `|r''|` and `|r'''|` have
 //! known bounds, sums of known decaying amplitudes. From them follow steps that provably cannot jump over a contact; repeated, they
 //! converge on the first one. No touch is missed, down to a rounding margin of `8 eps` times the terms of `r`. The same search goes on
-//! while forces act, with bounds on the forces; there the promise is on the motion that is computed, whose distance from the exact one is the error
-//! of the step.
+//! while forces act, with bounds on the forces, for contacts that close and for closed ones that open, if an enclosure of their penetration or pressure does not prove at once that
+//! they stay closed; there the promise is on the motion that is computed, whose distance from the exact one is the error of the step.
 //!
 //! **Contact.** Over a step of length h, with nodes `t_k`, the forces are `F(t) = sum_l F_l L_l(t)` and
 //!

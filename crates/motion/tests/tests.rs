@@ -22,6 +22,7 @@ mod general_robust;
 mod general_switching;
 mod held_closed_forms;
 mod held_forces;
+mod hidden_openings;
 mod invariants;
 mod largest_force;
 mod no_missed_contact;

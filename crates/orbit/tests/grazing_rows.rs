@@ -47,6 +47,9 @@ fn contact_sets_in_and_ceases_where_the_linear_amplitude_is_the_gap() {
             let event = row.located.as_ref().unwrap();
             assert_eq!(event.contacts, [ContactChange { contact: 0, appears }]);
             assert_eq!(event.status, EventStatus::Located);
+            let nearest = closed_form().map(|f| (row.solution.frequency_hz - f).abs());
+            let error = nearest[0].min(nearest[1]);
+            assert!(error <= event.uncertainty, "{error:e}, within {:e}", event.uncertainty);
             assert_eq!(event.multiplier, None, "nothing else happens at mere grazing");
         }
     }

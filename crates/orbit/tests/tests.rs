@@ -13,6 +13,7 @@ mod find;
 mod flips_beam;
 mod flips_bilinear;
 mod flips_duffing;
+mod grazing_located;
 mod grazing_pair;
 mod grazing_rows;
 mod impact_at_phase_0;

@@ -252,7 +252,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// The first touch, else the first release, in the solved step that ends with `event`, other than those `excused`.
+    /// The first touch, else the first release, in the solved step that ends with `event`, other than those `excused`. Where the polynomials through the nodes show none there is one only if the proof of
+    /// `enclosure.rs` fails.
     fn first_in_step(
         &mut self,
         run: &Run,
@@ -262,10 +263,13 @@ impl ExactIntegrator {
         let length = self.step.length;
         let touch = self.first_touch_in_step(run, event, excused)?;
         let touch = touch.filter(|(_, time)| *time < length * (1.0 - SAME));
-        Ok(match touch {
-            Some((touch, time)) => Some((Event::Touch(touch), time)),
-            None => self.first_release(run, event, excused),
-        })
+        if let Some((touch, time)) = touch {
+            return Ok(Some((Event::Touch(touch), time)));
+        }
+        match self.first_release(run, event, excused) {
+            Some(release) => Ok(Some(release)),
+            None => self.first_opening_in_step(run, event, excused),
+        }
     }
 
     /// Opens or closes the contact that ended a step.

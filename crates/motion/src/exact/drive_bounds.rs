@@ -5,6 +5,7 @@ use faer::c64;
 use super::{
     drive::{Drive, Order},
     output::Output,
+    secular::SecularLoad,
 };
 
 impl Drive {
@@ -43,6 +44,13 @@ impl Drive {
             magnitude(order.outputs[index].0) * (order.order * self.circular_frequency).powi(5)
         };
         self.orders.iter().map(of_order).sum()
+    }
+
+    /// Amplitude and circular frequency of each order in the particular part of output `index`; `None` where it is not made of these and of a parabola alone.
+    pub fn amplitudes(&self, index: usize) -> Option<impl Iterator<Item = (f64, f64)>> {
+        let of_order =
+            move |order: &Order| (magnitude(order.outputs[index].0), order.order * self.circular_frequency);
+        self.secular.iter().all(SecularLoad::is_parabola).then(|| self.orders.iter().map(of_order))
     }
 
     /// Largest value that the part of resonant loads in an output can take until `until`, for rounding margins.

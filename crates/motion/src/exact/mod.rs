@@ -22,6 +22,7 @@
 //! | `brief_opening.rs` | contacts that open for an instant between two presses |
 //! | `touches.rs` | what of the touches of a stretch counts in an orbit |
 //! | `touching.rs`, `force_bound.rs` | certified search for further contacts while forces act |
+//! | `enclosure.rs` | proof that closed contacts stay closed all through a step |
 //! | `forecast.rs`, `polynomial.rs` | how long a contact will last; where a polynomial falls below zero |
 //! | `sensitivity.rs` | the fundamental matrix and the frequency column |
 //! | `by_parameter.rs`; `by_damping.rs`, `change.rs`; `by_family.rs` | the column of a parameter; of the damping, which is in every matrix; of a number that the modes depend on |
@@ -50,6 +51,7 @@ mod drive;
 mod drive_bounds;
 mod drive_values;
 mod elementary;
+mod enclosure;
 mod error;
 mod event;
 mod extremum;

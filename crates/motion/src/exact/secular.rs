@@ -96,6 +96,11 @@ impl SecularLoad {
         self.frequency == 0.0
     }
 
+    /// Whether it is a constant load on a block without stiffness and damping.
+    pub fn is_parabola(&self) -> bool {
+        self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0 && !self.is_change
+    }
+
     /// The motion at `time` after the start.
     pub fn response(&self, time: f64) -> SecularResponse {
         let (state, by_frequency) = self.motion(time);
@@ -115,8 +120,7 @@ impl SecularLoad {
     }
 
     fn motion(&self, time: f64) -> ([f64; 2], [f64; 2]) {
-        let free = self.stiffness == 0.0 && self.damping == 0.0 && self.frequency == 0.0 && !self.is_change;
-        if free { self.parabola(time) } else { self.exponential(time) }
+        if self.is_parabola() { self.parabola(time) } else { self.exponential(time) }
     }
 
     /// Derivative of the rate by the frequency at `time` after the start.

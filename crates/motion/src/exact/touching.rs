@@ -1,4 +1,4 @@
-//! Open contacts that close while forces act: the certified search of a flight (`clearance.rs`), with forces.
+//! Open contacts that close while forces act, and closed ones that open: the certified search of a flight (`clearance.rs`), with forces.
 //!
 //! In a solved step the forces are known polynomials, so the relative displacement `r` of an open element is a known function too. With the
 //! homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`, over the row `C` of the element and with the mobility `G = C A B`
@@ -21,6 +21,9 @@
 //! the exact motion is the error of the step. The window is the rest of the step at first; where the safe step is much shorter, a
 //! window of its size gives better bounds.
 //!
+//! **A closed contact** opens where its penetration ends, or its pressure. Where `enclosure.rs` proves that it does not, nothing is searched; else the search is the same, for the penetration or for `-s` below. It goes on to what the
+//! location of an event leaves open of the end of the step; an opening that it finds in the first part [`SAME`] of the step is none, since what the contact does there was decided as the step began.
+//!
 //! **A contact that has parted** is watched for its pressure `s = a p + b p' + d` to come back, with `|s''| <= a B_2 + b B_3` apart from the jump, which is
 //! taken off `s'`; and for its penetration to end.
 //!
@@ -33,6 +36,7 @@
 
 use super::{
     ExactIntegrator,
+    aim::SAME,
     clearance::{ClearanceBounds, Convex, Look, decide_convex, look},
     collocation::NODES,
     drive::Jet,
@@ -81,11 +85,44 @@ impl ExactIntegrator {
                 if from >= until {
                     continue;
                 }
-                let found = Search::new(self, run, touch, &forced, (from, until)).run();
+                let found = Search::new(self, run, Sought::Open(touch), &forced, (from, until)).run();
                 self.counts.looks += found.looks;
                 if let Some(time) = found.result? {
                     first = Some((touch, time));
                 }
+            }
+        }
+        Ok(first)
+    }
+
+    /// The first closed contact that opens within the solved step, and when, if it is not proved that none does. That of `event` opens at its end, those `excused` are not looked for.
+    pub(super) fn first_opening_in_step(
+        &mut self,
+        run: &Run,
+        event: Option<Event>,
+        excused: &[Event],
+    ) -> Result<Option<(Event, f64)>, Unresolved> {
+        let is_doubtful =
+            |sought: &(usize, Event)| !excused.contains(&sought.1) && !self.stays_above(run, *sought, event);
+        let doubtful: Vec<(usize, Event)> = self.possible_ends(run).filter(is_doubtful).collect();
+        if doubtful.is_empty() {
+            return Ok(None);
+        }
+        let forced = Forced::new(self);
+        let mut first: Option<(Event, f64)> = None;
+        for (_, ending) in doubtful {
+            let Some(contact) = run.closed[ending.element()] else { continue };
+            let mut until = first.map_or(self.step.length, |(_, time)| time);
+            if event == Some(ending) {
+                until = until.min(self.step.length - self.located_within(run, ending));
+            }
+            let boundary =
+                if matches!(ending, Event::Part(_)) { Boundary::Presses } else { Boundary::Leaves };
+            let sought = Sought::Closed(Touch { element: ending.element(), contact, boundary });
+            let found = Search::new(self, run, sought, &forced, (0.0, until)).run();
+            self.counts.looks += found.looks;
+            if let Some(time) = found.result?.filter(|time| *time > SAME * self.step.length) {
+                first = Some((ending, time));
             }
         }
         Ok(first)
@@ -175,10 +212,21 @@ struct Found {
     result: Result<Option<f64>, Unresolved>,
 }
 
-/// Search for the time at which one open contact closes within the solved step.
+/// Whose boundary is searched for.
+#[derive(Debug, Clone, Copy)]
+enum Sought {
+    /// Of a contact without force: its clearance, its missing pressure, or its penetration.
+    Open(Touch),
+    /// Of a closed one: its penetration, or its pressure.
+    Closed(Touch),
+}
+
+/// Search for the time at which one contact crosses a boundary within the solved step.
 struct Search<'a> {
     integrator: &'a ExactIntegrator,
     touch: Touch,
+    /// Whether it is closed: what falls to zero is the pressure, and not what is missing of it.
+    is_closed: bool,
     forced: &'a Forced,
     direct: Direct,
     /// End of the search, counted from the start of the step [s].
@@ -193,16 +241,20 @@ impl<'a> Search<'a> {
     fn new(
         integrator: &'a ExactIntegrator,
         run: &'a Run,
-        touch: Touch,
+        sought: Sought,
         forced: &'a Forced,
         (from, until): (f64, f64),
     ) -> Self {
+        let (touch, is_closed) = match sought {
+            Sought::Open(touch) => (touch, false),
+            Sought::Closed(touch) => (touch, true),
+        };
         let direct = Direct::new(integrator, forced, touch.element);
         let mut state = run.state.clone();
         if from > 0.0 {
             integrator.carry_in_step(&mut state, 0.0, from);
         }
-        Self { integrator, touch, forced, direct, until, time: from, state, looks: 0 }
+        Self { integrator, touch, is_closed, forced, direct, until, time: from, state, looks: 0 }
     }
 
     fn run(mut self) -> Found {
@@ -280,7 +332,12 @@ impl<'a> Search<'a> {
 
     /// What falls to zero at the boundary, in the step from the homogeneous state at `time`.
     fn clearance(&self, state: &[f64], time: f64) -> Jet {
-        self.integrator.distance(self.integrator.forced_jet(state, self.touch.element, time), self.touch)
+        let jet = self.integrator.forced_jet(state, self.touch.element, time);
+        let distance = self.integrator.distance(jet, self.touch);
+        if self.is_closed && self.touch.boundary == Boundary::Presses {
+            return Jet { value: -distance.value, slope: -distance.slope, ..distance };
+        }
+        distance
     }
 
     /// The lowest derivatives with the jumps of the forces: `r''` may be lower by J, and so the rate of a pressure by J times its part of the velocity.

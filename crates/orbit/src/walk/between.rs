@@ -123,7 +123,8 @@ impl BranchWalk {
         point.events = Events { zeros: if is_pair { 2 } else { 1 }, ..Events::default() };
         let touches = self.problem.touches().to_vec();
         let at_corners = self.follower.settings().min_step;
-        let place = located::Place { point: &point, bend: 0.0, at_corners, touches_before: &touches };
+        let place =
+            located::Place { point: &point, bend: 0.0, at_corners, touches_before: &touches, before: None };
         let located = located::describe(&mut self.problem, &place);
         let row = BranchRow { located, ..self.row_at(&point)? };
         Ok(Some(Between { point, row }))

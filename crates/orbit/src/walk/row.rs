@@ -48,6 +48,7 @@ impl BranchWalk {
             bend: self.frequency_bend(),
             at_corners,
             touches_before: &self.touches,
+            before: self.near_change(&current),
         };
         let located = located::describe(&mut self.problem, &place);
         self.touches.clear();
@@ -87,8 +88,30 @@ impl BranchWalk {
         let history = &self.follower.checkpoint().history;
         let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
         let last = base.point.len() - 1;
+        (base.tangent[last] - before.tangent[last]).abs() / self.last_chord().max(f64::MIN_POSITIVE)
+    }
+
+    /// Length of the last step.
+    fn last_chord(&self) -> f64 {
+        let history = &self.follower.checkpoint().history;
+        let [base, before, ..] = history.nodes.as_slice() else { return 0.0 };
         let squares = base.point.iter().zip(&before.point).zip(self.problem.weights());
-        let length = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt();
-        (base.tangent[last] - before.tangent[last]).abs() / length.max(f64::MIN_POSITIVE)
+        squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum::<f64>().sqrt()
+    }
+
+    /// How near contacts came to a change at the point before the present one.
+    fn near_change(&self, current: &ContinuationPoint) -> Option<located::NearChange> {
+        // Two of the multipliers, then as many of each kind of near miss.
+        let near = self.follower.checkpoint().tests_before.get(2..)?;
+        let of_kind = near.len().is_multiple_of(3).then_some(near.len() / 3).filter(|count| *count > 0)?;
+        let least = |kind: usize| near[kind * of_kind].value;
+        let unit = hertz_per_norm(self.range_hz);
+        Some(located::NearChange {
+            clearance: least(0).min(least(2)),
+            squared_speed: least(1),
+            chord: self.last_chord(),
+            errors: [self.settings.motion_tolerance, current.correction_norm / unit],
+            unit,
+        })
     }
 }

@@ -19,7 +19,7 @@ use crate::{
     corrector::Limits,
     error::Doubt,
     problem::PathProblem,
-    product::{add_scaled, norm, scale, weigh},
+    product::{add_scaled, distance, norm, scale, weigh},
 };
 
 /// Distance behind the surface at which `b` is taken, in failed steps: the corner lies within one or two.
@@ -311,7 +311,9 @@ impl Follower {
         if let Some(arc_length) = self.memory.meets(&self.trial, self.state.orientation, self.state.unit) {
             return Err(Doubt::Retraced { arc_length });
         }
-        Ok(Arrival { uncertainty: length, ..self.arrive_behind_corner(problem)? })
+        // The corner lies between the last point, which is before it, and this one.
+        let chord = distance(&self.weights, &self.state.history.base().point, &self.trial.node.point);
+        Ok(Arrival { uncertainty: length.max(chord), ..self.arrive_behind_corner(problem)? })
     }
 }
 

@@ -1,0 +1,206 @@
+//! The bounds against the motion inside solved steps, read by quadrature, and against closed forms.
+
+use faer::Mat;
+use hammerbeam_structure::ReducedModel;
+
+use super::{HALVINGS, Hermite, MOST, is_above};
+use crate::{
+    Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
+    exact::{
+        ExactIntegrator, ExactSettings,
+        collocation::{Grading, NODES},
+        event::Event,
+        run::Run,
+    },
+    law::{HertzStop, HuntCrossleyStop, LinearStop},
+};
+
+/// Two masses' worth of modes, driven by two orders, with an element on each of two points.
+fn integrator(laws: [Law; 2], frequencies: [f64; 2]) -> ExactIntegrator {
+    let model = ReducedModel {
+        damping: Mat::from_fn(2, 2, |i, j| if i == j { 0.06 * frequencies[i] } else { 0.2 }),
+        natural_frequencies: frequencies.to_vec(),
+        points: vec![],
+        support: None,
+        uniform_acceleration: vec![0.0; 2],
+    };
+    let shapes = [vec![1.0, 0.6], vec![0.7, -1.1]];
+    let elements = laws.into_iter().zip(shapes.clone()).map(|(law, shape)| LocalElement {
+        name: "element".into(),
+        shape,
+        support_ratio: 0.0,
+        law,
+    });
+    let force = |order: u32| HarmonicForce {
+        shape: shapes[0].clone(),
+        harmonic: Harmonic { order, amplitude: 0.8, phase: 0.3 * f64::from(order) },
+    };
+    let load = Load { support: vec![], forces: vec![force(1), force(3)] };
+    let system = System::new(model, &load, elements.collect()).unwrap();
+    ExactIntegrator::new(system, ExactSettings::default()).unwrap()
+}
+
+/// An integrator with one step solved from a state in which both contacts are closed.
+fn solved(laws: [Law; 2], frequencies: [f64; 2], length: f64, grading: Grading) -> (ExactIntegrator, Run) {
+    let mut integrator = integrator(laws, frequencies);
+    let stretch = Stretch { frequency_hz: 0.4, start: 0.2, end: 8.0 };
+    let mut run = integrator.begin(&stretch, &[0.3, 0.02, 0.4, 0.1], false).unwrap();
+    run.closed = vec![Some(0), Some(0)];
+    integrator.note_start(&mut run, 20.0);
+    integrator.set_active(&run);
+    integrator.attempt(&run, length, grading).expect("the step is solved");
+    (integrator, run)
+}
+
+fn value(coefficients: &[f64], s: f64) -> f64 {
+    let mut values = coefficients.to_vec();
+    for level in 1..values.len() {
+        for i in 0..values.len() - level {
+            values[i] = (1.0 - s) * values[i] + s * values[i + 1];
+        }
+    }
+    values[0]
+}
+
+/// How far the polynomials of one step are from the motion in it, relative to what is allowed, for penetration and pressure of both contacts.
+fn largest_distance((integrator, run): &(ExactIntegrator, Run)) -> f64 {
+    let (grading, length) = (integrator.step.grading(), integrator.step.length);
+    let hermite = Hermite::of(grading);
+    let mut largest = 0.0_f64;
+    for sought in integrator.possible_ends(run).collect::<Vec<_>>() {
+        let element = sought.1.element();
+        let mut guard = integrator.guard_of(run, sought.0, sought.1).unwrap();
+        let remainder = integrator.remainder(run, element, guard.parts);
+        let pressure = integrator.laws[element].pressure();
+        let rounding = 1e3 * guard.rounding;
+        guard.rounding = 0.0;
+        let middle = hermite.lower(&guard, length, 0.0);
+        let lowest = hermite.lower(&guard, length, remainder);
+        for place in 0..=60 {
+            let s = f64::from(place) / 60.0;
+            let (time, mut state) = (grading.map(s).0 * length, run.state.clone());
+            integrator.carry_in_step(&mut state, 0.0, time);
+            let jet = integrator.forced_jet(&state, element, time);
+            let level = integrator.closed_contact(run, element).unwrap().level;
+            let expected = match (sought.1, pressure) {
+                (Event::Part(_), Some(pressure)) => pressure.at(jet.value - level, jet.slope),
+                _ => jet.value - level,
+            };
+            let [middle, lowest] = [middle, lowest].map(|c| value(&c[..hermite.count], s));
+            let distance = (expected - middle).abs();
+            assert!(distance <= (middle - lowest) + rounding, "{grading:?} {sought:?} at {s}: {distance:e}");
+            if middle - lowest > rounding {
+                largest = largest.max(distance / (middle - lowest));
+            }
+        }
+    }
+    largest
+}
+
+#[test]
+fn the_motion_stays_within_the_bounds_of_its_polynomial() {
+    let damped = Law::Linear(LinearStop::with_preload(5.0, 8.0).unwrap().with_damping(0.7).unwrap());
+    let laws = [
+        [Law::Linear(LinearStop::with_preload(3.0, 9.0).unwrap()), damped],
+        [
+            Law::Hertz(HertzStop::with_preload(3.0, 9.0).unwrap()),
+            Law::Hertz(HertzStop::with_gap(2.0, 0.0).unwrap()),
+        ],
+        [
+            Law::HuntCrossley(
+                HuntCrossleyStop::new(HertzStop::with_preload(3.0, 9.0).unwrap(), 0.4).unwrap(),
+            ),
+            damped,
+        ],
+    ];
+    let mut largest = 0.0_f64;
+    for laws in laws {
+        for frequencies in [[1.0, 3.0], [2.0, 7.0]] {
+            for length in [0.05, 0.3, 0.9, 1.8] {
+                for grading in [Grading::Smooth, Grading::Touch, Grading::Release] {
+                    largest = largest.max(largest_distance(&solved(laws, frequencies, length, grading)));
+                }
+            }
+        }
+    }
+    assert!((1e-3..=1.0).contains(&largest), "the bounds are met and not absurdly wide: {largest:e}");
+}
+
+/// `Omega A z^n/n!` with `Omega = (12!)^2/24! = 1/2704156`.
+#[test]
+fn a_mode_in_a_smooth_step_has_the_remainder_of_its_power_series() {
+    let series = super::remainder::DerivativeSeries::of(Grading::Smooth);
+    let (z, amplitude) = (2.0_f64, 0.7);
+    let factorial: f64 = (1..=16).map(f64::from).product();
+    let expected = amplitude * z.powi(16) / factorial;
+    let [displacement, _] = series.last(z, amplitude * z, &[0.0; NODES]);
+    assert!((displacement / expected - 1.0).abs() < 1e-14);
+    let hermite = Hermite::of(Grading::Smooth);
+    // `omega` times the largest of `binomial(11, j)/binomial(15, j + 2)`, at the middle.
+    let largest = hermite.margin.iter().fold(0.0_f64, |largest, m| largest.max(*m));
+    assert!((largest * 2_704_156.0 - 462.0 / 6435.0).abs() < 1e-9, "{largest:e}");
+}
+
+/// What is given comes back, to rounding: polynomials of the full degree.
+#[test]
+fn polynomials_of_the_degree_are_met() {
+    for grading in [Grading::Smooth, Grading::Touch, Grading::Release] {
+        let hermite = Hermite::of(grading);
+        let t = |s: f64| grading.map(s).0;
+        // A polynomial in the time is one of twice the degree in s where the step is graded.
+        let degree = if grading == Grading::Smooth { 15 } else { 8 };
+        let of = |s: f64| (t(s) - 0.3).powi(degree) + 0.1 * t(s);
+        let slope = |s: f64| f64::from(degree) * (t(s) - 0.3).powi(degree - 1) + 0.1;
+        let guard = super::Guard {
+            nodal: grading.rule().s.map(of),
+            values: [of(0.0), of(1.0)],
+            slopes: [slope(0.0), slope(1.0)],
+            parts: [1.0, 0.0],
+            rounding: 0.0,
+        };
+        let coefficients = hermite.lower(&guard, 1.0, 0.0);
+        for place in 0..=40 {
+            let s = f64::from(place) / 40.0;
+            assert!((value(&coefficients[..hermite.count], s) - of(s)).abs() < 1e-11, "{grading:?} {s}");
+        }
+    }
+}
+
+fn bernstein(of: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64) -> [f64; MOST] {
+    let guard = super::Guard {
+        nodal: Grading::Smooth.rule().s.map(&of),
+        values: [of(0.0), of(1.0)],
+        slopes: [slope(0.0), slope(1.0)],
+        parts: [1.0, 0.0],
+        rounding: 0.0,
+    };
+    Hermite::of(Grading::Smooth).lower(&guard, 1.0, 0.0)
+}
+
+/// Simple and double zeros at either end of the step, those of contacts that were just touched and of a turn at the level, are no openings.
+#[test]
+fn zeros_at_the_ends_of_a_step_do_not_hinder_the_proof() {
+    for (from, to) in [(1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 2), (1, 2)] {
+        let power = |x: f64, k: i32| if k < 0 { 0.0 } else { x.powi(k) };
+        let of = |s: f64| power(s, from) * power(1.0 - s, to);
+        let slope = |s: f64| {
+            f64::from(from) * power(s, from - 1) * power(1.0 - s, to)
+                - f64::from(to) * power(s, from) * power(1.0 - s, to - 1)
+        };
+        let coefficients = bernstein(of, slope);
+        assert!(is_above(&coefficients[..16], -1e-15, HALVINGS), "{from} {to}: {coefficients:?}");
+    }
+}
+
+/// Behind the first node, between two, before the last; in the first and last gap, too, where no node is.
+#[test]
+fn a_dip_below_zero_is_never_proved_away() {
+    for depth in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10] {
+        for bottom in [0.003, 0.02, 0.07, 0.31, 0.5, 0.77, 0.95, 0.985, 0.997] {
+            let of = |s: f64| (s - bottom).powi(2) * (1.0 + s) - depth;
+            let slope = |s: f64| 2.0 * (s - bottom) * (1.0 + s) + (s - bottom).powi(2);
+            let coefficients = bernstein(of, slope);
+            assert!(!is_above(&coefficients[..16], -1e-12, HALVINGS), "{depth:e} at {bottom}");
+        }
+    }
+}
