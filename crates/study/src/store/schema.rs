@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 6;
+pub const SCHEMA_VERSION: u32 = 7;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -69,7 +69,8 @@ CREATE TABLE solution (
     multiplier_count INTEGER NOT NULL,
     multipliers BLOB NOT NULL,
     nodes BLOB NOT NULL,
-    phase_cycles REAL NOT NULL
+    phase_cycles REAL NOT NULL,
+    on_circle BLOB NOT NULL
 );
 ";
 
