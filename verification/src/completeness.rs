@@ -99,6 +99,7 @@ fn shortest(results: &Results, attractor: Attractor) -> Attractor {
         phase: 0.0,
         nodes: vec![state.to_vec()],
         floquet_multipliers: Vec::new(),
+        on_circle: Vec::new(),
         residual: 0.0,
         error_estimate: 0.0,
         maxima: OrbitMaxima::default(),

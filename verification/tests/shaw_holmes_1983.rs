@@ -129,6 +129,7 @@ fn elastic(stiffness: f64) -> [f64; 3] {
         phase: 0.0,
         nodes: vec![vec![turn, 0.0]],
         floquet_multipliers: vec![[1.0, 0.0]; 2],
+        on_circle: Vec::new(),
         residual: 0.0,
         error_estimate: 0.0,
         maxima: OrbitMaxima::default(),

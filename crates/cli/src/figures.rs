@@ -304,7 +304,7 @@ fn point(row: &Row) -> ResponsePoint {
         acceleration_m_s2: row.maxima.acceleration,
         contact_force_n: row.maxima.contact_force,
         impact_velocity_m_s: row.maxima.impact_velocity,
-        stable: row.stable,
+        stable: row.stability.may_be_stable(),
         fold: row.events.fold,
         grazing: row.events.grazing,
         flip: row.events.flip,

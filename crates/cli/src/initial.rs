@@ -96,7 +96,7 @@ fn of_branch(
         return Err(Failure::BadInput(format!("--initial: there is no branch {text:?}; {allowed}")));
     };
     let mut orbits = branches.crossings(model, frequency_hz, |record| record.id == number)?;
-    orbits.sort_by_key(|(_, orbit)| !orbit.stable());
+    orbits.sort_by_key(|(_, orbit)| !orbit.may_be_stable());
     match orbits.into_iter().next() {
         Some((_, orbit)) => states_at_phase(map.integrator(), &orbit, 0.0)
             .map(|mut states| states.swap_remove(0))

@@ -22,7 +22,7 @@ use crate::{
 use bytes::{Reader, Writer};
 
 /// First word of a checkpoint; the last digit is the version of the format.
-const MAGIC: u64 = 0x4842_5741_4c4b_0009;
+const MAGIC: u64 = 0x4842_5741_4c4b_000a;
 
 impl BranchWalk {
     /// All that is needed, beside the journal, to go on from the present point.
@@ -53,7 +53,9 @@ impl BranchWalk {
             out.word(tests.len() as u64);
             for test in tests {
                 out.float(test.value);
-                out.word(u64::from(test.count));
+                for number in [test.count, test.undecided, test.left_out] {
+                    out.word(u64::from(number));
+                }
             }
         }
         out.floats(&state.noted);

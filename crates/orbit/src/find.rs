@@ -90,7 +90,9 @@ pub fn find_orbits(
     let known = search.catalogue.known.into_iter().map(|known| known.solution);
     let mut orbits: Vec<_> = known.filter(|orbit| orbit.period_multiple == period_multiple).collect();
     orbits.sort_by(|x, y| {
-        y.stable().cmp(&x.stable()).then(y.maxima.displacement.total_cmp(&x.maxima.displacement))
+        y.may_be_stable()
+            .cmp(&x.may_be_stable())
+            .then(y.maxima.displacement.total_cmp(&x.maxima.displacement))
     });
     Ok(FoundOrbits { orbits, incomplete })
 }

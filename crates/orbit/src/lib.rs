@@ -17,6 +17,7 @@
 //! | `walk.rs`, `walk/`, `resegment.rs`, `halves.rs`, `checkpoint.rs` | walking, step by step, cutting orbits into more segments on the way, storing a walk |
 //! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
 //! | `stop.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
+//! | `spectrum.rs` | multipliers, and which of them are on the unit circle as well as they are known: stable, marginal, unstable |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
@@ -28,7 +29,7 @@
 //!
 //! # Stability
 //! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of the segments, so they do not depend
-//! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle. Folds, branch points, flips, Neimark-Sacker points
+//! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle, unstable if one lies outside, and marginal if neither is known ([`Stability`]). Folds, branch points, flips, Neimark-Sacker points
 //! and grazing are located as rows of their own.
 //!
 //! # Contacts that lose energy
@@ -94,6 +95,7 @@ mod shooting;
 mod size;
 mod solution;
 mod solve;
+mod spectrum;
 mod splitting;
 mod stability;
 mod start;
@@ -120,6 +122,7 @@ pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side};
+pub use spectrum::Stability;
 pub use start::{Interruption, find_start, find_start_unless};
 pub use stop::StopReason;
 pub use survey::{SurveyEffort, survey};

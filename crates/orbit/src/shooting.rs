@@ -40,7 +40,9 @@ use hammerbeam_motion::{
 use hammerbeam_path::{DenseLu, PathError};
 
 use crate::{
-    ContinuationParameter, NoEigenvalues, OrbitError, eigenvalues::eigenvalues, state_scale::StateScale,
+    ContinuationParameter, NoEigenvalues, OrbitError,
+    spectrum::{Spectrum, monodromy_error},
+    state_scale::StateScale,
 };
 
 /// The shooting equations of one system.
@@ -74,7 +76,7 @@ pub(crate) struct ShootingProblem {
     jumps_at_cut: bool,
     failure: Option<MotionError>,
     /// Multipliers at the point evaluated last, once they were asked for.
-    multipliers: Option<Result<Vec<[f64; 2]>, NoEigenvalues>>,
+    spectrum: Option<Result<Spectrum, NoEigenvalues>>,
     /// Whether flips and Neimark-Sacker points are looked for.
     watches_stability: bool,
     varied: ContinuationParameter,
@@ -110,7 +112,7 @@ impl ShootingProblem {
             touches_lacking: vec![0; contacts],
             jumps_at_cut: false,
             failure: None,
-            multipliers: None,
+            spectrum: None,
             watches_stability: false,
             varied: ContinuationParameter::Frequency,
         };
@@ -256,11 +258,24 @@ impl ShootingProblem {
 
     /// Floquet multipliers at the last evaluated point.
     pub fn multipliers(&mut self) -> Result<&[[f64; 2]], NoEigenvalues> {
-        if self.multipliers.is_none() {
-            self.multipliers = Some(eigenvalues(self.node_size(), self.monodromy()));
+        self.spectrum().map(|spectrum| spectrum.multipliers.as_slice())
+    }
+
+    /// They and which of them are on the unit circle as well as they are known.
+    pub fn spectrum(&mut self) -> Result<&Spectrum, NoEigenvalues> {
+        if self.spectrum.is_none() {
+            self.spectrum = Some(self.spectrum_of_products());
         }
-        let known = self.multipliers.as_ref().expect("they were just computed");
-        known.as_deref().map_err(|error| *error)
+        let known = self.spectrum.as_ref().expect("it was just computed");
+        known.as_ref().map_err(|error| *error)
+    }
+
+    fn spectrum_of_products(&self) -> Result<Spectrum, NoEigenvalues> {
+        let residual = self.residual.iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
+        let accuracy = (self.integrator.settings().tolerance, residual);
+        let products = self.products.iter().map(Vec::as_slice);
+        let error = monodromy_error(products, self.node_size(), accuracy);
+        Spectrum::of(self.node_size(), self.monodromy(), error)
     }
 
     /// Has flips and Neimark-Sacker points located.

@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::exact::Maxima;
 
-use crate::LocatedEvent;
+use crate::{LocatedEvent, Stability};
 
 /// A converged periodic solution.
 ///
@@ -19,6 +19,8 @@ pub struct PeriodicSolution {
     pub nodes: Vec<Vec<f64>>,
     /// Floquet multipliers `[re, im]` of one orbit period, largest modulus first, positive imaginary part first in a pair.
     pub floquet_multipliers: Vec<[f64; 2]>,
+    /// Which of them are on the unit circle as well as they are known (mathematics in `spectrum.rs`).
+    pub on_circle: Vec<bool>,
     /// Largest mismatch of the shooting equations, relative to the orbit (see the shooting module).
     pub residual: f64,
     /// Estimated error of the nodes, relative to the orbit (see the shooting module).
@@ -28,10 +30,22 @@ pub struct PeriodicSolution {
 }
 
 impl PeriodicSolution {
-    /// Whether all Floquet multipliers lie inside the unit circle.
+    /// What its Floquet multipliers tell, as well as they are known.
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        Stability::of(&self.floquet_multipliers, &self.on_circle)
+    }
+
+    /// Whether all Floquet multipliers lie inside the unit circle, beyond doubt.
     #[must_use]
     pub fn stable(&self) -> bool {
-        self.floquet_multipliers.iter().all(|[re, im]| re.hypot(*im) < 1.0)
+        self.stability() == Stability::Stable
+    }
+
+    /// Whether no Floquet multiplier is known to lie outside the unit circle.
+    #[must_use]
+    pub fn may_be_stable(&self) -> bool {
+        self.stability().may_be_stable()
     }
 
     /// Magnitude of the largest Floquet multiplier; 0 if there is none.

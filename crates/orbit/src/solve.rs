@@ -8,7 +8,7 @@ use hammerbeam_path::PathProblem;
 
 use crate::{
     OrbitError, OrbitMaxima, OrbitSettings, PeriodicSolution, Response, shooting::ShootingProblem, size::Cut,
-    state_scale::StateScale,
+    spectrum::Spectrum, state_scale::StateScale,
 };
 
 const MAX_ITERATIONS: u32 = 25;
@@ -162,7 +162,7 @@ pub(crate) fn solution(
 ) -> Result<PeriodicSolution, OrbitError> {
     let frequency_hz = problem.frequency(point);
     problem.move_to(point)?;
-    let floquet_multipliers = problem.multipliers()?.to_vec();
+    let Spectrum { multipliers, on_circle, .. } = problem.spectrum()?.clone();
     let residual = problem.residual().iter().fold(0.0_f64, |largest, r| largest.max(r.abs()));
     let phase = problem.phase().fract();
     let nodes = problem.nodes(point);
@@ -174,7 +174,8 @@ pub(crate) fn solution(
         period_multiple: problem.period_multiple(),
         phase,
         nodes,
-        floquet_multipliers,
+        floquet_multipliers: multipliers,
+        on_circle,
         residual,
         error_estimate,
         maxima,

@@ -15,6 +15,8 @@
 
 use hammerbeam_path::{Events, Outside, TestValue};
 
+use crate::spectrum::Spectrum;
+
 /// Distance from the unit circle, relative to the largest multiplier where that is beyond 1e6, within which rounding and the tolerance of the motion
 /// leave the side open.
 const ON_CIRCLE: f64 = 1e-7;
@@ -28,6 +30,47 @@ pub(crate) fn flip(multipliers: &[[f64; 2]]) -> TestValue {
     let factor = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im).clamp(0.0, 1e3);
     let count = multipliers.iter().filter(|[re, im]| *im == 0.0 && *re < -1.0).count() as u32;
     signed(multipliers.iter().map(factor).product(), count)
+}
+
+/// [`flip`] without so many of the multipliers at -1, those known best to be there first.
+pub(crate) fn flip_without(spectrum: &Spectrum, left_out: u32) -> TestValue {
+    let undecided = count(&spectrum.at_minus_one);
+    let from_minus_one = |[re, im]: [f64; 2]| (1.0 + re).hypot(im);
+    let kept = without(spectrum, (&spectrum.at_minus_one, |_| true), left_out, from_minus_one);
+    TestValue { undecided, left_out, ..flip(&kept) }
+}
+
+/// [`neimark_sacker`] without so many of the complex pairs on the circle, those known best to be there first.
+pub(crate) fn neimark_sacker_without(spectrum: &Spectrum, left_out: u32) -> TestValue {
+    let is_pair = |[_, im]: [f64; 2]| im > 0.0;
+    let on = spectrum.on_circle.iter().zip(&spectrum.multipliers);
+    let undecided = on.filter(|(on, mu)| **on && is_pair(**mu)).count() as u32;
+    let off_circle = |[re, im]: [f64; 2]| (1.0 - re.hypot(im)).abs();
+    let kept = without(spectrum, (&spectrum.on_circle, is_pair), left_out, off_circle);
+    TestValue { undecided, left_out, ..neimark_sacker(&kept) }
+}
+
+/// The multipliers without so many of a kind: those marked first, in the order of their distances.
+fn without(
+    spectrum: &Spectrum,
+    (marked, of_kind): (&[bool], impl Fn([f64; 2]) -> bool),
+    left_out: u32,
+    distance: impl Fn([f64; 2]) -> f64,
+) -> Vec<[f64; 2]> {
+    let multipliers = &spectrum.multipliers;
+    let mut order: Vec<usize> = (0..multipliers.len()).filter(|&k| of_kind(multipliers[k])).collect();
+    let nearness = |k: usize| (!marked[k], distance(multipliers[k]));
+    order.sort_by(|&a, &b| {
+        let ((a_off, a), (b_off, b)) = (nearness(a), nearness(b));
+        a_off.cmp(&b_off).then(a.total_cmp(&b))
+    });
+    order.truncate(left_out as usize);
+    let kept = (0..multipliers.len()).filter(|k| !order.contains(k));
+    kept.map(|k| multipliers[k]).collect()
+}
+
+fn count(marks: &[bool]) -> u32 {
+    marks.iter().filter(|mark| **mark).count() as u32
 }
 
 /// Vanishes where a multiplier is +1.
@@ -50,9 +93,11 @@ fn on_circle(multipliers: &[[f64; 2]]) -> f64 {
 }
 
 /// The complex pairs by the one in the upper half-plane, but for those that are on the unit circle to rounding.
-pub(crate) fn pairs_off_circle(multipliers: &[[f64; 2]]) -> impl Iterator<Item = &[f64; 2]> {
-    let margin = on_circle(multipliers);
-    multipliers.iter().filter(move |[re, im]| *im > 0.0 && (re.hypot(*im) - 1.0).abs() > margin)
+pub(crate) fn pairs_off_circle(spectrum: &Spectrum) -> impl Iterator<Item = &[f64; 2]> {
+    let margin = on_circle(&spectrum.multipliers);
+    let marked = spectrum.multipliers.iter().zip(&spectrum.on_circle);
+    let off = marked.filter(move |([re, im], on)| !**on && *im > 0.0 && (re.hypot(*im) - 1.0).abs() > margin);
+    off.map(|(multiplier, _)| multiplier)
 }
 
 /// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points, given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and another one enters, or
@@ -108,8 +153,13 @@ pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
 
 /// How many multipliers lie outside the circle, without those that are critical at these events of a path with the test functions [`flip`] and
 /// [`neimark_sacker`] in this order.
-pub(crate) fn outside(multipliers: &[[f64; 2]], events: Events) -> Outside {
-    let mut left = multipliers.to_vec();
+pub(crate) fn outside(spectrum: &Spectrum, events: Events) -> Outside {
+    let multipliers = &spectrum.multipliers;
+    let margin = on_circle(multipliers);
+    // Those on the circle as well as they are known are so by the margin, too.
+    let marked = multipliers.iter().zip(&spectrum.on_circle);
+    let mut left: Vec<[f64; 2]> =
+        marked.map(|(multiplier, on)| if *on { onto_circle(*multiplier) } else { *multiplier }).collect();
     let off_circle =
         |[re, im]: &[f64; 2]| if *im == 0.0 { f64::INFINITY } else { (re.hypot(*im) - 1.0).abs() };
     if events.fold || events.branch_point {
@@ -123,9 +173,14 @@ pub(crate) fn outside(multipliers: &[[f64; 2]], events: Events) -> Outside {
         remove_least(&mut left, off_circle);
     }
     let critical = (multipliers.len() - left.len()) as u32;
-    let margin = on_circle(multipliers);
     let beyond = |least: f64| left.iter().filter(|[re, im]| re.hypot(*im) > least).count() as u32;
     Outside { least: beyond(1.0 + margin), most: beyond(1.0 - margin) + critical, critical }
+}
+
+/// The point of the unit circle beside a multiplier.
+fn onto_circle([re, im]: [f64; 2]) -> [f64; 2] {
+    let modulus = re.hypot(im);
+    [re / modulus, im / modulus]
 }
 
 /// Removes the multiplier with the least distance.
@@ -137,7 +192,7 @@ fn remove_least(multipliers: &mut Vec<[f64; 2]>, distance: impl Fn(&[f64; 2]) ->
 }
 
 fn signed(magnitude: f64, count: u32) -> TestValue {
-    TestValue { value: if count.is_multiple_of(2) { magnitude } else { -magnitude }, count }
+    TestValue::new(if count.is_multiple_of(2) { magnitude } else { -magnitude }, count)
 }
 
 #[cfg(test)]
@@ -149,9 +204,9 @@ mod tests {
         assert_eq!(flip(&[[-1.0, 0.0], [0.5, 0.0]]).value, 0.0);
         let beyond = flip(&[[-3.0, 0.0], [0.5, 0.0]]);
         assert_eq!((beyond.value, beyond.count), (-3.0, 1));
-        assert_eq!(fold(&[[3.0, 0.0], [0.5, 0.0]]), TestValue { value: -1.0, count: 1 });
+        assert_eq!(fold(&[[3.0, 0.0], [0.5, 0.0]]), TestValue::new(-1.0, 1));
         // A pair that meets at -1 + 0i touches zero from above on both sides.
-        assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue { value: 0.25, count: 2 });
+        assert_eq!(flip(&[[-1.5, 0.0], [-1.5, 0.0]]), TestValue::new(0.25, 2));
         assert!(flip(&[[-1.5, 0.1], [-1.5, -0.1]]).value > 0.25);
     }
 
@@ -177,13 +232,13 @@ mod tests {
     fn the_neimark_sacker_function_vanishes_for_a_pair_on_the_circle_only() {
         let on = neimark_sacker(&[[0.6, 0.8], [0.6, -0.8]]).value;
         assert!(on.abs() < 1e-15, "{on}");
-        assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue { value: -1.0, count: 1 });
+        assert_eq!(neimark_sacker(&[[0.0, 2.0], [0.0, -2.0]]), TestValue::new(-1.0, 1));
         assert!(pair_turns_real(&[[1.016, 5e-4], [1.016, -5e-4], [0.2, 0.0]]));
         assert!(!pair_turns_real(&[[0.9999, 0.0141], [0.9999, -0.0141], [0.01, 0.0]]));
         assert!(!pair_turns_real(&[[4.0, 0.0], [0.25, 0.0]]), "there is no pair");
         assert!(pair_is_nearest_to_one(&[[1.015, 0.018], [1.015, -0.018], [0.24, 0.0]]));
         assert!(!pair_is_nearest_to_one(&[[0.6, 0.8], [0.6, -0.8], [1.001, 0.0]]));
         // A real pair with product one is a neutral saddle, which is no bifurcation.
-        assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue { value: 1.0, count: 0 });
+        assert_eq!(neimark_sacker(&[[4.0, 0.0], [0.25, 0.0]]), TestValue::new(1.0, 0));
     }
 }

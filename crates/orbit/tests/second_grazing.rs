@@ -98,6 +98,7 @@ fn walk(law: Law, gap: f64) -> (Vec<CurveRow>, CurveEnd) {
         phase: 0.0,
         nodes: vec![vec![displacement, slope * 0.07]],
         floquet_multipliers: vec![],
+        on_circle: Vec::new(),
         residual: 0.0,
         error_estimate: 0.0,
         maxima: OrbitMaxima::default(),

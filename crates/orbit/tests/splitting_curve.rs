@@ -45,6 +45,7 @@ fn a_curve_ends_where_a_contact_splits() {
         phase: 0.0,
         nodes: vec![vec![0.713918680574752, -0.1815670869739648]],
         floquet_multipliers: vec![],
+        on_circle: Vec::new(),
         residual: 0.0,
         error_estimate: 0.0,
         maxima: OrbitMaxima::default(),

@@ -39,6 +39,18 @@ pub struct TestValue {
     pub value: f64,
     /// How often the function has gone through zero since some common reference: two zeros within one step show here.
     pub count: u32,
+    /// How many of the things that the function is made of are at zero as well as they are known: its sign is theirs by rounding.
+    pub undecided: u32,
+    /// So many of those nearest to zero it leaves out, see [`PathProblem::tests_without`].
+    pub left_out: u32,
+}
+
+impl TestValue {
+    /// A function all of which is known.
+    #[must_use]
+    pub fn new(value: f64, count: u32) -> Self {
+        Self { value, count, ..Self::default() }
+    }
 }
 
 /// How many multipliers of the solution at the last evaluated point lie outside the unit circle: of a solution that is a fixed point of a map, say.
@@ -96,6 +108,14 @@ pub trait PathProblem {
     /// A function may jump: where its sign changes without a zero, nothing is recorded.
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
+    }
+
+    /// The same, each without so many of the things that it is made of, those nearest to zero first: of a function that is the least of several, the least of the others.
+    ///
+    /// Asked for where things stay at zero along the path, as well as they are known (an undamped mode has a pair of multipliers on the unit circle): the zeros of the others are looked for without them.
+    fn tests_without(&mut self, left_out: &[u32], values: &mut Vec<TestValue>) {
+        let _ = left_out;
+        self.tests(values);
     }
 
     /// Numbers at the last evaluated point, asked for with the test functions, by which [`hides_zeros`](Self::hides_zeros) compares it with the next.

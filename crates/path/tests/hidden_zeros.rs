@@ -33,7 +33,7 @@ impl<P: PathProblem> PathProblem for Passing<P> {
 
     fn tests(&mut self, values: &mut Vec<TestValue>) {
         values.clear();
-        let signed = |value: f64| TestValue { value, count: u32::from(value < 0.0) };
+        let signed = |value: f64| TestValue::new(value, u32::from(value < 0.0));
         values.extend([signed(self.at - OTHER), signed(beyond(place(self.at)))]);
     }
 

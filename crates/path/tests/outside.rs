@@ -69,7 +69,7 @@ impl<P: PathProblem> PathProblem for Multiplied<P> {
         let count = pairs.clone().filter(|value| *value < 0.0).count() as u32;
         let least = pairs.fold(1.0, |least: f64, value| least.min(value.abs()));
         values.clear();
-        values.push(TestValue { value: if count.is_multiple_of(2) { least } else { -least }, count });
+        values.push(TestValue::new(if count.is_multiple_of(2) { least } else { -least }, count));
     }
 
     fn outside(&mut self, events: Events) -> Option<Outside> {

@@ -61,6 +61,6 @@ pub use document::{Problem, Report};
 pub use export::export_csv;
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
-pub use model::{Drift, Model, StudyParameter};
+pub use model::{Drift, Model, StudyParameter, UndampedMode};
 pub use orbit_solver::OrbitSolver;
 pub use store::{Store, StoreError};

@@ -127,7 +127,7 @@ impl Solver for OrbitSolver<'_> {
             .map_err(|error| error.to_string())?;
         let FoundOrbits { orbits: mut found, mut incomplete } = found;
         // What has not settled yet may be near a stable solution, too.
-        found.retain(|orbit| self.unstable_starts || orbit.stable());
+        found.retain(|orbit| self.unstable_starts || orbit.may_be_stable());
         if self.trials > 0 && multiples.contains(&1) {
             for part in 0..TRIED_IN_A_PART {
                 let place = (f64::from(part) + 0.5) / f64::from(TRIED_IN_A_PART) - 0.5;

@@ -2,6 +2,8 @@
 
 use std::collections::HashSet;
 
+use hammerbeam_orbit::Stability;
+
 use crate::store::{BranchRecord, JobKind, Row, Store, StoreError, start_of_key};
 
 /// A branch in few numbers.
@@ -13,6 +15,8 @@ pub struct BranchSummary {
     pub solutions: u64,
     /// Number of those that are stable.
     pub stable: u64,
+    /// Number of those of which that is not known, see [`Stability::Marginal`].
+    pub marginal: u64,
     /// Lowest and highest frequency [Hz].
     pub range_hz: [f64; 2],
     /// Number of cyclic folds.
@@ -39,7 +43,7 @@ pub struct Peak {
     /// Maximum displacement [m].
     pub max_abs_displacement_m: f64,
     /// Whether the solution there is stable.
-    pub stable: bool,
+    pub stability: Stability,
 }
 
 /// Rise and fall, relative to the peak, that make it one.
@@ -74,6 +78,7 @@ fn summarise_branch(store: &Store, record: BranchRecord) -> Result<BranchSummary
     let mut summary = BranchSummary {
         solutions: 0,
         stable: 0,
+        marginal: 0,
         range_hz: [f64::INFINITY, f64::NEG_INFINITY],
         folds: 0,
         flips: 0,
@@ -97,7 +102,8 @@ fn summarise_branch(store: &Store, record: BranchRecord) -> Result<BranchSummary
 impl BranchSummary {
     fn count(&mut self, row: &Row) {
         self.solutions += 1;
-        self.stable += u64::from(row.stable);
+        self.stable += u64::from(row.stability == Stability::Stable);
+        self.marginal += u64::from(row.stability == Stability::Marginal);
         self.range_hz[0] = self.range_hz[0].min(row.frequency_hz);
         self.range_hz[1] = self.range_hz[1].max(row.frequency_hz);
         self.folds += u64::from(row.events.fold);
@@ -145,7 +151,7 @@ impl Peak {
         Self {
             frequency_hz: row.frequency_hz,
             max_abs_displacement_m: row.maxima.displacement,
-            stable: row.stable,
+            stability: row.stability,
         }
     }
 }
@@ -161,7 +167,7 @@ mod tests {
             frequency_hz,
             maxima: OrbitMaxima { displacement, ..OrbitMaxima::default() },
             events: Events::default(),
-            stable: true,
+            stability: Stability::Stable,
             leading_multiplier: [0.0, 0.0],
             residual: 0.0,
             error_estimate: 0.0,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use hammerbeam_figure::plain_number;
 use hammerbeam_study::{
-    Drift, Model, Study, StudyFile,
+    Drift, Model, Study, StudyFile, UndampedMode,
     file::{
         Amplitude, Approach, Beam, ExcitationKind, FixedTo, Load, Lumped, Place, Reduction, ReductionMethod,
         Side, Stop, StopLaw, Structure,
@@ -34,6 +34,7 @@ fn document(study: &Study, model: &Model) -> Value {
         "degrees_of_freedom": model.system.dof(),
         "eigenfrequencies_hz": eigenfrequencies_hz(model),
         "frequency_hz": study.excitation.frequency_hz,
+        "undamped_modes": model.undamped_modes().iter().map(undamped_document).collect::<Vec<_>>(),
         "drifts": model.drifts().iter().map(drift_document).collect::<Vec<_>>(),
         "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
         "response_point": study.response.point,
@@ -47,6 +48,33 @@ fn drift_document(drift: &Drift) -> Value {
     let motion: serde_json::Map<String, Value> =
         drift.motion.iter().map(|(name, size)| (name.clone(), (*size).into())).collect();
     json!({ "frequency_hz": 0.0, "motion": motion, "held_by_stops": drift.held_by_stops })
+}
+
+/// How to damp a mode.
+pub const UNDAMPED_ADVICE: &str =
+    "give `modal_ratio` in [damping], such as 0.01, or a damper in [[structure.damper]]";
+
+/// A mode without damping.
+pub fn undamped_document(mode: &UndampedMode) -> Value {
+    json!({ "mode": mode.number, "frequency_hz": mode.frequency_hz, "damping_ratio": mode.ratio })
+}
+
+/// The modes without damping, and what that means.
+fn undamped_text(modes: &[UndampedMode], dof: usize) -> Option<String> {
+    const SHOWN: usize = 4;
+    let first = modes.first()?;
+    let which = match modes.len() {
+        1 => first.to_string(),
+        all if all == dof => format!("none of the {dof} modes has damping"),
+        count => {
+            let numbers: Vec<String> = modes.iter().take(SHOWN).map(|mode| mode.number.to_string()).collect();
+            let more = if count > SHOWN { ", ..." } else { "" };
+            format!("{count} modes have no damping ({}{more})", numbers.join(", "))
+        }
+    };
+    Some(format!(
+        "damping      {which}: free vibration there never decays, so steady states are marginal and simulation does not settle; {UNDAMPED_ADVICE}"
+    ))
 }
 
 fn text(study: &Study, model: &Model) -> String {
@@ -63,6 +91,7 @@ fn text(study: &Study, model: &Model) -> String {
         eigenfrequencies_hz(model).iter().take(8).map(|f| format!("{f:.6}")).collect();
     let more = if model.system.dof() > 8 { ", ..." } else { "" };
     lines.push(format!("modes        {}{more} Hz", frequencies.join(", ")));
+    lines.extend(undamped_text(&model.undamped_modes(), model.system.dof()));
     lines.push(format!("excitation   {}", excitation_text(study)));
     lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
     lines.extend(study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop))));

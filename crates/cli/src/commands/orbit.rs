@@ -78,6 +78,7 @@ fn quantities(solution: &PeriodicSolution) -> Value {
         "contacts": maxima.contacts,
         "floquet_multipliers": solution.floquet_multipliers,
         "stable": solution.stable(),
+        "stability": solution.stability().word(),
         "residual": solution.residual,
         "error_estimate": solution.error_estimate,
     })
@@ -102,7 +103,7 @@ fn solution_text(solution: &PeriodicSolution, point: &str) -> String {
             "{} Hz, period {} excitation period(s), {}",
             solution.frequency_hz,
             solution.period_multiple,
-            if solution.stable() { "stable" } else { "unstable" }
+            solution.stability().word()
         ),
         format!("  maximum displacement of {point}   {:.9e} m", maxima.displacement),
         format!("  maximum acceleration of {point}   {:.9e} m/s^2", maxima.acceleration),

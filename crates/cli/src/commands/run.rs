@@ -2,8 +2,9 @@
 
 use std::time::{Duration, Instant};
 
+use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
-    Model, OrbitSolver, Store, Study, StudyFile,
+    Model, OrbitSolver, Store, Study, StudyFile, UndampedMode,
     run::{Plan, RunOutcome},
     store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
     summary::{BranchSummary, Peak, summarise},
@@ -13,6 +14,7 @@ use serde_json::{Value, json};
 
 use crate::{
     args::RunOptions,
+    commands::check::{UNDAMPED_ADVICE, undamped_document},
     drift,
     failure::Failure,
     figures::{self, Drawn, Wishes},
@@ -45,8 +47,14 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let branches = summarise(&store)?;
     let pieces = store.pieces()?;
     let jobs = store.jobs()?;
-    let summary =
-        Summary { study: &file.study, folder: options.out.display().to_string(), branches, pieces, jobs };
+    let summary = Summary {
+        study: &file.study,
+        folder: options.out.display().to_string(),
+        branches,
+        pieces,
+        jobs,
+        undamped: model.undamped_modes(),
+    };
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
@@ -80,6 +88,7 @@ struct Summary<'a> {
     branches: Vec<BranchSummary>,
     pieces: Vec<PieceRecord>,
     jobs: Vec<JobRecord>,
+    undamped: Vec<UndampedMode>,
 }
 
 impl Summary<'_> {
@@ -150,6 +159,21 @@ impl Summary<'_> {
         lines
     }
 
+    /// Why solutions are marginal all along branches: a bifurcation makes one or two.
+    fn marginal_text(&self) -> Option<String> {
+        let marginal: u64 = self.branches.iter().map(|branch| branch.marginal).sum();
+        let first = self.undamped.first().filter(|_| marginal > 0)?;
+        let others = match self.undamped.len() - 1 {
+            0 => String::new(),
+            1 => " (nor has another one)".to_owned(),
+            others => format!(" (nor have {others} others)"),
+        };
+        Some(format!(
+            "\n{first}{others}: {marginal} solution(s) are marginal, with multipliers on the unit circle as well as these are known, and change stability nowhere; \
+             {UNDAMPED_ADVICE}"
+        ))
+    }
+
     fn document(&self, figures: &[String]) -> Value {
         let failed = self
             .failed()
@@ -162,6 +186,7 @@ impl Summary<'_> {
             "solutions": self.solutions(),
             "branches": self.branches.iter().map(branch_document).collect::<Vec<_>>(),
             "varied": self.pieces.iter().map(piece_document).collect::<Vec<_>>(),
+            "undamped_modes": self.undamped.iter().map(undamped_document).collect::<Vec<_>>(),
             "figures": figures,
         })
     }
@@ -176,6 +201,7 @@ impl Summary<'_> {
         )];
         lines.extend(self.branches.iter().map(branch_text));
         lines.extend(self.pieces.iter().map(piece_text));
+        lines.extend(self.marginal_text());
         lines.extend(self.failed_text());
         if self.left() > 0 {
             lines.push(format!("\n{}", self.out_of_time()));
@@ -198,7 +224,8 @@ fn branch_document(branch: &BranchSummary) -> Value {
         json!({
             "frequency_hz": peak.frequency_hz,
             "max_abs_displacement_m": peak.max_abs_displacement_m,
-            "stable": peak.stable,
+            "stable": peak.stability == Stability::Stable,
+            "stability": peak.stability.word(),
         })
     };
     json!({
@@ -206,6 +233,7 @@ fn branch_document(branch: &BranchSummary) -> Value {
         "period_multiple": branch.record.period_multiple,
         "solutions": branch.solutions,
         "stable_solutions": branch.stable,
+        "marginal_solutions": branch.marginal,
         "frequency_hz": branch.range_hz,
         "folds": branch.folds,
         "flips": branch.flips,
@@ -223,8 +251,12 @@ fn branch_text(branch: &BranchSummary) -> String {
     let [low, high] = branch.range_hz;
     let mut lines = vec![
         format!(
-            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} Hz, {} of them stable",
-            branch.record.id, branch.record.period_multiple, branch.solutions, branch.stable
+            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} Hz, {} of them stable{}",
+            branch.record.id,
+            branch.record.period_multiple,
+            branch.solutions,
+            branch.stable,
+            if branch.marginal > 0 { format!(", {} marginal", branch.marginal) } else { String::new() }
         ),
         format!(
             "  folds {}, flips {}, Neimark-Sacker points {}, branch points {}, grazings {}",
@@ -241,7 +273,7 @@ fn branch_text(branch: &BranchSummary) -> String {
     let mut peaks = branch.peaks.clone();
     peaks.sort_by(|a, b| b.max_abs_displacement_m.total_cmp(&a.max_abs_displacement_m));
     for peak in peaks.iter().take(6) {
-        let stability = if peak.stable { "stable" } else { "unstable" };
+        let stability = peak.stability.word();
         lines.push(format!(
             "  peak at {:.4} Hz, {:.4e} m, {stability}",
             peak.frequency_hz, peak.max_abs_displacement_m

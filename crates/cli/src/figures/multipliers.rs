@@ -51,7 +51,11 @@ fn solutions(store: &Store, branch: &BranchRecord) -> Result<Vec<Multipliers>, S
     store.each_multipliers::<StoreError>(branch, |found| {
         let multipliers = found?;
         if let Some((_, row)) = rows.next().filter(|(place, row)| is_drawn(*place, row)) {
-            drawn.push(Multipliers { frequency_hz: row.frequency_hz, stable: row.stable, multipliers });
+            drawn.push(Multipliers {
+                frequency_hz: row.frequency_hz,
+                stable: row.stability.may_be_stable(),
+                multipliers,
+            });
         }
         Ok(())
     })?;

@@ -77,7 +77,7 @@ pub fn draw_stored(
         let mut found: Vec<PeriodicSolution> = crossings.into_iter().map(|(_, orbit)| orbit).collect();
         found.sort_by(|a, b| {
             let size = |orbit: &PeriodicSolution| orbit.maxima.displacement;
-            b.stable().cmp(&a.stable()).then(size(b).total_cmp(&size(a)))
+            b.may_be_stable().cmp(&a.may_be_stable()).then(size(b).total_cmp(&size(a)))
         });
         match found.first() {
             Some(orbit) => add(drawn, &name, &diagram((model, &file.study.title), orbit, low_pass_hz)?),
@@ -105,7 +105,7 @@ fn diagram(
     low_pass_hz: Option<f64>,
 ) -> Result<OrbitDiagram, Failure> {
     let frequency_hz = orbit.frequency_hz;
-    let stability = if orbit.stable() { "stable" } else { "unstable" };
+    let stability = orbit.stability().word();
     let (hz, multiple) = (plain_number(frequency_hz), orbit.period_multiple);
     let title = format!("{title}, {hz} Hz, period {multiple}, {stability}");
     let eigenfrequencies_hz =

@@ -128,7 +128,7 @@ fn solution(row: &Row) -> PageSolution {
         impact_velocity_m_s: row.maxima.impact_velocity,
         contacts: row.maxima.contacts,
         leading_multiplier: row.leading_multiplier,
-        stable: row.stable,
+        stable: row.stability.may_be_stable(),
         fold: row.events.fold,
         flip: row.events.flip,
         neimark_sacker: row.events.neimark_sacker,

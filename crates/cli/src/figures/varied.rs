@@ -52,7 +52,7 @@ fn point(row: &StoredVariedRow) -> ResponsePoint {
         acceleration_m_s2: row.numbers[1],
         contact_force_n: row.numbers[2],
         impact_velocity_m_s: row.numbers[3],
-        stable: row.stable,
+        stable: row.stability.may_be_stable(),
         fold: has("fold"),
         grazing: has("grazing"),
         flip: has("flip"),

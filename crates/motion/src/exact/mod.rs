@@ -285,6 +285,12 @@ impl ExactIntegrator {
         &self.system
     }
 
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> ExactSettings {
+        self.settings
+    }
+
     /// Work done so far.
     #[must_use]
     pub fn counts(&self) -> ExactCounts {

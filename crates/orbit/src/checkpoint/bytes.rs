@@ -64,7 +64,11 @@ impl Reader<'_> {
 
     pub fn tests(&mut self) -> Option<Vec<TestValue>> {
         let count = self.word()?;
-        let test = |_| Some(TestValue { value: self.float()?, count: u32::try_from(self.word()?).ok()? });
+        let test = |_| {
+            let value = self.float()?;
+            let mut number = || u32::try_from(self.word()?).ok();
+            Some(TestValue { value, count: number()?, undecided: number()?, left_out: number()? })
+        };
         (0..count).map(test).collect()
     }
 

@@ -36,7 +36,7 @@ impl Criticality {
             (Some(coefficient), None) => self.sign * coefficient.abs(),
             (None, _) => self.sign * f64::INFINITY,
         };
-        TestValue { value, count: u32::from(value < 0.0) }
+        TestValue::new(value, u32::from(value < 0.0))
     }
 
     /// Adapts it to an accepted point.

@@ -8,7 +8,7 @@ use super::{
     shooting::Place,
     walk::CurveWalk,
 };
-use crate::{OrbitError, PeriodicSolution, eigenvalues::eigenvalues};
+use crate::{OrbitError, PeriodicSolution, spectrum::Spectrum};
 
 impl CurveWalk {
     /// Whether the contacts that are counted hold those that graze: then a change of their number says nothing of another one.
@@ -45,7 +45,7 @@ impl CurveWalk {
             (events.double_grazing, events.grazing) = (false, true);
         }
         let shooting = &mut self.problem.shooting;
-        let floquet_multipliers = eigenvalues(shooting.size(), shooting.monodromy())?;
+        let Spectrum { multipliers, on_circle, .. } = shooting.spectrum(residual)?;
         self.problem.renew(zeros);
         let shooting = &mut self.problem.shooting;
         let scales = shooting.scale.values().to_vec();
@@ -67,7 +67,8 @@ impl CurveWalk {
             period_multiple: self.problem.shooting.period_multiple,
             phase: self.problem.begin,
             nodes,
-            floquet_multipliers,
+            floquet_multipliers: multipliers,
+            on_circle,
             residual,
             error_estimate: error,
             maxima,

@@ -9,7 +9,11 @@ use hammerbeam_motion::{
 };
 
 use super::{image::Closing, passing::Passing};
-use crate::state_scale::StateScale;
+use crate::{
+    NoEigenvalues,
+    spectrum::{Spectrum, monodromy_error},
+    state_scale::StateScale,
+};
 
 /// Where the equations are evaluated; nodes are scaled, one after the other.
 #[derive(Debug, Clone)]
@@ -82,6 +86,13 @@ impl Shooting {
     /// Monodromy matrix at the last evaluated place, by rows.
     pub fn monodromy(&self) -> &[f64] {
         &self.products[self.count]
+    }
+
+    /// Multipliers at the last evaluated place, with this mismatch of the equations.
+    pub fn spectrum(&self, residual: f64) -> Result<Spectrum, NoEigenvalues> {
+        let products = self.products.iter().map(Vec::as_slice);
+        let error = monodromy_error(products, self.size(), (self.integrator.settings().tolerance, residual));
+        Spectrum::of(self.size(), self.monodromy(), error)
     }
 
     /// How long the segments are in all [cycles].

@@ -26,9 +26,9 @@ impl PathProblem for ShootingProblem {
     fn evaluate(&mut self, point: &[f64]) -> Result<(), EvaluationError> {
         self.evaluate_flows(point)?;
         if self.jumps_at_cut {
-            let multipliers = self.multipliers_cut_elsewhere(point);
+            let spectrum = self.spectrum_cut_elsewhere(point);
             self.evaluate_flows(point)?;
-            self.multipliers = Some(multipliers);
+            self.spectrum = Some(spectrum);
         }
         self.accumulate();
         Ok(())
@@ -95,26 +95,32 @@ impl PathProblem for ShootingProblem {
     }
 
     fn tests(&mut self, values: &mut Vec<TestValue>) {
+        self.tests_without(&[], values);
+    }
+
+    fn tests_without(&mut self, left_out: &[u32], values: &mut Vec<TestValue>) {
         values.clear();
         if !self.watches_stability {
             return;
         }
-        if let Ok(multipliers) = self.multipliers() {
-            values.extend([stability::flip(multipliers), stability::neimark_sacker(multipliers)]);
+        let without = |index: usize| left_out.get(index).copied().unwrap_or(0);
+        if let Ok(spectrum) = self.spectrum() {
+            values.push(stability::flip_without(spectrum, without(0)));
+            values.push(stability::neimark_sacker_without(spectrum, without(1)));
         }
         // Never negative: between two grazings with the same contacts on both sides they come near zero.
         let NearMisses { clearances, squared_touch_speeds, penetrations } = self.integrator.near_misses();
         let near = [clearances, squared_touch_speeds, penetrations].concat();
-        values.extend(near.into_iter().map(|value| TestValue { value, count: 0 }));
+        values.extend(near.into_iter().map(|value| TestValue::new(value, 0)));
     }
 
     /// The complex pairs of multipliers that are not on the unit circle, by the one in the upper half-plane.
     fn note(&mut self, numbers: &mut Vec<f64>) {
         numbers.clear();
         if self.watches_stability
-            && let Ok(multipliers) = self.multipliers()
+            && let Ok(spectrum) = self.spectrum()
         {
-            numbers.extend(stability::pairs_off_circle(multipliers).flatten());
+            numbers.extend(stability::pairs_off_circle(spectrum).flatten());
         }
     }
 
@@ -126,7 +132,7 @@ impl PathProblem for ShootingProblem {
         if !self.watches_stability {
             return None;
         }
-        self.multipliers().ok().map(|multipliers| stability::outside(multipliers, events))
+        self.spectrum().ok().map(|spectrum| stability::outside(spectrum, events))
     }
 
     /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart.

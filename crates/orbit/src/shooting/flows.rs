@@ -7,7 +7,7 @@ use hammerbeam_motion::{
 use hammerbeam_path::EvaluationError;
 
 use super::ShootingProblem;
-use crate::{NoEigenvalues, eigenvalues::eigenvalues};
+use crate::{NoEigenvalues, spectrum::Spectrum};
 
 /// Parts of a segment by which nodes are carried away from a touch, tried one after the other: no two of these cuts are as far apart as instants of a symmetric motion are.
 const ELSEWHERE: [f64; 4] = [0.382, 0.618, 0.146, 0.854];
@@ -18,7 +18,7 @@ impl ShootingProblem {
         self.touches.fill(0);
         self.at_ends.iter_mut().for_each(Vec::clear);
         self.failure = None;
-        self.multipliers = None;
+        self.spectrum = None;
         let frequency = self.frequency(point);
         if frequency.is_nan() || frequency <= 0.0 {
             return Err(EvaluationError::OutsideDomain);
@@ -90,10 +90,7 @@ impl ShootingProblem {
     }
 
     /// Multipliers of the orbit of a point with all its nodes carried on to where it is not cut at a touch at which a force sets in with a jump. The problem is then evaluated elsewhere, or not at all.
-    pub(super) fn multipliers_cut_elsewhere(
-        &mut self,
-        point: &[f64],
-    ) -> Result<Vec<[f64; 2]>, NoEigenvalues> {
+    pub(super) fn spectrum_cut_elsewhere(&mut self, point: &[f64]) -> Result<Spectrum, NoEigenvalues> {
         let phase = self.phase;
         for part in ELSEWHERE {
             let offset = part * f64::from(self.period_multiple) / self.segments as f64;
@@ -105,7 +102,7 @@ impl ShootingProblem {
             });
             if evaluated.is_ok() && !self.jumps_at_cut {
                 self.accumulate();
-                return eigenvalues(self.node_size(), self.monodromy());
+                return self.spectrum_of_products();
             }
         }
         Err(NoEigenvalues)

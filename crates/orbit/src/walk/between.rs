@@ -7,7 +7,9 @@
 use hammerbeam_path::{ContinuationPoint, Events, solve_between};
 
 use super::{BranchWalk, path_settings, settings::hertz_per_norm};
-use crate::{BranchRow, OrbitError, located, solve::evaluate, stability};
+use crate::{
+    BranchRow, OrbitError, PeriodicSolution, located, solve::evaluate, spectrum::Spectrum, stability,
+};
 
 /// Halvings to an interval of rounding.
 const HALVINGS: u32 = 50;
@@ -28,17 +30,17 @@ impl BranchWalk {
         (to, last): (&ContinuationPoint, &BranchRow),
         rows: Vec<Between>,
     ) -> Result<Vec<Between>, OrbitError> {
-        let behind = outside(&last.solution.floquet_multipliers, to.events);
+        let behind = outside(&spectrum_of(&last.solution), to.events);
         let first = match self.outside.replace(behind) {
             Some(outside) => outside,
-            None => match self.multipliers_at(from) {
-                Ok(multipliers) => outside(&multipliers, from.events),
+            None => match self.spectrum_at(from) {
+                Ok(spectrum) => outside(&spectrum, from.events),
                 Err(OrbitError::Motion(_) | OrbitError::Eigenvalues(_)) => return Ok(rows),
                 Err(error) => return Err(error),
             },
         };
         let of_rows =
-            rows.iter().map(|between| outside(&between.row.solution.floquet_multipliers, Events::default()));
+            rows.iter().map(|between| outside(&spectrum_of(&between.row.solution), Events::default()));
         let numbers: Vec<(u32, u32)> = std::iter::once(first).chain(of_rows).chain([behind]).collect();
         let corner = from.events.corner || to.events.corner;
         let changes = corner || rows.iter().any(|between| between.point.signature != from.signature);
@@ -74,12 +76,13 @@ impl BranchWalk {
         if known.events.any() {
             return Ok(None);
         }
-        let number = beyond(&self.multipliers_at(known)?);
+        let staying = self.pairs_that_stay(ends)?;
+        let number = beyond(&self.spectrum_at(known)?, staying);
         let (mut other_number, mut known_moved) = (None, false);
         for _ in 0..HALVINGS {
             let Ok(middle) = solve_between(&mut self.problem, [&near, &far], 0.5, &settings) else { break };
             self.evaluations_between += middle.evaluations;
-            let here = beyond(self.problem.multipliers()?);
+            let here = beyond(self.problem.spectrum()?, staying);
             let is_known = here == number;
             if is_known {
                 known_moved = true;
@@ -92,28 +95,34 @@ impl BranchWalk {
         let place = if is_far_known { far } else { near };
         match other_number {
             Some(other) if known_moved => {
-                self.event_row(ContinuationPoint { uncertainty, ..place }, number.abs_diff(other))
+                self.event_row(ContinuationPoint { uncertainty, ..place }, (number.abs_diff(other), staying))
             }
             // It lies at one of the ends, as well as that is known.
             _ => Ok(None),
         }
     }
 
-    fn multipliers_at(&mut self, point: &ContinuationPoint) -> Result<Vec<[f64; 2]>, OrbitError> {
+    fn spectrum_at(&mut self, point: &ContinuationPoint) -> Result<Spectrum, OrbitError> {
         evaluate(&mut self.problem, &point.point)?;
-        Ok(self.problem.multipliers()?.to_vec())
+        Ok(self.problem.spectrum()?.clone())
+    }
+
+    /// How many multipliers are on the circle, as well as they are known, at both points.
+    fn pairs_that_stay(&mut self, ends: [&ContinuationPoint; 2]) -> Result<usize, OrbitError> {
+        let [one, other] = [self.spectrum_at(ends[0])?, self.spectrum_at(ends[1])?].map(|at| on_circle(&at));
+        Ok(one.min(other))
     }
 
     /// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what so many more or fewer outside tell.
     fn event_row(
         &mut self,
         mut point: ContinuationPoint,
-        change: usize,
+        (change, staying): (usize, usize),
     ) -> Result<Option<Between>, OrbitError> {
-        let multipliers = self.multipliers_at(&point)?;
+        let spectrum = self.spectrum_at(&point)?;
         let off =
             |[re, im]: &[f64; 2]| if *im == 0.0 { (1.0 + re).abs() } else { (re.hypot(*im) - 1.0).abs() };
-        let Some(critical) = multipliers.iter().min_by(|a, b| off(a).total_cmp(&off(b))) else {
+        let Some(critical) = moving(&spectrum, staying).min_by(|a, b| off(a).total_cmp(&off(b))) else {
             return Ok(None);
         };
         let is_pair = critical[1] != 0.0;
@@ -132,14 +141,35 @@ impl BranchWalk {
 }
 
 /// Least and most number of multipliers outside the circle.
-fn outside(multipliers: &[[f64; 2]], events: Events) -> (u32, u32) {
-    let outside = stability::outside(multipliers, events);
+fn outside(spectrum: &Spectrum, events: Events) -> (u32, u32) {
+    let outside = stability::outside(spectrum, events);
     (outside.least, outside.most)
 }
 
-/// How many are outside, those on the circle by their last digit.
-fn beyond(multipliers: &[[f64; 2]]) -> usize {
-    multipliers.iter().filter(|[re, im]| re.hypot(*im) > 1.0).count()
+/// How many are outside, those on the circle by their last digit, but for so many that stay on it.
+fn beyond(spectrum: &Spectrum, staying: usize) -> usize {
+    moving(spectrum, staying).filter(|[re, im]| re.hypot(*im) > 1.0).count()
+}
+
+fn on_circle(spectrum: &Spectrum) -> usize {
+    spectrum.on_circle.iter().filter(|on| **on).count()
+}
+
+/// The multipliers without the first so many of those on the circle.
+fn moving(spectrum: &Spectrum, staying: usize) -> impl Iterator<Item = &[f64; 2]> {
+    let mut on = 0;
+    let marked = spectrum.multipliers.iter().zip(&spectrum.on_circle);
+    let moves = marked.filter(move |(_, is_on)| {
+        on += usize::from(**is_on);
+        !**is_on || on > staying
+    });
+    moves.map(|(multiplier, _)| multiplier)
+}
+
+fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
+    let multipliers = solution.floquet_multipliers.clone();
+    let at_minus_one = vec![false; multipliers.len()];
+    Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one }
 }
 
 /// Whether as many multipliers may be outside at all of these places.

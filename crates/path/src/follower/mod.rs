@@ -19,6 +19,7 @@ mod simpler;
 mod start;
 mod step_control;
 mod transfer;
+mod undecided;
 mod whole;
 mod zero;
 

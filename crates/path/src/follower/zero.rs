@@ -46,6 +46,7 @@ impl Follower {
         if self.state.tests.len() != self.trial.tests.len() {
             return Ok(arrival);
         }
+        let apart = self.leave_undecided_out(problem)?;
         let mut arrival = arrival;
         arrival.zeros_near = self.stay_behind_zeros(None);
         let is_long = step > self.settings.signature_step;
@@ -54,7 +55,7 @@ impl Follower {
         {
             return Err(Doubt::HiddenZeros);
         }
-        for index in 0..self.trial.tests.len() {
+        for index in (0..self.trial.tests.len()).filter(|index| apart >> index & 1 == 0) {
             let apart = self.state.tests[index].count.abs_diff(self.trial.tests[index].count);
             if is_long && (apart >= 2 || apart == 0 && self.dips(index)) {
                 return Err(Doubt::HiddenZeros);
@@ -99,7 +100,7 @@ impl Follower {
     fn dips(&self, index: usize) -> bool {
         let Some((earlier, behind)) = self.test_before(index) else { return false };
         let (before, after) = (self.state.tests[index], self.trial.tests[index]);
-        if earlier.count != before.count {
+        if earlier.count != before.count || earlier.left_out != before.left_out {
             return false;
         }
         let ahead = self.trial_progress();
@@ -148,7 +149,7 @@ impl Follower {
             return Ok(false);
         }
         self.probe_between(problem, step, (1.0 - BEHIND) * self.trial_progress())?;
-        problem.tests(&mut self.probe.tests);
+        problem.tests_without(&self.left_out(), &mut self.probe.tests);
         let from_zero = |(behind, after): (&TestValue, &TestValue)| {
             after.value.abs() - (after.value.abs() - behind.value.abs()) / BEHIND < 0.0
         };
@@ -181,7 +182,8 @@ impl Follower {
         problem.tests(&mut self.trial.tests);
         problem.note(&mut self.trial.noted);
         for (index, (before, after)) in self.state.tests.iter().zip(&self.trial.tests).enumerate() {
-            if before.count.abs_diff(after.count) % 2 == 1 {
+            let is_known = before.undecided + before.left_out + after.undecided == 0;
+            if is_known && before.count.abs_diff(after.count) % 2 == 1 {
                 arrival.events.zeros |= 1 << index;
                 arrival.uncertainty = arrival.uncertainty.max(self.settings.min_step);
             }
@@ -203,6 +205,7 @@ impl Follower {
         let length = self.trial_progress();
         let mut bracket = Bracket::new((0.0, low), (length, -sign * after.value.abs()));
         let (mut value, mut counted) = (low, None);
+        let left_out = self.left_out();
         for probes in 0..MOST_PROBES {
             let place = bracket.next();
             value = self.probe_toward_zero(
@@ -211,7 +214,7 @@ impl Follower {
                 (&bracket, SHARP * ends),
                 (place, probes > 0),
                 |probe, problem| {
-                    problem.tests(&mut probe.tests);
+                    problem.tests_without(&left_out, &mut probe.tests);
                     problem.note(&mut probe.noted);
                     probe.tests.get(index).map(|test| test.value)
                 },
@@ -245,7 +248,7 @@ impl Follower {
 
     /// Evaluates the trial again, so that the problem holds the point that is accepted. Its test functions stay as they are noted: of one whose zero
     /// was located there before, the sign at the trial is rounding.
-    fn return_to_trial(
+    pub(super) fn return_to_trial(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
     ) -> Result<Option<Arrival>, Doubt> {

@@ -120,7 +120,7 @@ fn gone_over(
     }))?;
     let mut curves: Vec<BranchCurve> = all.iter().map(empty).collect();
     for ((index, row, placed), value) in places.into_iter().zip(values) {
-        let (frequency_hz, stable) = (placed.row.frequency_hz, placed.row.stable);
+        let (frequency_hz, stable) = (placed.row.frequency_hz, placed.row.stability.may_be_stable());
         let value = value.unwrap_or(f64::NAN);
         curves[index].points.push(CurvePoint { frequency_hz, value, stable, row: row + 1 });
     }
@@ -136,7 +136,7 @@ fn stored(branches: &StoredBranches, quantity: Quantity) -> Curves {
                 Quantity::Force => placed.row.maxima.contact_force,
                 _ => placed.row.maxima.acceleration,
             },
-            stable: placed.row.stable,
+            stable: placed.row.stability.may_be_stable(),
             row: index + 1,
         };
         BranchCurve { points: branch.rows.iter().enumerate().map(point).collect(), ..empty(branch) }
@@ -162,7 +162,7 @@ pub(crate) fn thinned(branch: &StoredBranch, spacing_hz: f64) -> Vec<(usize, &Pl
             let ratio = row.maxima.displacement / last.row.maxima.displacement;
             (row.frequency_hz - last.row.frequency_hz).abs() >= spacing_hz
                 || (ratio.ln().abs() > CHANGE)
-                || row.stable != last.row.stable
+                || row.stability != last.row.stability
                 || row.events.fold
         };
         if index + 1 == count || kept.last().is_none_or(|(_, last)| far(last)) {

@@ -136,7 +136,7 @@ fn write_row(writer: &mut impl Write, branch: &BranchRecord, row: &Row) -> io::R
         maxima.contacts,
         re,
         im,
-        row.stable,
+        row.stability.column(),
         row.events.label(),
         maxima.impulse,
         row.residual,

@@ -88,7 +88,7 @@ fn write_rows(
                     row.frequency_hz,
                     numbers.join(","),
                     row.contacts,
-                    row.stable,
+                    row.stability.column(),
                     row.event
                 )
                 .map_err(failed)

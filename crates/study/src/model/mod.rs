@@ -8,6 +8,7 @@ mod family;
 mod load;
 mod parameter;
 mod structure;
+mod undamped;
 
 use std::sync::Arc;
 
@@ -18,6 +19,7 @@ use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureErro
 pub use drift::Drift;
 pub use parameter::StudyParameter;
 pub(crate) use structure::beam_descriptor;
+pub use undamped::UndampedMode;
 
 use family::{Reference, StudyFamily};
 

@@ -153,7 +153,12 @@ pub fn filtered_branches(
     let mut found = Vec::new();
     for (index, branch) in branches.branches().iter().enumerate() {
         for (row, placed) in thinned(branch, spacing_hz) {
-            items.push((index, row + 1, placed.row.stable, branches.solution(branch, placed)?));
+            items.push((
+                index,
+                row + 1,
+                placed.row.stability.may_be_stable(),
+                branches.solution(branch, placed)?,
+            ));
         }
         let record = &branch.record;
         let (branch, period_multiple) = (record.id, record.period_multiple);
@@ -272,6 +277,7 @@ mod tests {
             phase: 0.0,
             nodes,
             floquet_multipliers: Vec::new(),
+            on_circle: Vec::new(),
             residual: 0.0,
             error_estimate: 0.0,
             maxima: OrbitMaxima { acceleration: 2.0, displacement: 1.0, ..OrbitMaxima::default() },

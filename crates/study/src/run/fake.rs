@@ -51,6 +51,7 @@ impl FakeSolver {
             period_multiple: multiple,
             nodes: (0..self.segments).map(node).collect(),
             floquet_multipliers: vec![[(3.0 * s).sin() * 1.2, 0.25], [0.5, -0.25]],
+            on_circle: Vec::new(),
             residual: 1e-12,
             error_estimate: 1e-10,
             maxima: OrbitMaxima { displacement, acceleration: 10.0 * displacement, ..OrbitMaxima::default() },

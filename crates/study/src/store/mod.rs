@@ -23,6 +23,7 @@ mod schema;
 mod settled;
 mod simulated;
 mod simulation_layout;
+mod stability;
 mod varied;
 mod write;
 

@@ -1,9 +1,11 @@
 //! Reading: branches, their walks, and their solutions one after the other.
 
-use hammerbeam_orbit::{Events, OrbitMaxima, PeriodicSolution, Side};
+use hammerbeam_orbit::{Events, OrbitMaxima, PeriodicSolution, Side, Stability};
 use rusqlite::{OptionalExtension, Row as SqlRow, params};
 
-use super::{Store, StoreError, StoredReason, blob, first_key, solution_key, walk_id, write::unpack_events};
+use super::{
+    Store, StoreError, StoredReason, blob, first_key, solution_key, stability, walk_id, write::unpack_events,
+};
 
 /// A branch of the results.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,8 +49,8 @@ pub struct Row {
     pub maxima: OrbitMaxima,
     /// Events, start and end of the branch included.
     pub events: Events,
-    /// Whether it is stable.
-    pub stable: bool,
+    /// What is known of its stability.
+    pub stability: Stability,
     /// Multiplier of the largest modulus, the positive one of a pair.
     pub leading_multiplier: [f64; 2],
     /// Residual of the shooting equations.
@@ -225,7 +227,7 @@ impl Store {
     pub fn solution_of_key(&self, key: i64) -> Result<PeriodicSolution, StoreError> {
         let select = format!(
             "SELECT {ROW}, segments, state_length, multiplier_count, multipliers, nodes,
-            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles FROM solution WHERE id = ?1"
+            (SELECT period_multiple FROM start WHERE id = ?2), phase_cycles, on_circle FROM solution WHERE id = ?1"
         );
         let mut statement = self.connection.prepare_cached(&select)?;
         let mut rows = statement.query(params![key, key >> 33])?;
@@ -291,7 +293,7 @@ fn read_row(row: &SqlRow<'_>) -> rusqlite::Result<Row> {
             contacts: row.get(6)?,
         },
         events: unpack_events(row.get(7)?),
-        stable: row.get(8)?,
+        stability: row.get::<_, stability::Stored>(8)?.0,
         leading_multiplier: [row.get(9)?, row.get(10)?],
         residual: row.get(11)?,
         error_estimate: row.get(12)?,
@@ -310,6 +312,7 @@ fn read_solution(row: &SqlRow<'_>) -> Result<PeriodicSolution, StoreError> {
         phase: row.get(19)?,
         nodes: nodes.chunks(state_length.max(1)).map(<[f64]>::to_vec).collect(),
         floquet_multipliers: read_multipliers(row, 15)?,
+        on_circle: stability::marks(&row.get::<_, Vec<u8>>(20)?),
         residual: shown.residual,
         error_estimate: shown.error_estimate,
         maxima: shown.maxima,

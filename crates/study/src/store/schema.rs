@@ -72,7 +72,8 @@ CREATE TABLE solution (
     multiplier_count INTEGER NOT NULL,
     multipliers BLOB NOT NULL,
     nodes BLOB NOT NULL,
-    phase_cycles REAL NOT NULL
+    phase_cycles REAL NOT NULL,
+    on_circle BLOB NOT NULL
 );
 ";
 

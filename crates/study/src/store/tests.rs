@@ -18,6 +18,7 @@ fn solution(frequency_hz: f64) -> PeriodicSolution {
         period_multiple: 1,
         nodes: vec![vec![0.1, 1.0 / 3.0], vec![-0.0, 1e-300], vec![f64::MAX, 5.0]],
         floquet_multipliers: vec![[0.5, 0.1], [0.5, -0.1]],
+        on_circle: Vec::new(),
         residual: 1e-13,
         error_estimate: 2e-10,
         maxima: OrbitMaxima { displacement: 1e-3, contacts: 3, ..OrbitMaxima::default() },

@@ -3,10 +3,10 @@
 //! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition; its number is its place in the study. A piece is stored whole, in one
 //! transaction, so a run that is stopped computes again only the pieces that it was at.
 
-use hammerbeam_orbit::{LocatedEvent, PeriodicSolution};
+use hammerbeam_orbit::{LocatedEvent, PeriodicSolution, Stability};
 use rusqlite::params;
 
-use super::{Store, StoreError, blob, event::insert_event};
+use super::{Store, StoreError, blob, event::insert_event, stability};
 
 pub(super) const TABLES_OF_PIECES: &str = "
 CREATE TABLE piece (
@@ -136,8 +136,8 @@ pub struct StoredVariedRow {
     pub numbers: [f64; 9],
     /// Number of contacts.
     pub contacts: u32,
-    /// Whether it is stable.
-    pub stable: bool,
+    /// What is known of its stability.
+    pub stability: Stability,
     /// Events.
     pub event: String,
 }
@@ -335,7 +335,7 @@ fn read_row(row: &rusqlite::Row<'_>) -> rusqlite::Result<StoredVariedRow> {
         frequency_hz: row.get(1)?,
         numbers,
         contacts: row.get(11)?,
-        stable: row.get(12)?,
+        stability: row.get::<_, stability::Stored>(12)?.0,
         event: row.get(13)?,
     })
 }
@@ -361,7 +361,7 @@ fn insert_row(
         maxima.impact_velocity,
         maxima.impulse,
         maxima.contacts,
-        solution.stable(),
+        stability::number(solution.stability()),
         re,
         im.abs(),
         solution.residual,

@@ -3,7 +3,7 @@
 use hammerbeam_orbit::{BranchRow, Events, PeriodicSolution, Side};
 use rusqlite::{Transaction, params};
 
-use super::{Store, StoreError, StoredReason, blob, event::insert_event, first_key, walk_id};
+use super::{Store, StoreError, StoredReason, blob, event::insert_event, first_key, stability, walk_id};
 
 /// How a walk goes on.
 #[derive(Debug, Clone, Copy)]
@@ -94,7 +94,7 @@ pub(super) fn insert_solution(
     events: Events,
 ) -> Result<(), StoreError> {
     let insert = "INSERT INTO solution VALUES
-        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20)";
+        (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20, ?21)";
     let maxima = &solution.maxima;
     let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or([0.0, 0.0]);
     let state_length = solution.nodes.first().map_or(0, Vec::len);
@@ -108,7 +108,7 @@ pub(super) fn insert_solution(
         maxima.impulse,
         maxima.contacts,
         pack_events(events),
-        solution.stable(),
+        stability::number(solution.stability()),
         re,
         im.abs(),
         solution.residual,
@@ -119,6 +119,7 @@ pub(super) fn insert_solution(
         blob::pack(solution.floquet_multipliers.iter().flatten()),
         blob::pack(solution.nodes.iter().flatten()),
         solution.phase,
+        stability::bytes(&solution.on_circle),
     ])?;
     Ok(())
 }

@@ -136,7 +136,7 @@ pub fn update(
     };
     let typical: Vec<f64> = found.parameters.iter().zip(&data.parameters).map(size).collect();
     let identifiability = Identifiability::of(&found, &inference, &typical);
-    let stable: Vec<bool> = problem.orbits().iter().map(|orbit| orbit.stable()).collect();
+    let stable: Vec<bool> = problem.orbits().iter().map(|orbit| orbit.may_be_stable()).collect();
     let profiles: Vec<Option<ProfileInterval>> = (0..bounds.len())
         .map(|j| {
             let wanted = settings.profiles && found.end.converged();

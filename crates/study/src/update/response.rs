@@ -58,7 +58,7 @@ impl Orbits {
         let found =
             survey(&model.system, &model.response, frequency_hz, &multiples, &self.effort, &self.settings);
         let mut found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?.orbits;
-        found.retain(PeriodicSolution::stable);
+        found.retain(PeriodicSolution::may_be_stable);
         Ok(found)
     }
 

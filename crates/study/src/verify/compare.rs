@@ -244,13 +244,16 @@ fn contacts(row: &Row, found: &Recomputed, grazing: usize) -> Comparison {
 fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64) -> Vec<Comparison> {
     let mut left = found.multipliers.clone();
     let mut list = Vec::new();
-    for [re, im] in &solution.floquet_multipliers {
+    for (index, [re, im]) in solution.floquet_multipliers.iter().enumerate() {
         let stored = faer::c64::new(*re, *im);
         let distance = |k: usize, left: &[Multiplier]| (left[k].value - stored).norm();
         let nearest = (0..left.len()).min_by(|a, b| distance(*a, &left).total_cmp(&distance(*b, &left)));
         let Some(nearest) = nearest else { break };
         let error = distance(nearest, &left);
         let multiplier = left.swap_remove(nearest);
+        // One that is called marginal lies on the circle here, too.
+        let is_marked = solution.on_circle.get(index).is_some_and(|on| *on);
+        let error = if is_marked { error.max((multiplier.value.norm() - 1.0).abs()) } else { error };
         let measure = multiplier.condition * (1.0 + norm(&found.monodromy) + sensitivity);
         let difference = if error.is_nan() { f64::INFINITY } else { error / measure };
         let (stored, new) = (stored.norm(), multiplier.value.norm());
@@ -266,7 +269,7 @@ fn multipliers(solution: &PeriodicSolution, found: &Recomputed, sensitivity: f64
 /// What the row says of the multipliers is what is stored of them.
 fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
     let [re, im] = solution.floquet_multipliers.first().copied().unwrap_or_default();
-    let same = row.leading_multiplier == [re, im.abs()] && row.stable == solution.stable();
+    let same = row.leading_multiplier == [re, im.abs()] && row.stability == solution.stability();
     let [row_re, row_im] = row.leading_multiplier;
     (!same).then(|| plain(Quantity::Multipliers, row_re.hypot(row_im), re.hypot(im), f64::INFINITY))
 }

@@ -24,7 +24,8 @@ pub fn order(branches: &[Vec<Placed>]) -> Vec<u32> {
         for (place, placed) in branch.iter().enumerate() {
             let events = &placed.row.events;
             let is_bifurcation = events.fold || events.flip || events.neimark_sacker || events.branch_point;
-            let is_stable = |place: usize| branch.get(place).is_some_and(|placed| placed.row.stable);
+            let is_stable =
+                |place: usize| branch.get(place).is_some_and(|placed| placed.row.stability.may_be_stable());
             let beside_stable = is_stable(place) || is_stable(place.wrapping_sub(1)) || is_stable(place + 1);
             let is_end = place == 0 || place + 1 == branch.len();
             if is_end || is_bifurcation && beside_stable {
@@ -73,7 +74,7 @@ impl Wanted {
 
 #[cfg(test)]
 mod tests {
-    use hammerbeam_orbit::{Events, OrbitMaxima, Side};
+    use hammerbeam_orbit::{Events, OrbitMaxima, Side, Stability};
     use hammerbeam_study::store::Row;
 
     use super::*;
@@ -84,7 +85,7 @@ mod tests {
             frequency_hz: 20.0,
             maxima: OrbitMaxima::default(),
             events: Events { flip: flips.contains(&place), ..Events::default() },
-            stable: place < count / 2,
+            stability: if place < count / 2 { Stability::Stable } else { Stability::Unstable },
             leading_multiplier: [0.5, 0.0],
             residual: 0.0,
             error_estimate: 0.0,

@@ -37,7 +37,7 @@ fn stored(
     for branch in branches.branches().iter().filter(|branch| wanted(&branch.record)) {
         for (index, placed) in thinned(branch, SPACING * frequency_hz) {
             let near = (placed.row.frequency_hz - frequency_hz).abs() <= part * frequency_hz;
-            if near && placed.row.stable {
+            if near && placed.row.stability.may_be_stable() {
                 orbits.push((branch.record.id, Some(index + 1), branches.solution(branch, placed)?));
             }
         }
@@ -52,6 +52,6 @@ fn at(
     frequency_hz: f64,
 ) -> Result<Vec<Candidate>, StoreError> {
     let found = branches.crossings(model, frequency_hz, wanted)?.into_iter();
-    let stable = found.filter(|(_, orbit)| orbit.stable());
+    let stable = found.filter(|(_, orbit)| orbit.may_be_stable());
     Ok(stable.map(|(branch, orbit)| (branch, None, orbit)).collect())
 }

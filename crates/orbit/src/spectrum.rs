@@ -1,0 +1,225 @@
+//! Floquet multipliers, and which of them lie on the unit circle as well as they are known.
+//!
+//! The computed monodromy matrix `A` is that of the orbit up to an error `E`, `|E| <= e`. A number z is an eigenvalue of one of the matrices `A + E` if and only if
+//!
+//! `s(z) = min |(A - z I) v| / |v| <= e`,
+//!
+//! the smallest singular value of `A - z I`: these z are the *pseudospectrum* of A. So a multiplier `mu` is known to lie inside or outside the circle only if the point of the circle
+//! beside it, `z = mu/|mu|`, does not belong to it. That is exact for multipliers of any condition, and for pairs that meet at +1 or -1, where the matrix is defective and an error of e moves them by the root of e.
+//! `1/s` is the norm of the inverse of `A - z I`, for which the root of the sum of its squared entries is taken, at most `sqrt(2n)` times as large.
+//!
+//! # The error of a monodromy matrix
+//! `e = (8 t + 4 n eps + r) max_k |A_k|`, with the tolerance t of the motion, the rounding `eps` of a number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
+//! fundamental matrices up to each node, in states measured by their energy. Measured on undamped systems, whose multipliers lie on the circle exactly: see the tests of the verification crate.
+//!
+//! # Source
+//! Trefethen and Embree, *Spectra and Pseudospectra* (2005), chapter 2.
+
+use hammerbeam_path::DenseLu;
+
+use crate::{NoEigenvalues, eigenvalues::eigenvalues};
+
+/// Steps of the tolerance of the motion in the error of a monodromy matrix: those of an orbit, whose errors add.
+const STEPS: f64 = 8.0;
+
+/// What is known of the stability of a periodic solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Stability {
+    /// All multipliers lie inside the unit circle.
+    Stable,
+    /// None is known to lie outside, but at least one is on the circle as well as it is known: at a bifurcation, or all along a branch where a mode has no damping.
+    Marginal,
+    /// At least one lies outside.
+    Unstable,
+}
+
+impl Stability {
+    /// Of multipliers, those on the circle marked.
+    pub(crate) fn of(multipliers: &[[f64; 2]], on_circle: &[bool]) -> Self {
+        let marks = on_circle.iter().copied().chain(std::iter::repeat(false));
+        let outside = multipliers.iter().zip(marks).any(|([re, im], on)| !on && re.hypot(*im) >= 1.0);
+        if outside {
+            Self::Unstable
+        } else if on_circle.contains(&true) {
+            Self::Marginal
+        } else {
+            Self::Stable
+        }
+    }
+
+    /// Whether no multiplier is known to lie outside: a motion may settle there, or stay beside it.
+    #[must_use]
+    pub fn may_be_stable(self) -> bool {
+        self != Self::Unstable
+    }
+
+    /// `true`, `marginal` or `false`, as tables have it in the column `stable`.
+    #[must_use]
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::Stable => "true",
+            Self::Marginal => "marginal",
+            Self::Unstable => "false",
+        }
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Marginal => "marginal",
+            Self::Unstable => "unstable",
+        }
+    }
+}
+
+/// The multipliers of a monodromy matrix.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Spectrum {
+    /// Largest modulus first, the positive imaginary part first in a pair.
+    pub multipliers: Vec<[f64; 2]>,
+    /// Which of them are on the unit circle as well as they are known.
+    pub on_circle: Vec<bool>,
+    /// Which of them are at -1 as well as they are known.
+    pub at_minus_one: Vec<bool>,
+}
+
+impl Spectrum {
+    /// Of a matrix by rows that is known to this error.
+    ///
+    /// # Errors
+    /// As [`eigenvalues`].
+    pub fn of(size: usize, by_rows: &[f64], error: f64) -> Result<Self, NoEigenvalues> {
+        let multipliers = eigenvalues(size, by_rows)?;
+        // Two multipliers that meet part by the root of the error times the norm at most.
+        let reach = error.max(2.0 * (error * norm(by_rows)).sqrt());
+        let belongs = |z| least_singular_value(size, by_rows, z) <= error;
+        let minus_one = [-1.0, 0.0];
+        let near_minus_one = |[re, im]: &[f64; 2]| (1.0 + re).hypot(*im) <= reach;
+        let is_at_minus_one = multipliers.iter().any(near_minus_one) && belongs(minus_one);
+        let mut on_circle = Vec::with_capacity(multipliers.len());
+        for [re, im] in &multipliers {
+            let modulus = re.hypot(*im);
+            let off = (modulus - 1.0).abs();
+            // The other one of a pair was just looked at.
+            let on = match on_circle.last() {
+                Some(&before) if *im < 0.0 => before,
+                _ => off <= error || off <= reach && belongs([re / modulus, im / modulus]),
+            };
+            on_circle.push(on);
+        }
+        let at_minus_one = multipliers.iter().map(|mu| is_at_minus_one && near_minus_one(mu)).collect();
+        Ok(Self { multipliers, on_circle, at_minus_one })
+    }
+}
+
+/// Root of the sum of the squared entries.
+pub(crate) fn norm(matrix: &[f64]) -> f64 {
+    matrix.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
+
+/// The error of a monodromy matrix: see the module.
+///
+/// * `products`: the products of the fundamental matrices up to each node, from the identity to the monodromy matrix.
+pub(crate) fn monodromy_error<'a>(
+    products: impl IntoIterator<Item = &'a [f64]>,
+    size: usize,
+    (motion_tolerance, residual): (f64, f64),
+) -> f64 {
+    let largest = products.into_iter().map(norm).fold(0.0, f64::max);
+    (STEPS * motion_tolerance + 2.0 * size as f64 * f64::EPSILON + residual) * largest
+}
+
+/// Estimate of the least singular value of `A - z I`, from below, within `sqrt(2n)` of it: `1 / |(A - z I)^-1|`.
+fn least_singular_value(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> f64 {
+    // `[A - a, b; -b, A - a]` acts on real and imaginary parts.
+    let blocks = if im == 0.0 { 1 } else { 2 };
+    let width = blocks * size;
+    let mut matrix = vec![0.0; width * width];
+    for (i, row) in matrix.chunks_exact_mut(width).enumerate() {
+        let (block, of_block) = (i / size, i % size);
+        row[block * size..(block + 1) * size]
+            .copy_from_slice(&by_rows[of_block * size..(of_block + 1) * size]);
+        row[i] -= re;
+        if blocks == 2 {
+            row[(1 - block) * size + of_block] = if block == 0 { im } else { -im };
+        }
+    }
+    let mut lu = DenseLu::new();
+    if lu.factorise(width, &matrix).is_err() {
+        return 0.0;
+    }
+    let mut squares = 0.0;
+    let mut column = vec![0.0; width];
+    for k in 0..size {
+        column.fill(0.0);
+        column[k] = 1.0;
+        lu.solve(&mut column);
+        squares += column.iter().map(|entry| entry * entry).sum::<f64>();
+    }
+    1.0 / squares.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its matrix is wrong")]
+
+    use super::*;
+
+    const ERROR: f64 = 1e-11;
+
+    /// Rotation by an angle, its pair of modulus r.
+    fn rotation(r: f64, angle: f64) -> [f64; 4] {
+        [r * angle.cos(), -r * angle.sin(), r * angle.sin(), r * angle.cos()]
+    }
+
+    fn stability(matrix: &[f64], error: f64) -> Stability {
+        let size = matrix.len().isqrt();
+        let spectrum = Spectrum::of(size, matrix, error).unwrap();
+        Stability::of(&spectrum.multipliers, &spectrum.on_circle)
+    }
+
+    #[test]
+    fn a_pair_is_marginal_within_the_error_of_the_matrix_and_no_further() {
+        for angle in [0.1, 1.0, 3.0] {
+            assert_eq!(stability(&rotation(1.0 + 0.5 * ERROR, angle), ERROR), Stability::Marginal);
+            assert_eq!(stability(&rotation(1.0 - 0.5 * ERROR, angle), ERROR), Stability::Marginal);
+            assert_eq!(stability(&rotation(1.0 + 3.0 * ERROR, angle), ERROR), Stability::Unstable);
+            assert_eq!(stability(&rotation(1.0 - 3.0 * ERROR, angle), ERROR), Stability::Stable);
+        }
+    }
+
+    /// `[-1, 1; d, -1]` has the multipliers `-1 +- sqrt(d)`: an error d moves them by its root.
+    #[test]
+    fn a_defective_pair_is_known_to_the_root_of_the_error() {
+        let jordan = |d: f64| [-1.0, 1.0, d, -1.0];
+        assert_eq!(stability(&jordan(0.5 * ERROR), ERROR), Stability::Marginal);
+        assert_eq!(stability(&jordan(3.0 * ERROR), ERROR), Stability::Unstable);
+        let spectrum = Spectrum::of(2, &jordan(-0.5 * ERROR), ERROR).unwrap();
+        assert_eq!(spectrum.at_minus_one, [true, true], "a complex pair that an error makes real");
+        let spectrum = Spectrum::of(2, &jordan(-3.0 * ERROR), ERROR).unwrap();
+        assert_eq!(spectrum.at_minus_one, [false, false]);
+    }
+
+    /// `[a, c; 0, b]` has the condition `|c| / |a - b|`.
+    #[test]
+    fn an_eigenvalue_of_large_condition_is_known_less_well() {
+        let matrix = |off: f64| [1.0 + off, 1e4, 0.0, 0.5];
+        assert_eq!(stability(&matrix(1e4 * ERROR), ERROR), Stability::Marginal);
+        assert_eq!(stability(&matrix(5e4 * ERROR), ERROR), Stability::Unstable);
+        assert_eq!(stability(&[1.0 + 1e4 * ERROR, 0.0, 0.0, 0.5], ERROR), Stability::Unstable);
+    }
+
+    #[test]
+    fn one_outside_makes_unstable_whatever_is_on_the_circle() {
+        let mut matrix = vec![0.0; 9];
+        matrix[0] = 1.5;
+        for (k, entry) in rotation(1.0, 0.7).into_iter().enumerate() {
+            matrix[(1 + k / 2) * 3 + 1 + k % 2] = entry;
+        }
+        assert_eq!(stability(&matrix, ERROR), Stability::Unstable);
+        let spectrum = Spectrum::of(3, &matrix, ERROR).unwrap();
+        assert_eq!(spectrum.on_circle, [false, true, true]);
+    }
+}

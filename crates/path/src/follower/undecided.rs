@@ -1,0 +1,71 @@
+//! Test functions of things that stay at zero along the path.
+//!
+//! A test function `min_i |g_i|`, with the sign of `(-1)^k`, k the number of negative `g_i`, says nothing while one of the `g_i` is zero as well as it is known: its sign is rounding. Where
+//! a path crosses a zero, that is so within a tiny interval, which no point but the zero itself hits. Where it is so at two points running, the `g_i` stays at zero, and its
+//! sign is no event: the function is compared without it at both.
+//!
+//! With the numbers u of undecided `g_i` at the last point and at the trial, `j = min(u_0, u_1)` are left out at both. At a point at which there are more than before the sign is that of the point before, and
+//! the next one tells: either the function comes out of zero, on the same side or on the other one, or it stays, and nothing has happened. Nor has anything where it leaves zero after a stretch of it.
+
+use super::Follower;
+use crate::{
+    error::Doubt,
+    problem::{PathProblem, TestValue},
+};
+
+impl Follower {
+    /// Makes the test functions of the last point and of the trial, where they were just asked for, comparable; bits of those that are not.
+    pub(super) fn leave_undecided_out(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+    ) -> Result<u32, Doubt> {
+        let pairs = || self.state.tests.iter().zip(&self.trial.tests);
+        if pairs().all(|(before, after)| before.left_out == 0 && before.undecided >= after.undecided)
+            && pairs().all(|(before, after)| before.undecided.min(after.undecided) == 0)
+        {
+            return Ok(0);
+        }
+        let rule: Vec<u32> = pairs().map(|(before, after)| before.undecided.min(after.undecided)).collect();
+        problem.tests_without(&rule, &mut self.trial.tests);
+        self.compare_last_point_without(problem, &rule)?;
+        let mut apart = 0;
+        for (index, (before, after)) in self.state.tests.iter().zip(&mut self.trial.tests).enumerate() {
+            let enters = after.undecided > before.undecided;
+            if enters && before.left_out == rule[index] {
+                after.count = before.count;
+                after.value = after.value.abs().copysign(before.value);
+            }
+            if enters || before.left_out != rule[index] {
+                apart |= 1 << index;
+            }
+        }
+        Ok(apart)
+    }
+
+    /// Asks for the test functions of the last point anew where more of them is to be left out; the problem is evaluated at the trial behind.
+    fn compare_last_point_without(
+        &mut self,
+        problem: &mut (impl PathProblem + ?Sized),
+        rule: &[u32],
+    ) -> Result<(), Doubt> {
+        if self.state.tests.iter().zip(rule).all(|(before, left_out)| before.left_out >= *left_out) {
+            return Ok(());
+        }
+        let mut values: Vec<TestValue> = Vec::new();
+        self.state.counters.evaluations += 1;
+        problem.evaluate(&self.state.current.point).map_err(|error| Doubt::Corrector(error.into()))?;
+        problem.tests_without(rule, &mut values);
+        for ((before, value), left_out) in self.state.tests.iter_mut().zip(values).zip(rule) {
+            if before.left_out < *left_out {
+                *before = value;
+            }
+        }
+        self.return_to_trial(problem)?;
+        Ok(())
+    }
+
+    /// So many things each test function of the trial leaves out.
+    pub(super) fn left_out(&self) -> Vec<u32> {
+        self.trial.tests.iter().map(|test| test.left_out).collect()
+    }
+}

@@ -1,0 +1,54 @@
+//! Modes without damping.
+//!
+//! With the modal damping matrix C a free vibration of mode i alone decays with the damping ratio `C_ii/(2 w_i)`. C is positive semidefinite, so where `C_ii` vanishes the mode is not
+//! coupled to others by it either: it never decays, and a pair of multipliers of every orbit on which no stop acts has modulus one. Below a ratio of 1e-10 or so these multipliers
+//! are not told from the unit circle.
+
+use std::f64::consts::TAU;
+
+use super::Model;
+
+/// Damping ratio below which a mode counts as undamped: that which changes a multiplier over a period of the mode by less than it is known to.
+const NOTHING: f64 = 1e-10;
+
+/// A mode that nothing damps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UndampedMode {
+    /// Number of the mode, from 1, as `damping.modal_ratio` counts them.
+    pub number: usize,
+    /// Its eigenfrequency [Hz].
+    pub frequency_hz: f64,
+    /// Its damping ratio.
+    pub ratio: f64,
+}
+
+impl std::fmt::Display for UndampedMode {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "mode {} at {} Hz has no damping", self.number, Digits(self.frequency_hz))
+    }
+}
+
+/// A number with three digits at least.
+struct Digits(f64);
+
+impl std::fmt::Display for Digits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let decimals = (2.0 - self.0.log10().floor()).clamp(3.0, 12.0) as usize;
+        write!(f, "{:.decimals$}", self.0)
+    }
+}
+
+impl Model {
+    /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
+    #[must_use]
+    pub fn undamped_modes(&self) -> Vec<UndampedMode> {
+        let model = self.system.model();
+        let modes = model.natural_frequencies.iter().enumerate().filter(|(_, rate)| **rate > 0.0);
+        let ratios = modes.map(|(index, rate)| UndampedMode {
+            number: index + 1,
+            frequency_hz: rate / TAU,
+            ratio: model.damping[(index, index)] / (2.0 * rate),
+        });
+        ratios.filter(|mode| mode.ratio < NOTHING).collect()
+    }
+}
