@@ -29,7 +29,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let mut kept = Kept::open(out, &file, (request.0, &request.1), total as u64)?;
     let (mut cells, attractors) = kept.read(Store::basins)?;
     basins.resume(cells.len(), attractors);
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let mut ticker = Ticker::new(total as u64, "cells");
     let threads = threads(options.jobs);
     while !interrupt.raised() {

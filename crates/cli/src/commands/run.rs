@@ -27,7 +27,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     drift::heed(&model)?;
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let mut terminal = Terminal::new(interrupt.clone());
     let begun = Instant::now();
     let threads = threads(options.jobs);

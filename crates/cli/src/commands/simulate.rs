@@ -46,7 +46,7 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         // A motion that cannot begin leaves no folder behind.
         begin(None)?.skip_period()?;
     }
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     // What is asked of the study.
     let mut words = layout.words();
     words.extend(state_words(&state));

@@ -48,7 +48,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let words = words(options, &upward, &state);
     let kept = Kept::open(out, &file, (kind, &words), pieces.len() as u64)?;
     let found = kept.read(Store::settled)?;
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let mut work = Work { options, interrupt: &interrupt, kept, found };
     match options.starts {
         Some(starts) => work.diagram(&make, &pieces, starts as usize)?,
