@@ -40,6 +40,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
         ticker.at(cells.len() as u64, || format!("{} attractor(s)", basins.attractors().len()));
     }
     ticker.clear();
+    interrupt.is_in_order();
     let fate = format!("{} of {total} cells {}", cells.len(), kept.fate(cells.len() as u64));
     if cells.len() < total {
         kept.finish()?;

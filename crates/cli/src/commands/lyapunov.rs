@@ -60,6 +60,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         }
     }
     ticker.clear();
+    interrupt.is_in_order();
     // Under the lock of the folder: two commands do not write the same tables at once.
     let written =
         options.out.as_ref().map_or_else(|| Ok(vec![]), |folder| write_exponents(folder, "", &records));

@@ -38,6 +38,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         _ => Ok(VariedOutcome::Done),
     };
     terminal.clear();
+    interrupt.is_in_order();
     let mut outcome = outcome?;
     if varied? == VariedOutcome::Interrupted {
         outcome = RunOutcome::Interrupted;

@@ -58,6 +58,7 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let mut simulation = begin(work.read()?)?;
     let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
     let Work { mut kept, done, written, .. } = work;
+    interrupt.is_in_order();
     // Under the lock of the folder: two commands do not write the same tables at once.
     let written = written.finish();
     kept.finish()?;

@@ -55,6 +55,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
         None => work.sweep(&mut make()?, &pieces, state)?,
     }
     let Work { found, mut kept, .. } = work;
+    interrupt.is_in_order();
     // Under the lock of the folder: two commands do not write the same tables at once.
     let on_branches = numbered_and_written(options, (&file, &model), &found);
     kept.finish()?;
