@@ -78,7 +78,7 @@ fn what_was_stored_before_a_long_computation_is_kept_and_goes_on() {
     let answered = ended(workshop.spawn(&run), Duration::from_secs(4), "-TERM");
     assert!(answered < MOMENT, "{answered:?}");
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
-    let rows = || workshop.table("results/branches.csv").len();
+    let rows = || workshop.table("results/export/branches.csv").len();
     let before = rows();
     ended(workshop.spawn(&run), Duration::from_secs(4), "-INT");
     assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
