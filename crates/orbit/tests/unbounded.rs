@@ -3,7 +3,6 @@
 
 use std::f64::consts::TAU;
 
-use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, UndampedMode, find_start,
@@ -101,25 +100,4 @@ fn a_stop_that_is_still_ahead_turns_an_undamped_resonance() {
     let beyond = rows.iter().filter(|row| row.solution.maxima.displacement > 1.5 * gap);
     let highest = beyond.map(|row| row.solution.frequency_hz).fold(0.0, f64::max);
     assert!(highest > 1.1 * NATURAL, "{highest}");
-}
-
-/// Of two undamped modes each is named.
-#[test]
-fn the_mode_that_resonates_is_named() {
-    let model = ReducedModel {
-        natural_frequencies: vec![0.2, 1.0],
-        damping: Mat::zeros(2, 2),
-        uniform_acceleration: vec![0.0; 2],
-        ..unit_mass(0.0)
-    };
-    let model = ReducedModel { points: vec![], ..model };
-    let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
-    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0, 0.5], harmonic }] };
-    let system = System::new(model, &load, vec![]).unwrap();
-    let response = Response { shape: vec![1.0, 0.5], support_ratio: 0.0 };
-    let (_, reason) = walk(&(system, response), (0.1, Side::Up), usize::MAX);
-    assert!(
-        matches!(reason, StopReason::Unbounded { mode: Some(UndampedMode { number: 2, .. }), .. }),
-        "{reason:?}"
-    );
 }
