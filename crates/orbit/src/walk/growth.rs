@@ -120,7 +120,7 @@ mod tests {
         let pole = |distance: f64| (1.0 / distance, 1.0 - distance);
         let steps = |last: f64| (0..).map(|k| 0.9f64.powi(k)).take_while(move |d| *d > last);
         assert!(growth(steps(1e-7).map(pole)) < GROWTH);
-        assert!(growth(steps(1e-8).map(pole)) > GROWTH);
+        assert!(growth(steps(1e-9).map(pole)) > GROWTH);
     }
 
     #[test]
