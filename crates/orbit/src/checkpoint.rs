@@ -17,7 +17,7 @@ use crate::{
     shooting::ShootingProblem,
     solve::{integrator, state_of_rest},
     state_scale::StateScale,
-    walk::{hertz_per_norm, path_settings},
+    walk::{Effort, Growth, hertz_per_norm, path_settings},
 };
 use bytes::{Reader, Writer};
 
@@ -81,6 +81,11 @@ impl BranchWalk {
             out.float(origin.phase);
             out.point(&origin.point);
         }
+        out.float(self.growth.amplitude);
+        out.float(self.growth.parameter);
+        out.word(self.operations());
+        out.word(self.effort.mark.0);
+        out.float(self.effort.mark.1);
         out.bytes
     }
 
@@ -127,7 +132,7 @@ impl BranchWalk {
             follower.remember(&point);
         }
         let (journal, settings) = (Vec::new(), *settings);
-        Ok(Self {
+        let mut walk = Self {
             problem,
             follower,
             journal,
@@ -139,7 +144,11 @@ impl BranchWalk {
             outside: beside.outside,
             begins_with_present: beside.begins_with_present,
             origin: beside.origin,
-        })
+            growth: beside.growth,
+            effort: beside.effort,
+        };
+        walk.effort.counted = walk.counted_operations();
+        Ok(walk)
     }
 }
 
@@ -280,6 +289,8 @@ struct Beside {
     outside: Option<(u32, u32)>,
     begins_with_present: bool,
     origin: Option<Origin>,
+    growth: Growth,
+    effort: Effort,
 }
 
 /// What a walk knows beside its follower, the start as an orbit of one segment, of that length; `None` if the bytes do not fit or are too many.
@@ -291,10 +302,19 @@ fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<Beside> {
         0 => None,
         _ => Some(Origin { phase: reader.float()?, point: reader.point()? }),
     };
+    let growth = Growth { amplitude: reader.float()?, parameter: reader.float()? };
+    let effort = Effort { spent: reader.word()?, mark: (reader.word()?, reader.float()?), counted: 0 };
     let fits = origin
         .as_ref()
         .is_none_or(|origin| origin.point.point.len() == length && origin.point.tangent.len() == length);
-    (fits && reader.bytes.is_empty()).then_some(Beside { touches, outside, begins_with_present, origin })
+    (fits && reader.bytes.is_empty()).then_some(Beside {
+        touches,
+        outside,
+        begins_with_present,
+        origin,
+        growth,
+        effort,
+    })
 }
 
 /// Two small numbers, or the largest word where they are not known.

@@ -18,12 +18,17 @@ const MOST_ON_A_SIDE: usize = 5000;
 /// and at least, as long as there are any left.
 const LEAST_ON_A_SIDE: usize = 250;
 
+/// Operations on all branches of a search, as a walk counts them: some minutes.
+const MOST_OPERATIONS: u64 = 100_000_000_000;
+
 /// Branches that are followed, and what may be spent on them.
 #[derive(Debug)]
 pub(crate) struct Branches {
     pub range_hz: (f64, f64),
     pub solutions_left: usize,
     pub solutions_spent: usize,
+    /// Operations spent on walks that have ended.
+    operations: u64,
     /// Flips that have not been left yet.
     flips: VecDeque<Crossing>,
     /// What could not be followed, or not to its end.
@@ -32,7 +37,14 @@ pub(crate) struct Branches {
 
 impl Branches {
     pub fn new(range_hz: (f64, f64), solutions_left: usize) -> Self {
-        Self { range_hz, solutions_left, solutions_spent: 0, flips: VecDeque::new(), incomplete: None }
+        Self {
+            range_hz,
+            solutions_left,
+            solutions_spent: 0,
+            operations: 0,
+            flips: VecDeque::new(),
+            incomplete: None,
+        }
     }
 
     /// Follows the branches of all orbits of this period, of those found on the way too, and leaves the flips at which it is reached.
@@ -132,9 +144,18 @@ impl Branches {
             if interrupted() {
                 return Err(OrbitError::Interrupted);
             }
-            match walk.step_without_maxima(&mut rows) {
+            let spent = self.operations + walk.operations();
+            let ended = if spent > MOST_OPERATIONS {
+                Ok(Some(StopReason::Budget { solutions: self.solutions_spent }))
+            } else {
+                walk.step_without_maxima(&mut rows)
+            };
+            match ended {
                 Ok(None) => {}
-                Ok(Some(reason)) => return self.end_of_walk(&walk, &reason, target),
+                Ok(Some(reason)) => {
+                    self.operations = spent;
+                    return self.end_of_walk(&walk, &reason, target);
+                }
                 Err(error) => return self.heed(error),
             }
             let Some(after) = rows.pop() else { continue };
@@ -175,7 +196,7 @@ impl Branches {
     ) -> Result<(), OrbitError> {
         match reason {
             StopReason::Motion { .. } => walk.motion_failure().map_or(Ok(()), |error| self.heed(error)),
-            StopReason::Budget { .. } => {
+            StopReason::Budget { .. } | StopReason::TooLaborious { .. } => {
                 let solutions = self.solutions_spent;
                 self.heed(OrbitError::SearchBudget { frequency_hz, solutions })
             }

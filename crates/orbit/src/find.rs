@@ -182,12 +182,12 @@ impl Search<'_> {
         let stretch = Stretch { frequency_hz: self.catalogue.frequency_hz, start: 0.0, end: 1.0 };
         let lag = self.period_multiple as usize;
         for period in 1..=SETTLING + RETURNS {
+            self.check_interrupted()?;
             let next = self.catalogue.integrator().advance(&stretch, &states[period - 1])?;
             states.push(next);
             if !period.is_multiple_of(SETTLING / LOOKS) {
                 continue;
             }
-            self.check_interrupted()?;
             let scale = self.catalogue.scale_of_motion(&states[period])?;
             let comes_back = |lag: usize| {
                 lag <= period && scale.distance(&states[period], &states[period - lag]) < SETTLED

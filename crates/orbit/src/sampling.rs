@@ -22,8 +22,12 @@ use crate::{
     solve::nodes_from,
 };
 
-/// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where contacts are many.
+/// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where contacts are many. Where modes are many, matrices do: a trial counts like the third power of
+/// the entries over [`DENSE`].
 const MOST_WORK: u64 = 2_000_000;
+
+/// Multiplications of matrices that cost like the rest for an entry, for the ten evaluations of a trial.
+const DENSE: u64 = 1000;
 
 /// States that motions have passed through, one motion after the other.
 #[derive(Debug, Default)]
@@ -104,7 +108,8 @@ pub(crate) fn sample(
             Some(nodes) => catalogue.probe((0.0, &nodes), period_multiple)?,
             None => None,
         };
-        work += (catalogue.steps() - before) * (2 + 2 * catalogue.system.dof() as u64);
+        let states = 2 * catalogue.system.dof() as u64;
+        work += (catalogue.steps() - before) * (2 + states) + states.pow(3) / DENSE;
         let is_wanted = |a: &Arrived| catalogue.known[a.place].solution.period_multiple == period_multiple;
         let arrived = arrived.filter(is_wanted);
         since = if arrived.as_ref().is_some_and(|a| a.is_new) { 0 } else { since + 1 };

@@ -35,7 +35,7 @@ mod flows;
 
 use hammerbeam_motion::{
     Flow, Stretch, System,
-    exact::{AtEnd, ExactIntegrator, MotionError},
+    exact::{AtEnd, ExactCounts, ExactIntegrator, MotionError},
 };
 use hammerbeam_path::{DenseLu, PathError};
 
@@ -230,6 +230,11 @@ impl ShootingProblem {
     /// The system.
     pub fn system(&self) -> &System {
         self.integrator.system()
+    }
+
+    /// Work of the motion.
+    pub fn counts(&self) -> ExactCounts {
+        self.integrator.counts()
     }
 
     pub fn integrator(&mut self) -> &mut ExactIntegrator {

@@ -74,6 +74,15 @@ impl<'a> Cut<'a> {
         Ok(scale.size_of_scaled(scaled, states.len()))
     }
 
+    /// Largest magnitude of `shape . q` over the states that the size is made of.
+    ///
+    /// # Errors
+    /// [`MotionError`] if the motion cannot be computed.
+    pub fn largest_along(&self, integrator: &mut ExactIntegrator, shape: &[f64]) -> Result<f64, MotionError> {
+        let along = |state: &Vec<f64>| shape.iter().zip(state).map(|(s, q)| s * q).sum::<f64>().abs();
+        Ok(self.states(integrator)?.iter().map(along).fold(0.0, f64::max))
+    }
+
     /// The units in which the motion has the size one.
     ///
     /// # Errors

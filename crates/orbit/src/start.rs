@@ -149,9 +149,10 @@ fn settle(
         if interrupted() {
             return Err(OrbitError::Interrupted);
         }
-        simulate(&mut simulation, &mut state, frequency_hz, PERIODS.saturating_sub(lag))?;
+        let settling = (frequency_hz, PERIODS.saturating_sub(lag));
+        simulate(&mut simulation, &mut state, settling, &mut *interrupted)?;
         let before = state.clone();
-        simulate(&mut simulation, &mut state, frequency_hz, lag.min(PERIODS))?;
+        simulate(&mut simulation, &mut state, (frequency_hz, lag.min(PERIODS)), &mut *interrupted)?;
         // Where a law remembers its impact, the orbit may begin at another phase, and the motion goes on behind it.
         let (begin, end) = search_cut(&mut simulation, &state, orbit)?;
         let found = attempt(system, response, begin.at(), orbit, settings)?;
@@ -167,15 +168,18 @@ fn settle(
     Ok(None)
 }
 
-/// Advances a state by whole excitation periods.
+/// Advances a state by whole excitation periods, at each of which the caller may interrupt.
 pub(crate) fn simulate(
     integrator: &mut ExactIntegrator,
     state: &mut Vec<f64>,
-    frequency_hz: f64,
-    periods: usize,
+    (frequency_hz, periods): (f64, usize),
+    interrupted: Interruption<'_>,
 ) -> Result<(), OrbitError> {
     let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
     for _ in 0..periods {
+        if interrupted() {
+            return Err(OrbitError::Interrupted);
+        }
         *state = integrator.advance(&stretch, state)?;
     }
     Ok(())

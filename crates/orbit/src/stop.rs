@@ -63,6 +63,22 @@ pub enum StopReason {
         /// Largest magnitude of a multiplier: where it is huge, next to no change of the frequency turns the whole orbit.
         largest_multiplier: f64,
     },
+    /// The amplitude grows without bound while the parameter stands still: the branch goes to infinity, and what lies beyond is another one.
+    Unbounded {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// The mode that resonates, where that is one of the structure alone.
+        mode: Option<ResonantMode>,
+    },
+    /// The walk took more work than it may, or than it may without getting on.
+    TooLaborious {
+        /// Where [Hz].
+        frequency_hz: f64,
+        /// Solutions until then.
+        solutions: u64,
+        /// Whether it still got on.
+        gets_on: bool,
+    },
     /// The motion could not be computed.
     Motion {
         /// Where [Hz].
@@ -70,6 +86,17 @@ pub enum StopReason {
         /// What the integrator said.
         message: String,
     },
+}
+
+/// A mode without damping, or with next to none, at whose resonance a branch goes to infinity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResonantMode {
+    /// Its number, the lowest being 1.
+    pub number: usize,
+    /// Its eigenfrequency [Hz].
+    pub frequency_hz: f64,
+    /// Its ratio to critical damping.
+    pub damping_ratio: f64,
 }
 
 impl BranchWalk {

@@ -7,7 +7,7 @@
 use hammerbeam_motion::{Stretch, System};
 
 use crate::{
-    FoundOrbits, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
     cut::search_cut,
     matching::{distance_in_phase, states_at_phase},
     size::{orbit_scale, scale_from},
@@ -43,8 +43,10 @@ const SAME: f64 = 1e-6;
 /// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the order in which they were met. A start from which no motion can be computed makes
 /// the search incomplete.
 ///
+/// * `interrupted`: asked at each excitation period of a motion.
+///
 /// # Errors
-/// [`OrbitError::Motion`] if the motion cannot be computed from any start.
+/// [`OrbitError::Motion`] if the motion cannot be computed from any start, [`OrbitError::Interrupted`].
 pub fn survey(
     system: &System,
     response: &Response,
@@ -52,13 +54,14 @@ pub fn survey(
     multiples: &[u32],
     effort: &SurveyEffort,
     settings: &OrbitSettings,
+    interrupted: Interruption<'_>,
 ) -> Result<FoundOrbits, OrbitError> {
     let survey = Survey { system, response, frequency_hz, multiples, effort, settings };
     let mut found: Vec<PeriodicSolution> = Vec::new();
     let mut failure = None;
     let mut computed = false;
     for start in starting_states(system, response, frequency_hz, effort.starts, settings)? {
-        match survey.from(&start) {
+        match survey.from(&start, &mut *interrupted) {
             Err(error @ (OrbitError::Motion(_) | OrbitError::NeverOpens { .. })) => failure = Some(error),
             Err(error) => return Err(error),
             Ok(orbits) => {
@@ -91,14 +94,21 @@ struct Survey<'a> {
 
 impl Survey<'_> {
     /// Orbits that the motion from one state leads to.
-    fn from(&self, start: &[f64]) -> Result<Vec<PeriodicSolution>, OrbitError> {
+    fn from(
+        &self,
+        start: &[f64],
+        interrupted: Interruption<'_>,
+    ) -> Result<Vec<PeriodicSolution>, OrbitError> {
         let largest = self.multiples.iter().copied().max().unwrap_or(1) as usize;
         let mut integrator = integrator(self.system, self.response, self.settings)?;
         let mut state = start.to_vec();
-        simulate(&mut integrator, &mut state, self.frequency_hz, self.effort.settling)?;
+        simulate(&mut integrator, &mut state, (self.frequency_hz, self.effort.settling), &mut *interrupted)?;
         let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
         let mut states = vec![state];
         for k in 0..self.effort.observed.max(3 * largest) {
+            if interrupted() {
+                return Err(OrbitError::Interrupted);
+            }
             states.push(integrator.advance(&stretch, &states[k])?);
         }
         let scale = scale_from(&mut integrator, &states[0], self.frequency_hz)?;
@@ -116,6 +126,9 @@ impl Survey<'_> {
         let mut orbits = Vec::new();
         for &multiple in self.multiples {
             for nodes in nearest_returns(&states, &scale, multiple as usize, self.effort.near_returns) {
+                if interrupted() {
+                    return Err(OrbitError::Interrupted);
+                }
                 // Newton's method from all states and from the first one alone go different ways; either may arrive.
                 let orbit = (self.frequency_hz, multiple);
                 orbits.extend(attempt_nodes(self.system, self.response, (0.0, nodes), orbit, self.settings)?);

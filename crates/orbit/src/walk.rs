@@ -1,6 +1,8 @@
 //! Walking along a branch of periodic orbits, one row at a time.
 
 mod between;
+mod effort;
+mod growth;
 mod row;
 mod settings;
 mod shorter_period;
@@ -24,6 +26,8 @@ use crate::{
     state_scale::StateScale,
 };
 pub(crate) use between::Between;
+pub(crate) use effort::Effort;
+pub(crate) use growth::Growth;
 use settings::segment_count;
 pub(crate) use settings::{hertz_per_norm, path_settings};
 
@@ -51,6 +55,9 @@ pub struct BranchWalk {
     pub(crate) evaluations_between: u64,
     /// The start as it was begun, once the phase at which orbits begin has moved.
     pub(crate) origin: Option<Origin>,
+    /// Of the amplitude, while the parameter stands still.
+    pub(crate) growth: Growth,
+    pub(crate) effort: Effort,
 }
 
 /// An orbit that a walk has come to, without its maxima.
@@ -151,6 +158,8 @@ impl BranchWalk {
             last_rows,
             evaluations_between: 0,
             origin: None,
+            growth: Growth::default(),
+            effort: Effort::default(),
         }
     }
 

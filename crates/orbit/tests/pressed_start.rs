@@ -92,7 +92,7 @@ fn every_search_begins_in_front_of_a_contact_against_which_a_weight_presses() {
     assert!(started.stable() && started.maxima.contacts > 0);
     assert_near(started.maxima.displacement, expected);
     let effort = SurveyEffort { starts: 2, ..SurveyEffort::default() };
-    let surveyed = survey(&system, &response, FREQUENCY, &[1], &effort, &settings).unwrap();
+    let surveyed = survey(&system, &response, FREQUENCY, &[1], &effort, &settings, &mut || false).unwrap();
     let tried = harmonic_trials(&system, &response, FREQUENCY, 4, &settings, &mut || false).unwrap();
     let found =
         find_orbits(&system, &response, (FREQUENCY, 1), (0.9, 1.1), &settings, &mut || false).unwrap();

@@ -27,6 +27,7 @@ mod slow_contact;
 mod splitting_curve;
 mod symmetry_breaking;
 mod touch_over_the_begin;
+mod unbounded;
 mod vary;
 mod walk_resume;
 mod work;

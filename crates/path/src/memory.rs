@@ -4,7 +4,8 @@
 //! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average), with its
 //! tangent: 170 bytes a point whatever `n`, and up to a hundred more of cells where steps are as long as they may be. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so points of
 //! the same path in other unknowns compare. Neighbouring points make a segment with its cubic Hermite
-//! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates.
+//! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates. Where the unknowns have outgrown the units of the start, steps are long in
+//! these: such a segment is in cells that are larger by a power of four, so that none is in more than some forty, whatever its length.
 //!
 //! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the segment's length), runs parallel to it, has its
 //! signature, and its determinant. A stretch walked with the same orientation must be met in the same direction: the
@@ -18,10 +19,16 @@ const SKETCH: usize = 8;
 const NONE: u32 = u32::MAX;
 /// Cells along the longest step: in thickets, where steps are short, thousands of segments would lie in a cell as long as that.
 const CELLS_A_STEP: f64 = 4.0;
+/// Cells of one size along a segment; a longer one is in larger cells. A step that is as long as it may be has half as many.
+const MOST_CELLS: f64 = 16.0;
+/// Size of a cell over that of the next smaller ones.
+const LARGER: f64 = 4.0;
 /// Segments this recent belong to the step that is being made.
 const RECENT: usize = 2;
 
 type Sketch = [f64; SKETCH];
+/// Size, as a power, and place of a cell.
+type Cell = (i32, i64, i64);
 
 #[derive(Debug, Clone)]
 struct Vertex {
@@ -41,7 +48,9 @@ pub(crate) struct PathMemory {
     tolerance: f64,
     largest_defect: f64,
     vertices: Vec<Vertex>,
-    heads: HashMap<(i64, i64), u32>,
+    heads: HashMap<Cell, u32>,
+    /// Sizes of cells that are in use.
+    sizes: i32,
     /// (segment, next link of the same cell); segment `k` ends at vertex `k`.
     links: Vec<(u32, u32)>,
 }
@@ -58,6 +67,7 @@ impl PathMemory {
             largest_defect: settings.sheet_distance,
             vertices: Vec::new(),
             heads: HashMap::new(),
+            sizes: 1,
             links: Vec::new(),
         }
     }
@@ -83,6 +93,7 @@ impl PathMemory {
     pub fn clear(&mut self) {
         self.vertices.clear();
         self.heads.clear();
+        self.sizes = 1;
         self.links.clear();
     }
 
@@ -97,13 +108,15 @@ impl PathMemory {
             log_determinant: self.log_determinant(candidate.log_determinant, &tangent),
             signature: candidate.signature,
         };
-        let (i, j) = self.cell_of(&probe.place);
-        (-1..=1)
-            .flat_map(|di| (-1..=1).map(move |dj| (i + di, j + dj)))
-            .find_map(|cell| self.meets_in(cell, &probe, unit))
+        (0..self.sizes).find_map(|size| {
+            let (_, i, j) = self.cell_of(size, &probe.place);
+            (-1..=1)
+                .flat_map(|di| (-1..=1).map(move |dj| (size, i.saturating_add(di), j.saturating_add(dj))))
+                .find_map(|cell| self.meets_in(cell, &probe, unit))
+        })
     }
 
-    fn meets_in(&self, cell: (i64, i64), probe: &Vertex, unit: f64) -> Option<f64> {
+    fn meets_in(&self, cell: Cell, probe: &Vertex, unit: f64) -> Option<f64> {
         let mut link = self.heads.get(&cell).copied().unwrap_or(NONE);
         while link != NONE {
             let (segment, next) = self.links[link as usize];
@@ -169,22 +182,26 @@ impl PathMemory {
         sketch
     }
 
-    fn cell_of(&self, place: &Sketch) -> (i64, i64) {
-        ((place[0] / self.cell).floor() as i64, (place[1] / self.cell).floor() as i64)
+    fn cell_of(&self, size: i32, place: &Sketch) -> Cell {
+        let cell = self.cell * LARGER.powi(size);
+        (size, (place[0] / cell).floor() as i64, (place[1] / cell).floor() as i64)
     }
 
     /// Enters the segment that ends at vertex `k` into the cells along it, half a cell apart at most.
     fn enter_cells(&mut self, k: usize) {
         let (a, b) = (self.vertices[k - 1].place, self.vertices[k].place);
         let span = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
-        let samples = (2.0 * span / self.cell).ceil().clamp(1.0, 1e4) as usize;
+        let cells = span / self.cell;
+        let size = (cells / MOST_CELLS).log(LARGER).ceil().max(0.0) as i32;
+        self.sizes = self.sizes.max(size + 1);
+        let samples = (2.0 * cells / LARGER.powi(size)).ceil().clamp(1.0, 2.0 * MOST_CELLS) as usize;
         let mut last = None;
         for i in 0..=samples {
             let share = i as f64 / samples as f64;
             let mut place = a;
             place[0] += share * (b[0] - a[0]);
             place[1] += share * (b[1] - a[1]);
-            let cell = self.cell_of(&place);
+            let cell = self.cell_of(size, &place);
             if last != Some(cell) {
                 let next = self.heads.insert(cell, self.links.len() as u32).unwrap_or(NONE);
                 self.links.push((k as u32, next));
@@ -352,6 +369,31 @@ mod tests {
             None,
             "nor is the step before"
         );
+    }
+
+    #[test]
+    fn a_path_that_outgrows_its_first_units_is_met_and_takes_no_more_memory() {
+        // In units that double every ten points a path has steps of one length.
+        let settings = Settings { max_step_length: 0.02, ..Settings::default() };
+        let mut memory = PathMemory::new(&[1.0; 13], &settings);
+        let mut at = vec![0.0];
+        for k in 0..400 {
+            at.push(at[k] + 0.02 * 2f64.powf(0.1 * k as f64));
+        }
+        let straight = |s: f64| {
+            let mut point = on_helix(0.0);
+            point.tangent = vec![0.0; 13];
+            (point.tangent[0], point.tangent[12]) = (0.8, 0.6);
+            (point.point[0], point.point[12], point.arc_length) = (0.8 * s, 0.6 * s, s);
+            point
+        };
+        at.iter().for_each(|s| memory.remember(&straight(*s), 1.0));
+        for k in [20, 150, 300, 390] {
+            let s = at[k] + 0.4 * (at[k + 1] - at[k]);
+            let met = memory.meets(&candidate(&straight(s)), 1.0, 1.0);
+            assert!(met.is_some_and(|met| (met - s).abs() < 1e-6 * s), "{met:?} for {s}");
+        }
+        assert!(memory.links.len() < 40 * at.len(), "{} links", memory.links.len());
     }
 
     #[test]

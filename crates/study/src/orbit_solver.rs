@@ -123,8 +123,9 @@ impl Solver for OrbitSolver<'_> {
         interrupted: Interruption<'_>,
     ) -> Result<Surveyed, String> {
         let (system, response, settings) = (&self.model.system, self.response(), &self.settings);
-        let found = survey(system, response, frequency_hz, multiples, &self.effort, settings)
-            .map_err(|error| error.to_string())?;
+        let found =
+            survey(system, response, frequency_hz, multiples, &self.effort, settings, &mut *interrupted)
+                .map_err(|error| error.to_string())?;
         let FoundOrbits { orbits: mut found, mut incomplete } = found;
         // What has not settled yet may be near a stable solution, too.
         found.retain(|orbit| self.unstable_starts || orbit.may_be_stable());

@@ -29,7 +29,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let mut kept = Kept::open(out, &file, (request.0, &request.1), total as u64)?;
     let (mut cells, attractors) = kept.read(Store::basins)?;
     basins.resume(cells.len(), attractors);
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let mut ticker = Ticker::new(total as u64, "cells");
     let threads = threads(options.jobs);
     while !interrupt.raised() {
@@ -40,6 +40,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
         ticker.at(cells.len() as u64, || format!("{} attractor(s)", basins.attractors().len()));
     }
     ticker.clear();
+    interrupt.is_in_order();
     let fate = format!("{} of {total} cells {}", cells.len(), kept.fate(cells.len() as u64));
     if cells.len() < total {
         kept.finish()?;

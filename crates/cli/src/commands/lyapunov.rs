@@ -42,7 +42,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
     let mut kept = Kept::open(options.out.as_deref(), &file, request, frequencies.len() as u64)?;
     let mut records = kept.read(Store::exponents)?;
     let mut whole_ones = records.len();
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let periods = options.transient_periods + ALIGNING + options.periods;
     let mut ticker = Ticker::new(frequencies.len() as u64 * periods, "periods");
     for piece in kept.done as usize..frequencies.len() {
@@ -60,6 +60,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         }
     }
     ticker.clear();
+    interrupt.is_in_order();
     // Under the lock of the folder: two commands do not write the same tables at once.
     let written =
         options.out.as_ref().map_or_else(|| Ok(vec![]), |folder| write_exponents(folder, "", &records));

@@ -1,8 +1,6 @@
 //! `hammerbeam orbit`: the periodic solutions at one frequency.
 
-use std::time::{Duration, Instant};
-
-use hammerbeam_orbit::{FoundOrbits, OrbitError, PeriodicSolution};
+use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
 
@@ -15,29 +13,19 @@ use crate::{
     output::Output,
 };
 
-/// Time after which a search ends with what it has found.
-const LONGEST: Duration = Duration::from_secs(20);
-
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let (frequency_hz, multiple) = (options.frequency, options.period_multiple);
-    let interrupt = Interrupt::listen()?;
-    let begun = Instant::now();
-    let mut ends = || interrupt.raised() || begun.elapsed() > LONGEST;
-    let found = solver.find_orbits(frequency_hz, multiple, &mut ends);
+    let interrupt = Interrupt::listen(output)?;
+    let found = solver.find_orbits(frequency_hz, multiple, &mut || interrupt.raised());
     if interrupt.raised() {
         return Err(Failure::Interrupted("interrupted".to_owned()));
     }
     let FoundOrbits { orbits, incomplete } = found.map_err(Failure::NoResult)?;
-    let incomplete = incomplete.map(|reason| match reason {
-        OrbitError::Interrupted => {
-            format!("the search is not complete: it ended after {} s", LONGEST.as_secs())
-        }
-        reason => format!("the search is not complete: {reason}"),
-    });
+    let incomplete = incomplete.map(|reason| format!("the search is not complete: {reason}"));
     let Some((first, others)) = orbits.split_first() else {
         let nothing =
             format!("no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz");

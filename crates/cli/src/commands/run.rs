@@ -29,7 +29,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     drift::heed(&model)?;
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let mut terminal = Terminal::new(interrupt.clone());
     let begun = Instant::now();
     let threads = threads(options.jobs);
@@ -40,6 +40,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         _ => Ok(VariedOutcome::Done),
     };
     terminal.clear();
+    interrupt.is_in_order();
     let mut outcome = outcome?;
     if varied? == VariedOutcome::Interrupted {
         outcome = RunOutcome::Interrupted;

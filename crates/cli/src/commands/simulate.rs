@@ -46,7 +46,7 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         // A motion that cannot begin leaves no folder behind.
         begin(None)?.skip_period()?;
     }
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     // What is asked of the study.
     let mut words = layout.words();
     words.extend(state_words(&state));
@@ -58,6 +58,7 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let mut simulation = begin(work.read()?)?;
     let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
     let Work { mut kept, done, written, .. } = work;
+    interrupt.is_in_order();
     // Under the lock of the folder: two commands do not write the same tables at once.
     let written = written.finish();
     kept.finish()?;

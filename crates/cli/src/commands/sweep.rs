@@ -48,13 +48,14 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let words = words(options, &upward, &state);
     let kept = Kept::open(out, &file, (kind, &words), pieces.len() as u64)?;
     let found = kept.read(Store::settled)?;
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let mut work = Work { options, interrupt: &interrupt, kept, found };
     match options.starts {
         Some(starts) => work.diagram(&make, &pieces, starts as usize)?,
         None => work.sweep(&mut make()?, &pieces, state)?,
     }
     let Work { found, mut kept, .. } = work;
+    interrupt.is_in_order();
     // Under the lock of the folder: two commands do not write the same tables at once.
     let on_branches = numbered_and_written(options, (&file, &model), &found);
     kept.finish()?;

@@ -24,7 +24,7 @@ pub fn run(options: &VerifyOptions, output: Output) -> Result<(), Failure> {
         tolerance: options.tolerance,
         jobs: usize::from(options.jobs),
     };
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let bar = progress_bar();
     let begun = Instant::now();
     let watch = |done: u64, total: u64| {

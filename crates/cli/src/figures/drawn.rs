@@ -96,6 +96,7 @@ impl<'a> Drawn<'a> {
 
     /// On so many threads, until Ctrl-C.
     pub fn on(self, threads: usize, interrupt: Interrupt) -> Self {
+        interrupt.is_in_order();
         Self { crew: Crew::of(threads), interrupt: Some(interrupt), ..self }
     }
 

@@ -16,7 +16,7 @@ use super::{
     ExactIntegrator, MotionError,
     aim::{Aim, SAME},
     clearance::ClearanceBounds,
-    collocation::Grading,
+    collocation::{Grading, NODES},
     event::{Event, Solved},
     flight::{Boundary, Touch, clearance_of},
     run::Run,
@@ -303,6 +303,8 @@ impl ExactIntegrator {
         if let Some(sensitivity) = &mut run.sensitivity {
             self.step.advance_sensitivity(sensitivity, self.parameter);
             self.count_contraction(sensitivity);
+            let states = 2 * self.blocks.count();
+            self.counts.operations += (self.step.active.len() * NODES * states * states) as u64;
         }
         self.counts.steps += 1;
         if self.notes_course {

@@ -48,6 +48,7 @@ impl ExactIntegrator {
                     return Err(MotionError::FlightStalled { time: run.time + time });
                 }
                 self.counts.looks += 1;
+                self.counts.operations += (2 * self.blocks.count() * self.laws.len()) as u64;
                 self.place(run, time);
                 let (step, found) = self.look_at_all(run, time, horizon);
                 touch = found;

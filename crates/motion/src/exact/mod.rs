@@ -153,6 +153,8 @@ pub struct ExactCounts {
     pub steps: u64,
     /// Force steps solved, accepted or not.
     pub solves: u64,
+    /// Multiplications of all that, to some factor: for limits on work, which must not depend on the machine.
+    pub operations: u64,
 }
 
 /// Integrates a [`System`] exactly in flight and to a set tolerance in contact.

@@ -90,7 +90,9 @@ impl BranchWalk {
             return Err(end);
         }
         let place = self.may_split();
-        self.keep_to_scale();
+        if let Some(end) = self.is_too_laborious().or_else(|| self.keep_to_scale()) {
+            return Err(end);
+        }
         self.keep_phase_clear();
         Ok(Departure { place, work: self.work() })
     }
@@ -136,21 +138,26 @@ impl BranchWalk {
     ///
     /// Nodes may stay where they are while the orbit grows, and be far smaller than it: the motion itself decides, at every [`LOOK`]th point, or where the nodes have outgrown
     /// the units, and then the orbit with them. Points are counted in the checkpoint.
-    fn keep_to_scale(&mut self) {
+    ///
+    /// # Returns
+    /// Why the walk ends, if the orbit grows without bound.
+    fn keep_to_scale(&mut self) -> Option<StopReason> {
         let due = self.follower.counters().accepted.is_multiple_of(LOOK);
         if !due && self.problem.size(&self.follower.current().point) <= OUTGROWN {
-            return;
+            return None;
         }
         let size = self.of_present(|orbit, integrator, scale| orbit.size(integrator, scale));
-        let Some(size) = size else { return };
-        if (1.0 / OUTGROWN..=OUTGROWN).contains(&size) || !size.is_normal() {
-            return;
+        let size = size.filter(|size| size.is_normal())?;
+        let end = self.grows_without_bound(size);
+        if end.is_some() || (1.0 / OUTGROWN..=OUTGROWN).contains(&size) {
+            return end;
         }
         // Powers of two change no digit.
         let factor = 2f64.powi(size.log2().round() as i32);
         self.problem.rescale(factor);
         self.follower.rescale(factor);
         self.last_rows.keep_newest();
+        None
     }
 
     /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so short that the walk crawls.

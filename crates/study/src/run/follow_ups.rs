@@ -1,4 +1,4 @@
-//! The jobs that the events of a branch give: where a flip or a branch point lets another branch leave.
+//! The jobs that a branch gives: where a flip or a branch point lets another branch leave, and beyond a frequency at which it goes to infinity.
 
 use hammerbeam_orbit::Side;
 
@@ -9,7 +9,25 @@ use crate::store::{JobKind, solution_key};
 pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
     let down = (0..start.down.rows.len()).rev().map(|number| (Side::Down, number));
     let up = (0..start.up.rows.len()).map(|number| (Side::Up, number));
-    down.chain(up).filter_map(|(side, number)| at_row(start, (side, number), depth, plan)).collect()
+    let events = down.chain(up).filter_map(|(side, number)| at_row(start, (side, number), depth, plan));
+    let beyond = [Side::Down, Side::Up].into_iter().filter_map(|side| beyond_infinity(start, side, plan));
+    events.chain(beyond.filter(|_| start.period_multiple == 1)).collect()
+}
+
+/// Distance from a frequency at which a branch goes to infinity to where the next harmonic one is looked for, in parts of the range.
+const BEYOND: f64 = 1e-3;
+
+/// A search for the harmonic branch on the other side of a frequency at which a side goes to infinity.
+fn beyond_infinity(start: &Start, side: Side, plan: &Plan) -> Option<(JobKind, f64, Option<i64>, u32)> {
+    let walk = start.walk(side);
+    let ends = walk.reason.as_ref().is_some_and(|reason| reason.is_unbounded());
+    let last = walk.rows.last().filter(|_| ends && plan.multiples.contains(&1))?.frequency_hz;
+    let [low, high] = plan.range_hz;
+    let step = BEYOND * (high - low);
+    let before = walk.rows.iter().rev().find(|row| (row.frequency_hz - last).abs() > step)?.frequency_hz;
+    let at_hz = last + step.copysign(last - before);
+    let key = solution_key(start.key, side, walk.rows.len() as u32 - 1);
+    (low..=high).contains(&at_hz).then_some((JobKind::Harmonic, at_hz, Some(key), 0))
 }
 
 fn at_row(

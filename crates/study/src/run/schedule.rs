@@ -56,8 +56,8 @@ fn awaited_walk(job: &Job, plan: &Plan) -> Option<(u32, Side)> {
 }
 
 /// Whether a job's branch leaves another one.
-const fn takes_turns(job: &Job) -> bool {
-    job.record.source.is_some()
+fn takes_turns(job: &Job) -> bool {
+    job.record.kind.leaves_source()
 }
 
 /// A side of a start that nobody walks and that need not wait for the other one.
@@ -232,7 +232,7 @@ fn begin_walk(
 fn origin(agenda: &Agenda, store: &Store, key: u32) -> Result<Origin, StoreError> {
     let job = agenda.jobs.iter().find(|job| job.starts.iter().any(|start| start.key == key));
     match job {
-        Some(job) if job.record.source.is_some() => Ok(Origin::Crossing(crossing(store, &job.record)?)),
+        Some(job) if job.record.kind.leaves_source() => Ok(Origin::Crossing(crossing(store, &job.record)?)),
         _ => Ok(Origin::Found(store.solution(key, Side::Up, 0)?)),
     }
 }

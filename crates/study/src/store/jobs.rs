@@ -32,7 +32,7 @@ pub struct JobRecord {
     pub kind: JobKind,
     /// Where [Hz].
     pub frequency_hz: f64,
-    /// Key of the solution at the flip or branch point.
+    /// Key of the solution at the flip or branch point, or with which a branch ends that goes to infinity where the search begins beyond.
     pub source: Option<i64>,
     /// Period doublings that lead to the branches it finds.
     pub depth: u32,
@@ -58,6 +58,12 @@ pub struct StartRecord {
 }
 
 impl JobKind {
+    /// Whether what it finds leaves the branch of its source.
+    #[must_use]
+    pub fn leaves_source(self) -> bool {
+        matches!(self, Self::Doubling | Self::Crossing)
+    }
+
     fn name(self) -> &'static str {
         match self {
             Self::Harmonic => "harmonic",
@@ -162,7 +168,8 @@ impl Store {
         message: Option<&str>,
     ) -> Result<(), StoreError> {
         let one_sided = (job.kind == JobKind::Doubling).then(|| StoredReason::of_crossing(job.frequency_hz));
-        let source = job.source.map(|key| self.event(key)).transpose()?.flatten();
+        let left = job.source.filter(|_| job.kind.leaves_source());
+        let source = left.map(|key| self.event(key)).transpose()?.flatten();
         let transaction = self.write()?;
         let update = "UPDATE job SET evaluated = 1, message = ?2 WHERE id = ?1";
         transaction.execute(update, params![job.id, message])?;
@@ -187,7 +194,7 @@ impl Store {
                 ];
                 transaction.execute(insert, values)?;
             }
-            let events = Events { branch_point: job.source.is_some(), ..Events::default() };
+            let events = Events { branch_point: left.is_some(), ..Events::default() };
             let first = first_key(walk_id(key, Side::Up));
             insert_solution(&transaction, first, start, events)?;
             if let Some(source) = &source {

@@ -34,7 +34,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_orbit::{Side, StopReason};
+use hammerbeam_orbit::{ResonantMode, Side, StopReason};
 use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
 
 pub use checksum::add_checksums;
@@ -86,7 +86,7 @@ struct Writing {
 /// How a walk ended, as it is stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredReason {
-    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`, `contact-splits`, `crawls`, `motion`.
+    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`, `contact-splits`, `crawls`, `unbounded`, `too-laborious`, `motion`.
     pub kind: String,
     /// Where [Hz], if there is a place.
     pub frequency_hz: Option<f64>,
@@ -256,6 +256,14 @@ impl StoredReason {
                 Some(*frequency_hz),
                 format!("at {frequency_hz:.6} Hz {}", crawls(*solutions, *largest_multiplier)),
             ),
+            StopReason::Unbounded { frequency_hz, mode } => {
+                (UNBOUNDED, Some(*frequency_hz), format!("at {frequency_hz:.6} Hz {}", unbounded(*mode)))
+            }
+            StopReason::TooLaborious { frequency_hz, solutions, gets_on } => (
+                "too-laborious",
+                Some(*frequency_hz),
+                format!("at {frequency_hz:.6} Hz {}", too_laborious(*solutions, *gets_on)),
+            ),
             StopReason::Motion { frequency_hz, message } => (
                 "motion",
                 Some(*frequency_hz),
@@ -283,7 +291,44 @@ pub(crate) fn crawls(solutions: u64, largest_multiplier: f64) -> String {
     format!("{solutions} solutions in a row led nowhere, with a multiplier of {largest_multiplier:.1e}")
 }
 
+/// What becomes of a branch that takes too much work, and what helps.
+pub(crate) fn too_laborious(solutions: u64, gets_on: bool) -> String {
+    let what = if gets_on {
+        format!("the work that a side of a branch may take is used up after {solutions} solutions")
+    } else {
+        format!("the branch does not get on, after {solutions} solutions: each takes too much work")
+    };
+    format!(
+        "{what}; `sweep` shows the motion there, a narrower range or fewer modes ([reduction]) make it cheaper"
+    )
+}
+
+/// Kind of the end of a branch that goes to infinity.
+const UNBOUNDED: &str = "unbounded";
+
+/// What a branch does that goes to infinity.
+pub(crate) fn unbounded(mode: Option<ResonantMode>) -> String {
+    let why = match mode {
+        Some(ResonantMode { number, frequency_hz, damping_ratio }) if damping_ratio > 0.0 => {
+            format!(
+                "mode {number} ({frequency_hz:.6} Hz) has next to no damping, a ratio of {damping_ratio:.1e}"
+            )
+        }
+        Some(ResonantMode { number, frequency_hz, .. }) => {
+            format!("mode {number} ({frequency_hz:.6} Hz) has no damping")
+        }
+        None => "nothing there takes energy out of the motion".to_owned(),
+    };
+    format!("the amplitude grows without bound: {why}")
+}
+
 impl StoredReason {
+    /// Whether the branch goes to infinity.
+    #[must_use]
+    pub fn is_unbounded(&self) -> bool {
+        self.kind == UNBOUNDED
+    }
+
     /// Whether more budget lets the walk go on.
     #[must_use]
     pub fn is_budget(&self) -> bool {
@@ -299,7 +344,8 @@ impl StoredReason {
     /// Whether the walk ended where it should, and not early.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.is_closed() || ["range-end", "shorter-period", "crossing"].contains(&self.kind.as_str())
+        self.is_closed()
+            || ["range-end", "shorter-period", "crossing", UNBOUNDED].contains(&self.kind.as_str())
     }
 }
 

@@ -55,8 +55,9 @@ impl Orbits {
     ) -> Result<Vec<PeriodicSolution>, CandidateError> {
         let frequency_hz = measured.frequency_hz;
         let multiples = [measured.period_multiple];
+        let (system, response) = (&model.system, &model.response);
         let found =
-            survey(&model.system, &model.response, frequency_hz, &multiples, &self.effort, &self.settings);
+            survey(system, response, frequency_hz, &multiples, &self.effort, &self.settings, &mut || false);
         let mut found = found.map_err(|source| CandidateError::Orbit { frequency_hz, source })?.orbits;
         found.retain(PeriodicSolution::may_be_stable);
         Ok(found)

@@ -14,7 +14,7 @@ use crate::{
     file::{VariedParameter, Vary},
     model::StudyParameter,
     orbit_solver::settings,
-    store::{VariedBranch, VariedRow, crawls, met, splits},
+    store::{VariedBranch, VariedRow, crawls, met, splits, too_laborious, unbounded},
 };
 
 /// Steps over the range of a parameter.
@@ -168,6 +168,12 @@ fn in_words(reason: &StopReason, varied: &VariedParameter, parameter: &StudyPara
         }
         StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => {
             format!("at {} {}", at(*frequency_hz), crawls(*solutions, *largest_multiplier))
+        }
+        StopReason::Unbounded { frequency_hz, mode } => {
+            format!("at {} {}", at(*frequency_hz), unbounded(*mode))
+        }
+        StopReason::TooLaborious { frequency_hz, solutions, gets_on } => {
+            format!("at {} {}", at(*frequency_hz), too_laborious(*solutions, *gets_on))
         }
         StopReason::Motion { frequency_hz, message } => format!("at {}: {message}", at(*frequency_hz)),
     }

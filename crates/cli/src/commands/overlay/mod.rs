@@ -60,7 +60,7 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let measured = folded(samples, (rate, 0.0), classification.frequency_hz, pieces)?;
     let branches = StoredBranches::open(&options.results, &file)?;
     let settings = settings_of(options, quantity, classification.frequency_hz);
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let work = (threads(None), interrupt.flag());
     let found = overlay((&model, &branches), (&measured, period_multiple), &settings, work)?;
     let overlay = found.ok_or_else(|| nothing(&branches, period_multiple, &settings))?;

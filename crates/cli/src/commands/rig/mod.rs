@@ -59,7 +59,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let rig_file = changed_study(&file)?;
     let (model, rig_model) = (Model::build(&file)?, Model::build(&rig_file)?);
     drift::heed(&model)?;
-    let interrupt = Interrupt::listen()?;
+    let interrupt = Interrupt::listen(output)?;
     let threads = threads(options.jobs);
     let solutions = branches(options, &file, &model, threads, &interrupt)?;
     let stored = StoredBranches::open(&options.out, &file)?;

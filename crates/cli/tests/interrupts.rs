@@ -1,0 +1,86 @@
+//! Ctrl-C and SIGTERM in the midst of work that takes minutes: answered in a moment, and what is finished is kept.
+#![cfg(unix)]
+
+use std::{
+    process::{Child, Command},
+    thread,
+    time::{Duration, Instant},
+};
+
+use crate::common::{Workshop, assert_success, stderr};
+
+/// Far beyond the second that is promised, for machines under load, and far below what the work would take.
+const MOMENT: Duration = Duration::from_secs(15);
+
+/// One mass against a stop; the text is the rest of the study.
+fn against_a_stop(mass_kg: f64, damping_n_s_m: f64, rest: &str) -> Workshop {
+    Workshop::with(&format!(
+        r#"
+[structure]
+kind = "lumped"
+mass = [{{ name = "mass", mass_kg = {mass_kg:e} }}]
+spring = [{{ between = ["mass", "ground"], stiffness_n_m = 1000.0 }}]
+damper = [{{ between = ["mass", "ground"], damping_n_s_m = {damping_n_s_m:e} }}]
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 5.0
+frequency_hz = [2.0, 10.0]
+[[stop]]
+at = "mass"
+law = "linear"
+stiffness_n_m = 1.0e4
+gap_m = 3.0e-3
+side = "above"
+{rest}
+"#
+    ))
+}
+
+/// Ends a command by a signal, after so long; how long it took to answer.
+fn ended(child: Child, after: Duration, signal: &str) -> Duration {
+    thread::sleep(after);
+    let sent = Instant::now();
+    assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", stderr(&output));
+    assert!(stderr(&output).contains("interrupted"), "{}", stderr(&output));
+    sent.elapsed()
+}
+
+#[test]
+fn work_that_takes_minutes_is_left_in_a_moment() {
+    let slow = [
+        against_a_stop(1.0, 1e15, ""),
+        against_a_stop(1e-12, 0.5, ""),
+        against_a_stop(1.0, 0.5, "[search]\nsettling_periods = 1000000"),
+    ];
+    let commands =
+        [&["run", "study.toml", "--out", "results"][..], &["orbit", "study.toml", "--frequency", "5"]];
+    for (study, workshop) in slow.iter().enumerate() {
+        for (arguments, signal) in commands.into_iter().zip(["-TERM", "-INT"]) {
+            let mut child = workshop.spawn(arguments);
+            thread::sleep(Duration::from_secs(2));
+            // What is done before that is no matter for this test.
+            if child.try_wait().unwrap().is_some() {
+                continue;
+            }
+            let answered = ended(child, Duration::ZERO, signal);
+            assert!(answered < MOMENT, "study {study}, {arguments:?}: {answered:?}");
+        }
+    }
+}
+
+#[test]
+fn what_was_stored_before_a_long_computation_is_kept_and_goes_on() {
+    let workshop = against_a_stop(1.0, 0.5, "[search]\nsettling_periods = 1000000");
+    let run = ["run", "study.toml", "--out", "results", "--jobs", "1"];
+    let answered = ended(workshop.spawn(&run), Duration::from_secs(4), "-TERM");
+    assert!(answered < MOMENT, "{answered:?}");
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let rows = || workshop.table("results/export/branches.csv").len();
+    let before = rows();
+    ended(workshop.spawn(&run), Duration::from_secs(4), "-INT");
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    assert!(rows() >= before, "{} rows, {before} before", rows());
+}

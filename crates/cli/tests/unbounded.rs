@@ -1,0 +1,41 @@
+//! An undamped resonance in a whole run: both pieces of the branch, and why they end.
+
+use crate::common::{Workshop, assert_success, number, stdout};
+
+/// A mass of 1 kg on 1 N/m without damping: amplitude `1 / |1 - w^2|` m on both sides of 1 rad/s.
+#[test]
+fn a_run_over_an_undamped_resonance_has_both_sides_of_it_and_ends() {
+    let workshop = Workshop::with(
+        r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "mass", mass_kg = 1.0 }]
+spring = [{ between = ["mass", "ground"], stiffness_n_m = 1.0 }]
+[excitation]
+kind = "force"
+at = "mass"
+amplitude_n = 1.0
+frequency_hz = [0.13, 0.19]
+[search]
+frequencies = 0
+[continuation]
+max_step_hz = 1e-3
+"#,
+    );
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results"]);
+    assert_success(&run);
+    let told = "the amplitude grows without bound: mode 1 (0.159155 Hz) has no damping";
+    assert_eq!(stdout(&run).matches(told).count(), 2, "{}", stdout(&run));
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv"]));
+    let rows = workshop.table("results/export/branches.csv");
+    let sides = [0.13, 0.19].map(|end| rows.iter().filter(|row| number(row, "frequency_hz") == end).count());
+    assert_eq!(sides, [1, 1]);
+    for row in &rows {
+        let w = std::f64::consts::TAU * number(row, "frequency_hz");
+        let share = number(row, "max_abs_displacement_m") * (1.0 - w * w).abs();
+        // A point is within 1e-10 of a hundredth of the range from the path: 6e-14 Hz, twice that relative to 0.159 Hz in w^2.
+        assert!((share - 1.0).abs() < 1e-8 + 1e-12 / (1.0 - w * w).abs(), "{share} at {w} rad/s");
+    }
+    let ends = std::fs::read_to_string(workshop.path("results/export/ends.csv")).unwrap();
+    assert_eq!(ends.matches(",unbounded,").count(), 2, "{ends}");
+}

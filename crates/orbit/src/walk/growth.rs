@@ -1,0 +1,132 @@
+//! Whether a branch goes to infinity: its amplitude grows while its parameter stands still.
+//!
+//! Beside an undamped resonance at `λ*` the amplitude is `a = c / |λ - λ*|`: each further doubling takes half the way that is left, so the path is endless and its parameter is
+//! not. The walk ends where
+//!
+//! - the amplitude has grown by [`GROWTH`] while the parameter moved by no more than [`STILL`] of itself ([`OF_RANGE`] of the range, if that is less), which leaves it nearer to `λ*` than a fifth
+//!   of that, and
+//! - nothing is ahead that could turn it: every element is linear beyond its outermost level, and moves [`BEYOND`] times as far as that; else
+//! - the amplitude has grown by [`FOR_ANY`], since an element that does not take part in the growth is never reached.
+//!
+//! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8 count as none. A fold is no such place: `λ - λ_f` goes with the square of the change
+//! of the amplitude there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
+
+use std::f64::consts::TAU;
+
+use hammerbeam_motion::Law;
+
+use super::BranchWalk;
+use crate::{StopReason, ResonantMode};
+
+/// Growth of the amplitude at a parameter that stands still.
+const GROWTH: f64 = 8.0;
+/// The same where something is ahead that may turn the path.
+const FOR_ANY: f64 = 1e12;
+/// Change of the parameter, relative to it, up to which it stands still.
+const STILL: f64 = 1e-7;
+/// The same, relative to the range.
+const OF_RANGE: f64 = 1e-4;
+/// An element is linear for all that follows where its motion goes so many times beyond its levels.
+const BEYOND: f64 = 1e3;
+/// Relative distance of a harmonic of the orbit from an eigenfrequency up to which that resonates.
+const RESONANT: f64 = 1e-6;
+/// Damping ratio up to which a mode counts as undamped here.
+const UNDAMPED: f64 = 1e-6;
+
+/// Where the parameter came to a stand: the least amplitude since, and the parameter there.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Growth {
+    pub amplitude: f64,
+    pub parameter: f64,
+}
+
+impl Growth {
+    /// Notes an amplitude; by how much it has grown since the parameter stands still.
+    fn note(&mut self, amplitude: f64, parameter: f64, still: f64) -> f64 {
+        if amplitude <= self.amplitude || (parameter - self.parameter).abs() > still || self.amplitude <= 0.0
+        {
+            *self = Self { amplitude, parameter };
+        }
+        amplitude / self.amplitude
+    }
+}
+
+impl BranchWalk {
+    /// Why the walk ends, if its present orbit, of this size in the present units, belongs to a branch that goes to infinity.
+    pub(super) fn grows_without_bound(&mut self, size: f64) -> Option<StopReason> {
+        let parameter = self.follower.current().parameter();
+        let (low, high) = self.range_hz;
+        let of_itself = STILL * self.problem.parameter_size(&self.follower.current().point);
+        let still = of_itself.min(OF_RANGE * (high - low));
+        let unit = self.problem.scale().values().last().copied().unwrap_or(1.0);
+        let growth = self.growth.note(size * unit, parameter, still);
+        let unbounded = growth >= FOR_ANY || (growth >= GROWTH && self.is_beyond_all_levels());
+        unbounded.then(|| StopReason::Unbounded { frequency_hz: parameter, mode: self.resonant_mode() })
+    }
+
+    /// Whether every element is linear for all that follows.
+    fn is_beyond_all_levels(&mut self) -> bool {
+        let elements = self.problem.system().elements();
+        let piecewise = |law: &Law| matches!(law, Law::Linear(_) | Law::TwoSided(_) | Law::Rigid(_));
+        if !elements.iter().all(|element| piecewise(&element.law)) {
+            return false;
+        }
+        let outermost = |law: &Law| law.contacts().iter().map(|c| c.level.abs()).fold(0.0, f64::max);
+        let levels: Vec<(Vec<f64>, f64)> =
+            elements.iter().map(|element| (element.shape.clone(), outermost(&element.law))).collect();
+        let least = self.of_present(|orbit, integrator, _| {
+            let mut least = f64::INFINITY;
+            // The support moves as before, and does not count beside motion that grows.
+            for (shape, level) in levels.iter().filter(|(_, level)| *level > 0.0) {
+                least = least.min(orbit.largest_along(integrator, shape)? / level);
+            }
+            Ok(least)
+        });
+        least.is_some_and(|least| least >= BEYOND)
+    }
+
+    /// The undamped mode that resonates, where no element acts.
+    fn resonant_mode(&mut self) -> Option<ResonantMode> {
+        let acts = self.touches.iter().any(|&touches| touches > 0);
+        let point = &self.follower.current().point;
+        let base_hz = self.problem.frequency(point) / f64::from(self.problem.period_multiple());
+        let model = self.problem.system().model();
+        let ratio = |i: usize| model.damping[(i, i)] / (2.0 * model.natural_frequencies[i]);
+        let resonates = |w: f64| {
+            let harmonic = w / TAU / base_hz;
+            w > 0.0 && harmonic > 0.5 && (harmonic - harmonic.round()).abs() <= RESONANT * harmonic
+        };
+        let found = model.natural_frequencies.iter().position(|&w| resonates(w));
+        found.filter(|&i| !acts && ratio(i) <= UNDAMPED).map(|i| ResonantMode {
+            number: i + 1,
+            frequency_hz: model.natural_frequencies[i] / TAU,
+            damping_ratio: ratio(i),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Growth that is told at the end of a course of amplitudes and parameters.
+    fn growth(course: impl Iterator<Item = (f64, f64)>) -> f64 {
+        let mut growth = Growth::default();
+        course.map(|(amplitude, parameter)| growth.note(amplitude, parameter, 1e-7)).last().unwrap()
+    }
+
+    #[test]
+    fn beside_a_pole_the_parameter_stands_still_within_a_fifth_of_its_resolution() {
+        let pole = |distance: f64| (1.0 / distance, 1.0 - distance);
+        let steps = |last: f64| (0..).map(|k| 0.9f64.powi(k)).take_while(move |d| *d > last);
+        assert!(growth(steps(1e-7).map(pole)) < GROWTH);
+        assert!(growth(steps(1e-9).map(pole)) > GROWTH);
+    }
+
+    #[test]
+    fn at_a_fold_and_on_the_way_down_nothing_grows() {
+        let fold = (0..1000).map(|k| f64::from(k - 500) * 1e-3).map(|x| (x.exp(), 1.0 - 1e-2 * x * x));
+        assert!(growth(fold) < 1.5);
+        assert!(growth((0..100).map(|k| (0.5f64.powi(k), 1.0))) == 1.0);
+    }
+}

@@ -1,0 +1,103 @@
+//! Branches that go to infinity: undamped resonances, against the amplitude `F/|k - m w^2|` of a linear oscillator.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+use std::f64::consts::TAU;
+
+use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
+use hammerbeam_orbit::{
+    BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, ResonantMode, find_start,
+};
+use hammerbeam_structure::ReducedModel;
+
+use crate::common::unit_mass;
+
+/// Range of the frequency around 1 rad/s [Hz].
+const RANGE: (f64, f64) = (0.06, 0.3);
+/// Eigenfrequency [Hz].
+const NATURAL: f64 = 1.0 / TAU;
+
+/// `x'' + damping x' + x = cos w t`, and a stop of stiffness 5 at the gap if there is one.
+fn oscillator(damping: f64, gap: Option<f64>) -> (System, Response) {
+    let model: ReducedModel = unit_mass(damping);
+    let harmonic = Harmonic { order: 1, amplitude: 1.0, phase: 0.0 };
+    let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
+    let stop = |gap| LocalElement {
+        name: "stop".into(),
+        shape: vec![1.0],
+        support_ratio: 0.0,
+        law: Law::Linear(LinearStop::with_gap(5.0, gap).unwrap()),
+    };
+    let system = System::new(model, &load, gap.map(stop).into_iter().collect()).unwrap();
+    (system, Response { shape: vec![1.0], support_ratio: 0.0 })
+}
+
+/// A whole side of the branch through the linear response, taken up from its checkpoint after so many steps each time.
+fn walk(
+    (system, response): &(System, Response),
+    (from_hz, side): (f64, Side),
+    at_once: usize,
+) -> (Vec<BranchRow>, StopReason) {
+    let settings = OrbitSettings { max_step_hz: 1e-3, ..OrbitSettings::default() };
+    let start = find_start(system, response, from_hz, 1, &settings).unwrap();
+    let mut walk = BranchWalk::new(system, response, &start, side, RANGE, &settings).unwrap();
+    let (mut rows, mut journal) = (Vec::new(), Vec::new());
+    for step in 1.. {
+        if let Some(reason) = walk.step(&mut rows).unwrap() {
+            return (rows, reason);
+        }
+        assert!(rows.len() < 20_000, "no end of it");
+        if step % at_once == 0 {
+            journal.extend(walk.take_journal());
+            let stored = (walk.checkpoint(), journal.clone());
+            walk = BranchWalk::resume(system, response, (&stored.0, &stored.1), RANGE, &settings).unwrap();
+        }
+    }
+    unreachable!()
+}
+
+#[test]
+fn both_sides_of_an_undamped_resonance_are_the_closed_form_and_end_at_it() {
+    let system = oscillator(0.0, None);
+    for (from_hz, side) in [(0.1, Side::Up), (0.29, Side::Down)] {
+        let (rows, reason) = walk(&system, (from_hz, side), usize::MAX);
+        for row in &rows {
+            let solution = &row.solution;
+            let w = TAU * solution.frequency_hz;
+            // A point is within 1e-10 of a hundredth of the range from the path: 2.4e-13 Hz, twice that relative to 0.159 Hz in w^2.
+            let resolved = 3e-12 / (1.0 - w * w).abs() + 1e-8;
+            let error = solution.maxima.displacement * (1.0 - w * w).abs() - 1.0;
+            assert!(error.abs() < resolved, "{error:.1e} at {} Hz", solution.frequency_hz);
+        }
+        let StopReason::Unbounded { frequency_hz, mode } = reason else { panic!("{reason:?}") };
+        assert!((frequency_hz / NATURAL - 1.0).abs() < 1e-7, "{frequency_hz}");
+        let Some(ResonantMode { number, frequency_hz, damping_ratio }) = mode else { panic!("no mode") };
+        assert_eq!((number, damping_ratio), (1, 0.0));
+        assert!((frequency_hz / NATURAL - 1.0).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn a_walk_that_was_stored_on_its_way_to_infinity_ends_with_the_same_bits() {
+    let system = oscillator(0.0, None);
+    let whole = walk(&system, (0.1, Side::Up), usize::MAX);
+    assert_eq!(walk(&system, (0.1, Side::Up), 37), whole);
+}
+
+/// The peak of a damping ratio of 1e-5 is 5e4 times the static amplitude, and finite.
+#[test]
+fn a_weakly_damped_resonance_is_passed() {
+    let (rows, reason) = walk(&oscillator(2e-5, None), (0.1, Side::Up), usize::MAX);
+    assert_eq!(reason, StopReason::RangeEnd { frequency_hz: RANGE.1 });
+    let largest = rows.iter().map(|row| row.solution.maxima.displacement).fold(0.0, f64::max);
+    assert!((largest / 5e4 - 1.0).abs() < 1e-2, "{largest}");
+}
+
+/// The amplitude grows ten thousand times at the linear resonance until it meets the stop; then the frequency grows.
+#[test]
+fn a_stop_that_is_still_ahead_turns_an_undamped_resonance() {
+    let gap = 1e4;
+    let (rows, _) = walk(&oscillator(0.0, Some(gap)), (0.1, Side::Up), usize::MAX);
+    let beyond = rows.iter().filter(|row| row.solution.maxima.displacement > 1.5 * gap);
+    let highest = beyond.map(|row| row.solution.frequency_hz).fold(0.0, f64::max);
+    assert!(highest > 1.1 * NATURAL, "{highest}");
+}
