@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{TWO_MASSES, Workshop, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 

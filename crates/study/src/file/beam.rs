@@ -142,13 +142,11 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
         right: right?,
         points: points?,
     };
-    match beam.descriptor().and_then(|descriptor| descriptor.check()) {
-        Ok(()) => Some(beam),
-        Err(error) => {
-            table.problem(key_to_blame(&error), error.to_string(), Vec::new());
-            None
-        }
+    // A beam that is refused is given all the same: the rest of the study is judged by it.
+    if let Err(error) = beam.descriptor().and_then(|descriptor| descriptor.check()) {
+        table.problem(key_to_blame(&error), error.to_string(), Vec::new());
     }
+    Some(beam)
 }
 
 fn key_to_blame(error: &StructureError) -> &'static str {
