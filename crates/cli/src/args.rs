@@ -161,6 +161,10 @@ pub struct ExportOptions {
     #[arg(long, value_enum)]
     pub format: Format,
 
+    /// Write states.csv as well: the state and all multipliers of every solution
+    #[arg(long)]
+    pub states: bool,
+
     /// Folder to write into [default: RESULTS/export]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

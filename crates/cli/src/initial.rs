@@ -5,7 +5,7 @@ use std::path::Path;
 use hammerbeam_attractor::{AttractorError, SectionMap, SystemMap};
 use hammerbeam_motion::Stretch;
 use hammerbeam_orbit::states_at_phase;
-use hammerbeam_study::{Model, StoredBranches, StudyFile};
+use hammerbeam_study::{Model, PointStart, PointStartKind, StoredBranches, StudyFile};
 
 use crate::{failure::Failure, motion_args::MOST_OF_A_STATE};
 
@@ -54,14 +54,39 @@ fn meant(
             let stretch = Stretch { frequency_hz: map.frequency_hz(), start: 0.0, end: 1.0 };
             Ok(map.integrator().steady_state(&stretch))
         }
+        points if points.contains('=') => of_points(points, map.frequency_hz(), model),
         numbers => numbers_of(numbers, size),
     }
+}
+
+/// `tip.y=1e-3,tip.v=0.2`: displacements [m] and velocities [m/s] of points in space.
+fn of_points(text: &str, frequency_hz: f64, model: &Model) -> Result<Vec<f64>, Failure> {
+    let refused = |part: &str| {
+        let found = format!("--initial: found {part:?}");
+        Failure::BadInput(format!(
+            "{found}; allowed: POINT.y=METRES and POINT.v=METRES_PER_SECOND, separated by commas, each number from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+        ))
+    };
+    let mut starts = Vec::new();
+    for part in text.split(',').map(str::trim) {
+        let (name, value) = part.rsplit_once('=').ok_or_else(|| refused(part))?;
+        let value = value.trim().parse::<f64>().ok().filter(|value| value.abs() <= MOST_OF_A_STATE);
+        let (point, kind) = match name.trim().rsplit_once('.') {
+            Some((point, "y")) => (point, PointStartKind::Displacement),
+            Some((point, "v")) => (point, PointStartKind::Velocity),
+            _ => return Err(refused(part)),
+        };
+        let value = value.ok_or_else(|| refused(part))?;
+        starts.push(PointStart { point: point.to_owned(), kind, value });
+    }
+    let state = model.state_of_points(frequency_hz, &starts);
+    state.map_err(|error| Failure::BadInput(format!("--initial: {error}")))
 }
 
 fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
     let refused = |found: &str| {
         let allowed = format!(
-            "rest, linear, branch:N with --results, or {size} numbers q1,..,v1,.. separated by commas or blanks, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
+            "rest, linear, branch:N with --results, POINT.y=METRES,POINT.v=METRES_PER_SECOND, or {size} numbers q1,..,v1,.. separated by commas or blanks, each from -{MOST_OF_A_STATE:e} to {MOST_OF_A_STATE:e}"
         );
         Failure::BadInput(format!("--initial: {found}; allowed: {allowed}"))
     };

@@ -356,3 +356,61 @@ fn standard_output_that_takes_nothing_is_an_error_and_a_closed_pipe_is_none() {
         assert_eq!(run(writer.into()).status.code(), Some(0));
     }
 }
+
+/// A part that is missing, or wrong, hides nothing of what can be judged without it.
+#[test]
+fn all_faults_are_reported_in_one_pass() {
+    let from = BEAM.find("[reduction]").unwrap();
+    let to = BEAM.find("[damping]").unwrap();
+    let without_reduction = format!("{}{}", &BEAM[..from], &BEAM[to..]);
+    let crowded = without_reduction.replace("elements = 44", "elements = 1");
+    let study = crowded.replacen("amplitude_m = 0.5015e-3", "amplitude_m = 2", 1);
+    let vary = "[[vary]]\nparameter = \"stop.1.gap_m\"\nrange = [2, 1]\nfrequency_hz = 20";
+    assert_refused(
+        &Workshop::with(&format!("{study}\n{vary}\n")),
+        &[
+            "`reduction` is missing",
+            "the beam has 1 elements",
+            "`amplitude_m` is 2 m",
+            "`range` is [2, 1], which is reversed",
+        ],
+    );
+}
+
+/// The words of other programs, keys without their unit, and a section in no form that is known.
+#[test]
+fn what_was_probably_meant_is_suggested() {
+    let study = BEAM
+        .replace("left = \"clamped\"", "left = \"fixed\"")
+        .replace("density_kg_m3", "density")
+        .replace("length_m = 0.2579822", "length_mm = 257.9822")
+        .replace("modal_ratio = 0.015", "ratio = 0.015")
+        .replace("width_m = 0.0298, height_m = 0.0020", "diameter_m = 0.01");
+    assert_refused(
+        &Workshop::with(&study),
+        &[
+            "did you mean \"clamped\"?",
+            "did you mean `density_kg_m3`?",
+            "did you mean `length_m`?",
+            "did you mean `modal_ratio`?",
+            "allowed: { width_m, height_m } of a rectangle, or { area_m2, second_moment_m4 }",
+        ],
+    );
+}
+
+/// A cantilever of a tenth of a millimetre: `E b h^3/12` is 2.67e-13 N m^2.
+#[test]
+fn check_shows_damping_and_small_numbers_with_their_digits() {
+    let study = "[structure]\nkind = \"beam\"\nlength_m = 1e-4\nelements = 10\n\
+        section = { width_m = 2e-5, height_m = 1e-6 }\nyoungs_modulus_pa = 1.6e11\ndensity_kg_m3 = 2330\n\
+        left = \"clamped\"\nright = \"free\"\n[reduction]\nmethod = \"truncation\"\ncut_off_hz = 3e6\n\
+        [excitation]\nkind = \"force\"\nat = \"right\"\namplitude_n = 1e-7\nfrequency_hz = [1e5, 2e5]\n\
+        [response]\npoint = \"right\"\n";
+    let shown = stdout(&Workshop::with(study).hammerbeam(&["check", "study.toml"]));
+    for part in ["EI 2.66666667e-13 N m^2", "4.66e-8 kg/m", "damping      none", "amplitude 1e-7 N"] {
+        assert!(shown.contains(part), "\"{part}\" is missing in\n{shown}");
+    }
+    let damped = study.replace("[excitation]", "[damping]\nmodal_ratio = 0.02\n[excitation]");
+    let shown = stdout(&Workshop::with(&damped).hammerbeam(&["check", "study.toml"]));
+    assert!(shown.contains("damping      ratio 0.02 of every mode"), "{shown}");
+}

@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{TWO_MASSES, Workshop, assert_success, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
@@ -171,4 +171,32 @@ fn the_starter_study_checks_and_runs() {
     assert_success(&workshop.hammerbeam(&["check", "starter/study.toml"]));
     assert_success(&workshop.hammerbeam(&["run", "starter/study.toml", "--out", "starter/results"]));
     assert!(workshop.csv("starter/results").lines().count() > 100);
+}
+
+/// The states of a run are those from which `simulate` repeats: an orbit of `n` periods is there again after `n`.
+#[test]
+fn exported_states_and_multipliers_belong_to_the_rows() {
+    let workshop = short_run("");
+    assert_success(&workshop.hammerbeam(&["export", "results", "--format", "csv", "--states", "--out", "x"]));
+    let read = |name: &str| fs::read_to_string(workshop.path(name)).unwrap();
+    let (branches, states) = (read("x/branches.csv"), read("x/states.csv"));
+    assert_eq!(branches.lines().count(), states.lines().count());
+    for (branch, state) in branches.lines().zip(states.lines()).skip(1) {
+        let (branch, state): (Vec<&str>, Vec<&str>) =
+            (branch.split(',').collect(), state.split(',').collect());
+        assert_eq!((branch[0], branch[1], branch[2]), (state[0], state[1], state[3]));
+        assert!(state[6].starts_with(branch[8]), "{} leads, not {}", branch[8], state[6]);
+    }
+    let row: Vec<&str> = states.lines().nth(1).unwrap().split(',').collect();
+    let initial = row[5].replace(' ', ",");
+    let arguments = ["simulate", "study.toml", "--frequency", row[3], "--initial", &initial];
+    let options = ["--periods", "1", "--samples-per-period", "1", "--out", "motion"];
+    assert_success(&workshop.hammerbeam(&[&arguments[..], &options].concat()));
+    let section = read("motion/stroboscopic.csv");
+    let entries =
+        |line: &str| line.split(',').rev().take(4).map(|e| e.parse().unwrap()).collect::<Vec<f64>>();
+    let lines: Vec<Vec<f64>> = section.lines().skip(1).map(entries).collect();
+    for (first, last) in lines[0].iter().zip(&lines[lines.len() - 1]) {
+        assert!((first - last).abs() < 1e-9, "{first} and {last}");
+    }
 }

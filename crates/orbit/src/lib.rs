@@ -124,7 +124,7 @@ pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side};
 pub use spectrum::Stability;
 pub use start::{Interruption, find_start, find_start_unless};
-pub use stop::{StopReason, ResonantMode};
+pub use stop::{ResonantMode, StopReason};
 pub use survey::{SurveyEffort, survey};
 pub use switch::Crossing;
 pub use trials::harmonic_trials;

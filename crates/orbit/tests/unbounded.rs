@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, System, law::LinearStop};
 use hammerbeam_orbit::{
-    BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, ResonantMode, find_start,
+    BranchRow, BranchWalk, OrbitSettings, ResonantMode, Response, Side, StopReason, find_start,
 };
 use hammerbeam_structure::ReducedModel;
 

@@ -58,9 +58,9 @@ pub mod whole_file;
 
 pub use crossings::{PlacedRow, StoredBranch, StoredBranches, corrected};
 pub use document::{Problem, Report};
-pub use export::export_csv;
+pub use export::{export_csv, export_states};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
-pub use model::{Drift, Model, StudyParameter, UndampedMode};
+pub use model::{Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedMode};
 pub use orbit_solver::OrbitSolver;
 pub use store::{Store, StoreError};

@@ -2,12 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use hammerbeam_figure::plain_number;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile, UndampedMode,
     file::{
-        Amplitude, Approach, Beam, ExcitationKind, FixedTo, Load, Lumped, Place, Reduction, ReductionMethod,
-        Side, Stop, StopLaw, Structure,
+        Amplitude, Approach, Beam, Damping, ExcitationKind, FixedTo, Load, Lumped, ModalRatio, Place,
+        Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
     },
 };
 use serde_json::{Value, json};
@@ -73,7 +72,7 @@ fn undamped_text(modes: &[UndampedMode], dof: usize) -> Option<String> {
         }
     };
     Some(format!(
-        "damping      {which}: free vibration there never decays, so steady states are marginal and simulation does not settle; {UNDAMPED_ADVICE}"
+        "undamped     {which}: free vibration there never decays, so steady states are marginal and simulation does not settle; {UNDAMPED_ADVICE}"
     ))
 }
 
@@ -87,10 +86,10 @@ fn text(study: &Study, model: &Model) -> String {
         Structure::Lumped(lumped) => lumped_text(lumped),
     });
     lines.push(format!("reduction    {}", reduction_text(&study.reduction, model.system.dof())));
-    let frequencies: Vec<String> =
-        eigenfrequencies_hz(model).iter().take(8).map(|f| format!("{f:.6}")).collect();
+    let frequencies: Vec<String> = eigenfrequencies_hz(model).iter().take(8).map(|f| digits(*f)).collect();
     let more = if model.system.dof() > 8 { ", ..." } else { "" };
     lines.push(format!("modes        {}{more} Hz", frequencies.join(", ")));
+    lines.push(format!("damping      {}", damping_text(study)));
     lines.extend(undamped_text(&model.undamped_modes(), model.system.dof()));
     lines.push(format!("excitation   {}", excitation_text(study)));
     lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
@@ -104,7 +103,7 @@ fn text(study: &Study, model: &Model) -> String {
     let continuation = &study.continuation;
     lines.push(format!(
         "continuation steps of at most {} Hz, tolerance {:e}, at most {} solutions on each side of a start",
-        plain_number(continuation.max_step_hz),
+        digits(continuation.max_step_hz),
         continuation.tolerance,
         continuation.budget_solutions
     ));
@@ -113,23 +112,28 @@ fn text(study: &Study, model: &Model) -> String {
 
 fn beam_text(beam: &Beam) -> String {
     let mut text = format!(
-        "structure    beam of {} m, EI {:.6} N m^2, {:.6} kg/m, {} elements, left end {}, right end {}",
-        beam.length_m,
-        beam.youngs_modulus_pa * beam.section.second_moment_m4,
-        beam.density_kg_m3 * beam.section.area_m2,
+        "structure    beam of {} m, EI {} N m^2, {} kg/m, {} elements, left end {}, right end {}",
+        digits(beam.length_m),
+        digits(beam.youngs_modulus_pa * beam.section.second_moment_m4),
+        digits(beam.density_kg_m3 * beam.section.area_m2),
         beam.elements,
         word(&beam.left),
         word(&beam.right),
     );
     for point in &beam.points {
-        text.push_str(&format!("\npoint        {} at {} m, {} kg", point.name, point.at_m, point.mass_kg));
+        text.push_str(&format!(
+            "\npoint        {} at {} m, {} kg",
+            point.name,
+            digits(point.at_m),
+            digits(point.mass_kg)
+        ));
     }
     text
 }
 
 fn lumped_text(lumped: &Lumped) -> String {
     let masses: Vec<String> =
-        lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, mass.mass_kg)).collect();
+        lumped.masses.iter().map(|mass| format!("{} ({} kg)", mass.name, digits(mass.mass_kg))).collect();
     format!(
         "structure    masses {}; {} springs, {} dampers",
         masses.join(", "),
@@ -145,13 +149,46 @@ fn reduction_text(reduction: &Reduction, dof: usize) -> String {
     }
 }
 
+fn damping_text(study: &Study) -> String {
+    let of_modes = match &study.damping {
+        Damping::Modal(ModalRatio::Every(ratio)) if *ratio == 0.0 => "none of the modes".to_owned(),
+        Damping::Modal(ModalRatio::Every(ratio)) => format!("ratio {ratio} of every mode"),
+        Damping::Modal(ModalRatio::Each(ratios)) => {
+            let shown: Vec<String> = ratios.iter().take(8).map(f64::to_string).collect();
+            let more = if ratios.len() > 8 { ", ..." } else { "" };
+            format!("ratios {}{more} of the modes", shown.join(", "))
+        }
+        Damping::Rayleigh { mass_per_s, stiffness_s } => {
+            format!("Rayleigh, {mass_per_s} 1/s times the mass and {stiffness_s} s times the stiffness")
+        }
+    };
+    match dampers(&study.structure) {
+        0 => of_modes,
+        count => format!("{of_modes}, and {count} damper(s) of the structure"),
+    }
+}
+
+/// Number of dampers of the structure that are not zero.
+fn dampers(structure: &Structure) -> usize {
+    match structure {
+        Structure::Lumped(lumped) => {
+            lumped.dampers.iter().filter(|damper| damper.damping_n_s_m > 0.0).count()
+        }
+        Structure::Beam(beam) => {
+            let of_points =
+                beam.points.iter().flat_map(|point| [point.damper_n_s_m, point.rotational_damper_n_m_s_rad]);
+            of_points.filter(|damper| *damper > 0.0).count()
+        }
+    }
+}
+
 fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
     match amplitude {
-        Amplitude::Constant(value) => format!("{value} {unit}"),
+        Amplitude::Constant(value) => format!("{} {unit}", digits(*value)),
         Amplitude::OverFrequency(points) => {
             let values = || points.iter().map(|point| point[1]);
             let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(0.0, f64::max));
-            format!("{low} to {high} {unit} over the frequency ({} points)", points.len())
+            format!("{} to {} {unit} over the frequency ({} points)", digits(low), digits(high), points.len())
         }
     }
 }
@@ -167,7 +204,13 @@ fn excitation_text(study: &Study) -> String {
             format!("force at {at}, amplitude {}", amplitude_text(amplitude_n, "N"))
         }
     };
-    format!("{what}, {low} to {high} Hz, order {}, phase {} rad", excitation.order, excitation.phase_rad)
+    format!(
+        "{what}, {} to {} Hz, order {}, phase {} rad",
+        digits(low),
+        digits(high),
+        excitation.order,
+        excitation.phase_rad
+    )
 }
 
 fn load_text(load: &Load) -> String {
@@ -216,7 +259,9 @@ fn stop_text(stop: &Stop) -> String {
             format!("rigid {}, coefficient of restitution {restitution}, {}", side_text(side), rest(approach))
         }
         StopLaw::TwoSided { stiffness_n_m, gap_above_m, gap_below_m, gap_measured } => format!(
-            "linear springs on both sides, {stiffness_n_m} N/m, gaps {gap_above_m} m above and {gap_below_m} m below ({})",
+            "linear springs on both sides, {stiffness_n_m} N/m, gaps {} m above and {} m below ({})",
+            digits(gap_above_m),
+            digits(gap_below_m),
             word(&gap_measured)
         ),
         StopLaw::Cubic { stiffness_n_m3 } => format!("cubic spring, {stiffness_n_m3} N/m^3"),
@@ -233,8 +278,18 @@ fn side_text(side: Side) -> &'static str {
 
 fn rest(approach: Approach) -> String {
     match approach {
-        Approach::Gap { gap_m, measured } => format!("gap {gap_m} m ({})", word(&measured)),
-        Approach::Preload { preload_n } => format!("preload {preload_n} N"),
+        Approach::Gap { gap_m, measured } => format!("gap {} m ({})", digits(gap_m), word(&measured)),
+        Approach::Preload { preload_n } => format!("preload {} N", digits(preload_n)),
+    }
+}
+
+/// A number to nine digits, with an exponent where it is very small or large.
+fn digits(value: f64) -> String {
+    let rounded = format!("{value:.8e}").parse().unwrap_or(value);
+    if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
     }
 }
 

@@ -1,6 +1,6 @@
 //! `hammerbeam export`: stored results for other programs.
 
-use hammerbeam_study::{Store, export_csv};
+use hammerbeam_study::{Store, export_csv, export_states};
 use serde_json::json;
 
 use crate::{
@@ -15,6 +15,7 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
     let exported = match options.format {
         Format::Csv => export_csv(&store, &folder)?,
     };
+    let states = options.states.then(|| export_states(&store, &folder)).transpose()?;
     let path = exported.path.display().to_string();
     let events_path = exported.events_path.display().to_string();
     let ends_path = exported.ends_path.display().to_string();
@@ -22,6 +23,7 @@ pub fn run(options: &ExportOptions, output: Output) -> Result<(), Failure> {
         .varied_paths
         .iter()
         .chain(&exported.motion_paths)
+        .chain(&states)
         .map(|path| path.display().to_string())
         .collect();
     let mut files = vec![path.clone(), events_path.clone(), ends_path.clone()];

@@ -1,6 +1,5 @@
-//! `hammerbeam modes`: eigenfrequencies before and after the reduction.
+//! `hammerbeam modes`: eigenfrequencies before and after the reduction, and the shapes at the points.
 
-use hammerbeam_structure::ModeTables;
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
@@ -17,17 +16,21 @@ const SHOWN: usize = 12;
 pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
-    let mut document = document(&model.tables);
+    let mut document = document(&model);
     if let Some(folder) = &options.out {
         let mut drawn = Drawn::into(folder)?;
         figures::draw_linear(&mut drawn, &file, &model);
         document["figures"] = json!(drawn.finish()?.names);
     }
-    output.give(&document, || text(&model.tables))?;
+    output.give(&document, || text(&model))?;
     Ok(())
 }
 
-fn document(tables: &ModeTables) -> Value {
+fn document(model: &Model) -> Value {
+    let tables = &model.tables;
+    let points = &model.system.model().points;
+    let shapes: serde_json::Map<String, Value> =
+        points.iter().map(|point| (point.name.clone(), json!(point.shape))).collect();
     let errors: Vec<f64> = tables.frequency_errors.iter().map(|error| error.relative).collect();
     let flexibility = |error: &hammerbeam_structure::FlexibilityError| json!({ "point": error.point, "full_m_n": error.full, "reduced_m_n": error.reduced, "relative": error.relative });
     json!({
@@ -36,11 +39,34 @@ fn document(tables: &ModeTables) -> Value {
         "reduced_hz": tables.reduced_hz,
         "fixed_interface_hz": tables.fixed_interface_hz,
         "reduced_relative_error": errors,
+        "mass_normalised_shapes": shapes,
         "static_flexibility": tables.flexibility_errors.iter().map(flexibility).collect::<Vec<_>>(),
     })
 }
 
-fn text(tables: &ModeTables) -> String {
+/// The shape of each mode at the points, divided by its largest entry there; signs are those of the modal coordinates.
+fn shapes_text(model: &Model) -> Vec<String> {
+    let points = &model.system.model().points;
+    let names: String = points.iter().map(|point| format!(" {:>12}", point.name)).collect();
+    let mut lines = vec![
+        "Shapes of the reduced modes at the points, 1 where they are largest:".to_owned(),
+        format!("mode{names}"),
+    ];
+    for mode in 0..model.system.dof().min(SHOWN) {
+        let largest = points
+            .iter()
+            .map(|point| point.shape[mode])
+            .fold(0.0, |largest: f64, entry| if entry.abs() > largest.abs() { entry } else { largest });
+        let size = if largest == 0.0 { 1.0 } else { largest.abs() };
+        let entries: String =
+            points.iter().map(|point| format!(" {:>12.6}", point.shape[mode] / size)).collect();
+        lines.push(format!("{:>4}{entries}", mode + 1));
+    }
+    lines
+}
+
+fn text(model: &Model) -> String {
+    let tables = &model.tables;
     let interface = if tables.fixed_interface_hz.is_empty() {
         ("free interface", &tables.free_interface_hz)
     } else {
@@ -73,5 +99,6 @@ fn text(tables: &ModeTables) -> String {
             error.point, error.full, error.reduced, error.relative
         ));
     }
+    lines.extend(shapes_text(model));
     lines.join("\n")
 }

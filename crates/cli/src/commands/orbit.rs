@@ -64,6 +64,8 @@ fn quantities(solution: &PeriodicSolution) -> Value {
         "max_impact_velocity_m_s": maxima.impact_velocity,
         "impulse_n_s": maxima.impulse,
         "contacts": maxima.contacts,
+        "phase_cycles": solution.phase,
+        "state": solution.nodes[0],
         "floquet_multipliers": solution.floquet_multipliers,
         "stable": solution.stable(),
         "stability": solution.stability().word(),

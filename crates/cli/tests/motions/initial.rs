@@ -51,3 +51,32 @@ fn branches_that_are_not_there_are_refused_by_every_command() {
     }
     assert_eq!(workshop.listing(), before, "something was written");
 }
+
+/// Without a load a mass on a spring moves as `y = Y cos(w t) + (V/w) sin(w t)`, `w^2 = 25/s^2`; until it meets its stop.
+#[test]
+fn a_motion_starts_from_displacements_and_velocities_of_points() {
+    let study = "[structure]\nkind = \"lumped\"\nmass = [{ name = \"ball\", mass_kg = 4.0 }]\n\
+        spring = [{ between = [\"ball\", \"ground\"], stiffness_n_m = 100.0 }]\n\
+        [excitation]\nkind = \"force\"\nat = \"ball\"\namplitude_n = 1e-12\nfrequency_hz = [0.5, 2.0]\n\
+        [response]\npoint = \"ball\"\n";
+    let workshop = Workshop::with(study);
+    let start = ["--initial", "ball.y=0.01,ball.v=-0.2", "--periods", "1", "--samples-per-period", "4"];
+    let simulate = ["simulate", "study.toml", "--frequency", "1", "--out", "out"];
+    crate::common::assert_success(&workshop.hammerbeam(&[&simulate[..], &start].concat()));
+    let samples = super::table(&workshop, "out/samples.csv");
+    let displacements = super::column(&samples, "displacement_m");
+    for (k, found) in displacements.into_iter().enumerate() {
+        let (sin, cos) = (5.0 * 0.25 * k as f64).sin_cos();
+        let expected = 0.01 * cos - 0.2 / 5.0 * sin;
+        assert!((found - expected).abs() < 1e-11, "{k}: {found} instead of {expected}");
+    }
+    for (initial, part) in [
+        ("balls.y=1", "\"balls\" is not a point of this structure; there are ball, ground"),
+        ("ball.x=1", "allowed: POINT.y=METRES and POINT.v=METRES_PER_SECOND"),
+        ("ball.y=1,ball.y=2", "point \"ball\" cannot move by 2 there"),
+    ] {
+        let output =
+            workshop.hammerbeam(&["simulate", "study.toml", "--frequency", "1", "--initial", initial]);
+        assert_bad_input(&output, &[part]);
+    }
+}

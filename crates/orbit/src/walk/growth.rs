@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 use hammerbeam_motion::Law;
 
 use super::BranchWalk;
-use crate::{StopReason, ResonantMode};
+use crate::{ResonantMode, StopReason};
 
 /// Growth of the amplitude at a parameter that stands still.
 const GROWTH: f64 = 8.0;

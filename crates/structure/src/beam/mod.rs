@@ -93,7 +93,7 @@ impl Beam {
     /// # Errors
     /// Numbers out of their range, points off the beam, names used twice or reserved, too few elements.
     pub fn structure(&self) -> Result<Structure, StructureError> {
-        self.check()?;
+        self.check_numbers()?;
         let mesh = self.mesh()?;
         let mut assembly = self.elements_between(&mesh.positions);
         for (point, &node) in self.points.iter().zip(&mesh.nodes) {
@@ -109,6 +109,15 @@ impl Beam {
         Ok(Structure::new(Kind::Beam, assembly, held, points.collect(), places.collect()))
     }
 
+    /// Whether [`Self::structure`] would take the beam; nothing is assembled.
+    ///
+    /// # Errors
+    /// As [`Self::structure`].
+    pub fn check(&self) -> Result<(), StructureError> {
+        self.check_numbers()?;
+        self.mesh().map(drop)
+    }
+
     /// Names and positions of the points, then of the left and the right end.
     fn places(&self) -> Vec<(&str, f64)> {
         let points = self.points.iter().map(|point| (point.name.as_str(), point.at));
@@ -119,7 +128,7 @@ impl Beam {
         mesh::divide(self.length, self.elements, &self.places())
     }
 
-    fn check(&self) -> Result<(), StructureError> {
+    fn check_numbers(&self) -> Result<(), StructureError> {
         positive("length of the beam", self.length)?;
         positive("Young's modulus", self.youngs_modulus)?;
         positive("density", self.density)?;

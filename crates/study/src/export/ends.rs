@@ -91,7 +91,8 @@ pub(super) fn write_varied_ends(
     Ok(())
 }
 
-fn entries(state: &[f64]) -> String {
+/// Numbers with blanks between them.
+pub(super) fn entries(state: &[f64]) -> String {
     let entries: Vec<String> = state.iter().map(|entry| format!("{entry:?}")).collect();
     entries.join(" ")
 }

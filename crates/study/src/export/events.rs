@@ -109,7 +109,6 @@ fn write_event(writer: &mut impl Write, event: &LocatedEvent, multipliers: &[[f6
         |change: &ContactChange| format!("{}{}", if change.appears { "+" } else { "-" }, change.contact + 1);
     let changes: Vec<String> = event.contacts.iter().map(change).collect();
     let direction: Vec<String> = event.direction.iter().map(|entry| format!("{entry:?}")).collect();
-    let multipliers: Vec<String> = multipliers.iter().map(|[re, im]| format!("{re:?}{im:+?}i")).collect();
     writeln!(
         writer,
         "{status},{:?},{},{},{},{},{},{}",
@@ -119,6 +118,12 @@ fn write_event(writer: &mut impl Write, event: &LocatedEvent, multipliers: &[[f6
         changes.join(" "),
         direction.join(" "),
         event.breaks_symmetry,
-        multipliers.join(" "),
+        complex_numbers(multipliers),
     )
+}
+
+/// `re+imi`, with blanks between them.
+pub(super) fn complex_numbers(numbers: &[[f64; 2]]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(|[re, im]| format!("{re:?}{im:+?}i")).collect();
+    numbers.join(" ")
 }

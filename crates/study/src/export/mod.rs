@@ -4,6 +4,7 @@ mod ends;
 mod events;
 mod motions;
 mod simulation;
+mod states;
 mod table;
 mod varied;
 
@@ -16,11 +17,13 @@ pub use ends::{END_COLUMNS, PARAMETER_END_COLUMNS};
 pub use events::{EVENT_COLUMNS, PARAMETER_EVENT_COLUMNS};
 pub use motions::{write_basins, write_exponents, write_sweep};
 pub use simulation::SimulationTables;
+pub use states::STATE_COLUMNS;
 pub use table::{Table, header, number, word};
 
 use ends::write_ends;
 use events::write_events;
 use motions::export_motions;
+use states::write_states;
 use varied::export_varied;
 
 use crate::{
@@ -94,6 +97,20 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     let motion_paths = export_motions(store, folder)?;
     drop(snapshot);
     Ok(Exported { path, rows, events_path, ends_path, varied_paths, motion_paths })
+}
+
+/// Writes `states.csv` into a folder: the state and all multipliers of every solution, which take several times the room of the rest.
+///
+/// # Returns
+/// The file.
+/// # Errors
+/// [`ExportError`].
+pub fn export_states(store: &Store, folder: &Path) -> Result<PathBuf, ExportError> {
+    let snapshot = store.snapshot()?;
+    let path = folder.join("states.csv");
+    write_whole(&path, |writer| write_states(store, writer, &path))?;
+    drop(snapshot);
+    Ok(path)
 }
 
 /// Writes a file that appears complete or not at all.

@@ -1,5 +1,6 @@
 //! `[structure]` of kind "beam": a uniform Euler-Bernoulli beam with points.
 
+use hammerbeam_structure::{self as linear, StructureError};
 use serde::Serialize;
 
 use crate::document::{Reading, Table, Value, quantity};
@@ -56,6 +57,15 @@ impl End {
     pub fn holds_displacement(self) -> bool {
         matches!(self, Self::Clamped | Self::Pinned)
     }
+
+    fn descriptor(self) -> linear::End {
+        match self {
+            Self::Clamped => linear::End::Clamped,
+            Self::Pinned => linear::End::Pinned,
+            Self::Sliding => linear::End::Sliding,
+            Self::Free => linear::End::Free,
+        }
+    }
 }
 
 /// A named point of a beam and what is attached to it.
@@ -79,6 +89,35 @@ pub struct BeamPoint {
     pub rotational_damper_n_m_s_rad: f64,
 }
 
+impl Beam {
+    /// The beam in the terms of the structure crate.
+    ///
+    /// # Errors
+    /// [`StructureError`]: a section without area or stiffness.
+    pub(crate) fn descriptor(&self) -> Result<linear::Beam, StructureError> {
+        let points = self.points.iter().map(|point| linear::BeamPoint {
+            name: point.name.clone(),
+            at: point.at_m,
+            mass: point.mass_kg,
+            rotary_inertia: point.rotary_inertia_kg_m2,
+            spring: point.spring_n_m,
+            damper: point.damper_n_s_m,
+            rotational_spring: point.rotational_spring_n_m_rad,
+            rotational_damper: point.rotational_damper_n_m_s_rad,
+        });
+        Ok(linear::Beam {
+            length: self.length_m,
+            elements: self.elements as usize,
+            section: linear::Section::general(self.section.area_m2, self.section.second_moment_m4)?,
+            youngs_modulus: self.youngs_modulus_pa,
+            density: self.density_kg_m3,
+            left: self.left.descriptor(),
+            right: self.right.descriptor(),
+            points: points.collect(),
+        })
+    }
+}
+
 const ENDS: [(&str, End); 4] =
     [("clamped", End::Clamped), ("pinned", End::Pinned), ("sliding", End::Sliding), ("free", End::Free)];
 
@@ -93,7 +132,7 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
     let right = table.required("right").and_then(|value| value.choice(&ENDS));
     names.add_beam_ends(left, right);
     let points = read_points(table, reading, length_m, names);
-    Some(Beam {
+    let beam = Beam {
         length_m: length_m?,
         elements: elements?,
         section: section?,
@@ -102,14 +141,43 @@ pub(super) fn read(table: &Table<'_>, reading: &Reading, names: &mut Names) -> O
         left: left?,
         right: right?,
         points: points?,
-    })
+    };
+    // A beam that is refused is given all the same: the rest of the study is judged by it.
+    if let Err(error) = beam.descriptor().and_then(|descriptor| descriptor.check()) {
+        table.problem(key_to_blame(&error), error.to_string(), Vec::new());
+    }
+    Some(beam)
 }
+
+fn key_to_blame(error: &StructureError) -> &'static str {
+    match error {
+        StructureError::TooFewElements { .. } | StructureError::TooManyElements { .. } => "elements",
+        StructureError::PointsTooClose { .. } => "point",
+        _ => "kind",
+    }
+}
+
+/// Keys of both forms of a section.
+const RECTANGLE: [&str; 2] = ["width_m", "height_m"];
+const GENERAL: [&str; 2] = ["area_m2", "second_moment_m4"];
 
 /// `{ width_m, height_m }` of a rectangle, or `{ area_m2, second_moment_m4 }`.
 fn read_section(value: &Value<'_>, length_m: Option<f64>) -> Option<Section> {
     let table = value.table()?;
-    let general = table.has("area_m2") || table.has("second_moment_m4");
-    let section = if general { read_general_section(&table) } else { read_rectangle(&table, length_m) };
+    let has = |keys: [&str; 2]| keys.iter().any(|key| table.has(key));
+    let section = if has(GENERAL) {
+        read_general_section(&table)
+    } else if has(RECTANGLE) {
+        read_rectangle(&table, length_m)
+    } else {
+        for key in RECTANGLE.into_iter().chain(GENERAL) {
+            table.optional(key);
+        }
+        let form = |keys: [&str; 2]| format!("{{ {} }}", keys.join(", "));
+        let help = format!("allowed: {} of a rectangle, or {}", form(RECTANGLE), form(GENERAL));
+        value.problem("`section` has none of the accepted forms".to_owned(), vec![help]);
+        None
+    };
     table.finish();
     section
 }

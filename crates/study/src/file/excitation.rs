@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::document::{Table, Value, quantity};
 
-use super::{Amplitude, amplitude, names::Names};
+use super::{Amplitude, Structure, amplitude, names::Names};
 
 /// The harmonic excitation `amplitude cos(2 pi order f t + phase)` and the range of `f`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -65,21 +65,27 @@ enum Kind {
     Force,
 }
 
-pub(super) fn read(root: &Table<'_>, names: &Names) -> Option<Excitation> {
+pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure>) -> Option<Excitation> {
     let table = root.required("excitation").and_then(|value| value.table())?;
     let kinds = [("support-motion", Kind::SupportMotion), ("force", Kind::Force)];
-    let kind = table.required("kind").and_then(|value| value.choice(&kinds))?;
-    let kind = match kind {
+    let kind = table.required("kind").and_then(|value| value.choice(&kinds));
+    let known = kind.is_some();
+    let kind = kind.and_then(|kind| match kind {
         Kind::SupportMotion => read_support_motion(&table, names),
         Kind::Force => read_force(&table, names),
-    };
+    });
     let phase = table.optional("phase_rad").map_or(Some(0.0), |value| value.number(&quantity::PHASE));
     let order = table.optional("order").map_or(Some(1), |value| value.whole(1, 1000));
     let range = table.required("frequency_hz").and_then(|value| read_range(&value));
     if let (Some(kind), Some([low, high])) = (&kind, range) {
         check_table(&table, kind, [low, high]);
     }
-    table.finish();
+    if let (Some(kind), Some(structure)) = (&kind, structure) {
+        check_magnitude(&table, kind, structure);
+    }
+    if known {
+        table.finish();
+    }
     Some(Excitation { kind: kind?, phase_rad: phase?, order: order?, frequency_hz: range? })
 }
 
@@ -127,6 +133,18 @@ fn check_table(table: &Table<'_>, kind: &ExcitationKind, [low, high]: [f64; 2]) 
         let message =
             format!("`{key}` is told from {first} to {last} Hz, the excitation runs from {low} to {high} Hz");
         table.problem(key, message, vec!["allowed: a table that covers `frequency_hz`".to_owned()]);
+    }
+}
+
+/// A support that moves further than the beam is long is in the wrong unit.
+fn check_magnitude(table: &Table<'_>, kind: &ExcitationKind, structure: &Structure) {
+    let (ExcitationKind::SupportMotion { amplitude_m, .. }, Structure::Beam(beam)) = (kind, structure) else {
+        return;
+    };
+    let (amplitude, length) = (amplitude_m.largest(), beam.length_m);
+    if amplitude > length {
+        let help = format!("allowed: at most {length} m, the length of the beam; is the unit m?");
+        table.problem("amplitude_m", format!("`amplitude_m` is {amplitude} m"), vec![help]);
     }
 }
 

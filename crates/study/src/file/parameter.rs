@@ -217,7 +217,10 @@ pub(super) fn read(table: &Table<'_>, study: Option<Variable<'_>>) -> Option<Var
     let range = table.required("range");
     let (name, range) = (name?, range?);
     let text = name.text()?;
-    let study = study?;
+    let Some(study) = study else {
+        read_range(&range, &quantity::ANY)?;
+        return None;
+    };
     let (kind, quantity) = meaning(&name, text, study)?;
     if kind == ParameterKind::Amplitude && study.has_further_harmonics() {
         let help = vec!["allowed: only where the excitation is the only harmonic load".into()];

@@ -166,7 +166,7 @@ fn read_root(root: &Table<'_>, reading: &Reading, (text, pieces): (&str, bool)) 
     let structure = structure::read(root, reading, &mut names);
     let reduction = reduction::read(root, structure.as_ref());
     let damping = damping::read(root);
-    let excitation = excitation::read(root, &names);
+    let excitation = excitation::read(root, &names, structure.as_ref());
     let loads = load::read(root, reading, &names, excitation.as_ref());
     let stops = stop::read(root, reading, &names, excitation.as_ref());
     let response = response::read(root, &names, stops.as_deref());

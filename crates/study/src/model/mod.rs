@@ -5,6 +5,7 @@ mod damping;
 mod drift;
 mod element;
 mod family;
+mod initial;
 mod load;
 mod parameter;
 mod structure;
@@ -17,17 +18,14 @@ use hammerbeam_orbit::Response;
 use hammerbeam_structure::{ModeTables, OutlinePoint, ReducedModel, StructureError};
 
 pub use drift::Drift;
+pub use initial::{PointStart, PointStartError, PointStartKind};
 pub use parameter::StudyParameter;
-pub(crate) use structure::beam_descriptor;
 pub use undamped::UndampedMode;
 
 use family::{Reference, StudyFamily};
 
 use crate::{
-    file::{
-        DampingKey, Excitation, ExcitationKind, ParameterKind, Place, Structure, Study, StudyError,
-        StudyFile, VariedParameter,
-    },
+    file::{DampingKey, ParameterKind, Place, Study, StudyError, StudyFile, VariedParameter},
     number::number_named,
 };
 
@@ -62,7 +60,6 @@ impl Model {
 
     /// The same with modes of the signs of a reference.
     fn like(file: &StudyFile, reference: Option<&Reference>) -> Result<Self, StudyError> {
-        check_magnitudes(file)?;
         let study = &file.study;
         let interface = interface(study);
         let mut reduced =
@@ -209,31 +206,12 @@ fn response_point(study: &Study, model: &ReducedModel) -> Response {
     Response { shape: point.shape.clone(), support_ratio: point.support_ratio }
 }
 
-/// Displacements longer than the beam are in the wrong unit.
-fn check_magnitudes(file: &StudyFile) -> Result<(), StudyError> {
-    let Structure::Beam(beam) = &file.study.structure else { return Ok(()) };
-    let Excitation { kind: ExcitationKind::SupportMotion { amplitude_m, .. }, .. } = &file.study.excitation
-    else {
-        return Ok(());
-    };
-    let amplitude = amplitude_m.largest();
-    if amplitude <= beam.length_m {
-        return Ok(());
-    }
-    let help = format!("allowed: at most {} m, the length of the beam; is the unit m?", beam.length_m);
-    Err(file.fault("excitation.amplitude_m", format!("`amplitude_m` is {amplitude} m"), vec![help]))
-}
-
 /// The fault of a structure at the key that is to blame.
 fn structure_fault(file: &StudyFile, error: &StructureError) -> StudyError {
     let key = match error {
         StructureError::CutOffBelowFirstMode { .. } => "reduction.cut_off_hz",
         StructureError::LumpedIsNotReduced => "reduction.method",
         StructureError::DampingRatioCount { .. } => "damping.modal_ratio",
-        StructureError::TooFewElements { .. } | StructureError::TooManyElements { .. } => {
-            "structure.elements"
-        }
-        StructureError::PointsTooClose { .. } => "structure.point",
         _ => "structure",
     };
     let help = match error {

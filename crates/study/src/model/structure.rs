@@ -3,51 +3,18 @@
 use hammerbeam_structure as linear;
 use linear::{Connection, LumpedMass, ModalRatios, Reduced, StructureError};
 
-use crate::file::{Beam, Damping, End, Lumped, ModalRatio, ReductionMethod, Structure, Study};
+use crate::file::{Damping, Lumped, ModalRatio, ReductionMethod, Structure, Study};
 
 /// Assembles, supports and reduces the structure of a study.
 pub(super) fn reduce(study: &Study, interface: &[String]) -> Result<Reduced, StructureError> {
     let structure = match &study.structure {
-        Structure::Beam(beam) => beam_descriptor(beam)?.structure()?,
+        Structure::Beam(beam) => beam.descriptor()?.structure()?,
         Structure::Lumped(lumped) => lumped_descriptor(lumped).structure()?,
     };
     let moving: Vec<&str> = study.excitation.moving_supports().iter().map(String::as_str).collect();
     let supported = if moving.is_empty() { structure } else { structure.with_support_motion(&moving)? };
     let interface: Vec<&str> = interface.iter().map(String::as_str).collect();
     supported.reduce(&reduction(study), &damping(&study.damping), &interface)
-}
-
-/// A beam in the terms of the structure crate.
-pub(crate) fn beam_descriptor(beam: &Beam) -> Result<linear::Beam, StructureError> {
-    let points = beam.points.iter().map(|point| linear::BeamPoint {
-        name: point.name.clone(),
-        at: point.at_m,
-        mass: point.mass_kg,
-        rotary_inertia: point.rotary_inertia_kg_m2,
-        spring: point.spring_n_m,
-        damper: point.damper_n_s_m,
-        rotational_spring: point.rotational_spring_n_m_rad,
-        rotational_damper: point.rotational_damper_n_m_s_rad,
-    });
-    Ok(linear::Beam {
-        length: beam.length_m,
-        elements: beam.elements as usize,
-        section: linear::Section::general(beam.section.area_m2, beam.section.second_moment_m4)?,
-        youngs_modulus: beam.youngs_modulus_pa,
-        density: beam.density_kg_m3,
-        left: end(beam.left),
-        right: end(beam.right),
-        points: points.collect(),
-    })
-}
-
-fn end(end: End) -> linear::End {
-    match end {
-        End::Clamped => linear::End::Clamped,
-        End::Pinned => linear::End::Pinned,
-        End::Sliding => linear::End::Sliding,
-        End::Free => linear::End::Free,
-    }
 }
 
 fn lumped_descriptor(lumped: &Lumped) -> linear::Lumped {

@@ -5,7 +5,6 @@ use hammerbeam_structure::{BeamChange, Boundary, PointChange};
 use crate::{
     StudyError, StudyFile,
     file::{Beam, Structure},
-    model::beam_descriptor,
     number::Number,
 };
 
@@ -30,7 +29,7 @@ pub(super) fn eigenfrequency_derivatives(
     let Some(change) = change(beam, number, value) else { return Ok(None) };
     let moving: Vec<&str> = file.study.excitation.moving_supports().iter().map(String::as_str).collect();
     let derivatives =
-        beam_descriptor(beam).and_then(|beam| beam.eigenfrequency_derivatives(&moving, boundary, &change));
+        beam.descriptor().and_then(|beam| beam.eigenfrequency_derivatives(&moving, boundary, &change));
     derivatives.map_err(|error| file.fault("structure", error.to_string(), Vec::new()))
 }
 

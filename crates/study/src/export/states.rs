@@ -1,0 +1,42 @@
+//! States and all multipliers of every stored solution as CSV.
+
+use std::{io::Write, path::Path};
+
+use hammerbeam_orbit::Side;
+
+use super::{ExportError, ends::entries, events::complex_numbers};
+use crate::store::{BranchRecord, Store};
+
+/// Columns of `states.csv`; `row` counts from 0 along the branch, as in `events.csv`.
+pub const STATE_COLUMNS: [&str; 7] =
+    ["branch", "period_multiple", "row", "frequency_hz", "phase_cycles", "state", "multipliers"];
+
+/// One row per solution: the state `[q; q']` at the phase at which its orbit begins, and its multipliers.
+pub(super) fn write_states(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
+    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    writeln!(writer, "{}", STATE_COLUMNS.join(",")).map_err(failed)?;
+    for branch in store.branches()? {
+        for (row, (side, number)) in places(&branch).enumerate() {
+            let solution = store.solution(branch.start, side, number)?;
+            writeln!(
+                writer,
+                "{},{},{row},{:?},{:?},{},{}",
+                branch.id,
+                branch.period_multiple,
+                solution.frequency_hz,
+                solution.phase,
+                entries(&solution.nodes[0]),
+                complex_numbers(&solution.floquet_multipliers)
+            )
+            .map_err(failed)?;
+        }
+    }
+    Ok(())
+}
+
+/// Where the rows of a branch stand, end to end: the down side from its end, then the up side.
+fn places(branch: &BranchRecord) -> impl Iterator<Item = (Side, u32)> + use<> {
+    let (down, up) = (branch.down.solutions as u32, branch.up.solutions as u32);
+    let down = (0..down).rev().map(|number| (Side::Down, number));
+    down.chain((0..up).map(|number| (Side::Up, number)))
+}
