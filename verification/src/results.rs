@@ -5,7 +5,7 @@ use std::path::Path;
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_study::{
     Model, OrbitSolver, Store, StoredBranch, StoredBranches, StudyFile,
-    run::{Plan, Quiet, run},
+    run::{Observer, Plan, Quiet, run},
     store::BranchRecord,
 };
 
@@ -28,11 +28,24 @@ impl Results {
     /// # Errors
     /// The study is wrong, or the store refuses.
     pub fn of_run(text: &str, folder: &Path, threads: usize) -> Result<Self, Failure> {
+        Self::of_watched_run(text, folder, threads, &mut Quiet)
+    }
+
+    /// The same, watched by an observer, which may end it early.
+    ///
+    /// # Errors
+    /// The study is wrong, or the store refuses.
+    pub fn of_watched_run(
+        text: &str,
+        folder: &Path,
+        threads: usize,
+        observer: &mut dyn Observer,
+    ) -> Result<Self, Failure> {
         let file = StudyFile::parse("study.toml", text.to_owned())?;
         let model = Model::build(&file)?;
         let mut store = Store::open_for_run(folder, &file)?;
         let solver = OrbitSolver::new(&model, &file.study);
-        run(&mut store, &solver, &Plan::of(&file.study), threads, &mut Quiet)?;
+        run(&mut store, &solver, &Plan::of(&file.study), threads, observer)?;
         store.finish()?;
         Self::read(text, folder)
     }

@@ -10,6 +10,7 @@ mod contacts;
 mod duffing;
 mod linear;
 mod measuring_filter;
+mod relations;
 mod shaw_holmes_1983;
 mod two_masses;
 mod van_de_vorst_conclusions;

@@ -1,0 +1,60 @@
+//! Random systems in two systems of units: `random_systems FIRST COUNT [SOLUTIONS]`. One line for each system, and one for each difference between its answers
+//! in the one and in the other units, or with the independent integrator.
+#![allow(clippy::print_stdout, reason = "a command")]
+
+use std::{env, time::Instant};
+
+use hammerbeam_verification::{
+    attractors::Random,
+    random_study::random_study,
+    relations::{Answers, AnswersError, Limits, Units, differences},
+    results::Failure,
+};
+
+fn main() -> Result<(), Failure> {
+    let mut numbers = env::args().skip(1).map(|text| text.parse::<u64>());
+    let first = numbers.next().ok_or("the first seed and how many")??;
+    let count = numbers.next().transpose()?.unwrap_or(1);
+    let solutions = numbers.next().transpose()?.unwrap_or(20_000);
+    let limits = Limits { solutions, ..Limits::default() };
+    let (mut same, mut different, mut left) = (0, 0, 0);
+    for seed in first..first + count {
+        let begun = Instant::now();
+        let units = random_units(seed);
+        let study: toml::Table = random_study(seed).parse()?;
+        let pair = answers(&study, Units::SI, &limits)
+            .and_then(|there| Ok((there, answers(&units.rescaled(&study), units, &limits)?)));
+        let seconds = begun.elapsed().as_secs_f64();
+        match pair {
+            Ok((study, other)) => {
+                let found = differences(&study, &other);
+                let (branches, rows, events) = (study.branches.len(), study.solutions, study.events.len());
+                let count = found.len();
+                println!(
+                    "{seed}: {branches} branches, {rows} rows, {events} events, {count} differences, {seconds:.1} s"
+                );
+                found.iter().for_each(|difference| println!("{seed}:   {difference}"));
+                if found.is_empty() { same += 1 } else { different += 1 }
+            }
+            Err(error) => {
+                println!("{seed}: not compared, {error}, {seconds:.1} s");
+                left += 1;
+            }
+        }
+    }
+    println!("{same} the same, {different} with differences, {left} not compared");
+    Ok(())
+}
+
+fn answers(study: &toml::Table, units: Units, limits: &Limits) -> Result<Answers, AnswersError> {
+    let folder = tempfile::tempdir().map_err(Failure::from)?;
+    Answers::of(study, units, limits, folder.path())
+}
+
+/// Each unit up to a thousand times larger or smaller.
+fn random_units(seed: u64) -> Units {
+    let mut random = Random::new(seed ^ 0x5EED);
+    (0..8).for_each(|_| _ = random.part());
+    let mut factor = || 10.0_f64.powf(6.0 * random.part() - 3.0);
+    Units { mass: factor(), length: factor(), time: factor() }
+}
