@@ -5,7 +5,10 @@ use std::{io::Write, path::Path};
 use hammerbeam_orbit::Side;
 
 use super::{ExportError, ends::entries, events::complex_numbers};
-use crate::store::{BranchRecord, Store};
+use crate::{
+    store::{BranchRecord, Store},
+    whole_file::WriteError,
+};
 
 /// Columns of `states.csv`; `row` counts from 0 along the branch, as in `events.csv`.
 pub const STATE_COLUMNS: [&str; 7] =
@@ -13,7 +16,7 @@ pub const STATE_COLUMNS: [&str; 7] =
 
 /// One row per solution: the state `[q; q']` at the phase at which its orbit begins, and its multipliers.
 pub(super) fn write_states(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
-    let failed = |source| ExportError::Write { path: path.to_owned(), source };
+    let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", STATE_COLUMNS.join(",")).map_err(failed)?;
     for branch in store.branches()? {
         for (row, (side, number)) in places(&branch).enumerate() {
