@@ -170,7 +170,7 @@ impl Summary<'_> {
             others => format!(" (nor have {others} others)"),
         };
         Some(format!(
-            "\n{first}{others}: {marginal} solution(s) are marginal, with multipliers on the unit circle as well as these are known, and change stability nowhere; \
+            "\n{first}{others}: {marginal} solution(s), those at bifurcations included, have multipliers on the unit circle as well as these are known; \
              {UNDAMPED_ADVICE}"
         ))
     }
