@@ -65,12 +65,11 @@ fn times(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
 }
 
+/// Start, end and the derivative of the end by the start.
+type Passage = ([f64; 2], [f64; 2], [[f64; 2]; 2]);
+
 /// Such a motion from `before` the bottom to `behind` it: start, end and the derivative of the end by the start; `None` where the contact opens once more.
-fn closed_form(
-    oscillator: Oscillator,
-    opening: f64,
-    (before, behind): (f64, f64),
-) -> Option<([f64; 2], [f64; 2], [[f64; 2]; 2])> {
+fn closed_form(oscillator: Oscillator, opening: f64, (before, behind): (f64, f64)) -> Option<Passage> {
     let flight = Piece { oscillator, stiffness: 1.0, from: (0.0, [-opening, 0.0]) };
     let acceleration = AMPLITUDE * oscillator.phase.cos() + opening;
     let crossing = |side: f64| {
