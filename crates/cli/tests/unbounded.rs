@@ -1,4 +1,5 @@
 //! An undamped resonance in a whole run: both pieces of the branch, and why they end.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::common::{Workshop, assert_success, number, stdout};
 

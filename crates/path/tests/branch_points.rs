@@ -1,4 +1,5 @@
 //! Simple branch points are recognised, recorded, and walked through.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;

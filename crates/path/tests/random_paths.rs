@@ -1,4 +1,5 @@
 //! Random paths whose folds are known by other means, in random coordinates.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
 use hammerbeam_path::{DenseProblem, Settings, StopReason};

@@ -1,4 +1,5 @@
 //! Running a follower: work, checkpoints, reasons to stop.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
 use hammerbeam_path::{

@@ -1,4 +1,5 @@
 //! Folds as sharp as grazing makes them: turns within 1e-6 to 1e-8 of the parameter, corners, one-sided powers.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;

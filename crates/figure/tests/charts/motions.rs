@@ -1,4 +1,5 @@
 //! Response diagrams, sweeps and basins.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_figure::{
     BasinMap, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings, ScaleChoice, Style,

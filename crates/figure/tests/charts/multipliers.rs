@@ -1,4 +1,5 @@
 //! Figures of multipliers.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_figure::{MultiplierDiagram, Multipliers, Style};
 

@@ -1,4 +1,5 @@
 //! Figures of orbits.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitSample, Style};
 
