@@ -1,6 +1,11 @@
 //! Folders that a command refuses: of another study, or none at all.
 
-use std::{fs, process::Command, thread::sleep, time::Duration};
+use std::{
+    fs,
+    process::{Child, Command},
+    thread::sleep,
+    time::Duration,
+};
 
 use hammerbeam_study::Store;
 
@@ -53,25 +58,48 @@ fn a_file_is_refused_as_a_folder() {
     assert_eq!(workshop.listing(), before, "something was written");
 }
 
-/// Two commands do not write the same tables at once: one that is stopped while it writes a long table has the folder for itself still.
+/// Two commands do not write the same tables at once: one that has stored all and is stopped before its first
+/// table is in its place has the folder for itself still.
 #[cfg(unix)]
 #[test]
 fn a_folder_is_locked_until_the_tables_are_written() {
+    for (command, table) in COMMANDS.into_iter().zip(["samples", "sweep", "sweep", "spectra", "basins"]) {
+        let command = [command, &["--out", "out"]].concat();
+        let stopped = (0..30).find_map(|_| stopped_before_its_table(&command, table));
+        let (workshop, mut child) =
+            stopped.unwrap_or_else(|| panic!("{command:?} was never stopped in time"));
+        assert_bad_input(&workshop.hammerbeam(&command), &["another run is writing to out"]);
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+}
+
+/// The command, stopped when all was stored and the table not there; `None` where it was too quick.
+///
+/// It is let go for a moment at a time, so that it does not get far between two looks however busy the machine.
+#[cfg(unix)]
+fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, Child)> {
     let workshop = Workshop::with(TWO_MASSES);
-    let motion = ["simulate", "study.toml", "--frequency", "13.6", "--periods", "200"];
-    let command = [&motion[..], &["--samples-per-period", "3000", "--out", "out"]].concat();
-    let mut child = workshop.spawn(&command);
+    let mut child = workshop.spawn(command);
+    let signal = |signal: &str| {
+        assert!(Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap().success());
+    };
     let stored = || {
         let requests = Store::open(&workshop.path("out")).and_then(|store| store.requests());
         requests.is_ok_and(|requests| requests.first().is_some_and(|one| one.done == one.pieces))
     };
-    while !stored() {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before its tables");
-        sleep(Duration::from_millis(5));
+    loop {
+        signal("-STOP");
+        if stored() {
+            break;
+        }
+        signal("-CONT");
+        sleep(Duration::from_micros(300));
     }
-    assert!(Command::new("kill").args(["-STOP", &child.id().to_string()]).status().unwrap().success());
-    assert!(!workshop.path("out/samples.csv").exists(), "the table was written already");
-    assert_bad_input(&workshop.hammerbeam(&command), &["another run is writing to out"]);
+    if !workshop.path(&format!("out/{table}.csv")).exists() {
+        return Some((workshop, child));
+    }
     child.kill().unwrap();
     child.wait().unwrap();
+    None
 }
