@@ -12,7 +12,7 @@ use crate::common::{
     crossings::{crossings, distance},
     extensive, folds, paper_beam, walk, walk_both,
 };
-use hammerbeam_orbit::{BranchRow, OrbitSettings, Side, StopReason};
+use hammerbeam_orbit::{BranchRow, OrbitSettings, Side, Stability, StopReason};
 
 const RANGE_HZ: (f64, f64) = (19.0, 110.0);
 /// Two folds are the same below this [Hz]; the closest pair of distinct ones is 7e-8 Hz apart, so pairs are told apart by their number.
@@ -123,13 +123,19 @@ fn stability_changes_as_one_multiplier_or_one_pair_passes_the_unit_circle() {
     let outside = |row: &BranchRow| {
         row.solution.floquet_multipliers.iter().filter(|[re, im]| re.hypot(*im) > 1.0).count()
     };
+    let rows = &branch().rows;
+    // At the bifurcation itself a multiplier is on the circle as well as it is known.
+    let decided: Vec<usize> =
+        (0..rows.len()).filter(|&k| rows[k].solution.stability() != Stability::Marginal).collect();
     let mut changes = 0;
-    for pair in branch().rows.windows(2).filter(|pair| pair[0].solution.stable() != pair[1].solution.stable())
-    {
-        if pair.iter().any(|row| row.events.fold) {
-            continue; // The multiplier is 1 to rounding there.
+    for pair in decided.windows(2) {
+        let [first, second] = [pair[0], pair[1]].map(|k| &rows[k]);
+        if first.solution.stable() == second.solution.stable()
+            || rows[pair[0]..=pair[1]].iter().any(|row| row.events.fold)
+        {
+            continue; // At a fold the multiplier is 1 to rounding.
         }
-        let unstable = if pair[0].solution.stable() { &pair[1] } else { &pair[0] };
+        let unstable = if first.solution.stable() { second } else { first };
         let leading = unstable.solution.floquet_multipliers[0];
         let expected = if leading[1] == 0.0 { 1 } else { 2 };
         assert_eq!(outside(unstable), expected, "{} Hz", frequency(unstable));
