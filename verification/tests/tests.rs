@@ -11,6 +11,7 @@ mod contacts;
 mod duffing;
 mod linear;
 mod marginal;
+mod many_attractors;
 mod measuring_filter;
 mod relations;
 mod shaw_holmes_1983;

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Version of the tables.
-pub const SCHEMA_VERSION: u32 = 7;
+pub const SCHEMA_VERSION: u32 = 8;
 
 /// Marks a database as ours: "HmBm".
 const APPLICATION_ID: i64 = 0x486d_426d;
@@ -23,7 +23,7 @@ const TABLES: &str = "
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE job (
     id INTEGER PRIMARY KEY,
-    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'doubling', 'crossing')),
+    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
     frequency_hz REAL NOT NULL,
     source INTEGER UNIQUE,
     depth INTEGER NOT NULL,
