@@ -73,9 +73,10 @@ fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number
         }
         DeValue::String(text) => {
             if let Some(measured) = measured(text)
-                && let Some((suffix, unit)) = measured.dimension.suffix()
+                && let Some(unit) = measured.dimension.unit()
             {
-                let keys = keys.iter().map(|key| format!("{key}{suffix}")).collect();
+                let ends = || measured.dimension.suffixes().map(|(end, _)| end);
+                let keys = keys.iter().flat_map(|key| ends().map(move |end| format!("{key}{end}"))).collect();
                 found.push(Number { keys, span: value.span(), value: measured.value, unit: Some(unit) });
             }
         }

@@ -138,7 +138,7 @@ impl<'a> Table<'a> {
     fn has_other_unit(&self, name: &str, asked: &[&'static str]) -> bool {
         let is_form = |key: &&&'static str| without_unit(key).is_some_and(|(stem, _)| stem == name);
         let Some(key) = asked.iter().find(is_form) else { return false };
-        let unit = without_unit(key).and_then(|(_, dimension)| dimension.suffix()).map_or("", |pair| pair.1);
+        let unit = without_unit(key).and_then(|(_, dimension)| dimension.unit()).unwrap_or_default();
         let help = vec![format!("allowed: a text such as `{name} = \"1 {unit}\"`, or a number as `{key}`")];
         self.problem(name, format!("`{name}` has to be a number with a unit that fits {unit}"), help);
         true

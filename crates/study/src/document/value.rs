@@ -6,7 +6,10 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use hammerbeam_signal::limits::is_control;
 
-use super::{Quantity, Reading, Table, closest, unit::measured, unit::without_unit};
+use super::{
+    Quantity, Reading, Table, closest,
+    unit::{Dimension, measured, without_unit},
+};
 
 /// Entries of a list.
 const LONGEST_LIST: usize = 10_000;
@@ -90,7 +93,7 @@ impl<'a> Value<'a> {
         match measured(text).filter(|measured| Some(measured.dimension) == dimension) {
             Some(measured) => Some(measured.value),
             None => {
-                let unit = dimension.and_then(|dimension| Some(dimension.suffix()?.1)).unwrap_or_default();
+                let unit = dimension.and_then(Dimension::unit).unwrap_or_default();
                 self.wrong_type(&format!("a number with a unit that fits {unit}"))
             }
         }
