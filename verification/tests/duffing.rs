@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{Rig, element_at, force_at, response_of, single_mass, walk_both};
 use approx::{assert_abs_diff_eq, assert_relative_eq};
-use hammerbeam_motion::{Law, Load, System, law::CubicSpring};
+use hammerbeam_motion::{Law, Load, System, law::PowerSpring};
 use hammerbeam_orbit::OrbitSettings;
 
 /// `z`, `a` and `F`.
@@ -27,7 +27,7 @@ struct Duffing {
 impl Duffing {
     fn rig(self) -> Rig {
         let model = single_mass(1.0, 1.0, 2.0 * self.damping, false);
-        let spring = element_at(&model, "mass", Law::Cubic(CubicSpring::new(self.cubic).unwrap()));
+        let spring = element_at(&model, "mass", Law::Power(PowerSpring::cubic(self.cubic).unwrap()));
         let load = Load { support: vec![], forces: vec![force_at(&model, "mass", 1, self.force)] };
         let response = response_of(&model, "mass");
         Rig { system: System::new(model, &load, vec![spring]).unwrap(), response }

@@ -11,7 +11,7 @@ use hammerbeam_motion::{
     Law, Stretch, System,
     exact::ExactSettings,
     general::{GeneralSettings, advance},
-    law::{CubicSpring, RigidStop},
+    law::{PowerSpring, RigidStop},
 };
 
 const FREQUENCY_HZ: f64 = 0.25;
@@ -19,7 +19,7 @@ const CELLS: usize = 14;
 
 /// Hardening spring, two periodic motions at 0.25 Hz.
 fn duffing() -> System {
-    let cubic = element(&[1.0], 0.0, Law::Cubic(CubicSpring::new(1.0).unwrap()));
+    let cubic = element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
     oscillator(1.0, 0.1, 0.3, vec![cubic])
 }
 
@@ -108,7 +108,7 @@ fn linear_oscillator_has_one_basin() {
 /// Chaos of Ueda's oscillator is one attractor, recognised from other cells by where its states lie.
 #[test]
 fn a_chaotic_attractor_is_recognised_from_every_cell() {
-    let cubic = element(&[1.0], 0.0, Law::Cubic(CubicSpring::new(1.0).unwrap()));
+    let cubic = element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
     let system = oscillator(0.0, 0.05, 7.5, vec![cubic]);
     let effort = Effort {
         patience: hammerbeam_attractor::Patience { skipped: 50, periods: 100, longest: 8 },

@@ -7,7 +7,7 @@ use crate::common::{element, oscillator, paper_beam};
 use hammerbeam_attractor::{
     Class, Classified, Doubt, Effort, Patience, SectionMap, StepMap, SystemMap, classify,
 };
-use hammerbeam_motion::{Law, exact::ExactSettings, law::CubicSpring};
+use hammerbeam_motion::{Law, exact::ExactSettings, law::PowerSpring};
 
 fn short() -> Effort {
     Effort { patience: Patience { skipped: 50, periods: 400, longest: 16 }, aligning: 50, averaged: 1000 }
@@ -94,7 +94,7 @@ fn undamped_oscillator_under_an_incommensurate_force_is_quasi_periodic() {
 /// Ueda (1979): of `x'' + 0.05 x' + x^3 = 7.5 cos t` all motions are chaotic. With `0.2` and `5.5` there are periodic ones.
 #[test]
 fn ueda_oscillator_is_chaotic() {
-    let cubic = || vec![element(&[1.0], 0.0, Law::Cubic(CubicSpring::new(1.0).unwrap()))];
+    let cubic = || vec![element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()))];
     let system = oscillator(0.0, 0.05, 7.5, cubic());
     let mut map = SystemMap::new(system, 1.0 / TAU, 1, ExactSettings::default()).unwrap();
     let found = kind(&mut map, &[0.0, 0.0]);

@@ -8,7 +8,7 @@ use hammerbeam_attractor::{LyapunovSettings, SectionMap, Spectrum, SystemMap, ly
 use hammerbeam_motion::{
     Law, System,
     exact::ExactSettings,
-    law::{CubicSpring, LinearStop, TwoSidedStop},
+    law::{Degree, LinearStop, PowerSpring, TwoSidedStop},
 };
 
 fn spectrum(
@@ -47,7 +47,7 @@ fn exponents_add_up_to_the_divergence_for_every_loss_free_law() {
         ("hertz", hertz(4.5e9, 0.0)),
         ("linear", Law::Linear(LinearStop::with_gap(5e5, 0.0).unwrap())),
         ("two-sided", Law::TwoSided(TwoSidedStop::new(5e5, 1e-4, 2e-4).unwrap())),
-        ("cubic", Law::Cubic(CubicSpring::new(1e9).unwrap())),
+        ("cubic", Law::Power(PowerSpring::cubic(1e9).unwrap())),
     ];
     for (name, law) in laws {
         let (found, divergence) = spectrum(beam_with(0.015, law), 53.0, 4, (100, 100));
@@ -76,9 +76,25 @@ fn largest_exponent_of_the_beam_at_53_hz_is_surely_positive() {
 /// Ueda's oscillator as a system with a cubic spring: 0.1034 and -0.1534 (Sprott 2003), here from the exact integrator.
 #[test]
 fn ueda_oscillator_as_a_system_has_the_published_exponents() {
-    let cubic = element(&[1.0], 0.0, Law::Cubic(CubicSpring::new(1.0).unwrap()));
+    let cubic = element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
     let (found, divergence) = spectrum(oscillator(0.0, 0.05, 7.5, vec![cubic]), 1.0 / TAU, 4, (100, 3000));
     for (exponent, published) in found.exponents.iter().zip([0.1034, -0.1534]) {
+        assert!((exponent.value - published).abs() < 0.5e-4 + 2.0 * exponent.half_width, "{exponent:?}");
+        assert!(exponent.half_width < 2e-2);
+    }
+    assert!((found.sum - divergence).abs() < 1e-6);
+}
+
+/// A mass between two wells, `x'' + 0.25 x' - x + x^3 = 0.4 cos t`: 0.1572 and -0.4072 (Sprott 2003, appendix A), with a
+/// linear element that pushes away from the middle.
+#[test]
+fn two_well_oscillator_has_the_published_exponents() {
+    let springs = [(-1.0, Degree::Linear), (1.0, Degree::Cubic)];
+    let elements =
+        springs.map(|(k, degree)| element(&[1.0], 0.0, Law::Power(PowerSpring::new(k, degree).unwrap())));
+    let (found, divergence) =
+        spectrum(oscillator(0.0, 0.25, 0.4, elements.to_vec()), 1.0 / TAU, 4, (100, 3000));
+    for (exponent, published) in found.exponents.iter().zip([0.1572, -0.4072]) {
         assert!((exponent.value - published).abs() < 0.5e-4 + 2.0 * exponent.half_width, "{exponent:?}");
         assert!(exponent.half_width < 2e-2);
     }

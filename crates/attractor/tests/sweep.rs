@@ -5,7 +5,7 @@ use crate::common::{element, oscillator, paper_beam};
 use hammerbeam_attractor::{
     Class, Effort, Observable, Patience, SweepPoint, SweepSettings, Sweeper, frequencies,
 };
-use hammerbeam_motion::{Law, System, exact::ExactSettings, law::CubicSpring};
+use hammerbeam_motion::{Law, System, exact::ExactSettings, law::PowerSpring};
 use hammerbeam_orbit::{OrbitSettings, Response, find_orbits};
 
 fn sweeper(system: &System, shape: &[f64], support_ratio: f64) -> Sweeper {
@@ -18,7 +18,7 @@ fn sweeper(system: &System, shape: &[f64], support_ratio: f64) -> Sweeper {
 }
 
 fn duffing() -> System {
-    let cubic = element(&[1.0], 0.0, Law::Cubic(CubicSpring::new(1.0).unwrap()));
+    let cubic = element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
     oscillator(1.0, 0.1, 0.3, vec![cubic])
 }
 

@@ -323,18 +323,26 @@ pub enum Format {
     Csv,
 }
 
+/// A number of hertz, or a frequency with its unit.
+fn hertz(text: &str) -> Option<f64> {
+    text.parse().ok().or_else(|| hammerbeam_study::hertz(text))
+}
+
 /// A frequency of the excitation: a time of its period is a number, and so is what follows from it.
 pub fn excitation_frequency(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if (1e-10..=1e10).contains(&number) => Ok(number),
-        _ => Err("must be a number of hertz from 1e-10 to 1e10".to_owned()),
+    match hertz(text) {
+        Some(number) if (1e-10..=1e10).contains(&number) => Ok(number),
+        _ => {
+            Err("must be a number of hertz from 1e-10 to 1e10, or one with its unit: \"31.4 rad/s\""
+                .to_owned())
+        }
     }
 }
 
 pub fn positive(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
-        _ => Err("must be a finite number of hertz, more than 0".to_owned()),
+    match hertz(text) {
+        Some(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("must be a finite number of hertz, more than 0, or one with its unit".to_owned()),
     }
 }
 

@@ -15,6 +15,7 @@ mod motion_args;
 mod numbers;
 mod output;
 mod overlay_args;
+mod pace;
 mod progress;
 mod series;
 mod signal_args;

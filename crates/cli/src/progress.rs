@@ -1,4 +1,4 @@
-//! The progress bar of a run; nothing is shown when standard error is not a terminal.
+//! The progress of a run: a bar, or a line every ten seconds when standard error is not a terminal.
 
 use std::time::{Duration, Instant};
 
@@ -6,9 +6,12 @@ use hammerbeam_study::{
     run::{Observer, Progress, VariedProgress},
     store::{JobKind, JobRecord},
 };
-use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressStyle};
+use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
-use crate::interrupt::Interrupt;
+use crate::{
+    interrupt::Interrupt,
+    pace::{Lines, Pace},
+};
 
 /// Time between two changes of the bar.
 const CHANGE: Duration = Duration::from_millis(100);
@@ -19,20 +22,36 @@ const LENGTH: u64 = 10_000;
 /// Shows a run on the terminal and stops it on Ctrl-C.
 pub struct Terminal {
     bar: ProgressBar,
+    lines: Lines,
     interrupt: Interrupt,
     changed: Instant,
-    first: Option<(Instant, f64)>,
-    /// Whether the diagram is done and what comes after it is computed, which has a bar of its own.
+    /// Of what is computed now: the diagram, or the branches and curves that come after it.
+    pace: Option<Pace>,
+    /// The part of the bar that is the diagram's, and whether that is done.
+    diagram: f64,
     after_diagram: bool,
+    /// What was told last.
+    told: (f64, String),
 }
 
 impl Terminal {
     /// A bar on standard error.
-    pub fn new(interrupt: Interrupt) -> Self {
+    ///
+    /// * `pieces`: varied branches and curves that come after the diagram, which have a share of the bar.
+    pub fn new(interrupt: Interrupt, pieces: usize) -> Self {
         let bar = ProgressBar::new(LENGTH);
         let style = ProgressStyle::with_template("[{bar:8}] {percent:>3} %  {wide_msg}");
         bar.set_style(style.expect("the template is constant").progress_chars("=> "));
-        Self { bar, interrupt, changed: Instant::now(), first: None, after_diagram: false }
+        Self {
+            bar,
+            lines: Lines::begin(),
+            interrupt,
+            changed: Instant::now(),
+            pace: None,
+            diagram: if pieces == 0 { 1.0 } else { 0.5 },
+            after_diagram: false,
+            told: (0.0, "begun".to_owned()),
+        }
     }
 
     /// Takes the bar away.
@@ -42,15 +61,8 @@ impl Terminal {
 
     /// How long it still takes, and new solutions per second.
     fn pace(&mut self, fraction: f64, new_solutions: u64) -> (String, f64) {
-        let (begun, first) = *self.first.get_or_insert((Instant::now(), fraction));
-        let elapsed = begun.elapsed();
-        let rate = new_solutions as f64 / elapsed.as_secs_f64().max(0.1);
-        let gained = fraction - first;
-        if gained <= 1e-3 {
-            return ("? left".to_owned(), rate);
-        }
-        let left = elapsed.mul_f64(((1.0 - fraction) / gained).min(1e6));
-        (format!("{:#} left", HumanDuration(left)), rate)
+        let pace = *self.pace.get_or_insert_with(|| Pace::from(fraction));
+        (pace.left(fraction), new_solutions as f64 / pace.elapsed().as_secs_f64().max(0.1))
     }
 
     /// How long it still takes, branches, solutions so far and their rate, all within 80 columns, and where.
@@ -83,16 +95,17 @@ impl Terminal {
 
     /// Whether it is time to change what is shown.
     fn is_due(&mut self) -> bool {
-        let due = !self.bar.is_hidden() && self.changed.elapsed() >= CHANGE;
+        let due = self.changed.elapsed() >= CHANGE;
         if due {
             self.changed = Instant::now();
         }
         due
     }
 
-    fn show(&self, fraction: f64, message: String) {
+    fn show(&mut self, fraction: f64, message: String) {
         self.bar.set_position((fraction * LENGTH as f64) as u64);
-        self.bar.set_message(message);
+        self.bar.set_message(message.clone());
+        self.told = (fraction, message);
     }
 }
 
@@ -106,28 +119,32 @@ impl Observer for Terminal {
             JobKind::Doubling => "leaving a flip",
             JobKind::Crossing => "leaving a branch point",
         };
-        self.bar.set_message(format!("{what} at {:.4} Hz", job.frequency_hz));
+        self.show(self.told.0, format!("{what} at {:.4} Hz", job.frequency_hz));
         self.bar.tick();
     }
 
     fn progress(&mut self, progress: &Progress) {
         if self.is_due() {
             let message = self.message(progress);
-            self.show(progress.fraction, message);
+            self.show(self.diagram * progress.fraction, message);
         }
     }
 
     fn varied(&mut self, progress: &VariedProgress<'_>) {
         if !self.after_diagram {
-            (self.after_diagram, self.first) = (true, None);
+            (self.after_diagram, self.pace) = (true, None);
         }
         if self.is_due() {
             let message = self.varied_message(progress);
-            self.show(progress.fraction, message);
+            self.show(self.diagram + (1.0 - self.diagram) * progress.fraction, message);
         }
     }
 
     fn interrupted(&mut self) -> bool {
+        if self.bar.is_hidden() {
+            let (fraction, message) = &self.told;
+            self.lines.say(|| format!("{:.0} %, {message}", 100.0 * fraction));
+        }
         self.interrupt.raised()
     }
 }

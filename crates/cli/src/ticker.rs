@@ -1,8 +1,11 @@
-//! The progress of work whose length is known: shown after a second, on a terminal only.
+//! The progress of work whose length is known: a bar after a second, or a line every ten seconds when standard
+//! error is not a terminal.
 
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::pace::{Lines, Pace};
 
 /// Time before anything is shown, and between two changes.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -12,41 +15,55 @@ const CHANGE: Duration = Duration::from_millis(100);
 #[derive(Debug)]
 pub struct Ticker {
     bar: ProgressBar,
+    lines: Lines,
+    what: String,
     begun: Instant,
     changed: Instant,
+    pace: Option<Pace>,
 }
 
 impl Ticker {
     /// For so many of what is counted.
     pub fn new(total: u64, what: &str) -> Self {
-        let style = ProgressStyle::with_template("[{bar:24}] {pos} of {len} {prefix}, {eta} left  {msg}");
-        let bar = ProgressBar::hidden();
-        bar.set_style(style.expect("the template is constant").progress_chars("=> "));
-        bar.set_length(total);
-        bar.set_prefix(what.to_owned());
-        Self { bar, begun: Instant::now(), changed: Instant::now() }
+        Self::with("[{bar:24}] {pos} of {len} {prefix}, {msg}", Some(total), what)
     }
 
     /// For an unknown number of what is counted.
     pub fn counting(what: &str) -> Self {
-        let style = ProgressStyle::with_template("{spinner} {pos} {prefix}, {elapsed}  {msg}");
-        let bar = ProgressBar::hidden();
-        bar.set_style(style.expect("the template is constant"));
+        Self::with("{spinner} {pos} {prefix}, {elapsed}  {msg}", None, what)
+    }
+
+    fn with(template: &str, total: Option<u64>, what: &str) -> Self {
+        let style = ProgressStyle::with_template(template);
+        let bar = ProgressBar::with_draw_target(total, ProgressDrawTarget::hidden());
+        bar.set_style(style.expect("the template is constant").progress_chars("=> "));
         bar.set_prefix(what.to_owned());
-        Self { bar, begun: Instant::now(), changed: Instant::now() }
+        let now = Instant::now();
+        Self { bar, lines: Lines::begin(), what: what.to_owned(), begun: now, changed: now, pace: None }
     }
 
     /// So many are done.
     pub fn at(&mut self, done: u64, message: impl FnOnce() -> String) {
+        let total = self.bar.length();
+        let fraction = total.map(|total| done as f64 / total.max(1) as f64);
+        let pace =
+            fraction.map(|fraction| (*self.pace.get_or_insert_with(|| Pace::from(fraction)), fraction));
         if self.begun.elapsed() < PATIENCE || self.changed.elapsed() < CHANGE {
             return;
         }
-        if self.bar.is_hidden() {
-            self.bar.set_draw_target(indicatif::ProgressDrawTarget::stderr());
-        }
         self.changed = Instant::now();
-        self.bar.set_position(done);
-        self.bar.set_message(message());
+        if self.bar.is_hidden() {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+        let left = pace.map(|(pace, fraction)| pace.left(fraction) + "  ");
+        let message = left.unwrap_or_default() + &message();
+        if self.bar.is_hidden() {
+            let of = total.map(|total| format!(" of {total}")).unwrap_or_default();
+            self.lines.say(|| format!("{done}{of} {}, {message}", self.what));
+        } else {
+            self.bar.set_position(done);
+            self.bar.set_message(message);
+        }
     }
 
     /// Takes the bar away.

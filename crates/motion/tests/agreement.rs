@@ -6,7 +6,7 @@
 use crate::common::{assert_agreement, beam_with, hertz, paper_beam, settled, uniform_beam};
 use hammerbeam_motion::{
     Law, Stretch,
-    law::{CubicSpring, LinearStop, TwoSidedStop},
+    law::{LinearStop, PowerSpring, TwoSidedStop},
 };
 
 const BOUND: f64 = 1e-9;
@@ -60,7 +60,7 @@ fn stretches_that_start_and_end_inside_contacts_agree() {
 
 #[test]
 fn flows_of_the_beam_agree_for_every_law() {
-    let cubic = Law::Cubic(CubicSpring::new(1e9).unwrap());
+    let cubic = Law::Power(PowerSpring::cubic(1e9).unwrap());
     let laws = [
         (hertz(4.5e9, 2e-4), 40.0),
         (hertz(1e7, 0.0), 40.0),

@@ -9,7 +9,7 @@ use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, Parameter, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{Column, GeneralSettings, Point, VectorField, integrate},
-    law::{CubicSpring, LinearStop},
+    law::{LinearStop, PowerSpring},
 };
 
 /// `dz/dx = g(x, z; p)/f` of a system over the phase x, with its damping ratio as parameter: `dg/dp = [0; -2 w_i v_i]`.
@@ -142,7 +142,7 @@ const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
 /// From modes as blocks to dampers that make all of them overdamped; with two equal modes, and one that is rigid.
 #[test]
 fn the_column_solves_the_variational_equations() {
-    let laws = [hertz(5e5, 2e-4), Law::Cubic(CubicSpring::new(1e8).unwrap())];
+    let laws = [hertz(5e5, 2e-4), Law::Power(PowerSpring::cubic(1e8).unwrap())];
     let stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
     for frequencies in [[3.5, 23.0, 111.0], [3.5, 23.0, 23.0], [0.0, 23.0, 111.0]] {
         for (ratio, damper) in [(0.02, 0.0), (0.0, 0.0), (0.01, 0.1), (0.01, 3.0), (0.0, 40.0), (0.01, 4e3)] {

@@ -8,7 +8,7 @@ use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralSettings, advance},
-    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+    law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
 
@@ -69,8 +69,8 @@ fn every_law_agrees_on_either_side_and_any_support() {
         Law::Linear(LinearStop::with_gap(1e5, 3e-4).unwrap()),
         Law::Linear(LinearStop::with_preload(3e4, 5.0).unwrap()),
         Law::TwoSided(TwoSidedStop::new(1e5, 1e-3, 2e-3).unwrap()),
-        Law::Cubic(CubicSpring::new(1e9).unwrap()),
-        Law::Cubic(CubicSpring::new(-1e5).unwrap()),
+        Law::Power(PowerSpring::cubic(1e9).unwrap()),
+        Law::Power(PowerSpring::cubic(-1e5).unwrap()),
     ];
     for law in laws {
         for (shape, support_ratio) in [(TIP, 0.0), (negative(TIP), 0.0), (TIP, 1.0), (negative(TIP), -0.6)] {
@@ -86,7 +86,7 @@ fn every_law_agrees_on_either_side_and_any_support() {
 
 #[test]
 fn several_elements_at_once_agree() {
-    let cubic = Law::Cubic(CubicSpring::new(3e8).unwrap());
+    let cubic = Law::Power(PowerSpring::cubic(3e8).unwrap());
     let between: Vec<f64> = TIP.iter().zip(&MIDDLE).map(|(a, b)| a - b).collect();
     let cases = [
         (

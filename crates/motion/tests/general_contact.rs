@@ -9,7 +9,7 @@ use crate::general_common::{
 use hammerbeam_motion::{
     Flow, Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralFlow, GeneralSettings, advance, sample},
-    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+    law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
 };
 
 const STRETCH: Stretch = Stretch { frequency_hz: 4.0, start: 0.1, end: 1.85 };
@@ -38,7 +38,7 @@ fn laws() -> [Law; 6] {
         Law::Linear(LinearStop::with_gap(3e5, 1e-3).unwrap()),
         Law::Linear(LinearStop::with_preload(2e4, 8.0).unwrap()),
         Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap()),
-        Law::Cubic(CubicSpring::new(1e8).unwrap()),
+        Law::Power(PowerSpring::cubic(1e8).unwrap()),
     ]
 }
 

@@ -9,7 +9,7 @@ use hammerbeam_motion::{
     Harmonic, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, Observed, observe},
-    law::{CubicSpring, HertzStop, LinearStop},
+    law::{HertzStop, LinearStop, PowerSpring},
 };
 
 fn watch(system: &System, stretch: &Stretch, state: &[f64], response: (&[f64], f64)) -> Observed {
@@ -75,7 +75,7 @@ fn a_stop_under_heavy_preload_is_closed_throughout() {
 /// `q'' + q + q^3 = 0` at the speed v through the middle: `q^2 = sqrt(1 + 2 v^2) - 1` at the top, and `q + q^3` is its acceleration.
 #[test]
 fn the_top_of_a_cubic_spring_is_that_of_its_energy() {
-    let spring = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let spring = Law::Power(PowerSpring::cubic(1.0).unwrap());
     let stiffening = model(&[1.0], diagonal(&[0.0]));
     let system = System::new(stiffening, &Load::default(), vec![element(&[1.0], 0.0, spring)]).unwrap();
     for speed in [0.3_f64, 1.0, 3.0] {
@@ -122,7 +122,7 @@ fn maxima_of_both_integrators_agree_to_1e_9_with_few_and_many_contacts() {
         (50.0, Law::Linear(LinearStop::with_gap(2e5, 0.01).unwrap())),
         (50.0, Law::Hertz(HertzStop::with_gap(1e6, 0.01).unwrap())),
         (5.0, Law::Linear(LinearStop::with_preload(300.0, 3.0).unwrap())),
-        (0.5, Law::Cubic(CubicSpring::new(1e5).unwrap())),
+        (0.5, Law::Power(PowerSpring::cubic(1e5).unwrap())),
     ] {
         let load = Load { support: vec![], forces: vec![harmonic_force(&[1.0, 0.4], 1, amplitude, 0.0)] };
         let structure = model(&[10.0, 47.0], diagonal(&[0.4, 2.0]));

@@ -8,7 +8,7 @@ use differential_equations::prelude::*;
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralSettings, advance},
-    law::{CubicSpring, HertzStop, LinearStop},
+    law::{HertzStop, LinearStop, PowerSpring},
 };
 
 const WAVES: [f64; 2] = [TAU * 3.0, TAU * 14.0];
@@ -50,7 +50,7 @@ fn system(law: Law) -> System {
 #[test]
 fn states_agree_with_another_integrator() {
     for law in [
-        Law::Cubic(CubicSpring::new(1e6).unwrap()),
+        Law::Power(PowerSpring::cubic(1e6).unwrap()),
         Law::Linear(LinearStop::with_gap(2e3, 1e-3).unwrap()),
         Law::Hertz(HertzStop::with_gap(1e5, 1e-3).unwrap()),
     ] {

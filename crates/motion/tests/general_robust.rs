@@ -7,7 +7,7 @@ use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, Law, Load, LocalElement, Stretch, System,
     general::{GeneralFlow, GeneralSettings, advance},
-    law::{CubicSpring, HertzStop, LinearStop, TwoSidedStop},
+    law::{HertzStop, LinearStop, PowerSpring, TwoSidedStop},
 };
 
 const TOLERANCES: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
@@ -130,7 +130,7 @@ fn any_law(kind: usize, next: &mut impl FnMut() -> f64) -> Law {
         0 => hertz(10f64.powf(6.0 + 3.0 * next()), gap),
         1 => linear(10f64.powf(4.0 + 2.0 * next()), gap),
         2 => Law::TwoSided(TwoSidedStop::new(1e4, gap, 0.0).unwrap()),
-        3 => Law::Cubic(CubicSpring::new(1e6 * (1.01 + next())).unwrap()),
+        3 => Law::Power(PowerSpring::cubic(1e6 * (1.01 + next())).unwrap()),
         4 => Law::Hertz(HertzStop::with_preload(1e6, 3.0).unwrap()),
         _ => Law::Linear(LinearStop::with_preload(1e5, 2.0).unwrap()),
     }

@@ -9,7 +9,7 @@ use hammerbeam_motion::{
     Flow, Harmonic, HarmonicForce, Law, Load, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
     law::{
-        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+        HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop, TwoSidedStop,
     },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
@@ -63,7 +63,7 @@ fn laws() -> Vec<Law> {
         Law::Hertz(HertzStop::with_preload(5e6, 3.0).unwrap()),
         Law::Linear(LinearStop::with_gap(3e5, 1e-3).unwrap()),
         Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap()),
-        Law::Cubic(CubicSpring::new(1e8).unwrap()),
+        Law::Power(PowerSpring::cubic(1e8).unwrap()),
     ]
 }
 

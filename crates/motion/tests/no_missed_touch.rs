@@ -11,7 +11,7 @@ use crate::common::{diagonal, element, model};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{CubicSpring, HertzStop, LinearStop},
+    law::{HertzStop, LinearStop, PowerSpring},
 };
 use proptest::{prelude::*, test_runner::RngSeed};
 
@@ -50,7 +50,7 @@ impl Motion {
     fn active_element(&self) -> LocalElement {
         let stiffness = self.modes[0].frequency.powi(2);
         let law = match self.active {
-            Active::Cubic(part) => Law::Cubic(CubicSpring::new(part * stiffness / 1e-6).unwrap()),
+            Active::Cubic(part) => Law::Power(PowerSpring::cubic(part * stiffness / 1e-6).unwrap()),
             Active::Preloaded(part, true) => {
                 // As stiff as `part` of the mode at the depth of 0.1 m.
                 let k = part * stiffness / (1.5 * 0.1_f64.sqrt());

@@ -11,7 +11,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
-        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, TwoSidedStop,
+        HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop, TwoSidedStop,
     },
 };
 use hammerbeam_structure::{ReducedModel, SupportInput};
@@ -56,7 +56,7 @@ fn laws() -> Vec<Law> {
         hertz(5e5, 2e-4),
         Law::Linear(LinearStop::with_gap(3e4, 2.5e-4).unwrap()),
         Law::TwoSided(TwoSidedStop::new(8e3, 3e-4, 3e-4).unwrap()),
-        Law::Cubic(CubicSpring::new(1e8).unwrap()),
+        Law::Power(PowerSpring::cubic(1e8).unwrap()),
     ]
 }
 
@@ -271,7 +271,7 @@ fn without_a_parameter_there_is_no_column() {
 fn parameters_that_are_not_there_are_refused() {
     let preloaded = Law::Hertz(HertzStop::with_preload(5e6, 3.0).unwrap());
     let uneven = Law::TwoSided(TwoSidedStop::new(8e4, 1e-3, 2e-3).unwrap());
-    let system = three_modes(&[preloaded, uneven, Law::Cubic(CubicSpring::new(1e8).unwrap())], false);
+    let system = three_modes(&[preloaded, uneven, Law::Power(PowerSpring::cubic(1e8).unwrap())], false);
     for element in 0..3 {
         let error = system.parameter(Parameter::Gap { element }).unwrap_err();
         assert!(matches!(error, ParameterError::NoGap { .. }), "{error}");

@@ -127,7 +127,7 @@ mod tests {
     use faer::Mat;
     use hammerbeam_motion::{
         Law, Load, LocalElement,
-        law::{CubicSpring, LinearStop},
+        law::{LinearStop, PowerSpring},
     };
     use hammerbeam_structure::{PointOutput, ReducedModel};
 
@@ -159,7 +159,7 @@ mod tests {
     /// `x'' + x + x^3 = 0`: `T = 4 K(m)/sqrt(1 + a^2)`, `m = a^2/(2 (1 + a^2))`, with `K` by the arithmetic-geometric mean.
     #[test]
     fn frequency_of_the_undamped_duffing_oscillator_is_the_elliptic_integral() {
-        let (system, response) = oscillator(Law::Cubic(CubicSpring::new(1.0).unwrap()));
+        let (system, response) = oscillator(Law::Power(PowerSpring::cubic(1.0).unwrap()));
         for amplitude in [0.1, 1.0, 3.0] {
             let orbit = free_orbit(&system, &response, amplitude, &OrbitSettings::default()).unwrap();
             let square = amplitude * amplitude;

@@ -74,7 +74,7 @@ pub(crate) fn refine(
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-    use hammerbeam_motion::{Law, System, law::CubicSpring};
+    use hammerbeam_motion::{Law, System, law::PowerSpring};
 
     use crate::{
         BranchRow, BranchWalk, OrbitSettings, Response, Side, StopReason, find_start,
@@ -85,7 +85,7 @@ mod tests {
 
     /// `x'' + 0.06 x' + x + x^3 = 3 cos(2 pi f t)`: its 1/3 subharmonic orbits make a closed loop from 0.52 to 1.09 Hz.
     fn duffing() -> (System, Response) {
-        oscillator(0.06, 3.0, Law::Cubic(CubicSpring::new(1.0).unwrap()))
+        oscillator(0.06, 3.0, Law::Power(PowerSpring::cubic(1.0).unwrap()))
     }
 
     /// The loop from its start, cut into more segments after as many steps as `cuts` says, stored and taken up again after `stored` steps.

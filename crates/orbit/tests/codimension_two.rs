@@ -25,7 +25,7 @@ const SCALES: (f64, f64) = (0.3, 2.5);
 const SLOWER: f64 = 0.6;
 
 fn cubic() -> Law {
-    Law::Cubic(law::CubicSpring::new(1.0).unwrap())
+    Law::Power(law::PowerSpring::cubic(1.0).unwrap())
 }
 
 fn stop() -> Law {

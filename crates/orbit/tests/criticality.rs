@@ -13,7 +13,7 @@ use faer::{Mat, c64};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, Stretch, System,
     general::{GeneralSettings, advance},
-    law::CubicSpring,
+    law::PowerSpring,
 };
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, Crossing, CurveKind, CurveRow, OrbitSettings, PeriodicSolution, Response, Side,
@@ -39,7 +39,7 @@ fn biased() -> Case {
         harmonic: Harmonic { order, amplitude, phase: 0.0 },
     };
     let load = Load { support: vec![], forces: vec![force(0, 2.0), force(1, 8.0)] };
-    let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
     let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
     (System::new(model, &load, vec![spring]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
 }

@@ -129,7 +129,7 @@ fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
             let w = 0.5 * (root * damping + (3.0 * damping * damping + 4.0).sqrt());
             let force = (32.0 * (damping * w).powi(3) / (9.0 * root)).sqrt();
             // Twice the force of the cusp, so that there are folds to begin at.
-            let cubic = Law::Cubic(law::CubicSpring::new(1.0).unwrap());
+            let cubic = Law::Power(law::PowerSpring::cubic(1.0).unwrap());
             let case = oscillator(*damping, 2.0 * force, &[(1.0, cubic)]);
             let range_hz = (0.12, 0.3);
             let folds = events(&case, 0.12, range_hz, |events| events.fold);
@@ -284,7 +284,7 @@ fn two_modes(second: f64, force: f64) -> Case {
         name: "spring".into(),
         shape: shape.to_vec(),
         support_ratio: 0.0,
-        law: Law::Cubic(law::CubicSpring::new(k).unwrap()),
+        law: Law::Power(law::PowerSpring::cubic(k).unwrap()),
     };
     let springs = vec![spring([1.0, 1.0], 1.0), spring([1.0, -1.0], 0.5)];
     (System::new(model, &load, springs).unwrap(), Response { shape: vec![1.0, 1.0], support_ratio: 0.0 })

@@ -6,13 +6,13 @@ use crate::common::events::{
     Subject, alternation, assert_same, exponent, general_multipliers, growth, leaving, oscillator,
     settled_period, side, sorted, step_of, with,
 };
-use hammerbeam_motion::{Law, law::CubicSpring};
+use hammerbeam_motion::{Law, law::PowerSpring};
 use hammerbeam_orbit::{BranchRow, EventStatus, OrbitSettings, PeriodicSolution, Side, find_start};
 
 const RANGE: (f64, f64) = (0.12, 0.3);
 
 fn subject() -> Subject {
-    oscillator(1e-6, 0.1, 10.0, Law::Cubic(CubicSpring::new(1.0).unwrap()))
+    oscillator(1e-6, 0.1, 10.0, Law::Power(PowerSpring::cubic(1.0).unwrap()))
 }
 
 /// The asymmetric branch, from the loss of symmetry below a symmetric orbit.

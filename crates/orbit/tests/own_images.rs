@@ -7,7 +7,7 @@ use crate::common::{
 };
 use faer::Mat;
 use hammerbeam_motion::{
-    Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law::CubicSpring,
+    Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law::PowerSpring,
 };
 use hammerbeam_orbit::{BranchRow, CurveEnd, CurveKind, OrbitSettings, Response, Side, find_start};
 use hammerbeam_structure::{PointOutput, ReducedModel};
@@ -30,7 +30,7 @@ fn biased() -> Case {
         harmonic: Harmonic { order, amplitude, phase: 0.0 },
     };
     let load = Load { support: vec![], forces: vec![force(0, 2.0), force(1, 8.0)] };
-    let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
     let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
     (System::new(model, &load, vec![spring]).unwrap(), Response { shape: vec![1.0], support_ratio: 0.0 })
 }
@@ -92,7 +92,7 @@ fn two_masses() -> Case {
     };
     let harmonic = Harmonic { order: 1, amplitude: 1.403, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: second.clone(), harmonic }] };
-    let law = Law::Cubic(CubicSpring::new(1.807).unwrap());
+    let law = Law::Power(PowerSpring::cubic(1.807).unwrap());
     let spring = LocalElement { name: "spring".into(), shape: second.clone(), support_ratio: 0.0, law };
     (System::new(model, &load, vec![spring]).unwrap(), Response { shape: second, support_ratio: 0.0 })
 }

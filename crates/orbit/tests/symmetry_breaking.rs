@@ -12,7 +12,7 @@ use crate::common::events::{
 use hammerbeam_motion::{
     Law, Stretch,
     general::{GeneralSettings, advance},
-    law::CubicSpring,
+    law::PowerSpring,
 };
 use hammerbeam_orbit::{BranchRow, Matcher, OrbitSettings, PeriodicSolution, Side, StopReason, find_start};
 
@@ -20,7 +20,7 @@ use hammerbeam_orbit::{BranchRow, Matcher, OrbitSettings, PeriodicSolution, Side
 const RANGE: (f64, f64) = (0.09, 0.16);
 
 fn subject() -> Subject {
-    oscillator(1.0, 0.2, 15.0, Law::Cubic(CubicSpring::new(1.0).unwrap()))
+    oscillator(1.0, 0.2, 15.0, Law::Power(PowerSpring::cubic(1.0).unwrap()))
 }
 
 /// The symmetric branch.

@@ -58,7 +58,7 @@ pub mod verify;
 pub mod whole_file;
 
 pub use crossings::{MirrorImage, PlacedRow, StoredBranch, StoredBranches, corrected};
-pub use document::{Problem, Report};
+pub use document::{Problem, Report, unit::hertz};
 pub use export::{export_csv, export_states};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;

@@ -10,13 +10,15 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use crate::{StudyError, StudyFile};
+use crate::{StudyError, StudyFile, document::unit::measured};
 
 /// Tables that say how something is computed, and what.
 const NOT_OF_THE_MODEL: [&str; 8] =
     ["reduction", "response", "search", "continuation", "vary", "curve", "figures", "rig"];
 /// Keys that count or bound.
-const NOT_A_QUANTITY: [&str; 3] = ["elements", "order", "frequency_hz"];
+const NOT_A_QUANTITY: [&str; 4] = ["elements", "order", "frequency_hz", "frequency"];
+/// Keys of names, which may look like quantities.
+const NAMES: [&str; 5] = ["name", "title", "between", "fixed_to", "kind"];
 
 /// Part of a number that stands for next to nothing.
 const SMALL: f64 = 1e-6;
@@ -28,8 +30,10 @@ pub(crate) struct Number {
     pub keys: Vec<String>,
     /// Where it stands [bytes].
     pub span: Range<usize>,
-    /// Its value.
+    /// Its value, in the SI unit at the end of its key.
     pub value: f64,
+    /// That unit, where it is written as a text with a unit.
+    pub unit: Option<&'static str>,
 }
 
 /// All numbers of the model that the text of a study holds.
@@ -58,7 +62,7 @@ pub(crate) fn number_named(text: &str, key: &str) -> Result<Option<Number>, usiz
 fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number>) {
     let mut push = |value: Option<f64>, span: Range<usize>| {
         if let Some(value) = value.filter(|value| value.is_finite()) {
-            found.push(Number { keys: keys.to_vec(), span, value });
+            found.push(Number { keys: keys.to_vec(), span, value, unit: None });
         }
     };
     match value.get_ref() {
@@ -67,14 +71,16 @@ fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number
             let whole = i64::from_str_radix(number.as_str(), number.radix()).ok();
             push(whole.map(|whole| whole as f64), value.span());
         }
-        DeValue::Table(table) => {
-            for (key, value) in table {
-                let key = key.get_ref().as_ref();
-                if !NOT_A_QUANTITY.contains(&key) {
-                    collect(value, &extended(keys, &[key.to_owned()]), found);
-                }
+        DeValue::String(text) => {
+            if let Some(measured) = measured(text)
+                && let Some(unit) = measured.dimension.unit()
+            {
+                let ends = || measured.dimension.suffixes().map(|(end, _)| end);
+                let keys = keys.iter().flat_map(|key| ends().map(move |end| format!("{key}{end}"))).collect();
+                found.push(Number { keys, span: value.span(), value: measured.value, unit: Some(unit) });
             }
         }
+        DeValue::Table(table) => collect_table(table, keys, found),
         DeValue::Array(elements) => {
             for (index, element) in elements.iter().enumerate() {
                 let mut names = vec![format!("{}", index + 1)];
@@ -87,6 +93,15 @@ fn collect(value: &Spanned<DeValue<'_>>, keys: &[String], found: &mut Vec<Number
             }
         }
         _ => {}
+    }
+}
+
+fn collect_table(table: &DeTable<'_>, keys: &[String], found: &mut Vec<Number>) {
+    for (key, value) in table {
+        let key = key.get_ref().as_ref();
+        if !NOT_A_QUANTITY.contains(&key) && !NAMES.contains(&key) {
+            collect(value, &extended(keys, &[key.to_owned()]), found);
+        }
     }
 }
 
@@ -142,7 +157,9 @@ pub(crate) fn replaced(text: &str, numbers: &[Number], values: &[f64]) -> String
     order.sort_by_key(|index| std::cmp::Reverse(numbers[*index].span.start));
     let mut text = text.to_owned();
     for index in order {
-        text.replace_range(numbers[index].span.clone(), &written(values[index]));
+        let value = written(values[index]);
+        let value = numbers[index].unit.map_or(value.clone(), |unit| format!("\"{value} {unit}\""));
+        text.replace_range(numbers[index].span.clone(), &value);
     }
     text
 }

@@ -288,7 +288,12 @@ fn stop_text(stop: &Stop) -> String {
             digits(gap_below_m),
             word(&gap_measured)
         ),
-        StopLaw::Cubic { stiffness_n_m3 } => format!("cubic spring, {stiffness_n_m3} N/m^3"),
+        StopLaw::Cubic { stiffness_n_m, stiffness_n_m2, stiffness_n_m3 } => {
+            let terms = [(stiffness_n_m3, "N/m^3"), (stiffness_n_m2, "N/m^2"), (stiffness_n_m, "N/m")];
+            let there = terms.iter().filter(|(constant, _)| *constant != 0.0);
+            let words: Vec<String> = there.map(|(constant, unit)| format!("{constant} {unit}")).collect();
+            format!("cubic spring, {}", words.join(", "))
+        }
     };
     format!("\"{}\" {place}: {law}", stop.name)
 }

@@ -40,7 +40,8 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let interrupt = Interrupt::listen(output)?;
-    let mut terminal = Terminal::new(interrupt.clone());
+    let pieces = file.study.varies.len() + file.study.curves.len();
+    let mut terminal = Terminal::new(interrupt.clone(), pieces);
     let begun = Instant::now();
     let threads = threads(options.jobs);
     let plan = Plan { met: solver.settled(&settled), ..Plan::of(&file.study) };
@@ -387,6 +388,9 @@ fn piece_document(piece: &PieceRecord) -> Value {
             "of": branch.kind,
             "period_multiple": branch.period_multiple,
             "solutions": branch.rows,
+            "stable_solutions": branch.stable,
+            "marginal_solutions": branch.marginal,
+            "events": branch.events,
             "parameter": branch.range,
             "up": branch.up,
             "down": branch.down,
@@ -407,9 +411,18 @@ fn piece_text(piece: &PieceRecord) -> String {
         let what = if piece.is_curve { format!("{} curve", branch.kind) } else { "branch".to_owned() };
         let [low, high] = branch.range;
         lines.push(format!(
-            "\n{what} over {} (period {}): {} solutions, {low} to {high}",
-            piece.parameter, branch.period_multiple, branch.rows
+            "\n{what} over {} (period {}): {} solutions, {low} to {high}, {} of them stable{}",
+            piece.parameter,
+            branch.period_multiple,
+            branch.rows,
+            branch.stable,
+            if branch.marginal > 0 { format!(", {} marginal", branch.marginal) } else { String::new() }
         ));
+        let events = branch.events.iter().filter(|(word, _)| !matches!(word.as_str(), "start" | "end"));
+        let events: Vec<String> = events.map(|(word, count)| format!("{word} {count}")).collect();
+        if !events.is_empty() {
+            lines.push(format!("  events: {}", events.join(", ")));
+        }
         lines.push(format!("  up side: {}\n  down side: {}", branch.up, branch.down));
     }
     if let Some(message) = &piece.message {

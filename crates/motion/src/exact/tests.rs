@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::{ExactIntegrator, ExactSettings, collocation::Grading};
 use crate::{
     Law, Load, LocalElement, Stretch, System,
-    law::{CubicSpring, HertzStop},
+    law::{HertzStop, PowerSpring},
 };
 
 fn integrator(law: Law) -> ExactIntegrator {
@@ -62,7 +62,7 @@ fn order(law: Law, state: &[f64], duration: f64, counts: [usize; 2], grading: Gr
 /// Gauss nodes carry the state to twice the order of the force: 24 with twelve nodes.
 #[test]
 fn smooth_steps_converge_with_twice_the_number_of_nodes() {
-    let law = Law::Cubic(CubicSpring::new(4e7).unwrap());
+    let law = Law::Power(PowerSpring::cubic(4e7).unwrap());
     let order = order(law, &[0.0, 0.0, 1.0, 0.2], 0.04, [1, 2], Grading::Smooth);
     assert!((19.0..30.0).contains(&order), "{order}");
 }

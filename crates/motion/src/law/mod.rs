@@ -9,18 +9,18 @@
 //! The force is continuous where the pressure vanishes. Where the penetration begins it is continuous too, or, for a damper, jumps by
 //! `-c p'`, see [`Law::onset_damping`]. Some laws remember the speed with which the present contact began ([`Law::remembers_impact`]).
 
-mod cubic;
 mod hertz;
 mod hunt_crossley;
 mod linear;
+mod power;
 mod restitution;
 mod rigid;
 mod two_sided;
 
-pub use cubic::CubicSpring;
 pub use hertz::HertzStop;
 pub use hunt_crossley::HuntCrossleyStop;
 pub use linear::LinearStop;
+pub use power::{Degree, PowerSpring};
 pub use restitution::{RestitutionModel, RestitutionStop};
 pub use rigid::RigidStop;
 pub use two_sided::TwoSidedStop;
@@ -29,7 +29,7 @@ pub use two_sided::TwoSidedStop;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LawError {
-    /// Stiffnesses are finite and positive (a cubic stiffness may be negative).
+    /// Stiffnesses are finite and positive (that of a power of the displacement may be negative).
     #[error("stiffness is {found}, must be finite and {allowed}")]
     #[expect(missing_docs, reason = "the message names its fields")]
     Stiffness { found: f64, allowed: &'static str },
@@ -125,8 +125,8 @@ pub enum Law {
     Linear(LinearStop),
     /// Linear springs on both sides of a clearance.
     TwoSided(TwoSidedStop),
-    /// Cubic spring, always active.
-    Cubic(CubicSpring),
+    /// A power of the displacement, always active.
+    Power(PowerSpring),
     /// Rigid stop with a coefficient of restitution.
     Rigid(RigidStop),
 }
@@ -141,7 +141,7 @@ impl Law {
             Self::Restitution(law) => law.force(displacement, velocity),
             Self::Linear(law) => law.force(displacement, velocity),
             Self::TwoSided(law) => law.force(displacement),
-            Self::Cubic(law) => law.force(displacement),
+            Self::Power(law) => law.force(displacement),
             Self::Rigid(_) => RigidStop::force(),
         }
     }
@@ -170,7 +170,7 @@ impl Law {
             Self::HuntCrossley(law) => law.pressure(),
             Self::Restitution(law) => Some(law.pressure()),
             Self::Linear(law) => law.pressure(),
-            Self::Hertz(_) | Self::TwoSided(_) | Self::Cubic(_) | Self::Rigid(_) => None,
+            Self::Hertz(_) | Self::TwoSided(_) | Self::Power(_) | Self::Rigid(_) => None,
         }
     }
 
@@ -291,7 +291,7 @@ impl Law {
             Self::Restitution(law) => law.contacts(),
             Self::Linear(law) => law.contacts(),
             Self::TwoSided(law) => law.contacts(),
-            Self::Cubic(_) => &[],
+            Self::Power(_) => &[],
             Self::Rigid(law) => law.contacts(),
         }
     }
@@ -305,7 +305,7 @@ impl Law {
             Self::Restitution(law) => law.elastic().stiffness(),
             Self::Linear(law) => law.stiffness(),
             Self::TwoSided(law) => law.stiffness(),
-            Self::Cubic(law) => law.stiffness(),
+            Self::Power(law) => law.stiffness(),
             Self::Rigid(_) => f64::INFINITY,
         }
     }
@@ -331,7 +331,7 @@ impl Law {
             }
             Self::Linear(law) => Self::Linear(law.with_stiffness(stiffness)?),
             Self::TwoSided(law) => Self::TwoSided(law.with_stiffness(stiffness)?),
-            Self::Cubic(_) => Self::Cubic(CubicSpring::new(stiffness)?),
+            Self::Power(law) => Self::Power(law.with_stiffness(stiffness)?),
             Self::Rigid(_) => return Err(LawError::NoStiffness),
         })
     }
@@ -354,7 +354,7 @@ impl Law {
                 Self::Linear(LinearStop::with_gap(law.stiffness(), gap)?.with_damping(law.damping())?)
             }
             Self::TwoSided(law) => Self::TwoSided(TwoSidedStop::new(law.stiffness(), gap, gap)?),
-            Self::Cubic(law) => Self::Cubic(*law),
+            Self::Power(law) => Self::Power(*law),
             Self::Rigid(law) => Self::Rigid(RigidStop::with_gap(law.restitution(), gap)?),
         })
     }

@@ -14,8 +14,8 @@ fn every_law() -> [Law; 10] {
         Law::Linear(LinearStop::with_gap(1.6e5, 1e-3).unwrap()),
         Law::Linear(LinearStop::with_preload(1.6e5, 12.0).unwrap()),
         Law::TwoSided(TwoSidedStop::new(2e4, 1e-3, 5e-4).unwrap()),
-        Law::Cubic(CubicSpring::new(3e7).unwrap()),
-        Law::Cubic(CubicSpring::new(-3e7).unwrap()),
+        Law::Power(PowerSpring::cubic(3e7).unwrap()),
+        Law::Power(PowerSpring::cubic(-3e7).unwrap()),
     ]
 }
 
@@ -72,9 +72,26 @@ fn a_two_sided_stop_presses_back_on_either_side() {
     assert_close(law.force(-1.5e-3, 0.0).value, 20.0, "below");
 }
 
+/// Value and slope of `-k r^n`, for both signs of the constant.
+#[test]
+fn powers_push_back_or_away() {
+    for k in [2e4, -2e4] {
+        let at = |degree| Law::Power(PowerSpring::new(k, degree).unwrap()).force(-1e-2, 0.0);
+        let expected = [
+            (Degree::Linear, k * 1e-2, -k),
+            (Degree::Quadratic, -k * 1e-4, k * 2e-2),
+            (Degree::Cubic, k * 1e-6, -3.0 * k * 1e-4),
+        ];
+        for (degree, value, slope) in expected {
+            assert_close(at(degree).value, value, "force");
+            assert_close(at(degree).slope, slope, "slope");
+        }
+    }
+}
+
 #[test]
 fn a_cubic_spring_is_odd_and_always_active() {
-    let law = Law::Cubic(CubicSpring::new(3e7).unwrap());
+    let law = Law::Power(PowerSpring::cubic(3e7).unwrap());
     assert_close(law.force(1e-2, 0.0).value, -30.0, "above");
     assert_close(law.force(-1e-2, 0.0).value, 30.0, "below");
     assert!(law.contacts().is_empty());
@@ -118,9 +135,9 @@ fn stiffnesses_are_finite_and_positive() {
 #[test]
 fn a_cubic_stiffness_may_be_negative_but_not_zero() {
     let refused = Err(LawError::Stiffness { found: 0.0, allowed: "not zero" });
-    assert_eq!(CubicSpring::new(0.0), refused);
-    assert!(CubicSpring::new(f64::INFINITY).is_err() && CubicSpring::new(f64::NAN).is_err());
-    assert!(CubicSpring::new(-1.0).is_ok());
+    assert_eq!(PowerSpring::cubic(0.0), refused);
+    assert!(PowerSpring::cubic(f64::INFINITY).is_err() && PowerSpring::cubic(f64::NAN).is_err());
+    assert!(PowerSpring::cubic(-1.0).is_ok());
 }
 
 #[test]
@@ -142,7 +159,7 @@ fn gaps_and_preloads_are_finite_and_not_negative() {
 fn refusals_say_what_was_found_and_what_is_allowed() {
     let message = HertzStop::with_gap(1.0, -0.5).unwrap_err().to_string();
     assert_eq!(message, "gap is -0.5 m, must be finite and not negative");
-    let message = CubicSpring::new(0.0).unwrap_err().to_string();
+    let message = PowerSpring::cubic(0.0).unwrap_err().to_string();
     assert_eq!(message, "stiffness is 0, must be finite and not zero");
 }
 

@@ -12,7 +12,7 @@ use hammerbeam_motion::{
     exact::{ExactIntegrator, ExactSettings},
     general::{GeneralSettings, advance},
     law::{
-        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop,
+        HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop, RigidStop,
     },
 };
 use hammerbeam_structure::{PointOutput, ReducedModel, SupportInput};
@@ -92,7 +92,7 @@ pub fn rigid(restitution: f64, gap: f64) -> Law {
 
 /// A cubic spring.
 pub fn cubic(stiffness: f64) -> Law {
-    Law::Cubic(CubicSpring::new(stiffness).unwrap())
+    Law::Power(PowerSpring::cubic(stiffness).unwrap())
 }
 
 /// A harmonic force in modal coordinates.

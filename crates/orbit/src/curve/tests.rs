@@ -4,7 +4,7 @@
 use faer::{Mat, c64};
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System,
-    law::{CubicSpring, LinearStop},
+    law::{LinearStop, PowerSpring},
 };
 use hammerbeam_path::PathProblem;
 use hammerbeam_structure::{PointOutput, ReducedModel};
@@ -40,7 +40,7 @@ fn system() -> System {
         support_ratio: 0.0,
         law,
     };
-    let spring = element([1.0, 1.0], Law::Cubic(CubicSpring::new(1.0).unwrap()));
+    let spring = element([1.0, 1.0], Law::Power(PowerSpring::cubic(1.0).unwrap()));
     let stop = element([1.0, -1.0], Law::Linear(LinearStop::with_gap(2.0, 0.3).unwrap()));
     System::new(model, &load, vec![spring, stop]).unwrap()
 }

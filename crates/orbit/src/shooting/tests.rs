@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
-use hammerbeam_motion::{Law, exact::ExactSettings, law::CubicSpring};
+use hammerbeam_motion::{Law, exact::ExactSettings, law::PowerSpring};
 
 use super::*;
 use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct, test_oscillator::oscillator};
@@ -8,7 +8,7 @@ use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct, test_oscill
 /// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l t)`,
 /// `l^2 + 0.1 l - 2 = 0`.
 fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], OrbitError> {
-    let (system, _) = oscillator(0.1, 1e-6, Law::Cubic(CubicSpring::new(-0.1).unwrap()));
+    let (system, _) = oscillator(0.1, 1e-6, Law::Power(PowerSpring::cubic(-0.1).unwrap()));
     let hill = vec![10.0_f64.sqrt(), 0.0];
     let scale = StateScale::new(&[1.0], 1.0, hill[0]);
     let integrator = ExactIntegrator::new(system, ExactSettings::default()).unwrap();

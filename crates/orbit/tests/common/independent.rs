@@ -32,7 +32,7 @@ pub fn oscillator(frequency: f64, damping: f64, force: f64, law: Law) -> Part {
 
 /// A hardening spring.
 pub fn cubic(stiffness: f64) -> Law {
-    Law::Cubic(law::CubicSpring::new(stiffness).unwrap())
+    Law::Power(law::PowerSpring::cubic(stiffness).unwrap())
 }
 
 /// A stop.

@@ -8,7 +8,7 @@ pub mod independent;
 use faer::Mat;
 use hammerbeam_motion::{
     Harmonic, HarmonicForce, Law, Load, LocalElement, System,
-    law::{CubicSpring, HertzStop, LinearStop},
+    law::{HertzStop, LinearStop, PowerSpring},
 };
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, Response, Segments, Side, StopReason, find_start,
@@ -91,7 +91,7 @@ pub fn duffing() -> (System, Response) {
     let model = unit_mass(0.1);
     let harmonic = Harmonic { order: 1, amplitude: 0.3, phase: 0.0 };
     let load = Load { support: vec![], forces: vec![HarmonicForce { shape: vec![1.0], harmonic }] };
-    let law = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let law = Law::Power(PowerSpring::cubic(1.0).unwrap());
     let spring = LocalElement { name: "spring".into(), shape: vec![1.0], support_ratio: 0.0, law };
     let system = System::new(model, &load, vec![spring]).unwrap();
     (system, Response { shape: vec![1.0], support_ratio: 0.0 })

@@ -9,6 +9,7 @@ pub(crate) mod quantity;
 mod reading;
 mod suggest;
 mod table;
+pub(crate) mod unit;
 mod value;
 
 pub use problem::{Problem, Report};

@@ -144,7 +144,10 @@ pub(crate) const ADDED_MASS: Quantity = Quantity::new("kg", Including(0.0), Incl
 /// Rotary inertia added to a beam.
 pub(crate) const ROTARY_INERTIA: Quantity = Quantity::new("kg m^2", Including(0.0), Including(1e9));
 /// Stiffness of a linear spring.
-pub(crate) const STIFFNESS: Quantity = Quantity::new("N/m", Excluding(0.0), Including(1e18));
+pub(crate) const STIFFNESS: Quantity = Quantity::new("N/m", Excluding(0.0), Including(1e18)).hints(
+    "a stiffness that pushes away from the middle is a [[stop]] of law \"cubic\" with a negative `stiffness_n_m`",
+    "",
+);
 /// Stiffness of an added spring that may be absent.
 pub(crate) const ADDED_STIFFNESS: Quantity = Quantity::new("N/m", Including(0.0), Including(1e18));
 /// Constant of a damper.
@@ -161,6 +164,10 @@ pub(crate) const LOSS: Quantity = Quantity::new("s/m", Including(0.0), Including
 pub(crate) const RESTITUTION: Quantity = Quantity::new("", Excluding(0.0), Including(1.0));
 /// Coefficient of restitution of a rigid stop.
 pub(crate) const RIGID_RESTITUTION: Quantity = Quantity::new("", Including(0.0), Including(1.0));
+/// Stiffness of the linear term of a spring that may push away from the middle.
+pub(crate) const SIGNED_STIFFNESS: Quantity = Quantity::new("N/m", Including(-1e18), Including(1e18));
+/// Constant of a quadratic spring, either sign.
+pub(crate) const QUADRATIC_STIFFNESS: Quantity = Quantity::new("N/m^2", Including(-1e24), Including(1e24));
 /// Constant of a cubic spring, either sign.
 pub(crate) const CUBIC_STIFFNESS: Quantity = Quantity::new("N/m^3", Including(-1e30), Including(1e30));
 /// Rest distance of a stop.

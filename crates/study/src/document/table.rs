@@ -2,9 +2,12 @@
 
 use std::{cell::RefCell, ops::Range};
 
-use toml::de::DeTable;
+use toml::de::{DeTable, DeValue};
 
-use super::{Reading, Value, closest};
+use super::{
+    Reading, Value, closest,
+    unit::{measured, without_unit},
+};
 
 /// Elements of an array of tables: masses, springs, stops.
 const MOST_TABLES: usize = 1000;
@@ -35,13 +38,40 @@ impl<'a> Table<'a> {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    /// The value of a key, if it is there.
+    /// The value of a key, if it is there: under its name, or without the unit at the end of its name and with a unit.
     pub(crate) fn optional(&self, key: &'static str) -> Option<Value<'a>> {
         self.asked.borrow_mut().push(key);
-        let value = self.entries.get(key)?;
+        let (value, stem) = match (self.entries.get(key), self.with_unit(key)) {
+            (value, None) => (value?, None),
+            (None, Some((stem, value))) => (value, Some(stem)),
+            (Some(_), Some((stem, _))) => {
+                let help = vec![format!("allowed: one of `{key}` and `{stem}`")];
+                self.refuse(stem, format!("`{stem}` is given, and `{key}`, too"), help);
+                return None;
+            }
+        };
         let path = self.path_of(key);
         self.reading.note_place(&path, value.span());
-        Some(Value::new(self.reading, path, value.span(), value.get_ref()))
+        let taken = Value::new(self.reading, path, value.span(), value.get_ref());
+        Some(match stem {
+            Some(stem) => {
+                self.asked.borrow_mut().push(stem);
+                taken.with_unit()
+            }
+            None => taken,
+        })
+    }
+
+    /// The form of a key without its unit, where it is there with a value of that dimension.
+    fn with_unit(&self, key: &'static str) -> Option<(&'static str, &'a toml::Spanned<DeValue<'a>>)> {
+        let (stem, dimension) = without_unit(key)?;
+        let value = self.entries.get(stem)?;
+        let first = match value.get_ref() {
+            DeValue::Array(elements) => elements.get(0)?.get_ref(),
+            other => other,
+        };
+        let DeValue::String(text) = first else { return None };
+        (measured(text)?.dimension == dimension).then_some((stem, value))
     }
 
     /// The value of a key that has to be there.
@@ -54,8 +84,8 @@ impl<'a> Table<'a> {
     }
 
     /// Whether the key is there.
-    pub(crate) fn has(&self, key: &str) -> bool {
-        self.entries.contains_key(key)
+    pub(crate) fn has(&self, key: &'static str) -> bool {
+        self.entries.contains_key(key) || self.with_unit(key).is_some()
     }
 
     /// The elements of an array of tables such as `[[stop]]`; none if the key is not there.
@@ -75,7 +105,8 @@ impl<'a> Table<'a> {
     /// Notes a fault of a key of this table.
     pub(crate) fn problem(&self, key: &str, message: String, help: Vec<String>) {
         let path = self.path_of(key);
-        let span = self.entries.get(key).map_or_else(|| self.span.clone(), toml::Spanned::span);
+        let entry = self.entries.get(key).or_else(|| self.entries.get(without_unit(key)?.0));
+        let span = entry.map_or_else(|| self.span.clone(), toml::Spanned::span);
         self.reading.problem(&path, Some(span), message, help);
     }
 
@@ -91,6 +122,9 @@ impl<'a> Table<'a> {
         let told = |key: &str| asked.contains(&key) || refused.contains(&key);
         for key in self.entries.keys().filter(|key| !told(key.get_ref().as_ref())) {
             let name = key.get_ref().as_ref();
+            if self.has_other_unit(name, &asked) {
+                continue;
+            }
             let mut help = vec![format!("known keys: {}", asked.join(", "))];
             if let Some(close) = closest(name, asked.iter().copied()) {
                 help.insert(0, format!("did you mean `{close}`?"));
@@ -98,6 +132,16 @@ impl<'a> Table<'a> {
             let message = format!("unknown key `{name}`{}", self.place_name());
             self.reading.problem(&self.path_of(name), Some(key.span()), message, help);
         }
+    }
+
+    /// Whether this is a known key without its unit; what is wrong with its value is noted then.
+    fn has_other_unit(&self, name: &str, asked: &[&'static str]) -> bool {
+        let is_form = |key: &&&'static str| without_unit(key).is_some_and(|(stem, _)| stem == name);
+        let Some(key) = asked.iter().find(is_form) else { return false };
+        let unit = without_unit(key).and_then(|(_, dimension)| dimension.unit()).unwrap_or_default();
+        let help = vec![format!("allowed: a text such as `{name} = \"1 {unit}\"`, or a number as `{key}`")];
+        self.problem(name, format!("`{name}` has to be a number with a unit that fits {unit}"), help);
+        true
     }
 
     fn place_name(&self) -> String {

@@ -6,7 +6,10 @@ use toml::de::{DeFloat, DeInteger, DeValue};
 
 use hammerbeam_signal::limits::is_control;
 
-use super::{Quantity, Reading, Table, closest};
+use super::{
+    Quantity, Reading, Table, closest,
+    unit::{Dimension, measured, without_unit},
+};
 
 /// Entries of a list.
 const LONGEST_LIST: usize = 10_000;
@@ -19,6 +22,8 @@ pub(crate) struct Value<'a> {
     path: String,
     span: Range<usize>,
     value: &'a DeValue<'a>,
+    /// Whether numbers are texts with a unit of the dimension of the key, as in `length = "258 mm"`.
+    has_unit: bool,
 }
 
 impl<'a> Value<'a> {
@@ -28,7 +33,12 @@ impl<'a> Value<'a> {
         span: Range<usize>,
         value: &'a DeValue<'a>,
     ) -> Self {
-        Self { reading, path, span, value }
+        Self { reading, path, span, value, has_unit: false }
+    }
+
+    /// The same, whose numbers are texts with a unit.
+    pub(crate) fn with_unit(self) -> Self {
+        Self { has_unit: true, ..self }
     }
 
     /// Last part of the key path, for messages.
@@ -64,6 +74,7 @@ impl<'a> Value<'a> {
         let number = match self.value {
             DeValue::Integer(number) => integer(number).map_or(f64::INFINITY, |number| number as f64),
             DeValue::Float(number) => float(number),
+            DeValue::String(text) if self.has_unit => self.in_si(text)?,
             _ => return self.wrong_type("a number"),
         };
         match quantity.fault(number) {
@@ -71,6 +82,19 @@ impl<'a> Value<'a> {
             Some(help) => {
                 self.problem(format!("`{}` is {}", self.key(), quantity.with_unit(number)), help);
                 None
+            }
+        }
+    }
+
+    /// The number of a text with a unit, which has to be of the dimension of the key.
+    fn in_si(&self, text: &str) -> Option<f64> {
+        let key = self.key().split('[').next().unwrap_or_default();
+        let dimension = without_unit(key).map(|(_, dimension)| dimension);
+        match measured(text).filter(|measured| Some(measured.dimension) == dimension) {
+            Some(measured) => Some(measured.value),
+            None => {
+                let unit = dimension.and_then(Dimension::unit).unwrap_or_default();
+                self.wrong_type(&format!("a number with a unit that fits {unit}"))
             }
         }
     }
@@ -170,7 +194,8 @@ impl<'a> Value<'a> {
         let element = |(index, element): (usize, &'a toml::Spanned<DeValue<'a>>)| {
             let path = format!("{}[{index}]", self.path);
             self.reading.note_place(&path, element.span());
-            Value::new(self.reading, path, element.span(), element.get_ref())
+            let element = Value::new(self.reading, path, element.span(), element.get_ref());
+            if self.has_unit { element.with_unit() } else { element }
         };
         Some(elements.iter().enumerate().map(element).collect())
     }

@@ -164,7 +164,7 @@ const GENERAL: [&str; 2] = ["area_m2", "second_moment_m4"];
 /// `{ width_m, height_m }` of a rectangle, or `{ area_m2, second_moment_m4 }`.
 fn read_section(value: &Value<'_>, length_m: Option<f64>) -> Option<Section> {
     let table = value.table()?;
-    let has = |keys: [&str; 2]| keys.iter().any(|key| table.has(key));
+    let has = |keys: [&'static str; 2]| keys.iter().any(|key| table.has(key));
     let section = if has(GENERAL) {
         read_general_section(&table)
     } else if has(RECTANGLE) {

@@ -187,6 +187,8 @@ fn of_stop(stop: usize, law: &StopLaw) -> Vec<(&'static str, ParameterKind, Quan
         StopLaw::TwoSided { gap_above_m, gap_below_m, .. } => {
             ("stiffness_n_m", quantity::STIFFNESS, gap_above_m == gap_below_m)
         }
+        // Without a cubic term there is none to be varied by its derivative.
+        StopLaw::Cubic { stiffness_n_m3: 0.0, .. } => return Vec::new(),
         StopLaw::Cubic { .. } => ("stiffness_n_m3", quantity::CUBIC_STIFFNESS, false),
         StopLaw::Rigid { approach, .. } => ("restitution", quantity::RIGID_RESTITUTION, gap_of(approach)),
     };

@@ -219,12 +219,21 @@ fn read_two_sided(table: &Table<'_>) -> Option<StopLaw> {
     })
 }
 
+/// Any of three constants, at least one of which is there and not 0.
 fn read_cubic(table: &Table<'_>) -> Option<StopLaw> {
-    let value = table.required("stiffness_n_m3")?;
-    let stiffness = value.number(&quantity::CUBIC_STIFFNESS)?;
-    if stiffness == 0.0 {
-        value.problem("`stiffness_n_m3` is 0 N/m^3".into(), vec!["allowed: any number but zero".into()]);
+    let constant = |key: &'static str, quantity: &Quantity| {
+        table.optional(key).map_or(Some(0.0), |value| value.number(quantity))
+    };
+    let linear = constant("stiffness_n_m", &quantity::SIGNED_STIFFNESS);
+    let quadratic = constant("stiffness_n_m2", &quantity::QUADRATIC_STIFFNESS);
+    let cubic = constant("stiffness_n_m3", &quantity::CUBIC_STIFFNESS);
+    let keys = ["stiffness_n_m3", "stiffness_n_m2", "stiffness_n_m"];
+    let none = !keys.into_iter().any(|key| table.has(key));
+    if [linear, quadratic, cubic] == [Some(0.0); 3] {
+        let what = if none { "is missing in this stop" } else { "is 0 N/m^3, and there is no other term" };
+        let help = "allowed: any number but zero for `stiffness_n_m3`, `stiffness_n_m2` or `stiffness_n_m`";
+        table.problem("stiffness_n_m3", format!("`stiffness_n_m3` {what}"), vec![help.into()]);
         return None;
     }
-    Some(StopLaw::Cubic { stiffness_n_m3: stiffness })
+    Some(StopLaw::Cubic { stiffness_n_m: linear?, stiffness_n_m2: quadratic?, stiffness_n_m3: cubic? })
 }

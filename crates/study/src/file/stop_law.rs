@@ -71,17 +71,24 @@ pub enum StopLaw {
         /// From where the gaps count.
         gap_measured: GapMeasured,
     },
-    /// Cubic spring, always active.
+    /// Cubic spring, always active: `k1 r + k2 r^2 + k3 r^3`, constants of either sign.
     Cubic {
-        /// Constant [N/m^3], either sign.
+        /// Constant of the linear term [N/m].
+        #[serde(skip_serializing_if = "is_absent")]
+        stiffness_n_m: f64,
+        /// Constant of the quadratic term [N/m^2].
+        #[serde(skip_serializing_if = "is_absent")]
+        stiffness_n_m2: f64,
+        /// Constant of the cubic term [N/m^3].
+        #[serde(skip_serializing_if = "is_absent")]
         stiffness_n_m3: f64,
     },
 }
 
 /// Absent unless given, so that studies without it stay the same studies.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
-fn is_absent(damping: &f64) -> bool {
-    *damping == 0.0
+fn is_absent(number: &f64) -> bool {
+    *number == 0.0
 }
 
 /// How the loss of a contact follows from its coefficient of restitution.

@@ -448,3 +448,51 @@ fn tables_of_amplitudes_that_make_no_sense_are_refused() {
         assert!(message.contains(part), "{table}: {message}");
     }
 }
+
+/// The same text but for units: not a digit of the study differs.
+#[test]
+fn a_quantity_with_its_unit_is_the_number_that_one_would_write() {
+    let mut text = PAPER.to_owned();
+    for (old, new) in [
+        ("length_m = 0.2579822 ", "length = \"257.9822 mm\" "),
+        ("youngs_modulus_pa = 2.1e11", "youngs_modulus = \"210 GPa\""),
+        ("frequency_hz = [19.0, 110.0]", "frequency = [\"19 Hz\", \"0.11 kHz\"]"),
+        ("stiffness_n_m15 = 4.5e9", "stiffness = \"4.5e9 N/m^1.5\""),
+    ] {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    assert_eq!(parse(&text).unwrap(), parse(PAPER).unwrap());
+}
+
+#[test]
+fn a_quantity_of_another_dimension_is_refused_with_the_unit_that_fits() {
+    let frequency = |text: &str| parse(&LUMPED.replacen("frequency_hz = [1.0, 2.0]", text, 1));
+    let rad = frequency("frequency = [\"6.283185307179586 rad/s\", \"2 Hz\"]").unwrap();
+    assert_eq!(rad.excitation.frequency_hz, [1.0, 2.0]);
+    assert_refused(
+        frequency("frequency = \"3 kg\""),
+        &["`frequency` has to be a number with a unit that fits Hz", "`frequency = \"1 Hz\"`"],
+    );
+    assert_refused(
+        frequency("frequency = [\"1 Hz\", \"2 s\"]"),
+        &["must be a number with a unit that fits Hz, found the string \"2 s\""],
+    );
+    assert_refused(
+        frequency("frequency = [\"1 Hz\", \"2 Hz\"]\nfrequency_hz = [1.0, 2.0]"),
+        &["`frequency` is given, and `frequency_hz`, too"],
+    );
+    assert_refused(frequency("frequency_hz = [\"1 Hz\", 2.0]"), &["must be a number, found"]);
+}
+
+/// A number that is written with its unit varies by the name of its key, and is written with its unit again.
+#[test]
+fn a_quantity_with_its_unit_is_a_parameter() {
+    let text = LUMPED.replacen("mass_kg = 2.0", "mass = \"2000 g\"", 1);
+    let number = crate::number::number_named(&text, "structure.mass.b.mass_kg").unwrap().unwrap();
+    assert_eq!(number.value, 2.0);
+    let changed = crate::number::replaced(&text, &[number], &[2.5]);
+    assert!(changed.contains("mass = \"2.5 kg\""), "{changed}");
+    let Structure::Lumped(lumped) = parse(&changed).unwrap().structure else { panic!("not lumped") };
+    assert_eq!(lumped.masses[1].mass_kg, 2.5);
+}

@@ -3,8 +3,8 @@
 use hammerbeam_motion::{
     Law, LawError, Load, LocalElement,
     law::{
-        CubicSpring, HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel, RestitutionStop, RigidStop,
-        TwoSidedStop,
+        Degree, HertzStop, HuntCrossleyStop, LinearStop, PowerSpring, RestitutionModel, RestitutionStop,
+        RigidStop, TwoSidedStop,
     },
 };
 use hammerbeam_structure::ReducedModel;
@@ -142,7 +142,19 @@ fn of_stop(stop: &Stop, relative: Relative, rest: &[f64]) -> Result<Vec<LocalEle
                 vec![relative.element(&name("above"), upper), flipped.element(&name("below"), lower)]
             }
         }
-        StopLaw::Cubic { stiffness_n_m3 } => element(relative, Law::Cubic(CubicSpring::new(stiffness_n_m3)?)),
+        StopLaw::Cubic { stiffness_n_m, stiffness_n_m2, stiffness_n_m3 } => {
+            let terms = [
+                (stiffness_n_m3, Degree::Cubic, String::new()),
+                (stiffness_n_m2, Degree::Quadratic, " (quadratic)".to_owned()),
+                (stiffness_n_m, Degree::Linear, " (linear)".to_owned()),
+            ];
+            let element = |(stiffness, degree, word): (f64, Degree, String)| {
+                let law = Law::Power(PowerSpring::new(stiffness, degree)?);
+                Ok::<_, LawError>(relative.clone().element(&format!("{}{word}", stop.name), law))
+            };
+            let there = terms.into_iter().filter(|(stiffness, ..)| *stiffness != 0.0);
+            return there.map(element).collect();
+        }
     })
 }
 

@@ -3,6 +3,8 @@
 //! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition; its number is its place in the study. A piece is stored whole, in one
 //! transaction, so a run that is stopped computes again only the pieces that it was at.
 
+use std::collections::BTreeMap;
+
 use hammerbeam_orbit::{LocatedEvent, PeriodicSolution, Stability};
 use rusqlite::params;
 
@@ -121,8 +123,14 @@ pub struct PieceBranchRecord {
     pub down: String,
     /// Number of its rows.
     pub rows: u32,
+    /// Number of those that are stable.
+    pub stable: u32,
+    /// Number of those of which that is not known, see [`Stability::Marginal`].
+    pub marginal: u32,
     /// Smallest and largest value of the parameter.
     pub range: [f64; 2],
+    /// How many events there are of each kind, by their words in the table.
+    pub events: BTreeMap<String, u32>,
 }
 
 /// A stored row, as it is exported.
@@ -257,11 +265,13 @@ impl Store {
     }
 
     fn piece_branches(&self, piece: u32) -> Result<Vec<PieceBranchRecord>, StoreError> {
-        let select = "SELECT b.branch, b.period_multiple, b.kind, b.up, b.down, count(*), min(r.parameter),
-            max(r.parameter) FROM piece_branch b JOIN piece_row r USING (piece, branch)
+        let select = "SELECT b.branch, b.period_multiple, b.kind, b.up, b.down, count(*), sum(r.stable = ?2),
+            sum(r.stable = ?3), min(r.parameter), max(r.parameter)
+            FROM piece_branch b JOIN piece_row r USING (piece, branch)
             WHERE b.piece = ?1 GROUP BY b.branch ORDER BY b.branch";
         let mut statement = self.connection.prepare(select)?;
-        let branches = statement.query_map([piece], |row| {
+        let words = [Stability::Stable, Stability::Marginal].map(stability::number);
+        let branches = statement.query_map(params![piece, words[0], words[1]], |row| {
             Ok(PieceBranchRecord {
                 branch: row.get(0)?,
                 period_multiple: row.get(1)?,
@@ -269,10 +279,32 @@ impl Store {
                 up: row.get(3)?,
                 down: row.get(4)?,
                 rows: row.get(5)?,
-                range: [row.get(6)?, row.get(7)?],
+                stable: row.get(6)?,
+                marginal: row.get(7)?,
+                range: [row.get(8)?, row.get(9)?],
+                events: BTreeMap::new(),
             })
         })?;
-        Ok(branches.collect::<Result<_, _>>()?)
+        let mut branches = branches.collect::<Result<Vec<_>, _>>()?;
+        for branch in &mut branches {
+            branch.events = self.piece_events(piece, branch.branch)?;
+        }
+        Ok(branches)
+    }
+
+    fn piece_events(&self, piece: u32, branch: u32) -> Result<BTreeMap<String, u32>, StoreError> {
+        let select = "SELECT event, count(*) FROM piece_row
+            WHERE piece = ?1 AND branch = ?2 AND event != '' GROUP BY event";
+        let mut statement = self.connection.prepare(select)?;
+        let mut rows = statement.query([piece, branch])?;
+        let mut events = BTreeMap::new();
+        while let Some(row) = rows.next()? {
+            let (label, count): (String, u32) = (row.get(0)?, row.get(1)?);
+            for word in label.split('+') {
+                *events.entry(word.to_owned()).or_default() += count;
+            }
+        }
+        Ok(events)
     }
 
     /// The orbit of a row of a branch of a piece.

@@ -115,7 +115,7 @@ fn branches(
 ) -> Result<u64, Failure> {
     let mut store = Store::open_for_run(&options.out, file)?;
     let solver = OrbitSolver::new(model, &file.study);
-    let mut terminal = Terminal::new(interrupt.clone());
+    let mut terminal = Terminal::new(interrupt.clone(), 0);
     let plan = Plan::of(&file.study);
     let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
     terminal.clear();

@@ -102,7 +102,13 @@ fn stop_words(stop: &Stop) -> String {
             number(1e3 * gap_below_m),
             counted(gap_measured)
         ),
-        StopLaw::Cubic { stiffness_n_m3 } => format!("cubic spring {} N/m³", number(stiffness_n_m3)),
+        StopLaw::Cubic { stiffness_n_m, stiffness_n_m2, stiffness_n_m3 } => {
+            let terms = [(stiffness_n_m3, "N/m³"), (stiffness_n_m2, "N/m²"), (stiffness_n_m, "N/m")];
+            let there = terms.iter().filter(|(constant, _)| *constant != 0.0);
+            let words: Vec<String> =
+                there.map(|(constant, unit)| format!("{} {unit}", number(*constant))).collect();
+            format!("cubic spring {}", words.join(", "))
+        }
     };
     format!("{} {place}: {law}.", stop.name)
 }

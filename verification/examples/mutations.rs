@@ -1,0 +1,98 @@
+//! Mutates inputs of every reader for so many seconds, and counts: `mutations [SECONDS] [SEED]`.
+//!
+//! An input that makes a reader fail is written to `mutation-READER-NUMBER`, and the program ends with exit code 1.
+//! Ended by the system (memory, a signal), the last input is in the folder named at the beginning.
+#![allow(clippy::print_stdout, reason = "the counts are what it is for")]
+
+use std::{
+    env, fs,
+    path::Path,
+    process::ExitCode,
+    sync::mpsc::{self, RecvTimeoutError},
+    thread,
+    time::{Duration, Instant},
+};
+
+use hammerbeam_verification::{
+    attractors::Random,
+    mutations::{Outcome, PATIENCE, Reader, corpus, mutated, outcome},
+    results::{Failure, Results},
+};
+
+/// A linear study: its results database has every table and few rows.
+const SMALL: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "m", mass_kg = 1.0 }]
+spring = [{ between = ["m", "ground"], stiffness_n_m = 1.0 }]
+damper = [{ between = ["m", "ground"], damping_n_s_m = 0.2 }]
+[excitation]
+kind = "force"
+at = "m"
+amplitude_n = 1.0
+frequency_hz = [0.1, 0.12]
+[search]
+frequencies = 1
+[continuation]
+max_step_hz = 0.002
+"#;
+
+fn main() -> Result<ExitCode, Failure> {
+    let numbers: Vec<u64> = env::args().skip(1).map(|text| text.parse()).collect::<Result<_, _>>()?;
+    let time = Duration::from_secs(numbers.first().copied().unwrap_or(60));
+    let seed = numbers.get(1).copied().unwrap_or(1);
+    let folder = env::temp_dir().join(format!("hammerbeam-mutations-{}", std::process::id()));
+    fs::create_dir_all(&folder)?;
+    println!("seed {seed}, {} s, last inputs in {}", time.as_secs(), folder.display());
+    // A panic is counted here; its message would be one of many.
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut failed = 0;
+    for reader in Reader::ALL {
+        failed += work(reader, &folder, time / Reader::ALL.len() as u32, seed)?;
+    }
+    fs::remove_dir_all(&folder)?;
+    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Mutates for a reader, and says how many inputs made it fail.
+fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usize, Failure> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut inputs = corpus(reader, &root)?;
+    if reader == Reader::Results {
+        let small = tempfile::tempdir()?;
+        Results::of_run(SMALL, small.path(), 1)?;
+        inputs.push(fs::read(small.path().join("results.db"))?);
+    }
+    let (begun, mut random) = (Instant::now(), Random::new(seed));
+    let (mut taken, mut refused, mut failed) = (0_u64, 0_u64, 0);
+    while begun.elapsed() < time {
+        let pick = |random: &mut Random| (random.part() * inputs.len() as f64) as usize % inputs.len();
+        let (input, other) = (pick(&mut random), pick(&mut random));
+        let bytes = mutated(&inputs[input], &inputs[other], &mut random);
+        match watched(reader, folder, bytes.clone())? {
+            Outcome::Taken => taken += 1,
+            Outcome::Refused => refused += 1,
+            outcome => {
+                failed += 1;
+                let name = format!("mutation-{}-{failed}", reader.name());
+                fs::write(&name, &bytes)?;
+                println!("{}: {outcome:?}, input in {name}", reader.name());
+            }
+        }
+    }
+    println!("{}: {taken} taken, {refused} refused, {failed} failed", reader.name());
+    Ok(failed)
+}
+
+/// The outcome of an input, on a thread of its own: one that never ends is slow, too, and ends the program.
+fn watched(reader: Reader, folder: &Path, bytes: Vec<u8>) -> Result<Outcome, Failure> {
+    fs::write(folder.join("input"), &bytes)?;
+    let (sender, receiver) = mpsc::channel();
+    let folder = folder.to_owned();
+    thread::spawn(move || sender.send(outcome(reader, &folder, &bytes)));
+    match receiver.recv_timeout(10 * PATIENCE) {
+        Ok(outcome) => Ok(outcome),
+        Err(RecvTimeoutError::Disconnected) => Ok(Outcome::Panicked),
+        Err(RecvTimeoutError::Timeout) => Err(format!("{} does not end", reader.name()).into()),
+    }
+}
