@@ -192,7 +192,7 @@ mod tests {
     use crate::test_oscillator::oscillator;
     use hammerbeam_motion::{
         Law,
-        law::{CubicSpring, RigidStop},
+        law::{PowerSpring, RigidStop},
     };
 
     fn backbone_of(law: Law, unit: f64) -> Vec<f64> {
@@ -206,7 +206,7 @@ mod tests {
     #[test]
     fn backbone_of_a_cubic_spring_is_a_parabola() {
         for unit in [1e-4, 0.3, 50.0] {
-            let amplitudes = backbone_of(Law::Cubic(CubicSpring::new(1.0).expect("a spring")), unit);
+            let amplitudes = backbone_of(Law::Power(PowerSpring::cubic(1.0).expect("a spring")), unit);
             for (w, a) in [1.2_f64, 1.7].into_iter().zip(amplitudes) {
                 assert!((w * w - 1.0 - 0.75 * a * a).abs() < 1e-9, "{w}: {a}");
             }

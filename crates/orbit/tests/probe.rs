@@ -6,7 +6,7 @@ use crate::common::events::oscillator;
 use hammerbeam_motion::{
     Law, Load, LocalElement, Stretch, System,
     exact::{ExactIntegrator, ExactSettings},
-    law::{CubicSpring, LinearStop, RigidStop, TwoSidedStop},
+    law::{LinearStop, PowerSpring, RigidStop, TwoSidedStop},
 };
 use hammerbeam_orbit::{
     OrbitSettings, PeriodicSolution, ProbeStarts, SurveyEffort, linear_contact_ranges, mirror_image, probe,
@@ -66,7 +66,7 @@ fn found(law: Law, [c, force, frequency_hz]: [f64; 3], starts: ProbeStarts<'_>) 
 /// Oscillations*, 1979, section 4.1.4).
 #[test]
 fn a_subharmonic_of_large_amplitude_is_found_from_the_backbone_and_not_from_the_linear_response() {
-    let spring = || Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let spring = || Law::Power(PowerSpring::cubic(1.0).unwrap());
     let near = found(spring(), [0.005, 0.3, 5.0 / TAU], about(7, 0));
     assert!(near.iter().all(|orbit| orbit.period_multiple == 1), "{near:?}");
     let far = found(spring(), [0.005, 0.3, 5.0 / TAU], about(0, 12));
@@ -104,7 +104,7 @@ fn with(laws: &[(f64, Law)]) -> System {
 
 #[test]
 fn orbits_that_are_known_are_not_found_again() {
-    let spring = || Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let spring = || Law::Power(PowerSpring::cubic(1.0).unwrap());
     let numbers = [0.05, 0.3, 1.4 / TAU];
     let both = found(spring(), numbers, about(7, 4));
     assert_eq!(both.len(), 2, "the upper and the lower of the two folds' branches");
@@ -121,7 +121,7 @@ fn orbits_that_are_known_are_not_found_again() {
 #[test]
 fn a_system_is_symmetric_if_forces_change_their_sign_with_the_displacement() {
     let stop = Law::Linear(LinearStop::with_gap(20.0, 0.5).unwrap());
-    let cubic = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let cubic = Law::Power(PowerSpring::cubic(1.0).unwrap());
     let even = Law::TwoSided(TwoSidedStop::new(20.0, 0.5, 0.5).unwrap());
     let uneven = Law::TwoSided(TwoSidedStop::new(20.0, 0.5, 0.6).unwrap());
     assert!(with(&[(1.0, cubic)]).is_symmetric() && with(&[(1.0, even)]).is_symmetric());
@@ -133,7 +133,7 @@ fn a_system_is_symmetric_if_forces_change_their_sign_with_the_displacement() {
 /// Ueda's oscillator has asymmetric solutions: the image of each is one, and another one.
 #[test]
 fn the_mirror_image_of_an_asymmetric_orbit_is_another_orbit() {
-    let spring = Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let spring = Law::Power(PowerSpring::cubic(1.0).unwrap());
     let (system, _) = oscillator(1e-6, 0.1, 10.0, spring);
     let mut motion = ExactIntegrator::new(system, ExactSettings::default()).unwrap();
     let mut asymmetric = 0;

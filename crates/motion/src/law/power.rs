@@ -43,6 +43,11 @@ impl PowerSpring {
         Self::new(stiffness, Degree::Cubic)
     }
 
+    /// Whether the force of the opposite displacement is the opposite one.
+    pub(crate) fn is_odd(&self) -> bool {
+        self.degree != Degree::Quadratic
+    }
+
     pub(super) fn stiffness(&self) -> f64 {
         self.stiffness
     }

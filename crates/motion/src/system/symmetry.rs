@@ -38,7 +38,7 @@ impl System {
 /// Whether a force changes its sign with the displacement.
 fn is_odd(law: &Law) -> bool {
     match law {
-        Law::Cubic(_) => true,
+        Law::Power(law) => law.is_odd(),
         Law::TwoSided(_) => law.gap().is_some(),
         _ => false,
     }
