@@ -79,6 +79,7 @@ fn limits(settings: &Settings, step: f64) -> Limits {
         singular_tolerance: settings.loose_tolerance_at(step).max(0.01 * step),
         residual_floor: settings.residual_floor,
         residual_tolerance: settings.residual_tolerance,
+        residual_wanted: settings.residual_wanted,
         max_iterations: settings.max_iterations,
         max_displacement: settings.allowed_displacement(step),
         max_angle: Some(settings.max_angle),

@@ -54,6 +54,8 @@ pub(crate) struct Limits {
     pub singular_tolerance: f64,
     pub residual_floor: f64,
     pub residual_tolerance: f64,
+    /// Residual above which corrections go on as long as they shrink.
+    pub residual_wanted: f64,
     pub max_iterations: u32,
     /// Bound of the total displacement of the prediction.
     pub max_displacement: f64,
@@ -137,7 +139,8 @@ impl Candidate {
             let loose = if at_floor { limits.singular_tolerance } else { limits.loose_tolerance };
             let has_converged = size <= limits.tolerance || (stagnant && size <= loose);
             // Where the matrix is large, a correction that might stay unapplied may still leave a residual that it takes away.
-            let corrects_residual = !stagnant && self.residual_norm > limits.residual_tolerance;
+            let corrects_residual =
+                !stagnant && self.residual_norm > limits.residual_wanted.min(limits.residual_tolerance);
             if has_converged && (!corrects_residual || self.iterations >= limits.max_iterations) {
                 return self.finish(problem, limits);
             }

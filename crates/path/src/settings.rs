@@ -72,6 +72,9 @@ pub struct Settings {
     pub correction_floor: f64,
     /// Bound of the residual `max |R_i|` of an accepted point.
     pub residual_tolerance: f64,
+    /// Residual above which a point is corrected further as long as corrections shrink, though the one that
+    /// is still due is small: where the matrix is large, that is what takes the residual away.
+    pub residual_wanted: f64,
     /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more (beside a branch
     /// point), `‖d‖ ≤ h / 100` is enough.
     pub residual_floor: f64,
@@ -101,6 +104,7 @@ impl Default for Settings {
             correction_tolerance: 1e-9,
             correction_floor: 1e-12,
             residual_tolerance: 1e-6,
+            residual_wanted: 1e-6,
             residual_floor: 1e-13,
             max_iterations: 6,
             sheet_distance: 1e-5,
@@ -145,6 +149,7 @@ impl Settings {
             ("correction_tolerance", self.correction_tolerance),
             ("correction_floor", self.correction_floor),
             ("residual_tolerance", self.residual_tolerance),
+            ("residual_wanted", self.residual_wanted),
             ("residual_floor", self.residual_floor),
             ("sheet_distance", self.sheet_distance),
             ("signature_step", self.signature_step),

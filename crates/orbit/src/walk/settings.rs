@@ -9,6 +9,10 @@ use crate::{OrbitSettings, PeriodicSolution, Segments, cut::begins_with_care};
 /// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
 const SHORTEST_AT_IMPACTS: f64 = 100.0;
 
+/// Residual to which orbits with rigid stops are corrected: an impact of the speed v makes `1/v` times as
+/// much of what is left of the state, so a small correction tells nothing there.
+const RESIDUAL_AT_IMPACTS: f64 = 1e-11;
+
 /// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be cut into more segments. Towards the border at which a contact splits, whose law remembers its impact, multipliers grow
 /// beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz, and not to the border.
 const CRAWL_BESIDE_IMPACTS: f64 = 1e4;
@@ -22,7 +26,11 @@ pub(crate) fn hertz_per_norm((low, high): (f64, f64)) -> f64 {
 pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f64) -> Settings {
     let default = Settings::default();
     let crawl = if begins_with_care(system) { CRAWL_BESIDE_IMPACTS } else { 1.0 };
-    let shortest = if system.has_rigid_stops() { SHORTEST_AT_IMPACTS } else { 1.0 };
+    let (shortest, wanted) = if system.has_rigid_stops() {
+        (SHORTEST_AT_IMPACTS, RESIDUAL_AT_IMPACTS)
+    } else {
+        (1.0, default.residual_wanted)
+    };
     Settings {
         initial_step: 0.1 * settings.max_step_hz,
         max_parameter_step: settings.max_step_hz,
@@ -33,6 +41,7 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
         correction_floor: default.correction_floor * length,
         // Rounding of the residual grows with the multipliers.
         residual_floor: 100.0 * default.residual_floor,
+        residual_wanted: wanted,
         sheet_distance: default.sheet_distance * length,
         signature_step: default.signature_step * length,
         max_points: settings.max_solutions as u64,

@@ -50,6 +50,7 @@ impl Follower {
             singular_tolerance: self.settings.loose_tolerance_at(step).max(0.01 * step),
             residual_floor: self.settings.residual_floor,
             residual_tolerance: self.settings.residual_tolerance,
+            residual_wanted: self.settings.residual_wanted,
             max_iterations: self.settings.max_iterations,
             max_displacement: self.allowed_displacement(step),
             max_angle: Some(self.settings.max_angle),

@@ -109,6 +109,7 @@ impl Follower {
             singular_tolerance: self.settings.correction_floor.max(0.01 * length),
             residual_floor: self.settings.residual_floor,
             residual_tolerance: self.settings.residual_tolerance,
+            residual_wanted: self.settings.residual_wanted,
             max_iterations: self.settings.max_iterations,
             max_displacement: length,
             max_angle: Some(self.settings.max_angle),

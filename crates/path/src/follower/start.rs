@@ -113,6 +113,7 @@ pub(super) fn start_limits(settings: &Settings) -> Limits {
         singular_tolerance: settings.correction_tolerance,
         residual_floor: settings.residual_floor,
         residual_tolerance: settings.residual_tolerance,
+        residual_wanted: settings.residual_wanted,
         max_iterations: 5 * settings.max_iterations,
         max_displacement: f64::INFINITY,
         max_angle: None,
