@@ -5,6 +5,7 @@ mod bad_input;
 mod borders;
 mod common;
 mod compare;
+mod corners;
 mod curves;
 mod energy_loss;
 mod events;

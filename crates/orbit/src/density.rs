@@ -19,7 +19,7 @@ use hammerbeam_path::{ContinuationPoint, solve_between};
 
 use crate::{
     BranchRow, BranchWalk, OrbitError,
-    walk::{Between, hertz_per_norm, path_settings},
+    walk::{Between, hertz_per_norm, outside, path_settings, spectrum_of},
 };
 
 /// Estimated error, relative to `y`, from which on an interval is looked at.
@@ -138,6 +138,19 @@ impl BranchWalk {
         self.last_rows.push(end);
         rows.push(row);
         Ok(())
+    }
+
+    /// Appends the row of a corner and `row`, the present one, close behind it.
+    pub(crate) fn append_behind_corner(
+        &mut self,
+        at_corner: BranchRow,
+        row: BranchRow,
+        rows: &mut Vec<BranchRow>,
+    ) {
+        let to = self.follower.current();
+        self.outside = Some(outside(&spectrum_of(&row.solution), to.events));
+        self.last_rows.push(Place::new(to, row.solution.maxima.displacement));
+        rows.extend([at_corner, row]);
     }
 
     /// Appends the middle of the interval, and what belongs into its halves; nothing if there is no orbit of the same arc.

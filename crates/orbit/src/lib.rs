@@ -16,6 +16,7 @@
 //! | `recompute.rs` | the same point of a branch with other segments or tolerances |
 //! | `walk.rs`, `walk/`, `resegment.rs`, `halves.rs`, `checkpoint.rs` | walking, step by step, cutting orbits into more segments on the way, storing a walk |
 //! | `cut.rs`, `recut.rs` | phases at which an orbit may begin; moving them on a walk |
+//! | `corner/` | grazing of a rigid stop as a corner of a branch: where it is, and orbits on both sides |
 //! | `stop.rs`, `splitting.rs` | why a walk ended; contacts that open and are pressed on again at once |
 //! | `spectrum.rs` | multipliers, and which of them are on the unit circle as well as they are known: stable, marginal, unstable |
 //! | `stability.rs`, `located.rs` | test functions of flips and Neimark-Sacker points; what is known of an event |
@@ -38,8 +39,10 @@
 //! contact. A walk moves the phase when a contact comes near it; one of several segments does not, and stops with
 //! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose contact never opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states
 //! of an orbit at any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is simulated over any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which is walked round like any other.
-//! So has it where an impact on a rigid stop comes or goes, with derivatives that grow without bound on the side of the impact: that corner is turned with the speed of the impact for a
-//! coordinate (see [`has_root_corners`](hammerbeam_path::PathProblem::has_root_corners)).
+//! So has it where an impact on a rigid stop comes or goes, with derivatives that grow without bound on the
+//! side of the impact: that corner is computed from the orbit cut at its touch, where the
+//! speed of the impact is a smooth coordinate (`corner/`; see
+//! [`root_corner`](hammerbeam_path::PathProblem::root_corner)).
 //!
 //! # Example
 //! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.
@@ -72,6 +75,7 @@ mod beginning;
 mod catalogue;
 mod checkpoint;
 mod continuation_parameter;
+mod corner;
 mod crossings;
 mod curve;
 mod cut;

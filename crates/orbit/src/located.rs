@@ -7,6 +7,8 @@
 //! quantity relative to what the orbit's scale gives the element, e what is not known of it. With the tolerance of the steps, ten of which a period is given, e is ten tolerances and the
 //! response of the orbit to as much of a closure error, with the correction that was still due; `g' = g_1/c` with its value `g_1` at the point before, the chord c away.
 //!
+//! A grazing of a rigid stop that was computed as a corner (`corner/`) brings its uncertainty along.
+//!
 //! The direction is the null vector of `A - mu I` (`A` the monodromy matrix, `mu` the multiplier at +1, -1 or on the unit circle), found by
 //! inverse iteration. At a branch point it is the tangent of the crossing branch: the vector that `[R_x R_f]` maps to zero besides the
 //! tangent `t` of the present branch. There the bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to
@@ -80,7 +82,11 @@ pub(crate) struct Place<'a> {
     pub bend: f64,
     /// To this length along the path the place of a corner is known.
     pub at_corners: f64,
-    pub touches_before: &'a [u32],
+    /// The contacts that change there.
+    pub contacts: Vec<ContactChange>,
+    /// Within which the parameter of a grazing is known that was computed as a corner; `None` where that was
+    /// not.
+    pub computed: Option<f64>,
     /// The point before, at which contacts came so near to a change; `None` where it is not known.
     pub before: Option<NearChange>,
 }
@@ -101,16 +107,20 @@ pub(crate) struct NearChange {
 }
 
 /// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened there. A corner of the path alone is none: the equations have a kink there, the motion has nothing.
-pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Option<LocatedEvent> {
+pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Option<LocatedEvent> {
     let events = hammerbeam_path::Events { corner: false, ..place.point.events };
     if !events.any() {
         return None;
     }
     let (multiplier, off) = critical(events, problem.multipliers().unwrap_or_default());
     let size = problem.parameter_size(&place.point.point);
-    let contacts = contact_changes(place.touches_before, problem.touches());
-    let of_motion = if events.signature_change { of_motion(problem, place, &contacts) } else { 0.0 };
-    let uncertainty = uncertainty(place, size, (off > SHARP_MULTIPLIER, of_motion));
+    let uncertainty = match place.computed {
+        Some(uncertainty) => uncertainty.max(f64::EPSILON * size),
+        None => {
+            let of_motion = if events.signature_change { of_motion(problem, &place) } else { 0.0 };
+            uncertainty(&place, size, (off > SHARP_MULTIPLIER, of_motion))
+        }
+    };
     let sharp = uncertainty <= SHARP_FREQUENCY * size && off <= SHARP_MULTIPLIER;
     let direction = if events.branch_point {
         crossing_direction(problem, place.point)
@@ -122,8 +132,8 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: &Place<'_>) -> Opti
         uncertainty,
         multiplier,
         direction: direction.unwrap_or_default(),
-        contacts,
         breaks_symmetry: events.branch_point && is_symmetric(problem, place.point),
+        contacts: place.contacts,
     })
 }
 
@@ -155,12 +165,12 @@ fn uncertainty(place: &Place<'_>, size: f64, (jumps, of_motion): (bool, f64)) ->
 }
 
 /// Arc length within which a grazing lies as the motion is known, see the head of the file; 0 where nothing is known of the point before.
-fn of_motion(problem: &mut ShootingProblem, place: &Place<'_>, changes: &[ContactChange]) -> f64 {
+fn of_motion(problem: &mut ShootingProblem, place: &Place<'_>) -> f64 {
     let Some(before) = place.before else { return 0.0 };
     let [displacement, speed] = contact_scale(problem);
     // What appears was a clearance or a penetration before, what vanishes a touch.
-    let appears = changes.iter().any(|change| change.appears);
-    let vanishes = changes.iter().any(|change| !change.appears);
+    let appears = place.contacts.iter().any(|change| change.appears);
+    let vanishes = place.contacts.iter().any(|change| !change.appears);
     let of_turn = if appears { before.clearance / displacement } else { f64::INFINITY };
     let of_touch = if vanishes { before.squared_speed / (speed * speed) } else { f64::INFINITY };
     let nearness = of_turn.min(of_touch);
@@ -213,7 +223,8 @@ fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> boo
     problem.scale().distance(&mirrored, &state) < MIRRORED
 }
 
-fn contact_changes(before: &[u32], after: &[u32]) -> Vec<ContactChange> {
+/// The contacts of which one orbit has more or fewer than the one before.
+pub(crate) fn contact_changes(before: &[u32], after: &[u32]) -> Vec<ContactChange> {
     let counts = before.iter().zip(after).enumerate().filter(|(_, (before, after))| before != after);
     counts.map(|(contact, (before, after))| ContactChange { contact, appears: after > before }).collect()
 }

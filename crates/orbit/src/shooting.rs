@@ -175,6 +175,11 @@ impl ShootingProblem {
         if self.varied.parameter().is_some() { &flow.by_parameter } else { &flow.by_frequency }
     }
 
+    /// How many hertz of arc length a change of the orbit by its own size counts.
+    pub fn hertz_per_norm(&self) -> f64 {
+        self.hertz_per_norm
+    }
+
     /// Size that the last unknown has at a point, for relative accuracies.
     pub fn parameter_size(&self, point: &[f64]) -> f64 {
         let value = point[point.len() - 1].abs();

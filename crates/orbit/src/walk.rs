@@ -25,7 +25,7 @@ use crate::{
     solve::{integrator, nodes_from},
     state_scale::StateScale,
 };
-pub(crate) use between::Between;
+pub(crate) use between::{Between, outside, spectrum_of};
 pub(crate) use effort::Effort;
 pub(crate) use growth::Growth;
 use settings::segment_count;

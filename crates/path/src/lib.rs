@@ -61,7 +61,8 @@
 //! - Sheets closer than `sheet_distance` with the same direction, or folds closer than the steps that nothing else
 //!   makes short, can be missed.
 //! - Corners behind which `R` changes like a square root end the branch, unless the problem says that it has such
-//!   ([`PathProblem::has_root_corners`]); then they are passed, and known to lie within the step over them.
+//!   ([`PathProblem::has_root_corners`]); then they are passed, and known to lie within the step over them,
+//!   or exactly if the problem computes them ([`PathProblem::root_corner`]).
 
 mod between;
 mod checkpoint;
@@ -84,9 +85,12 @@ pub use dense_lu::DenseLu;
 pub use dense_problem::DenseProblem;
 pub use error::{Doubt, PathError, StopReason};
 pub use follower::{
-    Branch, Direction, Follower, MOST_SHORT_STEPS, StepOutcome, TwoSidedBranch, follow, follow_both,
+    Branch, Direction, Follower, MOST_SHORT_STEPS, PassedCorner, StepOutcome, TwoSidedBranch, follow,
+    follow_both,
 };
 pub use point::{ContinuationPoint, Counters, Events};
 pub use predictor::{History, Node};
-pub use problem::{Determinant, EvaluationError, Outside, PathProblem, SingularJacobian, TestValue};
+pub use problem::{
+    Determinant, EvaluationError, Outside, PathProblem, RootCorner, SingularJacobian, TestValue,
+};
 pub use settings::{ParameterRange, Settings};

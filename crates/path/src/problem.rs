@@ -64,6 +64,25 @@ pub struct Outside {
     pub critical: u32,
 }
 
+/// A corner behind which `R` changes like a square root, or before which it did, as the problem knows it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RootCorner {
+    /// The corner itself.
+    pub corner: Vec<f64>,
+    /// A point beside it on the side without the root, or without any: it stands for the corner, which cannot
+    /// be evaluated.
+    pub beside: Vec<f64>,
+    /// Within which the parameter of that point is that of the corner.
+    pub uncertainty: f64,
+    /// Points of the path behind it, in the order in which they should be tried, each with another one
+    /// farther behind it that tells the direction.
+    pub behind: Vec<[Vec<f64>; 2]>,
+    /// Whether more than one square root sets in at once: then the determinant may change its sign.
+    pub is_multiple: bool,
+    /// Work that it took, in evaluations.
+    pub evaluations: u64,
+}
+
 /// A system of `n` equations `R(x, λ) = 0` in `n` unknowns `x` and one parameter `λ`.
 ///
 /// A *point* is `z = [x; λ]`, length `n + 1`. `evaluate` does the expensive work and keeps `R` and
@@ -170,6 +189,23 @@ pub trait PathProblem {
     /// Whether `R` may change like a square root behind a change of signature, so that its derivatives grow without bound there (impacts on rigid stops, at grazing).
     fn has_root_corners(&self) -> bool {
         false
+    }
+
+    /// The corner that lies ahead of a point of the path, if the problem can compute it: where `R` begins or
+    /// ceases to change like a square root.
+    ///
+    /// It is looked for from the point, whatever was evaluated last; then another point may be evaluated.
+    ///
+    /// * `reach`: about how far ahead it lies at most.
+    /// * `lies_ahead`: whether a corner that was found is one ahead.
+    fn root_corner(
+        &mut self,
+        point: &[f64],
+        reach: f64,
+        lies_ahead: &dyn Fn(&[f64]) -> bool,
+    ) -> Option<RootCorner> {
+        let _ = (point, reach, lies_ahead);
+        None
     }
 
     /// Estimated length along the unit tangent from the last evaluated point to the next change of signature ahead;

@@ -104,6 +104,17 @@ impl StoredBranches {
         frequency_hz: f64,
         wanted: impl Fn(&BranchRecord) -> bool,
     ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
+        self.crossings_that(model, frequency_hz, wanted, |_, _| true)
+    }
+
+    /// The same, without orbits between two rows that are not wanted.
+    fn crossings_that(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        wanted: impl Fn(&BranchRecord) -> bool,
+        fits: impl Fn(&[PlacedRow], &PeriodicSolution) -> bool,
+    ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
         let mut orbits = Vec::new();
         for StoredBranch { record, rows } in self.branches.iter().filter(|branch| wanted(&branch.record)) {
             for pair in rows.windows(2) {
@@ -111,7 +122,8 @@ impl StoredBranches {
                 if (a < frequency_hz) != (b < frequency_hz) {
                     let share = (frequency_hz - a) / (b - a);
                     let guess = self.between(record, pair, share, frequency_hz)?;
-                    orbits.extend(corrected(model, guess).map(|orbit| (record.id, orbit)));
+                    let orbit = corrected(model, guess).filter(|orbit| fits(pair, orbit));
+                    orbits.extend(orbit.map(|orbit| (record.id, orbit)));
                 }
             }
             // Between rows the higher end counts; a branch that ends at the frequency and lies above it has no such pair there.
@@ -151,6 +163,34 @@ impl StoredBranches {
         Ok(orbits.iter().find(|(_, orbit)| same(orbit)).map(|(branch, _)| *branch))
     }
 
+    /// Pairs of branches that hold the same orbit at a frequency, as it is or begun some excitation periods
+    /// later: there should be none.
+    ///
+    /// * `model`: that of the study.
+    ///
+    /// # Errors
+    /// The store refuses.
+    pub fn held_twice(&self, model: &Model, frequency_hz: f64) -> Result<Vec<[u32; 2]>, StoreError> {
+        let scales = state_scales(&model.system, frequency_hz);
+        let motion = ExactIntegrator::new(model.system.clone(), ExactSettings::default());
+        let Ok(mut integrator) = motion else { return Ok(Vec::new()) };
+        let orbits: Vec<(u32, Vec<Vec<f64>>)> = self
+            .crossings_that(model, frequency_hz, |_| true, has_contacts_of)?
+            .into_iter()
+            .filter_map(|(branch, orbit)| Some((branch, states_at_phase(&mut integrator, &orbit, 0.0).ok()?)))
+            .collect();
+        let mut twice = Vec::new();
+        for (place, (first, states)) in orbits.iter().enumerate() {
+            for (second, others) in orbits[place + 1..].iter().filter(|(second, _)| second != first) {
+                let same = |state: &Vec<f64>| distance(&scales, &states[0], state) < SAME;
+                if states.len() == others.len() && others.iter().any(same) {
+                    twice.push([*first, *second]);
+                }
+            }
+        }
+        Ok(twice)
+    }
+
     /// The state between two rows, as a guess at a frequency.
     fn between(
         &self,
@@ -170,6 +210,12 @@ impl StoredBranches {
         let state = states.map(|(a, b)| a + share * (b - a)).collect();
         Ok(PeriodicSolution { frequency_hz, nodes: vec![state], ..first })
     }
+}
+
+/// Whether an orbit touches as often as one of two rows: where several branches meet in a grazing, Newton's method may
+/// go from between two rows of one to another.
+fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
+    pair.iter().any(|placed| placed.row.maxima.contacts == orbit.maxima.contacts)
 }
 
 /// The orbit near a guess at its frequency; `None` if there is none that Newton's method finds.

@@ -281,6 +281,14 @@ impl ExactIntegrator {
         })
     }
 
+    /// An integrator for another system, with the settings of this one.
+    ///
+    /// # Errors
+    /// [`MotionError::MergedModes`] if the damping has no block form.
+    pub fn for_system(&self, system: System) -> Result<Self, MotionError> {
+        Self::new(system, self.settings)
+    }
+
     /// The system.
     #[must_use]
     pub fn system(&self) -> &System {

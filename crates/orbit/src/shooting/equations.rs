@@ -2,7 +2,7 @@
 
 use hammerbeam_motion::exact::NearMisses;
 use hammerbeam_path::{
-    Determinant, EvaluationError, Events, Outside, PathProblem, SingularJacobian, TestValue,
+    Determinant, EvaluationError, Events, Outside, PathProblem, RootCorner, SingularJacobian, TestValue,
 };
 
 use super::ShootingProblem;
@@ -168,6 +168,15 @@ impl PathProblem for ShootingProblem {
     /// Impacts on rigid stops have a speed that goes like the root of the depth.
     fn has_root_corners(&self) -> bool {
         self.system().has_rigid_stops()
+    }
+
+    fn root_corner(
+        &mut self,
+        point: &[f64],
+        reach: f64,
+        lies_ahead: &dyn Fn(&[f64]) -> bool,
+    ) -> Option<RootCorner> {
+        self.grazing_near(point, reach / self.hertz_per_norm, lies_ahead)
     }
 
     fn signature(&self) -> u64 {

@@ -130,18 +130,18 @@ impl BranchWalk {
             return Ok(None);
         }
         point.events = Events { zeros: if is_pair { 2 } else { 1 }, ..Events::default() };
-        let touches = self.problem.touches().to_vec();
         let at_corners = self.follower.settings().min_step;
+        let contacts = Vec::new();
         let place =
-            located::Place { point: &point, bend: 0.0, at_corners, touches_before: &touches, before: None };
-        let located = located::describe(&mut self.problem, &place);
+            located::Place { point: &point, bend: 0.0, at_corners, contacts, computed: None, before: None };
+        let located = located::describe(&mut self.problem, place);
         let row = BranchRow { located, ..self.row_at(&point)? };
         Ok(Some(Between { point, row }))
     }
 }
 
 /// Least and most number of multipliers outside the circle.
-fn outside(spectrum: &Spectrum, events: Events) -> (u32, u32) {
+pub(crate) fn outside(spectrum: &Spectrum, events: Events) -> (u32, u32) {
     let outside = stability::outside(spectrum, events);
     (outside.least, outside.most)
 }
@@ -166,7 +166,7 @@ fn moving(spectrum: &Spectrum, staying: usize) -> impl Iterator<Item = &[f64; 2]
     moves.map(|(multiplier, _)| multiplier)
 }
 
-fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
+pub(crate) fn spectrum_of(solution: &PeriodicSolution) -> Spectrum {
     let multipliers = solution.floquet_multipliers.clone();
     let at_minus_one = vec![false; multipliers.len()];
     Spectrum { multipliers, on_circle: solution.on_circle.clone(), at_minus_one }

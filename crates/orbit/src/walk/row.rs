@@ -47,13 +47,57 @@ impl BranchWalk {
             point: &current,
             bend: self.frequency_bend(),
             at_corners,
-            touches_before: &self.touches,
+            contacts: self.contact_changes(),
+            computed: self.follower.passed_corner().map(|corner| corner.uncertainty),
             before: self.near_change(&current),
         };
-        let located = located::describe(&mut self.problem, &place);
+        let located = located::describe(&mut self.problem, place);
+        Ok(BranchRow { located, ..self.row_at(&current)? })
+    }
+
+    /// What changed of the contacts since this was asked for the last time.
+    fn contact_changes(&mut self) -> Vec<located::ContactChange> {
+        let changes = located::contact_changes(&self.touches, self.problem.touches());
         self.touches.clear();
         self.touches.extend_from_slice(self.problem.touches());
-        Ok(BranchRow { located, ..self.row_at(&current)? })
+        changes
+    }
+
+    /// The row of the present point, at which the problem was evaluated last, and before it that of a corner
+    /// that was computed and lies between it and the point before: what happened did so there.
+    pub(crate) fn rows_here(&mut self) -> Result<(Option<BranchRow>, BranchRow), OrbitError> {
+        let passed = self.follower.passed_corner().filter(|corner| !corner.is_accepted).cloned();
+        let Some(corner) = passed else { return Ok((None, self.row()?)) };
+        let current = self.follower.current().clone();
+        let contacts = self.contact_changes();
+        evaluate(&mut self.problem, &corner.beside)?;
+        let correction_norm = self.correction_due(&current.tangent);
+        let at_corner = ContinuationPoint { point: corner.beside, correction_norm, ..current.clone() };
+        let place = located::Place {
+            point: &at_corner,
+            bend: 0.0,
+            at_corners: 0.0,
+            contacts,
+            computed: Some(corner.uncertainty),
+            before: None,
+        };
+        let located = located::describe(&mut self.problem, place);
+        let first = BranchRow { located, ..self.row_at(&at_corner)? };
+        evaluate(&mut self.problem, &current.point)?;
+        let without_events = ContinuationPoint { events: hammerbeam_path::Events::default(), ..current };
+        Ok((Some(first), self.row_at(&without_events)?))
+    }
+
+    /// Norm of the correction normal to a direction that is due where the problem was evaluated last.
+    fn correction_due(&mut self, direction: &[f64]) -> f64 {
+        let weights = self.problem.weights().to_vec();
+        let border: Vec<f64> = direction.iter().zip(&weights).map(|(t, w)| t * w).collect();
+        if self.problem.factorise(&border).is_err() {
+            return f64::INFINITY;
+        }
+        let mut correction: Vec<f64> = self.problem.residual().iter().copied().chain([0.0]).collect();
+        self.problem.solve(&mut correction);
+        correction.iter().zip(&weights).map(|(c, w)| w * c * c).sum::<f64>().sqrt()
     }
 
     /// Whether the pair that seems to cross the circle at a point becomes real there instead.

@@ -41,8 +41,8 @@ impl BranchWalk {
         if let Some(splits) = self.comes_to_splitting(&departure)? {
             return Ok(Some(splits));
         }
-        let row = match self.row() {
-            Ok(row) => row,
+        let (at_corner, row) = match self.rows_here() {
+            Ok(rows) => rows,
             Err(error @ (OrbitError::Motion(_) | OrbitError::Eigenvalues(_))) => {
                 let frequency_hz = self.follower.current().parameter();
                 return Ok(Some(StopReason::Motion { frequency_hz, message: error.to_string() }));
@@ -54,7 +54,10 @@ impl BranchWalk {
             return Ok(Some(splits));
         }
         self.journal.push(self.follower.in_first_units(self.follower.current()));
-        self.append_densely(&from, row, rows)?;
+        match at_corner {
+            Some(at_corner) => self.append_behind_corner(at_corner, row, rows),
+            None => self.append_densely(&from, row, rows)?,
+        }
         self.keep_segments_short(largest)?;
         Ok(None)
     }

@@ -8,6 +8,7 @@ mod closing;
 mod corner;
 mod fold;
 mod judge;
+mod known_corner;
 mod leap;
 mod look_ahead;
 mod outside;
@@ -23,6 +24,7 @@ mod undecided;
 mod whole;
 mod zero;
 
+pub use known_corner::PassedCorner;
 pub use start::Direction;
 pub use whole::{Branch, TwoSidedBranch, follow, follow_both};
 
@@ -66,6 +68,8 @@ pub struct Follower {
     row: Vec<f64>,
     /// The border that keeps the parameter.
     parameter_row: Vec<f64>,
+    /// The corner that the last step passed, where the problem computed it.
+    passed: Option<PassedCorner>,
     /// It is a copy that only looks where the path goes (`look_ahead.rs`).
     looks_ahead: bool,
 }
@@ -134,6 +138,13 @@ impl Follower {
         &self.settings
     }
 
+    /// The corner between the point accepted last and the one before, if the problem computed it; not known
+    /// any more after a [`resume`](Self::resume).
+    #[must_use]
+    pub fn passed_corner(&self) -> Option<&PassedCorner> {
+        self.passed.as_ref()
+    }
+
     /// All that is needed to continue later, but for the memory of the points.
     #[must_use]
     pub fn checkpoint(&self) -> &Checkpoint {
@@ -165,6 +176,7 @@ impl Follower {
             best: candidate,
             row: vec![0.0; length],
             parameter_row,
+            passed: None,
             looks_ahead: false,
         }
     }
@@ -206,6 +218,8 @@ impl Follower {
     fn next_point(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), StopReason> {
         let mut attempts = Attempts { rejected: 0, retraced: 0, most_earlier: self.state.most_earlier };
         let mut step = self.first_step();
+        let mut look = self.first_look_for_corner();
+        self.passed = None;
         loop {
             let attempt = self.attempt(problem, step, attempts.most_earlier);
             let checked = attempt.and_then(|arrival| self.heed_simpler(problem, arrival));
@@ -219,6 +233,14 @@ impl Follower {
             };
             self.state.counters.rejected += 1;
             let shorter = self.shortened(step, doubt, &mut attempts);
+            if shorter < look {
+                look = self.next_look_for_corner(look);
+                if let Ok((arrival, length)) = self.turn_known_corner(problem, step) {
+                    let arrival = self.zeros_at_once(problem, arrival);
+                    self.accept(arrival, length, attempts);
+                    return Ok(());
+                }
+            }
             self.give_up_if_retraced(doubt, shorter, attempts)?;
             if shorter < self.settings.min_step {
                 let (arrival, length) =

@@ -300,7 +300,7 @@ impl Follower {
     }
 
     /// The trial is the next point, unless it is on this side of the corner or was walked before.
-    fn arrive_behind_root_corner(
+    pub(super) fn arrive_behind_root_corner(
         &self,
         problem: &(impl PathProblem + ?Sized),
         length: f64,

@@ -1,0 +1,166 @@
+//! Touches of rigid stops that are near grazing: slow impacts, and turns just before a stop.
+
+use hammerbeam_motion::Stretch;
+
+use crate::shooting::ShootingProblem;
+
+/// Looks for turns per excitation period.
+const LOOKS: usize = 2000;
+/// Largest speed of an impact that is gone within a reach, over the reach, both relative to the orbit; and
+/// the square of that of a turn, which has the speed that its clearance for a depth would give it.
+const FASTEST: f64 = 3.0;
+const FASTEST_SQUARED: f64 = 5.0;
+/// Share of the speed behind an impact without which it sticks.
+const REBOUNDS: f64 = 0.5;
+
+/// What a touch near grazing is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Side {
+    /// An impact.
+    Impact,
+    /// A turn before the stop.
+    Turn,
+}
+
+/// A touch near grazing.
+#[derive(Debug, Clone)]
+pub(super) struct Touch {
+    pub element: usize,
+    pub side: Side,
+    /// From the phase at which the orbit begins, or within N cycles of it [cycles].
+    pub phase: f64,
+    /// Right before it, scaled.
+    pub state: Vec<f64>,
+    /// Relative to the orbit.
+    pub speed: f64,
+}
+
+/// Speed, relative to the orbit, up to which touches beside a corner belong to it: some times that of the
+/// clearance at which it is looked at.
+const AT_CORNER: f64 = 3e-4;
+/// Phases that differ by less are the same [cycles].
+const SAME_PHASE: f64 = 1e-3;
+
+impl Touch {
+    /// Whether both are the same touch of orbits of so many cycles.
+    pub fn is_same(&self, other: &Self, cycles: f64) -> bool {
+        let apart = (self.phase - other.phase) / cycles;
+        self.element == other.element && cycles * (apart - apart.round()).abs() < SAME_PHASE
+    }
+
+    /// Whether the touches are whole excitation periods apart.
+    pub fn repeats(&self, other: &Self) -> bool {
+        let apart = self.phase - other.phase;
+        self.element == other.element && (apart - apart.round()).abs() < SAME_PHASE
+    }
+}
+
+/// What an element moves like in an orbit of the size of the scale: its largest speed.
+pub(super) fn largest_speed(problem: &ShootingProblem, element: usize) -> f64 {
+    let shape = &problem.system().elements()[element].shape;
+    let velocities = &problem.scale().values()[shape.len()..];
+    shape.iter().zip(velocities).map(|(shape, scale)| (shape * scale).abs()).sum()
+}
+
+/// Touches of the orbit of a point that may graze within a reach, the nearest to grazing first; `None` if its
+/// motion cannot be computed.
+pub(super) fn near_grazing(problem: &mut ShootingProblem, point: &[f64], reach: f64) -> Option<Vec<Touch>> {
+    let frequency_hz = problem.frequency(point);
+    let scales = problem.scale().values().to_vec();
+    let mut touches = Vec::new();
+    for (segment, node) in problem.nodes(point).into_iter().enumerate() {
+        let stretch = problem.stretch(segment, frequency_hz);
+        let looks = ((stretch.end - stretch.start) * LOOKS as f64).ceil() as usize;
+        let phase = |k: usize| stretch.start + (stretch.end - stretch.start) * k as f64 / looks as f64;
+        let phases: Vec<f64> = (0..=looks).map(phase).collect();
+        let trace = problem.integrator().trace(&stretch, &node, &phases).ok()?;
+        for contact in &trace.contacts {
+            let (Some(begin), Some(jump)) = (&contact.begin, &contact.jump) else { continue };
+            let phase = stretch.start + begin.time * frequency_hz;
+            let [_, behind, _] =
+                problem.system().relative_motion(contact.element, frequency_hz, phase, &jump.state);
+            let law = problem.system().elements()[contact.element].law;
+            let restitution = law.rigid().map_or(0.0, |stop| stop.restitution());
+            if -behind > REBOUNDS * restitution * begin.velocity {
+                touches.push(Touch {
+                    element: contact.element,
+                    side: Side::Impact,
+                    phase,
+                    state: scaled(&begin.state, &scales),
+                    speed: begin.velocity.abs() / largest_speed(problem, contact.element),
+                });
+            }
+        }
+        turns(problem, (&stretch, &phases), &trace.samples, &mut touches);
+    }
+    touches.retain(|touch| match touch.side {
+        Side::Impact => touch.speed <= FASTEST * reach,
+        Side::Turn => touch.speed * touch.speed <= FASTEST_SQUARED * reach,
+    });
+    touches.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    Some(touches)
+}
+
+/// The touches that graze in a corner, by the point beside it.
+pub(super) fn at_grazing(problem: &mut ShootingProblem, beside: &[f64]) -> Option<Vec<Touch>> {
+    problem.move_to(beside).ok()?;
+    let mut touches = near_grazing(problem, beside, f64::INFINITY)?;
+    touches.retain(|touch| touch.speed <= AT_CORNER);
+    Some(touches)
+}
+
+/// Turns towards rigid stops between samples of a motion.
+fn turns(
+    problem: &mut ShootingProblem,
+    (stretch, phases): (&Stretch, &[f64]),
+    samples: &[Vec<f64>],
+    touches: &mut Vec<Touch>,
+) {
+    let (system, scales) = (problem.system(), problem.scale().values().to_vec());
+    let frequency_hz = stretch.frequency_hz;
+    let mut turns = Vec::new();
+    // Across an impact the speed jumps from towards the stop to away from it, too.
+    for (element, of) in system.elements().iter().enumerate() {
+        let Some(level) = of.law.rigid().map(|stop| stop.level()) else { continue };
+        let speeds: Vec<f64> = (0..samples.len())
+            .map(|k| {
+                let velocities = &samples[k][of.shape.len()..];
+                let own: f64 = of.shape.iter().zip(velocities).map(|(phi, v)| phi * v).sum();
+                let support = if of.support_ratio == 0.0 {
+                    0.0
+                } else {
+                    of.support_ratio * system.support_motion(frequency_hz, phases[k])[1]
+                };
+                own + support
+            })
+            .collect();
+        for k in (1..samples.len()).filter(|&k| speeds[k - 1] >= 0.0 && speeds[k] < 0.0) {
+            let struck = touches.iter().any(|touch| {
+                touch.element == element
+                    && touch.side == Side::Impact
+                    && (phases[k - 1]..=phases[k]).contains(&touch.phase)
+            });
+            let [r, after, acceleration] =
+                system.relative_motion(element, frequency_hz, phases[k], &samples[k]);
+            if struck || acceleration >= 0.0 {
+                continue;
+            }
+            let depth = after * after / (-2.0 * acceleration);
+            let clearance = (level - r - depth).max(0.0);
+            let speed = (-2.0 * acceleration * clearance).sqrt() / largest_speed(problem, element);
+            let back = after / acceleration;
+            let phase = (phases[k] - back * frequency_hz).max(phases[k - 1]);
+            turns.push((k - 1, Touch { element, side: Side::Turn, phase, state: Vec::new(), speed }));
+        }
+    }
+    for (sample, turn) in turns {
+        let way = Stretch { frequency_hz, start: phases[sample], end: turn.phase };
+        if let Ok(state) = problem.integrator().advance(&way, &samples[sample]) {
+            touches.push(Touch { state: scaled(&state, &scales), ..turn });
+        }
+    }
+}
+
+fn scaled(state: &[f64], scales: &[f64]) -> Vec<f64> {
+    state.iter().zip(scales).map(|(z, s)| z / s).collect()
+}
