@@ -100,6 +100,10 @@ pub struct RunOptions {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 
+    /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results folder and that no branch holds; may be given several times
+    #[arg(long, value_name = "DIR")]
+    pub from: Vec<PathBuf>,
+
     /// Number of threads [default: all cores]; the results do not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,

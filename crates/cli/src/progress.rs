@@ -100,7 +100,9 @@ impl Observer for Terminal {
     fn working(&mut self, job: &JobRecord) {
         let what = match job.kind {
             JobKind::Harmonic => "looking for the harmonic branch",
-            JobKind::Survey => "looking for branches by simulation",
+            JobKind::Survey | JobKind::Resonance => "looking for branches by simulation",
+            JobKind::Met => "following motions that were met",
+            JobKind::NoneStable => "looking where no stable solution is known",
             JobKind::Doubling => "leaving a flip",
             JobKind::Crossing => "leaving a branch point",
         };

@@ -4,6 +4,7 @@
 //! `r_e = phi_e . q + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u` and `b_m`, besides the
 //! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
 
+mod symmetry;
 mod varied;
 
 use std::f64::consts::TAU;

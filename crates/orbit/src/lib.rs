@@ -22,6 +22,7 @@
 //! | `switch.rs` | leaving a flip or branch point onto the other branch |
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
 //! | `trials.rs` | harmonic orbits at a frequency, quickly |
+//! | `probe.rs`, `backbone.rs`, `linear_contact.rs` | attractors at a frequency, quickly; states of large amplitude from which motions begin; frequencies at which the linear response reaches a contact |
 //! | `curve/` | curves of folds, flips, Neimark-Sacker points and grazing in two parameters |
 //! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
@@ -68,6 +69,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod backbone;
 mod beginning;
 mod catalogue;
 mod checkpoint;
@@ -81,10 +83,12 @@ mod error;
 mod find;
 mod free;
 mod halves;
+mod linear_contact;
 mod located;
 mod matching;
 mod neighbour;
 mod noise;
+mod probe;
 mod reach;
 mod recompute;
 mod recut;
@@ -115,15 +119,17 @@ pub use error::OrbitError;
 pub use find::{FoundOrbits, find_orbits};
 pub use free::{FreeOrbit, free_orbit};
 pub use hammerbeam_path::PathError;
+pub use linear_contact::linear_contact_ranges;
 pub use located::{ContactChange, EventStatus, LocatedEvent};
-pub use matching::{Matcher, states_at_phase};
+pub use matching::{Matcher, mirror_image, states_at_phase};
 pub use neighbour::neighbouring_orbit;
+pub use probe::{ProbeStarts, probe};
 pub use reach::reach_orbit;
 pub use recompute::recompute;
 pub use settings::{OrbitSettings, Response, Segments};
 pub use solution::{BranchRow, Events, OrbitMaxima, PeriodicSolution, Side};
 pub use spectrum::Stability;
-pub use start::{Interruption, find_start, find_start_unless};
+pub use start::{Interruption, find_start, find_start_unless, settled_orbit};
 pub use stop::{ResonantMode, StopReason};
 pub use survey::{SurveyEffort, survey};
 pub use switch::Crossing;

@@ -41,6 +41,14 @@ pub fn states_at_phase(
     Ok(states)
 }
 
+/// The mirror image `-z(t + T/2)` of an orbit, T being the excitation period: an orbit of a [symmetric](System::is_symmetric) system, perhaps the same one.
+#[must_use]
+pub fn mirror_image(orbit: &PeriodicSolution) -> PeriodicSolution {
+    let mirrored = |node: &Vec<f64>| node.iter().map(|value| -value).collect();
+    let nodes = orbit.nodes.iter().map(mirrored).collect();
+    PeriodicSolution { phase: (orbit.phase + 0.5) % 1.0, nodes, ..orbit.clone() }
+}
+
 /// Smallest distance of a state from those of an orbit.
 pub(crate) fn distance_in_phase(scale: &StateScale, phases: &[Vec<f64>], state: &[f64]) -> f64 {
     phases.iter().map(|phase| scale.distance(phase, state)).fold(f64::INFINITY, f64::min)

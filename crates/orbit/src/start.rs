@@ -133,6 +133,24 @@ pub(crate) fn starting_states(
     Ok(states)
 }
 
+/// The orbit of that minimal period on which a motion moves that has settled, given by its state at phase 0; `None` if Newton's method leads nowhere or to an orbit of a
+/// shorter period.
+///
+/// # Errors
+/// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64.
+pub fn settled_orbit(
+    system: &System,
+    response: &Response,
+    state: &[f64],
+    orbit: (f64, u32),
+    settings: &OrbitSettings,
+) -> Result<Option<PeriodicSolution>, OrbitError> {
+    check_multiple(orbit.1)?;
+    let mut motion = integrator(system, response, settings)?;
+    let (begin, _) = search_cut(&mut motion, state, orbit)?;
+    attempt(system, response, begin.at(), orbit, settings)
+}
+
 /// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has settled on one of another period.
 fn settle(
     system: &System,

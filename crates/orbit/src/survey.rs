@@ -167,7 +167,7 @@ impl Survey<'_> {
 }
 
 /// The smallest number of periods, up to `largest`, after which the last state has come back.
-fn repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
+pub(crate) fn repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
     let last = states.len() - 1;
     (1..=largest.min(last)).find(|&period| scale.distance(&states[last], &states[last - period]) < REPEATED)
 }

@@ -22,6 +22,7 @@ mod multipliers;
 mod neimark_sacker;
 mod own_images;
 mod pressed_start;
+mod probe;
 mod sag;
 mod second_grazing;
 mod slow_contact;

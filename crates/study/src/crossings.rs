@@ -1,5 +1,9 @@
 //! Where the stored branches cross a frequency, and which of them holds a given periodic motion.
 
+mod images;
+
+pub use images::MirrorImage;
+
 use std::path::Path;
 
 use hammerbeam_attractor::{distance, state_scales};
@@ -91,7 +95,7 @@ impl StoredBranches {
     }
 
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the state is interpolated and then
-    /// corrected at the frequency.
+    /// corrected at the frequency. In a symmetric system the mirror image of an orbit is one, too, and counts to its branch unless a branch holds it.
     ///
     /// * `model`: that of the study.
     /// * `wanted`: of a branch's record, whether it is looked at.
@@ -99,6 +103,20 @@ impl StoredBranches {
     /// # Errors
     /// The store refuses.
     pub fn crossings(
+        &self,
+        model: &Model,
+        frequency_hz: f64,
+        wanted: impl Fn(&BranchRecord) -> bool,
+    ) -> Result<Vec<(u32, PeriodicSolution)>, StoreError> {
+        let mut orbits = self.stored_crossings(model, frequency_hz, wanted)?;
+        if model.system.is_symmetric() {
+            images::add_to(&mut orbits, model);
+        }
+        Ok(orbits)
+    }
+
+    /// Those of them that branches hold.
+    fn stored_crossings(
         &self,
         model: &Model,
         frequency_hz: f64,

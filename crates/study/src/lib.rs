@@ -49,6 +49,7 @@ mod number;
 mod orbit_solver;
 pub mod rig;
 pub mod run;
+pub mod settled;
 pub mod store;
 pub mod summary;
 pub mod update;
@@ -56,7 +57,7 @@ pub mod varied;
 pub mod verify;
 pub mod whole_file;
 
-pub use crossings::{PlacedRow, StoredBranch, StoredBranches, corrected};
+pub use crossings::{MirrorImage, PlacedRow, StoredBranch, StoredBranches, corrected};
 pub use document::{Problem, Report};
 pub use export::{export_csv, export_states};
 pub use file::{Study, StudyError, StudyFile};

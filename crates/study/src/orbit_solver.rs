@@ -1,19 +1,27 @@
 //! The numerics of the orbit crate, as a run needs them.
 
+mod places;
+
 use hammerbeam_orbit::{
     BranchRow, BranchWalk, Crossing, FoundOrbits, Interruption, Matcher, OrbitError, OrbitSettings,
-    PeriodicSolution, Response, Segments, Side, StopReason, SurveyEffort, find_orbits, find_start_unless,
-    harmonic_trials, reach_orbit, survey,
+    PeriodicSolution, ProbeStarts, Response, Segments, Side, StopReason, SurveyEffort, find_orbits,
+    find_start_unless, harmonic_trials, probe, reach_orbit, settled_orbit, survey,
 };
 
 use crate::{
     Model,
     file::{self, Study},
     run::{Match, Origin, Solver, Surveyed, Walk},
+    settled::SettledState,
 };
 
 /// Frequencies in the part of the range of a survey at which harmonic solutions are tried.
 const TRIED_IN_A_PART: u32 = 8;
+
+/// Motions of a search at a single frequency.
+const PROBE: ProbeStarts = ProbeStarts { about_linear: 3, on_backbones: 3 };
+/// Motions from large amplitudes that a survey begins besides.
+const FAR: ProbeStarts = ProbeStarts { about_linear: 0, on_backbones: 4 };
 
 /// Periodic solutions of one model and their branches.
 #[derive(Debug)]
@@ -23,6 +31,10 @@ pub struct OrbitSolver<'m> {
     settings: OrbitSettings,
     budget: usize,
     effort: SurveyEffort,
+    /// Period multiples that are looked for.
+    multiples: Vec<u32>,
+    /// Distance of the frequencies at which all orbits are looked for [Hz].
+    spacing_hz: f64,
     /// Trials without a new harmonic solution.
     trials: usize,
     /// Whether unstable solutions are wanted.
@@ -45,6 +57,8 @@ impl<'m> OrbitSolver<'m> {
                 settling: study.search.settling_periods as usize,
                 ..usual
             },
+            multiples: study.response.period_multiples.clone(),
+            spacing_hz: (high - low) / f64::from(study.search.frequencies.max(1)),
             trials: if study.search.unstable_starts { study.search.trials as usize } else { 0 },
             unstable_starts: study.search.unstable_starts,
         }
@@ -67,6 +81,22 @@ impl<'m> OrbitSolver<'m> {
         let settings = OrbitSettings { max_solutions: self.budget, ..self.settings };
         find_orbits(&self.model.system, self.response(), orbit, self.range_hz, &settings, interrupted)
             .map_err(|error| error.to_string())
+    }
+
+    /// The periodic solutions on which motions move that have settled; those that Newton's method does not find are left out.
+    #[must_use]
+    pub fn settled(&self, motions: &[SettledState]) -> Vec<PeriodicSolution> {
+        let [low, high] = [self.range_hz.0, self.range_hz.1];
+        let fits = |motion: &&SettledState| {
+            motion.state.len() == 2 * self.model.system.dof() && (low..=high).contains(&motion.frequency_hz)
+        };
+        let orbit = |motion: &SettledState| {
+            let orbit = (motion.frequency_hz, motion.period_multiple);
+            let found =
+                settled_orbit(&self.model.system, self.response(), &motion.state, orbit, &self.settings);
+            found.ok().flatten().filter(PeriodicSolution::stable)
+        };
+        motions.iter().filter(fits).filter_map(orbit).collect()
     }
 
     fn response(&self) -> &Response {
@@ -94,6 +124,11 @@ pub(crate) fn settings(continuation: &file::Continuation) -> OrbitSettings {
         max_solutions: usize::MAX,
         ..usual
     }
+}
+
+fn surveyed(FoundOrbits { orbits, incomplete }: FoundOrbits) -> Surveyed {
+    let incomplete = incomplete.map(|error| format!("the search is not complete: {error}"));
+    Surveyed { solutions: orbits, incomplete }
 }
 
 impl Solver for OrbitSolver<'_> {
@@ -140,8 +175,34 @@ impl Solver for OrbitSolver<'_> {
                 incomplete = incomplete.or(tried.incomplete);
             }
         }
-        let incomplete = incomplete.map(|error| format!("the search is not complete: {error}"));
-        Ok(Surveyed { solutions: found, incomplete })
+        let further = (frequency_hz, multiples);
+        let far = probe(system, response, further, (FAR, &self.effort), settings, interrupted);
+        let far = far.map_err(|error| error.to_string())?;
+        found.extend(far.orbits);
+        incomplete = incomplete.or(far.incomplete);
+        Ok(surveyed(FoundOrbits { orbits: found, incomplete }))
+    }
+
+    fn resonances_hz(&self) -> Vec<f64> {
+        let multiples = &self.multiples;
+        places::resonances_hz(
+            self.model,
+            self.response(),
+            (self.range_hz, self.spacing_hz),
+            multiples,
+            &self.settings,
+        )
+    }
+
+    fn probe(
+        &self,
+        frequency_hz: f64,
+        multiples: &[u32],
+        interrupted: Interruption<'_>,
+    ) -> Result<Surveyed, String> {
+        let (system, response, orbit) = (&self.model.system, self.response(), (frequency_hz, multiples));
+        let found = probe(system, response, orbit, (PROBE, &self.effort), &self.settings, interrupted);
+        found.map(surveyed).map_err(|error| error.to_string())
     }
 
     fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {

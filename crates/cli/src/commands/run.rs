@@ -1,11 +1,16 @@
 //! `hammerbeam run`: everything a study asks for, into one results folder.
 
-use std::time::{Duration, Instant};
+use std::{
+    collections::HashMap,
+    path::Path,
+    time::{Duration, Instant},
+};
 
 use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
-    Model, OrbitSolver, Store, Study, StudyFile, UndampedMode,
+    MirrorImage, Model, OrbitSolver, Store, StoredBranches, Study, StudyFile, UndampedMode,
     run::{Plan, RunOutcome},
+    settled::settled_states,
     store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
     summary::{BranchSummary, Peak, summarise},
     varied::{self, VariedOutcome},
@@ -27,13 +32,17 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
+    let mut settled = Vec::new();
+    for folder in &options.from {
+        settled.extend(settled_states(&Store::open(folder)?)?);
+    }
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let interrupt = Interrupt::listen(output)?;
     let mut terminal = Terminal::new(interrupt.clone());
     let begun = Instant::now();
     let threads = threads(options.jobs);
-    let plan = Plan::of(&file.study);
+    let plan = Plan { met: solver.settled(&settled), ..Plan::of(&file.study) };
     let outcome = hammerbeam_study::run::run(&mut store, &solver, &plan, threads, &mut terminal);
     let varied = match outcome {
         Ok(RunOutcome::Done) => varied::run(&mut store, &model, &file.study, threads, &mut terminal),
@@ -45,6 +54,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     if varied? == VariedOutcome::Interrupted {
         outcome = RunOutcome::Interrupted;
     }
+    let images = mirror_images(&options.out, &file, &model)?;
     let branches = summarise(&store)?;
     let pieces = store.pieces()?;
     let jobs = store.jobs()?;
@@ -52,6 +62,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         study: &file.study,
         folder: options.out.display().to_string(),
         branches,
+        images,
         pieces,
         jobs,
         undamped: model.undamped_modes(),
@@ -87,6 +98,8 @@ struct Summary<'a> {
     study: &'a Study,
     folder: String,
     branches: Vec<BranchSummary>,
+    /// Where the mirror image of each branch is.
+    images: HashMap<u32, MirrorImage>,
     pieces: Vec<PieceRecord>,
     jobs: Vec<JobRecord>,
     undamped: Vec<UndampedMode>,
@@ -185,11 +198,27 @@ impl Summary<'_> {
             "results": self.folder,
             "title": self.study.title,
             "solutions": self.solutions(),
-            "branches": self.branches.iter().map(branch_document).collect::<Vec<_>>(),
+            "branches": self.branches.iter().map(|branch| self.branch_document(branch)).collect::<Vec<_>>(),
             "varied": self.pieces.iter().map(piece_document).collect::<Vec<_>>(),
             "undamped_modes": self.undamped.iter().map(undamped_document).collect::<Vec<_>>(),
             "figures": figures,
         })
+    }
+
+    fn branch_document(&self, branch: &BranchSummary) -> Value {
+        let mut document = branch_document(branch);
+        document["mirror_image"] = match self.images.get(&branch.record.id) {
+            None => Value::Null,
+            Some(MirrorImage::Itself) => json!(branch.record.id),
+            Some(MirrorImage::Branch(other)) => json!(other),
+            Some(MirrorImage::Given) => json!("not stored"),
+        };
+        document
+    }
+
+    fn branch_text(&self, branch: &BranchSummary) -> String {
+        let image = self.images.get(&branch.record.id).copied().and_then(image_text);
+        [Some(branch_text(branch)), image].into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
     fn text(&self, figures: &[String], elapsed: Duration) -> String {
@@ -200,7 +229,7 @@ impl Summary<'_> {
             self.folder,
             elapsed.as_secs_f64()
         )];
-        lines.extend(self.branches.iter().map(branch_text));
+        lines.extend(self.branches.iter().map(|branch| self.branch_text(branch)));
         lines.extend(self.pieces.iter().map(piece_text));
         lines.extend(self.marginal_text());
         lines.extend(self.failed_text());
@@ -209,6 +238,34 @@ impl Summary<'_> {
         }
         lines.push(format!("{} files with figures in {}", figures.len(), self.folder));
         lines.join("\n")
+    }
+}
+
+/// Where the mirror images of the branches of a symmetric system are.
+fn mirror_images(
+    folder: &Path,
+    file: &StudyFile,
+    model: &Model,
+) -> Result<HashMap<u32, MirrorImage>, Failure> {
+    let mut images = HashMap::new();
+    if !model.system.is_symmetric() {
+        return Ok(images);
+    }
+    let stored = StoredBranches::open(folder, file)?;
+    for branch in stored.branches() {
+        images.extend(stored.mirror_image_of(model, branch)?.map(|image| (branch.record.id, image)));
+    }
+    Ok(images)
+}
+
+fn image_text(image: MirrorImage) -> Option<String> {
+    match image {
+        MirrorImage::Itself => None,
+        MirrorImage::Branch(other) => Some(format!("  its mirror image -q(t + T/2) is branch {other}")),
+        MirrorImage::Given => Some(
+            "  its mirror image -q(t + T/2) is another branch, with the same frequencies, maxima and multipliers"
+                .to_owned(),
+        ),
     }
 }
 

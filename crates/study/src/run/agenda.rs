@@ -7,7 +7,7 @@ use std::sync::{
 
 use hammerbeam_orbit::{BranchRow, Side};
 
-use super::{Plan, follow_ups};
+use super::{Plan, Solver, follow_ups};
 use crate::store::{JobRecord, Row, StartRecord, Store, StoreError, StoredReason};
 
 /// Distance from the unit circle up to which a multiplier is on it, at a located event.
@@ -144,16 +144,16 @@ impl Agenda {
     /// What the store holds; the plan's first jobs are added to a store that has none.
     ///
     /// A branch that has more budget now goes on, and what was decided after it is decided again with all of it.
-    pub fn load(store: &mut Store, plan: &Plan) -> Result<Self, StoreError> {
+    pub fn load(store: &mut Store, solver: &dyn Solver, plan: &Plan) -> Result<Self, StoreError> {
         if store.jobs()?.is_empty() {
-            store.add_jobs(&plan.first_jobs())?;
+            store.add_jobs(&plan.first_jobs(&solver.resonances_hz()))?;
         }
-        let mut agenda = Self::read(store)?;
-        let goes_on = agenda.accepted().find(|start| start.goes_on(plan)).map(|start| start.key);
+        let goes_on = Self::read(store)?.accepted().find(|start| start.goes_on(plan)).map(|start| start.key);
         if let Some(key) = goes_on {
             store.take_back_to(key)?;
-            agenda = Self::read(store)?;
         }
+        store.add_met(&plan.met)?;
+        let mut agenda = Self::read(store)?;
         agenda.add_what_is_wanted_now(store, plan)?;
         Ok(agenda)
     }

@@ -2,7 +2,7 @@
 
 use hammerbeam_orbit::Side;
 
-use super::{Observer, Plan, Solver, agenda::Agenda, follow_ups, known};
+use super::{Observer, Plan, Solver, agenda::Agenda, follow_ups, known, none_stable};
 use crate::store::{Continuation, Store, StoreError, StoredReason};
 
 /// What the decisions are taken on.
@@ -31,7 +31,7 @@ impl Decisions<'_> {
     /// Takes all decisions that can be taken now.
     pub fn take(&mut self, agenda: &mut Agenda) -> Result<(), StoreError> {
         let mut index = 0;
-        while index < agenda.jobs.len() {
+        while index < agenda.jobs.len() || self.looks_again(agenda)? {
             let job = &agenda.jobs[index];
             if job.record.outcome.is_some() {
                 index += 1;
@@ -43,6 +43,14 @@ impl Decisions<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Once all jobs are done, adds those at frequencies without a known stable solution; whether there are any.
+    fn looks_again(&mut self, agenda: &mut Agenda) -> Result<bool, StoreError> {
+        let jobs = none_stable::jobs(agenda, self.plan);
+        self.store.add_jobs(&jobs)?;
+        agenda.add_new_jobs(self.store)?;
+        Ok(!jobs.is_empty())
     }
 
     fn job(&mut self, agenda: &mut Agenda, index: usize) -> Result<Verdict, StoreError> {

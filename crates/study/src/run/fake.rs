@@ -38,7 +38,7 @@ impl Default for FakeSolver {
 
 impl FakeSolver {
     /// The solution at arc length `s`: frequency `15 + s + 2 sin s` for the harmonic branch.
-    fn solution(&self, multiple: u32, s: f64) -> PeriodicSolution {
+    pub fn solution(&self, multiple: u32, s: f64) -> PeriodicSolution {
         let overhang = if multiple == 1 { 2.0 * s.sin() } else { 0.0 };
         let frequency_hz = (15.0 + s + overhang).clamp(self.range_hz[0], self.range_hz[1]);
         let displacement = f64::from(multiple) * (1.0 + 0.1 * (0.7 * s).cos());
@@ -80,6 +80,19 @@ impl Solver for FakeSolver {
             true => Ok(Surveyed { solutions: vec![self.solution(2, frequency_hz - 15.0)], incomplete: None }),
             false => Err("no solution".to_owned()),
         }
+    }
+
+    fn resonances_hz(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn probe(
+        &self,
+        _frequency_hz: f64,
+        _multiples: &[u32],
+        _interrupted: hammerbeam_orbit::Interruption<'_>,
+    ) -> Result<Surveyed, String> {
+        Ok(Surveyed { solutions: Vec::new(), incomplete: None })
     }
 
     fn root(&self, crossing: &Crossing) -> Result<PeriodicSolution, String> {

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use hammerbeam_orbit::PeriodicSolution;
+
 use crate::{
     file::Study,
     store::{JobKind, JobRecord},
@@ -14,6 +16,8 @@ pub struct Plan {
     pub harmonic_hz: Vec<f64>,
     /// Where all orbits that simulation leads to are looked for [Hz].
     pub survey_hz: Vec<f64>,
+    /// Stable solutions that are known from elsewhere, from which branches begin where none holds them.
+    pub met: Vec<PeriodicSolution>,
     /// Range of the excitation frequency [Hz].
     pub range_hz: [f64; 2],
     /// Orbit periods over excitation period that are looked for.
@@ -49,6 +53,7 @@ impl Plan {
         Self {
             harmonic_hz: HARMONIC.iter().filter(|_| harmonic).map(|&part| at(part)).collect(),
             survey_hz: (0..count).map(middle).collect(),
+            met: Vec::new(),
             range_hz: [low, high],
             multiples: study.response.period_multiples.clone(),
             depth: study.response.period_doubling_depth,
@@ -65,10 +70,14 @@ impl Plan {
     }
 
     /// The first jobs, in their order.
-    pub(super) fn first_jobs(&self) -> Vec<(JobKind, f64, Option<i64>, u32)> {
+    ///
+    /// * `resonances_hz`: where the linear system tells to look; no more of them are looked at than the survey has frequencies.
+    pub(super) fn first_jobs(&self, resonances_hz: &[f64]) -> Vec<(JobKind, f64, Option<i64>, u32)> {
         let harmonic = self.harmonic_hz.iter().map(|&at| (JobKind::Harmonic, at, None, 0));
         let survey = self.survey_hz.iter().map(|&at| (JobKind::Survey, at, None, 0));
-        harmonic.chain(survey).collect()
+        let most = self.survey_hz.len();
+        let resonance = resonances_hz.iter().take(most).map(|&at| (JobKind::Resonance, at, None, 0));
+        harmonic.chain(survey).chain(resonance).collect()
     }
 
     /// Whether the branch that a job at a flip leads to is wanted.

@@ -63,7 +63,7 @@ pub fn run(
     threads: usize,
     observer: &mut dyn Observer,
 ) -> Result<RunOutcome, RunError> {
-    let agenda = Agenda::load(store, plan)?;
+    let agenda = Agenda::load(store, solver, plan)?;
     let threads = threads.max(1);
     let stop = AtomicBool::new(false);
     let (tasks, of_threads) = mpsc::channel();

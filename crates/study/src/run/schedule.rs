@@ -195,6 +195,10 @@ fn begin_evaluation(
             width_hz: plan.survey_width_hz(),
             multiples: plan.multiples.clone(),
         },
+        // What was met is known; a run that ended before it was noted looks there.
+        JobKind::Resonance | JobKind::NoneStable | JobKind::Met => {
+            Question::Probe { frequency_hz: record.frequency_hz, multiples: plan.multiples.clone() }
+        }
         JobKind::Doubling | JobKind::Crossing => Question::Leave(crossing(store, record)?),
     };
     Ok(Task::Evaluate(Evaluation { job: record.id, what }))

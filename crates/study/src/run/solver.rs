@@ -32,6 +32,22 @@ pub trait Solver: Sync {
         interrupted: Interruption<'_>,
     ) -> Result<Surveyed, String>;
 
+    /// Frequencies at which the linear system tells to look: near those at which the linear response reaches a contact, and resonances [Hz].
+    fn resonances_hz(&self) -> Vec<f64>;
+
+    /// Stable solutions of these minimal periods at a frequency that few motions lead to.
+    ///
+    /// * `interrupted`: asked now and then; the search ends with an error when it says true.
+    ///
+    /// # Errors
+    /// Why nothing could be simulated, in words.
+    fn probe(
+        &self,
+        frequency_hz: f64,
+        multiples: &[u32],
+        interrupted: Interruption<'_>,
+    ) -> Result<Surveyed, String>;
+
     /// The solution at a crossing, as one of the branch that leaves there, if one does.
     ///
     /// # Errors

@@ -1,12 +1,13 @@
 use std::{path::Path, sync::atomic::Ordering};
 
+use hammerbeam_orbit::PeriodicSolution;
 use tempfile::{TempDir, tempdir};
 
 use super::{fake::FakeSolver, *};
 use crate::{
     export::export_csv,
     file::StudyFile,
-    store::{Store, StoreError},
+    store::{JobKind, Store, StoreError},
 };
 
 const STUDY: &str = include_str!("../../../../studies/duffing.toml");
@@ -213,4 +214,38 @@ fn starts_beyond_those_that_have_numbers_are_told() {
     let most = crate::store::MOST_STARTS as usize;
     assert_eq!(runner::too_many(most), None);
     assert!(runner::too_many(most + 1).is_some_and(|text| text.contains("1025 starts, of which 1024")));
+}
+
+/// A study that searches for nothing but the harmonic branch, and a solution of two periods that is known from elsewhere.
+#[test]
+fn a_solution_that_was_met_elsewhere_begins_a_branch_and_only_once() {
+    let study = study_with("[response]\nperiod_multiples = [1]\n[search]\nfrequencies = 0\n");
+    let solver = FakeSolver::default();
+    let folder = tempdir().unwrap();
+    let branches_with = |met: Vec<PeriodicSolution>| {
+        let mut store = Store::open_for_run(folder.path(), &study).unwrap();
+        let plan = Plan { met, ..Plan::of(&study.study) };
+        assert_eq!(run(&mut store, &solver, &plan, 2, &mut Quiet).unwrap(), RunOutcome::Done);
+        let multiples: Vec<u32> = store.branches().unwrap().iter().map(|b| b.period_multiple).collect();
+        store.finish().unwrap();
+        multiples
+    };
+    assert_eq!(branches_with(vec![]), [1]);
+    let met = vec![solver.solution(2, 0.5), solver.solution(2, -1.0)];
+    assert_eq!(branches_with(met.clone()), [1, 2], "both lie on one branch");
+    assert_eq!(branches_with(met), [1, 2]);
+}
+
+/// The branch of the fake is stable where `1.2 |sin 3 s|` is small enough, so the search goes on between.
+#[test]
+fn frequencies_without_a_stable_solution_are_looked_at_when_the_rest_is_done() {
+    let study = study_with("");
+    let folder = tempdir().unwrap();
+    run_into(folder.path(), &study, &mut Quiet);
+    let jobs = Store::open(folder.path()).unwrap().jobs().unwrap();
+    let added: Vec<_> = jobs.iter().filter(|job| job.kind == JobKind::NoneStable).collect();
+    assert!(!added.is_empty() && added.len() <= 24, "{}", added.len());
+    assert!(added.iter().all(|job| job.outcome.as_deref() == Some("nothing")));
+    let first = jobs.iter().position(|job| job.kind == JobKind::NoneStable).unwrap();
+    assert!(jobs[..first].iter().all(|job| job.kind != JobKind::NoneStable) && first > 24);
 }

@@ -38,6 +38,7 @@ pub(super) struct Evaluation {
 pub(super) enum Question {
     Harmonic(f64),
     Survey { frequency_hz: f64, width_hz: f64, multiples: Vec<u32> },
+    Probe { frequency_hz: f64, multiples: Vec<u32> },
     Leave(Crossing),
 }
 
@@ -144,6 +145,9 @@ fn evaluate(solver: &dyn Solver, question: &Question, stop: &AtomicBool) -> Resu
         }
         Question::Survey { frequency_hz, width_hz, multiples } => {
             solver.survey(*frequency_hz, *width_hz, multiples, &mut || stop.load(Ordering::Relaxed))
+        }
+        Question::Probe { frequency_hz, multiples } => {
+            solver.probe(*frequency_hz, multiples, &mut || stop.load(Ordering::Relaxed))
         }
         Question::Leave(crossing) => {
             // Only a branch that can be begun is one.

@@ -17,6 +17,12 @@ pub enum JobKind {
     Harmonic,
     /// All orbits that simulation leads to at a frequency.
     Survey,
+    /// Attractors at a frequency near which the linear response reaches a contact, or at a resonance.
+    Resonance,
+    /// Attractors at a frequency at which no stable solution is known.
+    NoneStable,
+    /// A stable solution that a sweep or basins have come to.
+    Met,
     /// The branch of doubled period at a flip.
     Doubling,
     /// The branch that crosses at a branch point.
@@ -68,15 +74,25 @@ impl JobKind {
         match self {
             Self::Harmonic => "harmonic",
             Self::Survey => "survey",
+            Self::Resonance => "resonance",
+            Self::NoneStable => "none-stable",
+            Self::Met => "met",
             Self::Doubling => "doubling",
             Self::Crossing => "crossing",
         }
     }
 
     fn named(name: &str) -> Option<Self> {
-        [Self::Harmonic, Self::Survey, Self::Doubling, Self::Crossing]
-            .into_iter()
-            .find(|kind| kind.name() == name)
+        const ALL: [JobKind; 7] = [
+            JobKind::Harmonic,
+            JobKind::Survey,
+            JobKind::Resonance,
+            JobKind::NoneStable,
+            JobKind::Met,
+            JobKind::Doubling,
+            JobKind::Crossing,
+        ];
+        ALL.into_iter().find(|kind| kind.name() == name)
     }
 }
 
@@ -130,6 +146,26 @@ impl Store {
             transaction.execute(insert, params![kind.name(), frequency_hz, source, depth])?;
         }
         transaction.commit()?;
+        Ok(())
+    }
+
+    /// Adds jobs of stable solutions that were met elsewhere, to the end of the agenda; as many as there are at a frequency already are left out.
+    ///
+    /// # Errors
+    /// The database refuses.
+    pub fn add_met(&mut self, solutions: &[PeriodicSolution]) -> Result<(), StoreError> {
+        let there = self.jobs()?.into_iter().filter(|job| job.kind == JobKind::Met);
+        let mut there: Vec<f64> = there.map(|job| job.frequency_hz).collect();
+        for solution in solutions {
+            if let Some(place) = there.iter().position(|at| *at == solution.frequency_hz) {
+                there.swap_remove(place);
+                continue;
+            }
+            self.add_jobs(&[(JobKind::Met, solution.frequency_hz, None, 0)])?;
+            if let Some(job) = self.jobs()?.last() {
+                self.note_starts(job, std::slice::from_ref(solution), None)?;
+            }
+        }
         Ok(())
     }
 
@@ -275,14 +311,18 @@ impl Store {
         transaction.execute("DELETE FROM journal WHERE walk >= ?1", [walk_id(start + 1, Side::Up)])?;
         transaction.execute("DELETE FROM walk WHERE start > ?1", [start])?;
         transaction.execute("DELETE FROM start WHERE id > ?1", [start])?;
-        // The jobs that branches of this job and of later ones gave, and what was added behind them: their numbers are to follow one another.
+        // The jobs that branches of this job and of later ones gave, those that all branches together gave, and what was added behind them: their numbers are to
+        // follow one another.
         let own = first_key(walk_id(job * MOST_STARTS, Side::Up));
-        let given = "SELECT min(id) FROM job WHERE source >= ?1 AND id > ?2";
+        let given =
+            "SELECT min(id) FROM job WHERE (source >= ?1 OR kind IN ('none-stable', 'met')) AND id > ?2";
         let first: Option<u32> = transaction.query_row(given, params![own, job], |row| row.get(0))?;
         if let Some(first) = first {
             transaction.execute("DELETE FROM job WHERE id >= ?1", [first])?;
         }
-        let update = "UPDATE job SET evaluated = 0, message = NULL, outcome = NULL WHERE id >= ?1";
+        // A solution that was met is known without looking.
+        let update =
+            "UPDATE job SET evaluated = (kind = 'met'), message = NULL, outcome = NULL WHERE id >= ?1";
         transaction.execute(update, [job])?;
         transaction.commit()?;
         Ok(())

@@ -23,7 +23,7 @@ const TABLES: &str = "
 CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE job (
     id INTEGER PRIMARY KEY,
-    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'doubling', 'crossing')),
+    kind TEXT NOT NULL CHECK (kind IN ('harmonic', 'survey', 'resonance', 'none-stable', 'met', 'doubling', 'crossing')),
     frequency_hz REAL NOT NULL,
     source INTEGER UNIQUE,
     depth INTEGER NOT NULL,

@@ -1,0 +1,44 @@
+//! Systems that a mirror image leaves as they are.
+
+use faer::c64;
+
+use super::System;
+use crate::{Law, LocalElement};
+
+impl System {
+    /// Whether `q(t) -> -q(t + T/2)` takes motions to motions, T being the excitation period: all loads are of odd order, so that they change
+    /// their sign over half a period, and forces change theirs with the displacement, each by itself or with an opposite element of the same law.
+    #[must_use]
+    pub fn is_symmetric(&self) -> bool {
+        let loads_are_odd =
+            (0..self.orders.len()).all(|index| self.orders[index] % 2 == 1 || !self.acts(index));
+        loads_are_odd && self.elements.iter().all(|element| self.has_image(element))
+    }
+
+    /// Whether a load of the order with that index is more than zero.
+    fn acts(&self, index: usize) -> bool {
+        let driven =
+            self.driven.iter().flat_map(|driven| driven.forces[index].iter().chain([&driven.support[index]]));
+        let given = self.forces[index].iter().chain([&self.support[index]]);
+        given.chain(driven).any(|value| *value != c64::new(0.0, 0.0))
+    }
+
+    fn has_image(&self, element: &LocalElement) -> bool {
+        let is_opposite = |other: &LocalElement| {
+            let shapes = other.shape.iter().zip(&element.shape);
+            other.law == element.law
+                && other.support_ratio == -element.support_ratio
+                && shapes.into_iter().all(|(a, b)| *a == -b)
+        };
+        is_odd(&element.law) || self.elements.iter().any(is_opposite)
+    }
+}
+
+/// Whether a force changes its sign with the displacement.
+fn is_odd(law: &Law) -> bool {
+    match law {
+        Law::Cubic(_) => true,
+        Law::TwoSided(_) => law.gap().is_some(),
+        _ => false,
+    }
+}
