@@ -100,7 +100,8 @@ pub struct RunOptions {
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 
-    /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results folder and that no branch holds; may be given several times
+    /// Also begin branches at the periodic motions that `sweep` and `basins` have stored in this results
+    /// folder and that no branch holds; may be given several times
     #[arg(long, value_name = "DIR")]
     pub from: Vec<PathBuf>,
 

@@ -1,10 +1,16 @@
-//! States from which resonances of large amplitude are reached, where the linear response suggests no such motion.
+//! States from which resonances of large amplitude are reached, where the linear response suggests no such
+//! motion.
 //!
-//! A mode that swings freely with the amplitude `a` about its place of rest, alone, has the frequency `w(a)^2 = w^2 + k(a)` with the describing function of the local
-//! forces, `k(a) = -1/(pi a) sum_e phi_e int f_e(r_e + phi_e a cos s) cos s ds`: its *backbone*. Over a rigid stop at `cos s = g` it lacks the time
-//! behind the stop, so that `w(a) = w/(1 - arccos(g)/pi)`. Weakly damped motion of large amplitude lies near a backbone whose
-//! frequency is a ratio `p/q` of that of the excitation: with `q = 1` at the same frequency or a superharmonic one, else a subharmonic
-//! solution of `q` periods (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, chapter 4). The phase is open, so several are tried.
+//! A mode that swings freely with the amplitude `a` about its place of rest, alone, has the frequency `w(a)^2
+//! = w^2 + k(a)` with the describing function of the local
+//! forces, `k(a) = -1/(pi a) sum_e phi_e int f_e(r_e + phi_e a cos s) cos s ds`: its *backbone*. Over a rigid
+//! stop at `cos s = g` it lacks the time
+//! behind the stop, so that `w(a) = w/(1 - arccos(g)/pi)`. Weakly damped motion of large amplitude lies near
+//! a backbone whose
+//! frequency is a ratio `p/q` of that of the excitation: with `q = 1` at the same frequency or a
+//! superharmonic one, else a subharmonic
+//! solution of `q` periods (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, chapter 4). The phase is open,
+//! so several are tried.
 
 use std::f64::consts::{PI, TAU};
 
@@ -35,7 +41,8 @@ struct Resonance {
     is_primary: bool,
 }
 
-/// States on backbones at ratios of the excitation frequency, `most` of them, always the same ones at a frequency.
+/// States on backbones at ratios of the excitation frequency, `most` of them, always the same ones at a
+/// frequency.
 ///
 /// * `multiples`: period multiples that are looked for.
 /// * `linear`: the linear response at phase 0, to which free motion is added.
@@ -125,7 +132,8 @@ impl<'a> Backbone<'a> {
         self.table.windows(2).filter(crosses).map(place).collect()
     }
 
-    /// Circular frequency of the free motion with an amplitude [rad/s], zero where the local forces let it not come back.
+    /// Circular frequency of the free motion with an amplitude [rad/s], zero where the local forces let it
+    /// not come back.
     fn at(&self, amplitude: f64) -> f64 {
         let w = self.system.model().natural_frequencies[self.mode];
         let (mut stiffness, mut missing) = (0.0, 0.0);
@@ -193,7 +201,8 @@ mod tests {
         [1.2, 1.7].into_iter().map(|w| backbone.amplitudes_at(w)[0]).collect()
     }
 
-    /// Of `x'' + x + x^3 = 0` the first harmonic has `w^2 = 1 + 3/4 a^2`, whatever the amplitude it is begun from.
+    /// Of `x'' + x + x^3 = 0` the first harmonic has `w^2 = 1 + 3/4 a^2`, whatever the amplitude it is begun
+    /// from.
     #[test]
     fn backbone_of_a_cubic_spring_is_a_parabola() {
         for unit in [1e-4, 0.3, 50.0] {

@@ -1,12 +1,17 @@
 //! Frequencies over which the linear response reaches a contact.
 //!
-//! Without local forces the steady motion is known in closed form, and with it the depth to which it would enter a contact,
-//! `d(f) = max_t s (r(t) - level)`. Where `d > 0` the linear response is no motion of the system: what happens there begins at the zeros of `d`, at
-//! which the linear response grazes. Of one mass on a spring, driven by a force, `d = F/(m |w0^2 - W^2 + i c W/m|) - gap`, so that impacts span the
+//! Without local forces the steady motion is known in closed form, and with it the depth to which it would
+//! enter a contact,
+//! `d(f) = max_t s (r(t) - level)`. Where `d > 0` the linear response is no motion of the system: what
+//! happens there begins at the zeros of `d`, at
+//! which the linear response grazes. Of one mass on a spring, driven by a force, `d = F/(m |w0^2 - W^2 + i c
+//! W/m|) - gap`, so that impacts span the
 //! frequencies about the resonance at which the amplitude exceeds the gap.
 //!
-//! `d` is smooth but for its peaks at the resonances, whose widths are known: it is sampled there as closely as they ask for, and its zeros are
-//! bisected. What lies between is no wider than a line width of a resonance and is where to look, not a result.
+//! `d` is smooth but for its peaks at the resonances, whose widths are known: it is sampled there as closely
+//! as they ask for, and its zeros are
+//! bisected. What lies between is no wider than a line width of a resonance and is where to look, not a
+//! result.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 
@@ -21,7 +26,8 @@ const DOUBLINGS: i32 = 12;
 /// Bisections of a zero.
 const BISECTIONS: usize = 40;
 
-/// Ranges of the frequency within `range_hz` [Hz], ascending, over which the linear response reaches a contact, of all contacts that it reaches over a part of `range_hz` only.
+/// Ranges of the frequency within `range_hz` [Hz], ascending, over which the linear response reaches a
+/// contact, of all contacts that it reaches over a part of `range_hz` only.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if no integrator can be made for the system.
@@ -56,7 +62,8 @@ pub fn linear_contact_ranges(
     Ok(ranges)
 }
 
-/// Where the depth is looked at, ascending: across the range, and about each resonance of each order at distances that double.
+/// Where the depth is looked at, ascending: across the range, and about each resonance of each order at
+/// distances that double.
 fn frequencies(system: &System, (low, high): (f64, f64)) -> Vec<f64> {
     let across = |k: u32| low + (high - low) * f64::from(k) / f64::from(ACROSS);
     let mut all: Vec<f64> = (0..=ACROSS).map(across).collect();
@@ -79,7 +86,8 @@ fn frequencies(system: &System, (low, high): (f64, f64)) -> Vec<f64> {
     all
 }
 
-/// How deep the linear response enters the contacts of an element [m], a parabola through the deepest samples.
+/// How deep the linear response enters the contacts of an element [m], a parabola through the deepest
+/// samples.
 fn depth(integrator: &mut ExactIntegrator, element: usize, frequency_hz: f64) -> f64 {
     let order = integrator.system().orders().last().copied().unwrap_or(1).max(1);
     let count = SAMPLES * order;

@@ -41,7 +41,8 @@ pub fn states_at_phase(
     Ok(states)
 }
 
-/// The mirror image `-z(t + T/2)` of an orbit, T being the excitation period: an orbit of a [symmetric](System::is_symmetric) system, perhaps the same one.
+/// The mirror image `-z(t + T/2)` of an orbit, T being the excitation period: an orbit of a
+/// [symmetric](System::is_symmetric) system, perhaps the same one.
 #[must_use]
 pub fn mirror_image(orbit: &PeriodicSolution) -> PeriodicSolution {
     let mirrored = |node: &Vec<f64>| node.iter().map(|value| -value).collect();

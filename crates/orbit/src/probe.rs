@@ -1,7 +1,10 @@
-//! Attractors at one frequency by few motions, each followed no longer than it takes to see where it goes: for looking at many frequencies.
+//! Attractors at one frequency by few motions, each followed no longer than it takes to see where it goes:
+//! for looking at many frequencies.
 //!
-//! Motions begin from the linear response, from states about it and from those of large amplitude that a backbone suggests. Each is looked at now and then: where it has come to an orbit that is known
-//! by then, or has repeated, it ends. One that nearly repeats at last, as it does where there is little damping, is taken to its orbit by Newton's method.
+//! Motions begin from the linear response, from states about it and from those of large amplitude that a
+//! backbone suggests. Each is looked at now and then: where it has come to an orbit that is known
+//! by then, or has repeated, it ends. One that nearly repeats at last, as it does where there is little
+//! damping, is taken to its orbit by Newton's method.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -27,7 +30,8 @@ pub struct ProbeStarts {
     pub on_backbones: usize,
 }
 
-/// Finds stable orbits at a frequency whose minimal periods are among `multiples`. A start from which no motion can be computed makes the search incomplete.
+/// Finds stable orbits at a frequency whose minimal periods are among `multiples`. A start from which no
+/// motion can be computed makes the search incomplete.
 ///
 /// * `effort`: its settling and observed periods are the most of each motion; its starts are not used.
 ///
@@ -123,12 +127,14 @@ impl Probe<'_> {
     }
 }
 
-/// The number of periods, up to `largest`, after which the last state has come back most closely, if it nearly has.
+/// The number of periods, up to `largest`, after which the last state has come back most closely, if it
+/// nearly has.
 fn nearly_repeats_after(states: &[Vec<f64>], scale: &StateScale, largest: usize) -> Option<usize> {
     let last = states.len() - 1;
     let distance = |period: usize| scale.distance(&states[last], &states[last - period]);
     let closest = (1..=largest.min(last)).map(|period| (distance(period), period));
-    // A motion that comes back after one period comes back after two as well: a longer one has to be much closer.
+    // A motion that comes back after one period comes back after two as well: a longer one has to be much
+    // closer.
     let (off, period) = closest.reduce(|best, other| if other.0 < 0.1 * best.0 { other } else { best })?;
     (off < NEARLY).then_some(period)
 }

@@ -133,11 +133,13 @@ pub(crate) fn starting_states(
     Ok(states)
 }
 
-/// The orbit of that minimal period on which a motion moves that has settled, given by its state at phase 0; `None` if Newton's method leads nowhere or to an orbit of a
+/// The orbit of that minimal period on which a motion moves that has settled, given by its state at phase 0;
+/// `None` if Newton's method leads nowhere or to an orbit of a
 /// shorter period.
 ///
 /// # Errors
-/// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64.
+/// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::PeriodMultiple`] unless the
+/// multiple is from 1 to 64.
 pub fn settled_orbit(
     system: &System,
     response: &Response,

@@ -17,7 +17,8 @@ fn rigid(gap: f64) -> Law {
     Law::Rigid(RigidStop::with_gap(0.8, gap).unwrap())
 }
 
-/// Of `x'' + c x' + x = F cos W t` the amplitude is `F/|1 - W^2 + i c W|`: it is the gap g where `s = W^2` solves `s^2 - (2 - c^2) s + 1 - (F/g)^2 = 0`.
+/// Of `x'' + c x' + x = F cos W t` the amplitude is `F/|1 - W^2 + i c W|`: it is the gap g where `s = W^2`
+/// solves `s^2 - (2 - c^2) s + 1 - (F/g)^2 = 0`.
 fn closed_form([c, force, gap]: [f64; 3]) -> [f64; 2] {
     let (half, constant) = (1.0 - 0.5 * c * c, 1.0 - (force / gap).powi(2));
     let root = (half * half - constant).sqrt();
@@ -57,7 +58,8 @@ fn found(law: Law, [c, force, frequency_hz]: [f64; 3], starts: ProbeStarts) -> V
     probe(&system, &response, orbit, (starts, &effort), &settings, &mut || false).unwrap().orbits
 }
 
-/// `x'' + 0.005 x' + x + x^3 = 0.3 cos 5 t` has a subharmonic solution of three periods near the amplitude `sqrt(4/3 ((5/3)^2 - 1)) = 1.54`, 120 times
+/// `x'' + 0.005 x' + x + x^3 = 0.3 cos 5 t` has a subharmonic solution of three periods near the amplitude
+/// `sqrt(4/3 ((5/3)^2 - 1)) = 1.54`, 120 times
 /// the linear response (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, section 4.1.4).
 #[test]
 fn a_subharmonic_of_large_amplitude_is_found_from_the_backbone_and_not_from_the_linear_response() {

@@ -95,7 +95,8 @@ impl StoredBranches {
     }
 
     /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the state is interpolated and then
-    /// corrected at the frequency. In a symmetric system the mirror image of an orbit is one, too, and counts to its branch unless a branch holds it.
+    /// corrected at the frequency. In a symmetric system the mirror image of an orbit is one, too, and counts
+    /// to its branch unless a branch holds it.
     ///
     /// * `model`: that of the study.
     /// * `wanted`: of a branch's record, whether it is looked at.

@@ -83,7 +83,8 @@ impl<'m> OrbitSolver<'m> {
             .map_err(|error| error.to_string())
     }
 
-    /// The periodic solutions on which motions move that have settled; those that Newton's method does not find are left out.
+    /// The periodic solutions on which motions move that have settled; those that Newton's method does not
+    /// find are left out.
     #[must_use]
     pub fn settled(&self, motions: &[SettledState]) -> Vec<PeriodicSolution> {
         let [low, high] = [self.range_hz.0, self.range_hz.1];

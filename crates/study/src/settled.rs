@@ -1,4 +1,5 @@
-//! Periodic motions that sweeps and basins of a results folder have come to: where a run can begin branches that its own searches miss.
+//! Periodic motions that sweeps and basins of a results folder have come to: where a run can begin branches
+//! that its own searches miss.
 
 use crate::store::{RequestKind, Store, StoreError};
 
@@ -13,7 +14,8 @@ pub struct SettledState {
     pub state: Vec<f64>,
 }
 
-/// All periodic motions that the sweeps, the motions from several states and the basins of a folder have come to, in the order of their requests.
+/// All periodic motions that the sweeps, the motions from several states and the basins of a folder have come
+/// to, in the order of their requests.
 ///
 /// # Errors
 /// The store refuses.

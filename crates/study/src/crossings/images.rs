@@ -1,7 +1,9 @@
 //! Mirror images of branches, which follow from a symmetry without computing.
 //!
-//! Where `q(t) -> -q(t + T/2)` takes motions to motions, the image of a branch is one, with the same frequencies, maxima, multipliers and events. It
-//! is the branch itself where its orbits are symmetric, or where the branch comes through a symmetric orbit to the images of its own; else it is
+//! Where `q(t) -> -q(t + T/2)` takes motions to motions, the image of a branch is one, with the same
+//! frequencies, maxima, multipliers and events. It
+//! is the branch itself where its orbits are symmetric, or where the branch comes through a symmetric orbit
+//! to the images of its own; else it is
 //! another one, which a run may have met, or not.
 
 use hammerbeam_attractor::{distance, state_scales};
@@ -28,7 +30,8 @@ struct Placed {
     states: Vec<Vec<f64>>,
 }
 
-/// Adds the images that none of the orbits at a frequency is, under the numbers of the branches that they are images of.
+/// Adds the images that none of the orbits at a frequency is, under the numbers of the branches that they are
+/// images of.
 pub(super) fn add_to(orbits: &mut Vec<(u32, PeriodicSolution)>, model: &Model) {
     let Some(mut integrator) = integrator(model) else { return };
     let mut states =
@@ -44,7 +47,8 @@ pub(super) fn add_to(orbits: &mut Vec<(u32, PeriodicSolution)>, model: &Model) {
     }
 }
 
-/// The image of an orbit and its states at phase 0, where it begins as other orbits do unless impacts let it begin elsewhere.
+/// The image of an orbit and its states at phase 0, where it begins as other orbits do unless impacts let it
+/// begin elsewhere.
 fn image_of(
     orbit: &PeriodicSolution,
     model: &Model,
@@ -73,7 +77,8 @@ fn integrator(model: &Model) -> Option<ExactIntegrator> {
 }
 
 impl StoredBranches {
-    /// Where the mirror image of a branch is; `None` of a system without symmetry, and of a branch whose motion cannot be computed.
+    /// Where the mirror image of a branch is; `None` of a system without symmetry, and of a branch whose
+    /// motion cannot be computed.
     ///
     /// # Errors
     /// The store refuses.

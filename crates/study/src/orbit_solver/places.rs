@@ -1,7 +1,9 @@
 //! Frequencies at which the linear system tells to look for attractors.
 //!
-//! Over a range in which the linear response reaches a contact every motion has impacts, and many solutions may follow one another within it, however narrow it is; some
-//! reach beyond its ends, at which the linear response grazes. And impacts wake the modes: a solution of `n` periods is near where `n` times an eigenfrequency is that of
+//! Over a range in which the linear response reaches a contact every motion has impacts, and many solutions
+//! may follow one another within it, however narrow it is; some
+//! reach beyond its ends, at which the linear response grazes. And impacts wake the modes: a solution of `n`
+//! periods is near where `n` times an eigenfrequency is that of
 //! the excitation, one with several impacts a period near a part of an eigenfrequency.
 
 use hammerbeam_orbit::{OrbitSettings, Response, linear_contact_ranges};

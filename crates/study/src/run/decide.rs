@@ -45,7 +45,8 @@ impl Decisions<'_> {
         Ok(())
     }
 
-    /// Once all jobs are done, adds those at frequencies without a known stable solution; whether there are any.
+    /// Once all jobs are done, adds those at frequencies without a known stable solution; whether there are
+    /// any.
     fn looks_again(&mut self, agenda: &mut Agenda) -> Result<bool, StoreError> {
         let jobs = none_stable::jobs(agenda, self.plan);
         self.store.add_jobs(&jobs)?;

@@ -1,9 +1,13 @@
 //! Where to look again: frequencies at which no stable solution is known.
 //!
-//! A dissipative system has an attractor at every frequency. Where no branch is stable it is chaotic, quasi-periodic, of a period that is not looked for,
-//! or a branch that is missed. Between two rows in a row that are stable a stable solution is taken to be known; what that leaves of the range are
-//! *intervals*. Each of them is looked at in its middle, however narrow, the widest first; then the widest part between two frequencies that were
-//! looked at is halved, over and over. That is done in rounds, since a branch that a round finds may cover much of what is left.
+//! A dissipative system has an attractor at every frequency. Where no branch is stable it is chaotic,
+//! quasi-periodic, of a period that is not looked for,
+//! or a branch that is missed. Between two rows in a row that are stable a stable solution is taken to be
+//! known; what that leaves of the range are
+//! *intervals*. Each of them is looked at in its middle, however narrow, the widest first; then the widest
+//! part between two frequencies that were
+//! looked at is halved, over and over. That is done in rounds, since a branch that a round finds may cover
+//! much of what is left.
 
 use hammerbeam_orbit::Side;
 

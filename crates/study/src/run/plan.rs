@@ -71,7 +71,8 @@ impl Plan {
 
     /// The first jobs, in their order.
     ///
-    /// * `resonances_hz`: where the linear system tells to look; no more of them are looked at than the survey has frequencies.
+    /// * `resonances_hz`: where the linear system tells to look; no more of them are looked at than the
+    ///   survey has frequencies.
     pub(super) fn first_jobs(&self, resonances_hz: &[f64]) -> Vec<(JobKind, f64, Option<i64>, u32)> {
         let harmonic = self.harmonic_hz.iter().map(|&at| (JobKind::Harmonic, at, None, 0));
         let survey = self.survey_hz.iter().map(|&at| (JobKind::Survey, at, None, 0));

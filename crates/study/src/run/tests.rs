@@ -216,7 +216,8 @@ fn starts_beyond_those_that_have_numbers_are_told() {
     assert!(runner::too_many(most + 1).is_some_and(|text| text.contains("1025 starts, of which 1024")));
 }
 
-/// A study that searches for nothing but the harmonic branch, and a solution of two periods that is known from elsewhere.
+/// A study that searches for nothing but the harmonic branch, and a solution of two periods that is known
+/// from elsewhere.
 #[test]
 fn a_solution_that_was_met_elsewhere_begins_a_branch_and_only_once() {
     let study = study_with("[response]\nperiod_multiples = [1]\n[search]\nfrequencies = 0\n");

@@ -149,7 +149,8 @@ impl Store {
         Ok(())
     }
 
-    /// Adds jobs of stable solutions that were met elsewhere, to the end of the agenda; as many as there are at a frequency already are left out.
+    /// Adds jobs of stable solutions that were met elsewhere, to the end of the agenda; as many as there are
+    /// at a frequency already are left out.
     ///
     /// # Errors
     /// The database refuses.
@@ -311,7 +312,8 @@ impl Store {
         transaction.execute("DELETE FROM journal WHERE walk >= ?1", [walk_id(start + 1, Side::Up)])?;
         transaction.execute("DELETE FROM walk WHERE start > ?1", [start])?;
         transaction.execute("DELETE FROM start WHERE id > ?1", [start])?;
-        // The jobs that branches of this job and of later ones gave, those that all branches together gave, and what was added behind them: their numbers are to
+        // The jobs that branches of this job and of later ones gave, those that all branches together gave,
+        // and what was added behind them: their numbers are to
         // follow one another.
         let own = first_key(walk_id(job * MOST_STARTS, Side::Up));
         let given =
