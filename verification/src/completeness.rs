@@ -47,10 +47,45 @@ impl Report {
 /// A motion cannot be computed, or the store refuses.
 pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) -> Result<Report, Failure> {
     let mut random = Random::new(seed);
-    let mut report = Report { frequencies, found: vec![0; effort.longest + 1], ..Report::default() };
     let [low, high] = results.range_hz;
+    let mut report = Report::of(effort);
     for _ in 0..frequencies {
         let frequency_hz = low + (high - low) * random.part();
+        report.look_at(results, frequency_hz, effort, &mut random)?;
+    }
+    Ok(report)
+}
+
+/// The same at given frequencies [Hz].
+///
+/// # Errors
+/// A motion cannot be computed, or the store refuses.
+pub fn check_at(
+    results: &Results,
+    frequencies_hz: &[f64],
+    effort: &Effort,
+    seed: u64,
+) -> Result<Report, Failure> {
+    let mut random = Random::new(seed);
+    let mut report = Report::of(effort);
+    for frequency_hz in frequencies_hz {
+        report.look_at(results, *frequency_hz, effort, &mut random)?;
+    }
+    Ok(report)
+}
+
+impl Report {
+    fn of(effort: &Effort) -> Self {
+        Self { found: vec![0; effort.longest + 1], ..Self::default() }
+    }
+
+    fn look_at(
+        &mut self,
+        results: &Results,
+        frequency_hz: f64,
+        effort: &Effort,
+        random: &mut Random,
+    ) -> Result<(), Failure> {
         let mut orbits: Vec<Vec<PeriodicSolution>> = vec![Vec::new()];
         for multiple in 1..=effort.longest {
             let crossing = results.crossings(frequency_hz, multiple as u32)?;
@@ -58,23 +93,24 @@ pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) 
         }
         let size = orbits.iter().flatten().map(|orbit| energy_norm(results, orbit)).fold(0.0, f64::max);
         let system = &results.model.system;
-        let (found, restless) = attractors(system, frequency_hz, size, effort, &mut random)?;
-        report.motions += effort.states;
-        report.restless += restless;
+        let (found, restless) = attractors(system, frequency_hz, size, effort, random)?;
+        self.frequencies += 1;
+        self.motions += effort.states;
+        self.restless += restless;
         for attractor in found {
             let attractor = shortest(results, attractor);
             let period = attractor.period();
-            report.found[period] += 1;
+            self.found[period] += 1;
             let same = |orbit: &PeriodicSolution| {
                 let there = at_phase_0(system, orbit);
                 attractor.states.iter().any(|state| distance(system, state, &there) < SAME)
             };
             if !orbits[period].iter().any(same) {
-                report.missing.push(attractor);
+                self.missing.push(attractor);
             }
         }
+        Ok(())
     }
-    Ok(report)
 }
 
 /// The state of an orbit at phase 0, infinitely far away if its motion cannot be computed.

@@ -10,6 +10,7 @@ mod contact_damping;
 mod contacts;
 mod duffing;
 mod linear;
+mod many_attractors;
 mod measuring_filter;
 mod relations;
 mod shaw_holmes_1983;

@@ -2,15 +2,15 @@
 //! motion.
 //!
 //! A mode that swings freely with the amplitude `a` about its place of rest, alone, has the frequency `w(a)^2
-//! = w^2 + k(a)` with the describing function of the local
-//! forces, `k(a) = -1/(pi a) sum_e phi_e int f_e(r_e + phi_e a cos s) cos s ds`: its *backbone*. Over a rigid
-//! stop at `cos s = g` it lacks the time
-//! behind the stop, so that `w(a) = w/(1 - arccos(g)/pi)`. Weakly damped motion of large amplitude lies near
-//! a backbone whose
-//! frequency is a ratio `p/q` of that of the excitation: with `q = 1` at the same frequency or a
-//! superharmonic one, else a subharmonic
-//! solution of `q` periods (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, chapter 4). The phase is open,
-//! so several are tried.
+//! = w^2 + k(a)` with the describing function of the local forces,
+//!
+//! `k(a) = -1/(pi a) sum_e phi_e int f_e(r_e + phi_e a cos s) cos s ds`:
+//!
+//! its *backbone*. Over a rigid stop at `cos s = g` it lacks the time behind the stop, so that `w(a) = w/(1 -
+//! arccos(g)/pi)`. Weakly damped motion of large amplitude lies near a backbone whose frequency is a ratio
+//! `p/q` of that of the excitation: with `q = 1` at the same frequency or a superharmonic one, else a
+//! subharmonic solution of `q` periods (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, chapter 4). The
+//! phase is open, so several are tried.
 
 use std::f64::consts::{PI, TAU};
 

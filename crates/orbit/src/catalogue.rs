@@ -188,12 +188,6 @@ impl<'a> Catalogue<'a> {
         Ok(Arrived { place: self.known.len() - 1, is_new: true })
     }
 
-    /// Whether a state is as near as that to a stable orbit, relative to it.
-    pub fn is_at_stable_orbit(&self, state: &[f64], distance: f64) -> bool {
-        let at = |known: &Known| distance_in_phase(&known.scale, &known.phases, state) < distance;
-        self.known.iter().any(|known| known.solution.stable() && at(known))
-    }
-
     /// Place of the orbit through a state whose period is `period_multiple` or a part of it.
     fn place(&self, state: &[f64], period_multiple: u32) -> Option<usize> {
         self.known.iter().position(|known| {

@@ -23,6 +23,7 @@
 //! | `survey.rs`, `matching.rs` | all orbits that simulation leads to at a frequency; whether two orbits are the same |
 //! | `trials.rs` | harmonic orbits at a frequency, quickly |
 //! | `probe.rs`, `backbone.rs`, `linear_contact.rs` | attractors at a frequency, quickly; states of large amplitude from which motions begin; frequencies at which the linear response reaches a contact |
+//! | `arrival.rs` | whether a motion has come to a stable orbit that is known |
 //! | `curve/` | curves of folds, flips, Neimark-Sacker points and grazing in two parameters |
 //! | `density.rs` | rows between, where straight lines from row to row would not do |
 //! | `free.rs` | free motion of an undamped system: the amplitude is given, the frequency unknown |
@@ -69,6 +70,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrival;
 mod backbone;
 mod beginning;
 mod catalogue;

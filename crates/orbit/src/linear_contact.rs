@@ -1,17 +1,14 @@
 //! Frequencies over which the linear response reaches a contact.
 //!
 //! Without local forces the steady motion is known in closed form, and with it the depth to which it would
-//! enter a contact,
-//! `d(f) = max_t s (r(t) - level)`. Where `d > 0` the linear response is no motion of the system: what
-//! happens there begins at the zeros of `d`, at
-//! which the linear response grazes. Of one mass on a spring, driven by a force, `d = F/(m |w0^2 - W^2 + i c
-//! W/m|) - gap`, so that impacts span the
+//! enter a contact, `d(f) = max_t s (r(t) - level)`. Where `d > 0` the linear response is no motion of the
+//! system: what happens there begins at the zeros of `d`, at which the linear response grazes. Of one mass on
+//! a spring, driven by a force, `d = F/(m |w0^2 - W^2 + i c W/m|) - gap`, so that impacts span the
 //! frequencies about the resonance at which the amplitude exceeds the gap.
 //!
 //! `d` is smooth but for its peaks at the resonances, whose widths are known: it is sampled there as closely
-//! as they ask for, and its zeros are
-//! bisected. What lies between is no wider than a line width of a resonance and is where to look, not a
-//! result.
+//! as they ask for, and its zeros are bisected. What lies between is no wider than a line width of a
+//! resonance and is where to look, not a result.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 

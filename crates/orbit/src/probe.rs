@@ -2,36 +2,45 @@
 //! for looking at many frequencies.
 //!
 //! Motions begin from the linear response, from states about it and from those of large amplitude that a
-//! backbone suggests. Each is looked at now and then: where it has come to an orbit that is known
-//! by then, or has repeated, it ends. One that nearly repeats at last, as it does where there is little
-//! damping, is taken to its orbit by Newton's method.
+//! backbone suggests. A motion ends where it has come to a stable orbit that is known by then, or has repeated.
+//! Where there is little damping it has done neither at last: then Newton's method begins where it has come back
+//! most closely after each of the multiples. What that finds is kept if it is stable.
 
 use hammerbeam_motion::{Stretch, System};
 
 use crate::{
-    FoundOrbits, Interruption, OrbitError, OrbitSettings, Response, SurveyEffort, backbone::backbone_states,
-    catalogue::Catalogue, cut::search_cut, start::starting_states, state_scale::StateScale,
-    survey::repeats_after,
+    FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response, SurveyEffort,
+    arrival::StableOrbits,
+    backbone::backbone_states,
+    catalogue::{Arrived, Catalogue},
+    cut::search_cut,
+    start::starting_states,
+    state_scale::StateScale,
+    survey::{nearest_returns, repeats_after},
 };
 
 /// Excitation periods between two looks, besides the largest multiple.
 const BETWEEN_LOOKS: usize = 16;
-/// Distance from an orbit, relative to it, at which a motion has come to it.
-const ARRIVED: f64 = 1e-5;
+/// Least number of states that are kept, at successive excitation periods.
+const KEPT: usize = 48;
+/// Near-returns from which Newton's method begins, of each multiple.
+const NEAR_RETURNS: usize = 2;
 /// Distance over a period below which a motion is on its way to an orbit when it has had its time.
 const NEARLY: f64 = 1e-2;
 
-/// How many motions begin where.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct ProbeStarts {
-    /// About the linear response, besides the one from it.
+/// How many motions begin where, and what is known before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProbeStarts<'a> {
+    /// From the linear response and states about it.
     pub about_linear: usize,
     /// On backbones.
     pub on_backbones: usize,
+    /// Orbits at this frequency; motions that come to a stable one of them end.
+    pub known: &'a [PeriodicSolution],
 }
 
-/// Finds stable orbits at a frequency whose minimal periods are among `multiples`. A start from which no
-/// motion can be computed makes the search incomplete.
+/// Finds further stable orbits at a frequency whose minimal periods are among `multiples`. A start from which
+/// no motion can be computed makes the search incomplete.
 ///
 /// * `effort`: its settling and observed periods are the most of each motion; its starts are not used.
 ///
@@ -41,16 +50,24 @@ pub fn probe(
     system: &System,
     response: &Response,
     (frequency_hz, multiples): (f64, &[u32]),
-    (starts, effort): (ProbeStarts, &SurveyEffort),
+    (starts, effort): (ProbeStarts<'_>, &SurveyEffort),
     settings: &OrbitSettings,
     interrupted: Interruption<'_>,
 ) -> Result<FoundOrbits, OrbitError> {
-    let mut states = starting_states(system, response, frequency_hz, starts.about_linear, settings)?;
+    let about_linear = starts.about_linear.saturating_sub(1);
+    let mut states = starting_states(system, response, frequency_hz, about_linear, settings)?;
     states.extend(backbone_states(system, frequency_hz, multiples, &states[0], starts.on_backbones));
+    if starts.about_linear == 0 {
+        states.remove(0);
+    }
     let largest = multiples.iter().copied().max().unwrap_or(1) as usize;
     let most = effort.settling + effort.observed.max(3 * largest);
-    let catalogue = Catalogue::new(system, response, settings, frequency_hz)?;
-    let mut probe = Probe { catalogue, multiples, largest, most };
+    let mut catalogue = Catalogue::new(system, response, settings, frequency_hz)?;
+    let mut reached = StableOrbits::default();
+    for orbit in starts.known {
+        reached.add(catalogue.integrator(), orbit)?;
+    }
+    let mut probe = Probe { catalogue, reached, multiples, largest, most };
     let (mut failure, mut computed) = (None, false);
     for state in states {
         match probe.follow(state, &mut *interrupted) {
@@ -65,8 +82,16 @@ pub fn probe(
     }
 }
 
+/// What a motion has come to after some periods.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Advanced {
+    ToKnownOrbit,
+    SoFar,
+}
+
 struct Probe<'a> {
     catalogue: Catalogue<'a>,
+    reached: StableOrbits,
     multiples: &'a [u32],
     largest: usize,
     most: usize,
@@ -82,13 +107,11 @@ impl Probe<'_> {
                 return Err(OrbitError::Interrupted);
             }
             let more = (BETWEEN_LOOKS + self.largest).min(self.most - periods);
-            self.advance(&mut states, more)?;
-            periods += more;
-            let last = &states[states.len() - 1];
-            if self.catalogue.is_at_stable_orbit(last, ARRIVED) {
+            if self.advance(&mut states, more)? == Advanced::ToKnownOrbit {
                 return Ok(());
             }
-            let scale = self.catalogue.scale_of_motion(last)?;
+            periods += more;
+            let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
             if let Some(period) = repeats_after(&states, &scale, self.largest) {
                 return self.settle(&states[states.len() - 1], period as u32);
             }
@@ -96,31 +119,62 @@ impl Probe<'_> {
         let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
         match nearly_repeats_after(&states, &scale, self.largest) {
             Some(period) => self.settle(&states[states.len() - 1], period as u32),
-            None => Ok(()),
+            None => self.approach(&states, &scale, interrupted),
         }
     }
 
-    /// Goes on by some periods and keeps the last states, one more than the largest multiple.
-    fn advance(&mut self, states: &mut Vec<Vec<f64>>, periods: usize) -> Result<(), OrbitError> {
+    /// Orbits near which a motion is that has not settled.
+    fn approach(
+        &mut self,
+        states: &[Vec<f64>],
+        scale: &StateScale,
+        interrupted: Interruption<'_>,
+    ) -> Result<(), OrbitError> {
+        for &multiple in self.multiples {
+            for nodes in nearest_returns(states, scale, multiple as usize, NEAR_RETURNS) {
+                if interrupted() {
+                    return Err(OrbitError::Interrupted);
+                }
+                let arrived = self.catalogue.probe((0.0, nodes), multiple)?;
+                self.note(arrived)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Goes on by some periods and keeps the last states.
+    fn advance(&mut self, states: &mut Vec<Vec<f64>>, periods: usize) -> Result<Advanced, OrbitError> {
         let stretch = Stretch { frequency_hz: self.catalogue.frequency_hz, start: 0.0, end: 1.0 };
         for _ in 0..periods {
             let next = self.catalogue.integrator().advance(&stretch, &states[states.len() - 1])?;
+            if self.reached.are_reached(&next) {
+                return Ok(Advanced::ToKnownOrbit);
+            }
             states.push(next);
         }
-        let surplus = states.len().saturating_sub(self.largest + 1);
+        let surplus = states.len().saturating_sub(KEPT.max(3 * self.largest));
         states.drain(..surplus);
-        Ok(())
+        Ok(Advanced::SoFar)
     }
 
     /// The orbit to which a motion has come.
     fn settle(&mut self, state: &[f64], period_multiple: u32) -> Result<(), OrbitError> {
         let orbit = (self.catalogue.frequency_hz, period_multiple);
         let (begin, _) = search_cut(self.catalogue.integrator(), state, orbit)?;
-        self.catalogue.probe((begin.phase, &[begin.state]), period_multiple)?;
+        let arrived = self.catalogue.probe((begin.phase, &[begin.state]), period_multiple)?;
+        self.note(arrived)
+    }
+
+    /// Motions that come to a new orbit end from now on, if it is stable.
+    fn note(&mut self, arrived: Option<Arrived>) -> Result<(), OrbitError> {
+        if let Some(place) = arrived.filter(|arrived| arrived.is_new).map(|arrived| arrived.place) {
+            let orbit = self.catalogue.known[place].solution.clone();
+            self.reached.add(self.catalogue.integrator(), &orbit)?;
+        }
         Ok(())
     }
 
-    fn found(self) -> Vec<crate::PeriodicSolution> {
+    fn found(self) -> Vec<PeriodicSolution> {
         let multiples = self.multiples;
         let known = self.catalogue.known.into_iter().map(|known| known.solution);
         known.filter(|orbit| orbit.stable() && multiples.contains(&orbit.period_multiple)).collect()

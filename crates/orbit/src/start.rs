@@ -134,8 +134,7 @@ pub(crate) fn starting_states(
 }
 
 /// The orbit of that minimal period on which a motion moves that has settled, given by its state at phase 0;
-/// `None` if Newton's method leads nowhere or to an orbit of a
-/// shorter period.
+/// `None` if Newton's method leads nowhere or to an orbit of a shorter period.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion cannot be computed; [`OrbitError::PeriodMultiple`] unless the

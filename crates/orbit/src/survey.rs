@@ -8,11 +8,12 @@ use hammerbeam_motion::{Stretch, System};
 
 use crate::{
     FoundOrbits, Interruption, OrbitError, OrbitSettings, PeriodicSolution, Response,
+    arrival::StableOrbits,
     cut::search_cut,
     matching::{distance_in_phase, states_at_phase},
     size::{orbit_scale, scale_from},
     solve::integrator,
-    start::{attempt, attempt_nodes, simulate, starting_states},
+    start::{attempt, attempt_nodes, starting_states},
     state_scale::StateScale,
 };
 
@@ -60,14 +61,16 @@ pub fn survey(
     let mut found: Vec<PeriodicSolution> = Vec::new();
     let mut failure = None;
     let mut computed = false;
+    let (mut motion, mut reached) = (integrator(system, response, settings)?, StableOrbits::default());
     for start in starting_states(system, response, frequency_hz, effort.starts, settings)? {
-        match survey.from(&start, &mut *interrupted) {
+        match survey.from(&start, &reached, &mut *interrupted) {
             Err(error @ (OrbitError::Motion(_) | OrbitError::NeverOpens { .. })) => failure = Some(error),
             Err(error) => return Err(error),
             Ok(orbits) => {
                 computed = true;
                 for orbit in orbits {
                     if !survey.holds(&found, &orbit)? {
+                        reached.add(&mut motion, &orbit)?;
                         found.push(orbit);
                     }
                 }
@@ -93,23 +96,31 @@ struct Survey<'a> {
 }
 
 impl Survey<'_> {
-    /// Orbits that the motion from one state leads to.
+    /// Orbits that the motion from one state leads to, none if it comes to a known one.
     fn from(
         &self,
         start: &[f64],
+        known: &StableOrbits,
         interrupted: Interruption<'_>,
     ) -> Result<Vec<PeriodicSolution>, OrbitError> {
         let largest = self.multiples.iter().copied().max().unwrap_or(1) as usize;
         let mut integrator = integrator(self.system, self.response, self.settings)?;
-        let mut state = start.to_vec();
-        simulate(&mut integrator, &mut state, (self.frequency_hz, self.effort.settling), &mut *interrupted)?;
         let stretch = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
-        let mut states = vec![state];
-        for k in 0..self.effort.observed.max(3 * largest) {
+        let observed = self.effort.observed.max(3 * largest);
+        let mut states = vec![start.to_vec()];
+        for period in 0..self.effort.settling + observed {
             if interrupted() {
                 return Err(OrbitError::Interrupted);
             }
-            states.push(integrator.advance(&stretch, &states[k])?);
+            let next = integrator.advance(&stretch, &states[states.len() - 1])?;
+            if known.are_reached(&next) {
+                return Ok(Vec::new());
+            }
+            if period < self.effort.settling {
+                states[0] = next;
+            } else {
+                states.push(next);
+            }
         }
         let scale = scale_from(&mut integrator, &states[0], self.frequency_hz)?;
         if let Some(period) = repeats_after(&states, &scale, largest) {

@@ -1,5 +1,4 @@
 //! Where to look for attractors, and few motions that find them.
-#![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;
 
@@ -50,7 +49,11 @@ fn a_gap_that_is_never_or_always_reached_gives_no_range() {
     }
 }
 
-fn found(law: Law, [c, force, frequency_hz]: [f64; 3], starts: ProbeStarts) -> Vec<PeriodicSolution> {
+fn about(about_linear: usize, on_backbones: usize) -> ProbeStarts<'static> {
+    ProbeStarts { about_linear, on_backbones, known: &[] }
+}
+
+fn found(law: Law, [c, force, frequency_hz]: [f64; 3], starts: ProbeStarts<'_>) -> Vec<PeriodicSolution> {
     let (system, response) = oscillator(1.0, c, force, law);
     let effort = SurveyEffort { settling: 900, ..SurveyEffort::default() };
     let settings = OrbitSettings::default();
@@ -59,14 +62,14 @@ fn found(law: Law, [c, force, frequency_hz]: [f64; 3], starts: ProbeStarts) -> V
 }
 
 /// `x'' + 0.005 x' + x + x^3 = 0.3 cos 5 t` has a subharmonic solution of three periods near the amplitude
-/// `sqrt(4/3 ((5/3)^2 - 1)) = 1.54`, 120 times
-/// the linear response (Nayfeh and Mook, *Nonlinear Oscillations*, 1979, section 4.1.4).
+/// `sqrt(4/3 ((5/3)^2 - 1)) = 1.54`, 120 times the linear response (Nayfeh and Mook, *Nonlinear
+/// Oscillations*, 1979, section 4.1.4).
 #[test]
 fn a_subharmonic_of_large_amplitude_is_found_from_the_backbone_and_not_from_the_linear_response() {
     let spring = || Law::Cubic(CubicSpring::new(1.0).unwrap());
-    let near = found(spring(), [0.005, 0.3, 5.0 / TAU], ProbeStarts { about_linear: 6, on_backbones: 0 });
+    let near = found(spring(), [0.005, 0.3, 5.0 / TAU], about(7, 0));
     assert!(near.iter().all(|orbit| orbit.period_multiple == 1), "{near:?}");
-    let far = found(spring(), [0.005, 0.3, 5.0 / TAU], ProbeStarts { about_linear: 0, on_backbones: 12 });
+    let far = found(spring(), [0.005, 0.3, 5.0 / TAU], about(0, 12));
     let subharmonic = far.iter().find(|orbit| orbit.period_multiple == 3).expect("it is found");
     let amplitude = (4.0_f64 / 3.0 * (25.0 / 9.0 - 1.0)).sqrt();
     assert!(
@@ -78,7 +81,7 @@ fn a_subharmonic_of_large_amplitude_is_found_from_the_backbone_and_not_from_the_
 
 #[test]
 fn motions_that_settle_on_one_orbit_give_it_once() {
-    let orbits = found(rigid(1.0), [0.04, 0.4, 0.1], ProbeStarts { about_linear: 3, on_backbones: 0 });
+    let orbits = found(rigid(1.0), [0.04, 0.4, 0.1], about(4, 0));
     let harmonic = orbits.iter().filter(|orbit| orbit.period_multiple == 1).count();
     assert!(harmonic >= 1 && orbits.len() <= 2, "{orbits:?}");
 }
@@ -97,6 +100,22 @@ fn with(laws: &[(f64, Law)]) -> System {
     };
     let loads = Load { support: vec![], forces: vec![load(10.0)] };
     System::new(system.model().clone(), &loads, laws.iter().map(element).collect()).unwrap()
+}
+
+#[test]
+fn orbits_that_are_known_are_not_found_again() {
+    let spring = || Law::Cubic(CubicSpring::new(1.0).unwrap());
+    let numbers = [0.05, 0.3, 1.4 / TAU];
+    let both = found(spring(), numbers, about(7, 4));
+    assert_eq!(both.len(), 2, "the upper and the lower of the two folds' branches");
+    assert!(found(spring(), numbers, ProbeStarts { known: &both, ..about(7, 4) }).is_empty());
+    let [upper, lower] = &both[..] else { return };
+    for (known, other) in [(upper, lower), (lower, upper)] {
+        let known = std::slice::from_ref(known);
+        let found = found(spring(), numbers, ProbeStarts { known, ..about(7, 4) });
+        assert_eq!(found.len(), 1);
+        assert!((found[0].maxima.displacement / other.maxima.displacement - 1.0).abs() < 1e-6);
+    }
 }
 
 #[test]
@@ -121,7 +140,7 @@ fn the_mirror_image_of_an_asymmetric_orbit_is_another_orbit() {
     for frequency_hz in [0.13, 0.15, 0.17, 0.19, 0.21, 0.23, 0.25, 0.27] {
         let (system, response) = oscillator(1e-6, 0.1, 10.0, spring);
         let (effort, settings) = (SurveyEffort::default(), OrbitSettings::default());
-        let starts = ProbeStarts { about_linear: 3, on_backbones: 4 };
+        let starts = about(4, 4);
         let orbit = (frequency_hz, &[1, 2][..]);
         let found = probe(&system, &response, orbit, (starts, &effort), &settings, &mut || false).unwrap();
         for image in found.orbits.iter().map(mirror_image) {

@@ -19,9 +19,9 @@ use crate::{
 const TRIED_IN_A_PART: u32 = 8;
 
 /// Motions of a search at a single frequency.
-const PROBE: ProbeStarts = ProbeStarts { about_linear: 3, on_backbones: 3 };
+const PROBE: ProbeStarts<'_> = ProbeStarts { about_linear: 4, on_backbones: 3, known: &[] };
 /// Motions from large amplitudes that a survey begins besides.
-const FAR: ProbeStarts = ProbeStarts { about_linear: 0, on_backbones: 4 };
+const FAR: ProbeStarts<'_> = ProbeStarts { about_linear: 0, on_backbones: 4, known: &[] };
 
 /// Periodic solutions of one model and their branches.
 #[derive(Debug)]
@@ -163,6 +163,10 @@ impl Solver for OrbitSolver<'_> {
             survey(system, response, frequency_hz, multiples, &self.effort, settings, &mut *interrupted)
                 .map_err(|error| error.to_string())?;
         let FoundOrbits { orbits: mut found, mut incomplete } = found;
+        let far = ProbeStarts { known: &found, ..FAR };
+        let (orbit, effort) = ((frequency_hz, multiples), &self.effort);
+        let far = probe(system, response, orbit, (far, effort), settings, &mut *interrupted);
+        let far = far.map_err(|error| error.to_string())?;
         // What has not settled yet may be near a stable solution, too.
         found.retain(|orbit| self.unstable_starts || orbit.may_be_stable());
         if self.trials > 0 && multiples.contains(&1) {
@@ -176,23 +180,14 @@ impl Solver for OrbitSolver<'_> {
                 incomplete = incomplete.or(tried.incomplete);
             }
         }
-        let further = (frequency_hz, multiples);
-        let far = probe(system, response, further, (FAR, &self.effort), settings, interrupted);
-        let far = far.map_err(|error| error.to_string())?;
         found.extend(far.orbits);
         incomplete = incomplete.or(far.incomplete);
         Ok(surveyed(FoundOrbits { orbits: found, incomplete }))
     }
 
     fn resonances_hz(&self) -> Vec<f64> {
-        let multiples = &self.multiples;
-        places::resonances_hz(
-            self.model,
-            self.response(),
-            (self.range_hz, self.spacing_hz),
-            multiples,
-            &self.settings,
-        )
+        let surveyed = places::Surveyed { range_hz: self.range_hz, spacing_hz: self.spacing_hz };
+        places::resonances_hz(self.model, self.response(), &surveyed, &self.multiples, &self.settings)
     }
 
     fn probe(

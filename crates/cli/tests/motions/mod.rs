@@ -10,6 +10,7 @@ mod exported;
 mod folders;
 mod initial;
 mod kept;
+mod met;
 mod refused;
 mod simulate;
 mod sweep;

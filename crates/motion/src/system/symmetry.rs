@@ -7,9 +7,8 @@ use crate::{Law, LocalElement};
 
 impl System {
     /// Whether `q(t) -> -q(t + T/2)` takes motions to motions, T being the excitation period: all loads are
-    /// of odd order, so that they change
-    /// their sign over half a period, and forces change theirs with the displacement, each by itself or with
-    /// an opposite element of the same law.
+    /// of odd order, so that they change their sign over half a period, and forces change theirs with the
+    /// displacement, each by itself or with an opposite element of the same law.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
         let loads_are_odd =

@@ -1,10 +1,9 @@
 //! Mirror images of branches, which follow from a symmetry without computing.
 //!
 //! Where `q(t) -> -q(t + T/2)` takes motions to motions, the image of a branch is one, with the same
-//! frequencies, maxima, multipliers and events. It
-//! is the branch itself where its orbits are symmetric, or where the branch comes through a symmetric orbit
-//! to the images of its own; else it is
-//! another one, which a run may have met, or not.
+//! frequencies, maxima, multipliers and events. It is the branch itself where its orbits are symmetric, or
+//! where the branch comes through a symmetric orbit to the images of its own; else it is another one, which a
+//! run may have met, or not.
 
 use hammerbeam_attractor::{distance, state_scales};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings};

@@ -1,77 +1,106 @@
 //! Frequencies at which the linear system tells to look for attractors.
 //!
 //! Over a range in which the linear response reaches a contact every motion has impacts, and many solutions
-//! may follow one another within it, however narrow it is; some
-//! reach beyond its ends, at which the linear response grazes. And impacts wake the modes: a solution of `n`
-//! periods is near where `n` times an eigenfrequency is that of
-//! the excitation, one with several impacts a period near a part of an eigenfrequency.
+//! may follow one another within it, however narrow it is; some reach beyond its ends, at which the linear
+//! response grazes. And impacts excite the modes: a solution of `n` periods is near where `n` times an
+//! eigenfrequency equals the excitation frequency, one with several impacts a period near a part of an
+//! eigenfrequency. Each of these places has a width; where the survey looks within it, nothing is added.
+
+use std::f64::consts::TAU;
 
 use hammerbeam_orbit::{OrbitSettings, Response, linear_contact_ranges};
 
 use crate::Model;
 
-/// Frequencies in the middles of equal parts of a range, if the survey has fewer there.
-const WITHIN: u32 = 8;
+/// Equal parts of a range with impacts, each of which is looked at.
+const PARTS_OF_RANGE: u32 = 8;
 /// Frequencies beyond either end of a range, in parts of its width.
 const BEYOND: [f64; 2] = [0.1, 0.4];
 /// Parts of an eigenfrequency.
 const PARTS: [f64; 3] = [1.0, 2.0, 3.0];
 
+/// The frequencies of the survey: the middles of equal parts of the range.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Surveyed {
+    pub range_hz: (f64, f64),
+    pub spacing_hz: f64,
+}
+
+impl Surveyed {
+    /// Whether one of them lies within an interval.
+    fn looks_within(&self, [low, high]: [f64; 2]) -> bool {
+        let place = |at: f64| (at - self.range_hz.0) / self.spacing_hz - 0.5;
+        place(low).ceil() <= place(high)
+    }
+}
+
 /// The frequencies, those that matter most first.
-///
-/// * `spacing_hz`: distance of the frequencies of the survey.
 pub(super) fn resonances_hz(
     model: &Model,
     response: &Response,
-    (range_hz, spacing_hz): ((f64, f64), f64),
+    surveyed: &Surveyed,
     multiples: &[u32],
     settings: &OrbitSettings,
 ) -> Vec<f64> {
+    let range_hz = surveyed.range_hz;
     let ranges = linear_contact_ranges(&model.system, response, range_hz, settings).unwrap_or_default();
-    let mut places: Vec<f64> = ranges.iter().flat_map(|range| of_range(*range, spacing_hz)).collect();
+    let mut places: Vec<f64> = ranges.iter().flat_map(|range| of_range(*range, surveyed)).collect();
     if !model.system.elements().is_empty() {
-        places.extend(of_modes(&model.system.model().natural_frequencies, multiples));
+        let reduced = model.system.model();
+        let modes = reduced.natural_frequencies.iter().enumerate();
+        let modes = modes.map(|(mode, w)| [*w, reduced.damping[(mode, mode)]].map(|value| value / TAU));
+        places.extend(modes.flat_map(|mode| of_mode(mode, multiples, surveyed)));
     }
     places.retain(|at| (range_hz.0..=range_hz.1).contains(at));
     places
 }
 
-/// Within a range that is narrow for the survey, and beyond its ends.
-fn of_range([low, high]: [f64; 2], spacing_hz: f64) -> Vec<f64> {
-    let width = high - low;
-    if width > f64::from(WITHIN) * spacing_hz {
-        return Vec::new();
-    }
-    let middle = |k: u32| low + width * (f64::from(k) + 0.5) / f64::from(WITHIN);
-    let beyond = BEYOND.iter().flat_map(|part| [high + part * width, low - part * width]);
-    (0..WITHIN).map(middle).chain(beyond).collect()
+/// Within a range with impacts and beyond its ends.
+fn of_range([low, high]: [f64; 2], surveyed: &Surveyed) -> Vec<f64> {
+    let part = (high - low) / f64::from(PARTS_OF_RANGE);
+    let within = (0..PARTS_OF_RANGE).map(|k| low + part * (f64::from(k) + 0.5));
+    let beyond = BEYOND.iter().map(|share| share * (high - low)).flat_map(|off| [high + off, low - off]);
+    let is_open = |at: &f64| !surveyed.looks_within([at - 0.5 * part, at + 0.5 * part]);
+    within.chain(beyond).filter(is_open).collect()
 }
 
-/// Multiples and parts of the eigenfrequencies [Hz], the lowest modes first.
-fn of_modes(natural_frequencies: &[f64], multiples: &[u32]) -> Vec<f64> {
-    let of_mode = |w: &f64| {
-        let at = w / std::f64::consts::TAU;
-        let parts = PARTS.iter().map(move |part| at / part);
-        let multiples = multiples.iter().filter(|multiple| **multiple > 1);
-        parts.chain(multiples.map(move |multiple| at * f64::from(*multiple))).collect::<Vec<f64>>()
+/// Multiples and parts of an eigenfrequency with its line width [Hz].
+fn of_mode([at, width]: [f64; 2], multiples: &[u32], surveyed: &Surveyed) -> Vec<f64> {
+    let parts = PARTS.iter().map(|part| 1.0 / part);
+    let multiples = multiples.iter().filter(|multiple| **multiple > 1).map(|multiple| f64::from(*multiple));
+    let is_open = |factor: &f64| {
+        let [at, width] = [factor * at, factor * width];
+        !surveyed.looks_within([at - width, at + width])
     };
-    natural_frequencies.iter().flat_map(of_mode).collect()
+    parts.chain(multiples).filter(is_open).map(|factor| factor * at).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_narrow_range_of_impacts_is_looked_at_more_closely_than_the_survey_does() {
-        let places = of_range([64.0, 65.8], 2.1);
-        assert_eq!(places.iter().filter(|at| (64.0..65.8).contains(*at)).count(), 8);
-        assert!(places.iter().any(|at| *at > 65.8) && places.iter().any(|at| *at < 64.0));
-        assert!(of_range([64.0, 65.8], 0.1).is_empty(), "the survey looks at 18 frequencies there");
+    fn surveyed(spacing_hz: f64) -> Surveyed {
+        Surveyed { range_hz: (40.0, 90.0), spacing_hz }
     }
 
     #[test]
-    fn modes_are_looked_at_at_their_multiples_and_parts() {
-        assert_eq!(of_modes(&[std::f64::consts::TAU * 6.0], &[1, 3]), [6.0, 3.0, 2.0, 18.0]);
+    fn each_part_of_a_range_of_impacts_is_looked_at() {
+        for spacing_hz in [2.0, 0.7, 0.3] {
+            let places = of_range([64.0, 65.6], &surveyed(spacing_hz));
+            for part in 0..8 {
+                let [low, high] = [part, part + 1].map(|k| 64.0 + 0.2 * f64::from(k));
+                let looks = surveyed(spacing_hz).looks_within([low, high]);
+                let added = places.iter().filter(|at| (low..high).contains(*at)).count();
+                assert!(looks && added == 0 || !looks && added == 1, "{spacing_hz}, part {part}: {added}");
+            }
+        }
+        assert!(of_range([64.0, 65.6], &surveyed(0.15)).is_empty(), "the survey looks into every part");
+    }
+
+    #[test]
+    fn modes_are_looked_at_at_their_multiples_and_parts_unless_the_survey_is_there() {
+        assert_eq!(of_mode([6.0, 0.0], &[1, 3], &surveyed(2.0)), [6.0, 3.0, 2.0, 18.0]);
+        let wide = of_mode([60.0, 1.1], &[1, 3], &surveyed(2.0));
+        assert_eq!(wide, [30.0, 20.0], "at 59 Hz and 61 Hz, and from 176.7 to 183.3 Hz, there is a survey");
     }
 }

@@ -1,13 +1,12 @@
 //! Where to look again: frequencies at which no stable solution is known.
 //!
 //! A dissipative system has an attractor at every frequency. Where no branch is stable it is chaotic,
-//! quasi-periodic, of a period that is not looked for,
-//! or a branch that is missed. Between two rows in a row that are stable a stable solution is taken to be
-//! known; what that leaves of the range are
-//! *intervals*. Each of them is looked at in its middle, however narrow, the widest first; then the widest
-//! part between two frequencies that were
-//! looked at is halved, over and over. That is done in rounds, since a branch that a round finds may cover
-//! much of what is left.
+//! quasi-periodic, of a period that is not looked for, or on a branch that is missed. Between two successive
+//! stable rows a stable solution is taken to be known; what that leaves of the range are *intervals*. Each of
+//! them is looked at in its middle, however narrow, the widest first; then the widest part between two
+//! frequencies that were looked at is halved. Where nothing new is found motion is chaotic as a rule, so that
+//! only each branch that is begun gives leave to halve further. That is done in rounds, since a branch that a
+//! round finds may cover much of what is left.
 
 use hammerbeam_orbit::Side;
 
@@ -16,26 +15,33 @@ use crate::store::JobKind;
 
 /// Most frequencies that are looked at so, in all rounds, and no more than the survey has.
 const MOST: usize = 48;
-/// Rounds that they are shared among.
-const ROUNDS: usize = 3;
+/// Frequencies of a first round, and for each branch that was begun at one of them.
+const ROUND: usize = 6;
 /// Intervals narrower than this part of the distance of the frequencies of the survey are left out.
 const NARROWEST: f64 = 1e-4;
 
 /// The jobs of the next round; none when enough was looked at, or nothing is left to look at.
 pub(super) fn jobs(agenda: &Agenda, plan: &Plan) -> Vec<(JobKind, f64, Option<i64>, u32)> {
-    let most = plan.survey_hz.len().min(MOST);
-    let done = agenda.jobs.iter().filter(|job| job.record.kind == JobKind::NoneStable).count();
-    let count = most.div_ceil(ROUNDS).min(most.saturating_sub(done));
-    let looked_at: Vec<f64> = agenda
-        .jobs
-        .iter()
-        .filter(|job| job.record.source.is_none())
-        .map(|job| job.record.frequency_hz)
-        .collect();
+    let searches = agenda.jobs.iter().filter(|job| job.record.source.is_none());
+    let looked_at: Vec<f64> = searches.map(|job| job.record.frequency_hz).collect();
+    let done: Vec<_> = agenda.jobs.iter().filter(|job| job.record.kind == JobKind::NoneStable).collect();
+    let found = done.iter().filter(|job| !job.starts.is_empty()).count();
+    let effort = Effort {
+        most: plan.survey_hz.len().min(MOST).saturating_sub(done.len()),
+        halvings: (ROUND * (1 + found)).saturating_sub(done.len()),
+    };
     let narrowest = NARROWEST * plan.survey_width_hz();
-    let frequencies =
-        places(&uncovered(&stable_stretches(agenda), plan.range_hz), looked_at, narrowest, count);
+    let intervals = uncovered(&stable_stretches(agenda), plan.range_hz);
+    let frequencies = places(&intervals, looked_at, narrowest, effort);
     frequencies.into_iter().map(|at| (JobKind::NoneStable, at, None, 0)).collect()
+}
+
+/// How much a round may look at.
+#[derive(Debug, Clone, Copy)]
+struct Effort {
+    most: usize,
+    /// Frequencies after which only intervals are looked at that never were.
+    halvings: usize,
 }
 
 /// Stretches of the frequency from one stable row of a branch to the next one.
@@ -64,17 +70,23 @@ fn uncovered(stretches: &[[f64; 2]], [low, high]: [f64; 2]) -> Vec<[f64; 2]> {
     left
 }
 
-/// So many frequencies to look at: each interval once, then the middles of the widest parts.
-fn places(intervals: &[[f64; 2]], mut looked_at: Vec<f64>, narrowest: f64, count: usize) -> Vec<f64> {
+/// Frequencies to look at: each interval once, then the middles of the widest parts.
+fn places(
+    intervals: &[[f64; 2]],
+    mut looked_at: Vec<f64>,
+    narrowest: f64,
+    Effort { most, halvings }: Effort,
+) -> Vec<f64> {
     let intervals: Vec<[f64; 2]> = intervals.iter().filter(|[a, b]| b - a > narrowest).copied().collect();
     let mut found = Vec::new();
-    while found.len() < count {
+    while found.len() < most {
         let widest =
             intervals.iter().flat_map(|interval| parts(*interval, &looked_at)).reduce(|best, part| {
                 let order = (part.is_whole, part.width()).partial_cmp(&(best.is_whole, best.width()));
                 if order == Some(std::cmp::Ordering::Greater) { part } else { best }
             });
-        let Some(part) = widest.filter(|part| part.width() > narrowest) else { break };
+        let wanted = |part: &Part| part.width() > narrowest && (part.is_whole || found.len() < halvings);
+        let Some(part) = widest.filter(wanted) else { break };
         found.push(part.middle());
         looked_at.push(part.middle());
     }
@@ -121,12 +133,22 @@ mod tests {
     #[test]
     fn every_interval_is_looked_at_before_the_widest_is_halved_again() {
         let intervals = [[0.0, 8.0], [9.0, 9.01], [10.0, 11.0]];
-        assert_eq!(places(&intervals, vec![], 1e-6, 5), [4.0, 10.5, 9.005, 2.0, 6.0]);
-        assert_eq!(places(&intervals, vec![4.0], 1e-6, 2), [10.5, 9.005], "the first one was looked at");
+        let effort = Effort { most: 5, halvings: 9 };
+        assert_eq!(places(&intervals, vec![], 1e-6, effort), [4.0, 10.5, 9.005, 2.0, 6.0]);
+        let effort = Effort { most: 2, halvings: 9 };
+        assert_eq!(places(&intervals, vec![4.0], 1e-6, effort), [10.5, 9.005], "the first one was looked at");
+    }
+
+    #[test]
+    fn what_was_looked_at_without_success_is_not_halved_for_ever() {
+        let intervals = [[0.0, 8.0], [9.0, 9.01], [10.0, 11.0]];
+        assert_eq!(places(&intervals, vec![], 1e-6, Effort { most: 9, halvings: 1 }), [4.0, 10.5, 9.005]);
+        assert!(places(&intervals, vec![4.0, 10.5, 9.005], 1e-6, Effort { most: 9, halvings: 0 }).is_empty());
     }
 
     #[test]
     fn intervals_within_rounding_are_left_out() {
-        assert!(places(&[[1.0, 1.0 + 1e-9]], vec![], 1e-6, 5).is_empty());
+        let effort = Effort { most: 5, halvings: 5 };
+        assert!(places(&[[1.0, 1.0 + 1e-9]], vec![], 1e-6, effort).is_empty());
     }
 }

@@ -313,8 +313,7 @@ impl Store {
         transaction.execute("DELETE FROM walk WHERE start > ?1", [start])?;
         transaction.execute("DELETE FROM start WHERE id > ?1", [start])?;
         // The jobs that branches of this job and of later ones gave, those that all branches together gave,
-        // and what was added behind them: their numbers are to
-        // follow one another.
+        // and what was added behind them: their numbers are to follow one another.
         let own = first_key(walk_id(job * MOST_STARTS, Side::Up));
         let given =
             "SELECT min(id) FROM job WHERE (source >= ?1 OR kind IN ('none-stable', 'met')) AND id > ?2";
