@@ -103,11 +103,8 @@ impl Probe<'_> {
         let mut states = vec![state];
         let mut periods = 0;
         while periods < self.most {
-            if interrupted() {
-                return Err(OrbitError::Interrupted);
-            }
             let more = (BETWEEN_LOOKS + self.largest).min(self.most - periods);
-            if self.advance(&mut states, more)? == Advanced::ToKnownOrbit {
+            if self.advance(&mut states, more, &mut *interrupted)? == Advanced::ToKnownOrbit {
                 return Ok(());
             }
             periods += more;
@@ -143,9 +140,17 @@ impl Probe<'_> {
     }
 
     /// Goes on by some periods and keeps the last states.
-    fn advance(&mut self, states: &mut Vec<Vec<f64>>, periods: usize) -> Result<Advanced, OrbitError> {
+    fn advance(
+        &mut self,
+        states: &mut Vec<Vec<f64>>,
+        periods: usize,
+        interrupted: Interruption<'_>,
+    ) -> Result<Advanced, OrbitError> {
         let stretch = Stretch { frequency_hz: self.catalogue.frequency_hz, start: 0.0, end: 1.0 };
         for _ in 0..periods {
+            if interrupted() {
+                return Err(OrbitError::Interrupted);
+            }
             let next = self.catalogue.integrator().advance(&stretch, &states[states.len() - 1])?;
             if self.reached.are_reached(&next) {
                 return Ok(Advanced::ToKnownOrbit);

@@ -100,6 +100,22 @@ impl<'m> OrbitSolver<'m> {
         motions.iter().filter(fits).filter_map(orbit).collect()
     }
 
+    /// Stable solutions of large amplitude besides those known; motions that cannot be computed are no reason
+    /// to give up what was found.
+    fn far(
+        &self,
+        orbit: (f64, &[u32]),
+        known: &[PeriodicSolution],
+        interrupted: Interruption<'_>,
+    ) -> Result<FoundOrbits, String> {
+        let starts = (ProbeStarts { known, ..FAR }, &self.effort);
+        match probe(&self.model.system, self.response(), orbit, starts, &self.settings, interrupted) {
+            Err(OrbitError::Interrupted) => Err(OrbitError::Interrupted.to_string()),
+            Err(error) => Ok(FoundOrbits { orbits: Vec::new(), incomplete: Some(error) }),
+            Ok(found) => Ok(found),
+        }
+    }
+
     fn response(&self) -> &Response {
         &self.model.response
     }
@@ -163,10 +179,7 @@ impl Solver for OrbitSolver<'_> {
             survey(system, response, frequency_hz, multiples, &self.effort, settings, &mut *interrupted)
                 .map_err(|error| error.to_string())?;
         let FoundOrbits { orbits: mut found, mut incomplete } = found;
-        let far = ProbeStarts { known: &found, ..FAR };
-        let (orbit, effort) = ((frequency_hz, multiples), &self.effort);
-        let far = probe(system, response, orbit, (far, effort), settings, &mut *interrupted);
-        let far = far.map_err(|error| error.to_string())?;
+        let far = self.far((frequency_hz, multiples), &found, &mut *interrupted)?;
         // What has not settled yet may be near a stable solution, too.
         found.retain(|orbit| self.unstable_starts || orbit.may_be_stable());
         if self.trials > 0 && multiples.contains(&1) {

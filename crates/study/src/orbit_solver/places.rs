@@ -30,7 +30,8 @@ impl Surveyed {
     /// Whether one of them lies within an interval.
     fn looks_within(&self, [low, high]: [f64; 2]) -> bool {
         let place = |at: f64| (at - self.range_hz.0) / self.spacing_hz - 0.5;
-        place(low).ceil() <= place(high)
+        let last = place(self.range_hz.1) - 0.5;
+        place(low).ceil().max(0.0) <= place(high).min(last)
     }
 }
 
@@ -86,21 +87,23 @@ mod tests {
     #[test]
     fn each_part_of_a_range_of_impacts_is_looked_at() {
         for spacing_hz in [2.0, 0.7, 0.3] {
-            let places = of_range([64.0, 65.6], &surveyed(spacing_hz));
+            let places = of_range([64.03, 65.63], &surveyed(spacing_hz));
             for part in 0..8 {
-                let [low, high] = [part, part + 1].map(|k| 64.0 + 0.2 * f64::from(k));
+                let [low, high] = [part, part + 1].map(|k| 64.03 + 0.2 * f64::from(k));
                 let looks = surveyed(spacing_hz).looks_within([low, high]);
                 let added = places.iter().filter(|at| (low..high).contains(*at)).count();
-                assert!(looks && added == 0 || !looks && added == 1, "{spacing_hz}, part {part}: {added}");
+                assert_eq!(added, usize::from(!looks), "{spacing_hz}, part {part}");
             }
         }
-        assert!(of_range([64.0, 65.6], &surveyed(0.15)).is_empty(), "the survey looks into every part");
+        let within = of_range([64.03, 65.63], &surveyed(0.15));
+        assert!(within.is_empty(), "the survey looks into every part: {within:?}");
     }
 
     #[test]
     fn modes_are_looked_at_at_their_multiples_and_parts_unless_the_survey_is_there() {
-        assert_eq!(of_mode([6.0, 0.0], &[1, 3], &surveyed(2.0)), [6.0, 3.0, 2.0, 18.0]);
-        let wide = of_mode([60.0, 1.1], &[1, 3], &surveyed(2.0));
-        assert_eq!(wide, [30.0, 20.0], "at 59 Hz and 61 Hz, and from 176.7 to 183.3 Hz, there is a survey");
+        let of_mode = |width| of_mode([84.0, width], &[1, 2], &surveyed(2.0));
+        let rounded = |places: Vec<f64>| places.iter().map(|at| at.round()).collect::<Vec<f64>>();
+        assert_eq!(rounded(of_mode(0.0)), [84.0, 42.0, 28.0, 168.0]);
+        assert_eq!(rounded(of_mode(1.1)), [42.0, 28.0, 168.0], "the survey looks at 83 Hz and 85 Hz");
     }
 }

@@ -132,18 +132,24 @@ mod tests {
 
     #[test]
     fn every_interval_is_looked_at_before_the_widest_is_halved_again() {
-        let intervals = [[0.0, 8.0], [9.0, 9.01], [10.0, 11.0]];
+        let intervals = [[0.0, 8.0], [9.0, 9.0625], [10.0, 11.0]];
         let effort = Effort { most: 5, halvings: 9 };
-        assert_eq!(places(&intervals, vec![], 1e-6, effort), [4.0, 10.5, 9.005, 2.0, 6.0]);
+        assert_eq!(places(&intervals, vec![], 1e-6, effort), [4.0, 10.5, 9.03125, 2.0, 6.0]);
         let effort = Effort { most: 2, halvings: 9 };
-        assert_eq!(places(&intervals, vec![4.0], 1e-6, effort), [10.5, 9.005], "the first one was looked at");
+        assert_eq!(
+            places(&intervals, vec![4.0], 1e-6, effort),
+            [10.5, 9.03125],
+            "the first one was looked at"
+        );
     }
 
     #[test]
     fn what_was_looked_at_without_success_is_not_halved_for_ever() {
-        let intervals = [[0.0, 8.0], [9.0, 9.01], [10.0, 11.0]];
-        assert_eq!(places(&intervals, vec![], 1e-6, Effort { most: 9, halvings: 1 }), [4.0, 10.5, 9.005]);
-        assert!(places(&intervals, vec![4.0, 10.5, 9.005], 1e-6, Effort { most: 9, halvings: 0 }).is_empty());
+        let intervals = [[0.0, 8.0], [9.0, 9.0625], [10.0, 11.0]];
+        assert_eq!(places(&intervals, vec![], 1e-6, Effort { most: 9, halvings: 1 }), [4.0, 10.5, 9.03125]);
+        assert!(
+            places(&intervals, vec![4.0, 10.5, 9.03125], 1e-6, Effort { most: 9, halvings: 0 }).is_empty()
+        );
     }
 
     #[test]
