@@ -1,6 +1,6 @@
 //! What to say of a structure that can drift, before its periodic solutions are looked for.
 
-use hammerbeam_study::{Drift, Model};
+use hammerbeam_study::{Drift, Model, Study};
 
 use crate::failure::Failure;
 
@@ -22,4 +22,16 @@ pub fn heed(model: &Model) -> Result<(), Failure> {
 /// Tells every direction on standard error.
 pub fn warn(drifts: &[Drift]) {
     drifts.iter().for_each(|drift| anstream::eprintln!("warning: {drift}"));
+}
+
+/// Warns of a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
+pub fn warn_of_range(model: &Model, study: &Study) {
+    let [_, high] = study.excitation.frequency_hz;
+    if let Some(resolved) = model.resolved_hz().filter(|resolved| high > *resolved) {
+        anstream::eprintln!(
+            "warning: the range reaches {high:e} Hz, where a period is so short that rounding hides what the \
+             structure does in it; solutions are known up to {resolved:.1e} Hz, a million times the highest \
+             eigenfrequency: end the range there"
+        );
+    }
 }

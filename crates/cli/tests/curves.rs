@@ -325,3 +325,43 @@ trials = 0
     };
     assert!(down[1].contains("met a grazing at structure.spring.1.stiffness_n_m = 1.506"), "{down:?}");
 }
+
+/// The impact oscillator of the studies, with these curves.
+fn impact_oscillator(curves: &str) -> Workshop {
+    let study = include_str!("../../../studies/impact-oscillator.toml");
+    Workshop::exported(&format!("{study}[search]\nfrequencies = 0\n{curves}"))
+}
+
+/// The amplitude of the mass on its spring is the gap where it grazes: `0.4/sqrt((1 - w^2)^2 + (0.04 w)^2)`,
+/// at 0.08 Hz too.
+#[test]
+fn a_curve_is_cut_exactly_at_the_end_of_the_frequency_range() {
+    let workshop = impact_oscillator(&curve("grazing", 0.1234, "stop.stop.gap_m", [0.3, 3.0]));
+    let ends = columns(&workshop, "curve_ends.csv", ["side", "parameter", "frequency_hz", "message"]);
+    let [_, gap, frequency_hz, message] = ends.iter().find(|end| end[0] == "down").unwrap();
+    assert_eq!((&frequency_hz[..], &message[..]), ("0.08", "end of the frequency range"));
+    let w = std::f64::consts::TAU * 0.08;
+    let expected = 0.4 / (1.0 - w * w).hypot(0.04 * w);
+    assert!((gap.parse::<f64>().unwrap() / expected - 1.0).abs() < 1e-9, "{gap}, not {expected}");
+    let rows = columns(&workshop, "curves.csv", ["frequency_hz"]);
+    assert!(rows.iter().all(|[hz]| (0.08..=0.5).contains(&hz.parse::<f64>().unwrap())));
+}
+
+/// At a rigid stop the multipliers of an orbit with a slow impact go like `sin(w_d T)` over its speed, so
+/// curves of flips meet
+/// that of grazings where `w_d T = k pi`: at two thirds of the damped eigenfrequency, say.
+#[test]
+fn a_resonant_grazing_at_which_a_curve_of_flips_ends_is_named() {
+    let workshop = impact_oscillator(&curve("flip", 0.15755, "stop.stop.gap_m", [0.3, 3.0]));
+    let ends = columns(&workshop, "curve_ends.csv", ["side", "frequency_hz", "message"]);
+    let [_, frequency_hz, message] = ends.iter().find(|end| end[0] == "down").unwrap();
+    assert!(message.contains("a resonant grazing (grazing-flip)"), "{message}");
+    let damped_hz = (1.0_f64 - 0.02 * 0.02).sqrt() / std::f64::consts::TAU;
+    let expected = 2.0 / 3.0 * damped_hz;
+    let found: f64 = frequency_hz.parse().unwrap();
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found}, not {expected}");
+    let rows = columns(&workshop, "curves.csv", ["frequency_hz", "event"]);
+    let marked: Vec<_> = rows.iter().filter(|[_, event]| event.contains("grazing-flip")).collect();
+    assert_eq!(marked.len(), 1, "{marked:?}");
+    assert_eq!(marked[0][0], *frequency_hz);
+}

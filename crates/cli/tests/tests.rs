@@ -28,3 +28,4 @@ mod unbounded;
 mod update;
 mod varied;
 mod verify;
+mod wide_range;

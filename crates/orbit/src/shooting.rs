@@ -20,6 +20,14 @@
 //! theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination by orthogonal transformations over the segments
 //! would keep the tangent, at several times the cost, and is not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end there.
 //!
+//! # Fast excitation
+//! Where the period is short beside those of the modes, `A_m - I` is small and rounding of `Z_k - z_{k+1}` is
+//! what limits an
+//! orbit. In flight `Z_k - z_{k+1} = G_k d_k - d_{k+1}` with the deviations d from the steady motion, which
+//! vanish at the
+//! solution, and rounding of them with it: above a thousand times the lowest eigenfrequency residuals are
+//! taken like that.
+//!
 //! # Orbits that are cut at a touch
 //! Of states that agree to the tolerance one may lie before the touch and the other behind it: then the flows on both sides have the touch at both of their ends or at neither. Their touches are counted once.
 //! Where the force sets in with a jump, the product of their matrices has its factor (the saltation matrix) twice or not at all, and its eigenvalues are not the multipliers: those are taken from the same orbit cut elsewhere. For

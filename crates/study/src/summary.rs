@@ -35,19 +35,29 @@ pub struct BranchSummary {
     pub peaks: Vec<Peak>,
 }
 
-/// A peak of the maximum displacement along a branch.
+/// A peak of the maximum displacement along a branch: the highest solution between a rise and a fall, or all
+/// those that are as high as far as displacements are known, as where a motion reaches a rigid stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Where [Hz].
+    /// Where the first of the highest solutions is, in the order of the branch [Hz].
     pub frequency_hz: f64,
+    /// Lowest and highest frequency of the highest solutions, which are equal; the same twice where there is
+    /// but
+    /// one [Hz].
+    pub equal_hz: [f64; 2],
+    /// Number of the highest solutions.
+    pub equal: u64,
     /// Maximum displacement [m].
     pub max_abs_displacement_m: f64,
-    /// Whether the solution there is stable.
-    pub stability: Stability,
+    /// Whether the solutions there are stable; `None` where some are and others are not.
+    pub stability: Option<Stability>,
 }
 
 /// Rise and fall, relative to the peak, that make it one.
 const PROMINENCE: f64 = 0.05;
+
+/// Displacements are equal up to this part of them: orbits are computed to 1e-10 of their size.
+const EQUAL: f64 = 1e-10;
 
 /// The branches of a results folder in few numbers.
 ///
@@ -136,10 +146,16 @@ impl PeakFinder {
         if !self.rising {
             return;
         }
-        let highest = self.highest.get_or_insert(Peak::of(row));
-        if value >= highest.max_abs_displacement_m {
+        let Some(highest) = &mut self.highest else {
+            self.highest = Some(Peak::of(row));
+            return;
+        };
+        let height = highest.max_abs_displacement_m;
+        if value > height * (1.0 + EQUAL) {
             *highest = Peak::of(row);
-        } else if highest.max_abs_displacement_m - value > PROMINENCE * highest.max_abs_displacement_m {
+        } else if value >= height * (1.0 - EQUAL) {
+            highest.join(row);
+        } else if height - value > PROMINENCE * height {
             self.found.push(*highest);
             (self.rising, self.lowest) = (false, Some(value));
         }
@@ -150,9 +166,26 @@ impl Peak {
     fn of(row: &Row) -> Self {
         Self {
             frequency_hz: row.frequency_hz,
+            equal_hz: [row.frequency_hz; 2],
+            equal: 1,
             max_abs_displacement_m: row.maxima.displacement,
-            stability: row.stability,
+            stability: Some(row.stability),
         }
+    }
+
+    /// Takes in a solution that is as high.
+    fn join(&mut self, row: &Row) {
+        let [low, high] = self.equal_hz;
+        self.equal_hz = [low.min(row.frequency_hz), high.max(row.frequency_hz)];
+        self.equal += 1;
+        self.stability = self.stability.filter(|stability| *stability == row.stability);
+    }
+
+    /// Whether two peaks are as high as one another.
+    #[must_use]
+    pub fn equals(&self, other: &Self) -> bool {
+        let [one, two] = [self, other].map(|peak| peak.max_abs_displacement_m);
+        (one - two).abs() <= EQUAL * one.max(two)
     }
 }
 
@@ -183,6 +216,35 @@ mod tests {
     #[test]
     fn peaks_are_found_and_ripples_are_not() {
         assert_eq!(peaks(&[1.0, 2.0, 3.0, 2.9, 3.1, 2.0, 1.0, 1.5, 1.2]), [4.0, 7.0]);
+    }
+
+    /// What a rigid stop makes of a resonance: its gap, but for rounding.
+    #[test]
+    fn solutions_that_are_equally_high_are_one_peak_that_names_them_all() {
+        let mut finder = PeakFinder::default();
+        let heights = [1.0, 6.0, 6.0 + 1e-15, 5.9, 6.0 - 1e-15, 6.0 + 5e-15, 3.0];
+        heights.iter().enumerate().for_each(|(index, value)| finder.add(&row(index as f64, *value)));
+        let [peak] = finder.found[..] else { panic!("{:?}", finder.found) };
+        assert_eq!((peak.frequency_hz, peak.equal_hz, peak.equal), (1.0, [1.0, 5.0], 4));
+        assert_eq!(peak.stability, Some(Stability::Stable));
+    }
+
+    #[test]
+    fn a_plateau_of_stable_and_unstable_solutions_is_called_neither() {
+        let mut finder = PeakFinder::default();
+        for (index, value) in [1.0, 2.0, 2.0, 1.0].into_iter().enumerate() {
+            let stability = if index == 1 { Stability::Unstable } else { Stability::Stable };
+            finder.add(&Row { stability, ..row(index as f64, value) });
+        }
+        assert_eq!(finder.found[0].stability, None);
+    }
+
+    #[test]
+    fn what_is_higher_by_more_than_rounding_is_the_peak_alone() {
+        let mut finder = PeakFinder::default();
+        let heights = [1.0, 2.0, 2.0 + 1e-9, 1.0];
+        heights.iter().enumerate().for_each(|(index, value)| finder.add(&row(index as f64, *value)));
+        assert_eq!((finder.found[0].equal_hz, finder.found[0].equal), ([2.0; 2], 1));
     }
 
     #[test]

@@ -27,6 +27,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
+    drift::warn_of_range(&model, &file.study);
     let mut store = Store::open_for_run(&options.out, &file)?;
     let solver = OrbitSolver::new(&model, &file.study);
     let interrupt = Interrupt::listen(output)?;
@@ -163,8 +164,9 @@ impl Summary<'_> {
     /// Why solutions are marginal all along branches: a bifurcation makes one or two.
     fn marginal_text(&self) -> Option<String> {
         let marginal: u64 = self.branches.iter().map(|branch| branch.marginal).sum();
-        let first = self.undamped.first().filter(|_| marginal > 0)?;
-        let others = match self.undamped.len() - 1 {
+        let mut modes = self.undamped.iter();
+        let first = modes.next().filter(|_| marginal > 0)?;
+        let others = match modes.count() {
             0 => String::new(),
             1 => " (nor has another one)".to_owned(),
             others => format!(" (nor have {others} others)"),
@@ -224,9 +226,11 @@ fn branch_document(branch: &BranchSummary) -> Value {
     let peak = |peak: &Peak| {
         json!({
             "frequency_hz": peak.frequency_hz,
+            "equal_hz": peak.equal_hz,
+            "equal_solutions": peak.equal,
             "max_abs_displacement_m": peak.max_abs_displacement_m,
-            "stable": peak.stability == Stability::Stable,
-            "stability": peak.stability.word(),
+            "stable": peak.stability == Some(Stability::Stable),
+            "stability": peak_stability(peak),
         })
     };
     json!({
@@ -271,19 +275,46 @@ fn branch_text(branch: &BranchSummary) -> String {
             2 * branch.record.period_multiple
         ));
     }
-    let mut peaks = branch.peaks.clone();
-    peaks.sort_by(|a, b| b.max_abs_displacement_m.total_cmp(&a.max_abs_displacement_m));
-    for peak in peaks.iter().take(6) {
-        let stability = peak.stability.word();
-        lines.push(format!(
-            "  peak at {:.4} Hz, {:.4e} m, {stability}",
-            peak.frequency_hz, peak.max_abs_displacement_m
-        ));
-    }
+    lines.extend(peaks_text(&branch.peaks));
     for (side, walk) in [("up", &branch.record.up), ("down", &branch.record.down)] {
         lines.push(format!("  {side} side: {}", stop_text(walk.reason.as_ref())));
     }
     lines.join("\n")
+}
+
+/// The highest peaks, those that are as high as one another in one line.
+fn peaks_text(peaks: &[Peak]) -> Vec<String> {
+    const SHOWN: usize = 6;
+    let mut peaks: Vec<&Peak> = peaks.iter().collect();
+    peaks.sort_by(|a, b| b.max_abs_displacement_m.total_cmp(&a.max_abs_displacement_m));
+    let groups = peaks.chunk_by(|one, next| one.equals(next)).take(SHOWN);
+    let line = |group: &[&Peak]| {
+        let mut group = group.to_vec();
+        group.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+        let more =
+            if group.len() > SHOWN { format!(", and {} more", group.len() - SHOWN) } else { String::new() };
+        let height = group[0].max_abs_displacement_m;
+        let place = |peak: &&Peak| format!("{}, {}", peak_place(peak), peak_stability(peak));
+        let places: Vec<String> = group.iter().take(SHOWN).map(place).collect();
+        match group[..] {
+            [one] => format!("  peak at {}, {height:.4e} m, {}", peak_place(one), peak_stability(one)),
+            _ => format!("  {} equal peaks of {height:.4e} m: {}{more}", group.len(), places.join("; ")),
+        }
+    };
+    groups.map(line).collect()
+}
+
+/// Where a peak is: at one solution, or at several that are equal.
+fn peak_place(peak: &Peak) -> String {
+    let [low, high] = peak.equal_hz;
+    if peak.equal == 1 {
+        return format!("{:.4} Hz", peak.frequency_hz);
+    }
+    format!("{low:.4} to {high:.4} Hz ({} solutions of equal height)", peak.equal)
+}
+
+fn peak_stability(peak: &Peak) -> &'static str {
+    peak.stability.map_or("in part stable", Stability::word)
 }
 
 fn piece_document(piece: &PieceRecord) -> Value {

@@ -33,6 +33,8 @@
 //! A curve of folds ends where its orbits become those of half their period (*degenerate flip*) or symmetric (*degenerate branch point*): there lies the degenerate point of the flips of the map over half the period, and behind it the curve is its own image
 //! (`image.rs`, `meeting.rs`).
 //!
+//! The curve is cut exactly at the ends of the frequency range (`frequency_end.rs`).
+//!
 //! A second contact that is grazed (*double grazing*) is a change of contacts on a grazing curve, since those that are touched anyway are not among them; it is bracketed like every such change. On other curves such a change is where the bifurcation meets a grazing.
 //!
 //! # Sources
@@ -48,6 +50,7 @@ mod condition;
 mod criticality;
 mod deflated;
 mod differences;
+mod frequency_end;
 mod grazing;
 mod image;
 mod lyapunov;

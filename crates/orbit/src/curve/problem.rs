@@ -64,6 +64,11 @@ impl CurveProblem {
         self.failure.as_ref()
     }
 
+    /// Which entry of a point is the frequency.
+    pub fn frequency_index(&self) -> usize {
+        self.shooting.size() * self.shooting.count
+    }
+
     /// Place of a point.
     pub fn place(&self, point: &[f64]) -> Place {
         let nodes = self.shooting.size() * self.shooting.count;

@@ -27,7 +27,7 @@ pub struct CurveSettings {
     pub parameter: Parameter,
     /// Its range, in its unit; the curve is cut exactly at the ends.
     pub range: (f64, f64),
-    /// Range of the frequency [Hz]; the curve ends with the first row beyond it.
+    /// Range of the frequency [Hz]; the curve is cut exactly at its ends, too.
     pub range_hz: (f64, f64),
     /// Longest step, in hundredths of the ranges.
     pub max_step: f64,
@@ -116,6 +116,40 @@ pub struct CurveRow {
     pub phase: Option<f64>,
     /// What happens there.
     pub events: CurveEvents,
+}
+
+impl CurveEvents {
+    /// What the end of a curve makes of its last row: where a fold, flip or Neimark-Sacker point meets a
+    /// grazing, its
+    /// multipliers are those of a grazing orbit. Such a *resonant grazing* is a point of codimension two, at
+    /// which the
+    /// curve ends on that of the grazing.
+    pub fn mark_end(&mut self, kind: CurveKind, end: &CurveEnd) {
+        if !matches!(end, CurveEnd::Grazing { .. }) {
+            return;
+        }
+        match kind {
+            CurveKind::Fold => self.grazing_fold = true,
+            CurveKind::Flip => self.grazing_flip = true,
+            CurveKind::NeimarkSacker => self.grazing_neimark_sacker = true,
+            CurveKind::Grazing { .. } => {}
+        }
+    }
+}
+
+impl CurveKind {
+    /// The name of a resonant grazing at which a curve ends, as [`CurveEvents::label`] has it; `None` for a
+    /// curve of
+    /// grazings.
+    #[must_use]
+    pub fn resonant_grazing(self) -> Option<&'static str> {
+        match self {
+            Self::Fold => Some("grazing-fold"),
+            Self::Flip => Some("grazing-flip"),
+            Self::NeimarkSacker => Some("grazing-neimark-sacker"),
+            Self::Grazing { .. } => None,
+        }
+    }
 }
 
 /// Why a curve ended.

@@ -44,7 +44,7 @@ const SOLVES: f64 = 1e-7;
 pub struct CurveWalk {
     pub(super) problem: CurveProblem,
     pub(super) follower: Follower,
-    settings: CurveSettings,
+    pub(super) settings: CurveSettings,
     pub(super) kind: CurveKind,
     /// How far the last orbit is from grazing a contact.
     pub(super) grazing_distance: f64,
@@ -60,7 +60,7 @@ pub struct CurveWalk {
     is_behind: bool,
     /// Arc length at which the walk was last asked whether it comes to a splitting (`splits.rs`).
     pub(super) asked_at: f64,
-    end: Option<CurveEnd>,
+    pub(super) end: Option<CurveEnd>,
 }
 
 impl CurveWalk {
@@ -191,11 +191,13 @@ impl CurveWalk {
         }
         let before = self.may_split();
         self.keep_phase_clear();
+        let from = self.follower.current().point.clone();
         let reason = match self.follower.step(&mut self.problem) {
             StepOutcome::Accepted => {
                 self.end = before.and_then(|before| self.comes_to_splitting(&before));
                 return match &self.end {
                     Some(end) => Ok(Err(end.clone())),
+                    None if self.has_left_frequencies() => Ok(self.end_at_frequency(&from)),
                     None => self.accepted().map(Ok),
                 };
             }
@@ -232,14 +234,11 @@ impl CurveWalk {
 
     fn accepted(&mut self) -> Result<CurveRow, OrbitError> {
         let row = self.row()?;
-        let (low, high) = self.settings.range_hz;
         let parameter = row.parameter;
         let opposite = if self.strikes_opposite() { self.problem.shooting.opposite_name() } else { None };
         self.rows_at_grazing = if self.grazing_distance == 0.0 { self.rows_at_grazing + 1 } else { 0 };
         let crawls = self.crawls();
-        self.end = if !(low..=high).contains(&row.solution.frequency_hz) {
-            Some(CurveEnd::FrequencyRangeEnd)
-        } else if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
+        self.end = if self.kind == CurveKind::NeimarkSacker && row.events.resonance.is_some_and(|n| n <= 2) {
             Some(CurveEnd::Resonance)
         } else if let Some(element) = opposite {
             Some(CurveEnd::GrazedAsWell { parameter, element })

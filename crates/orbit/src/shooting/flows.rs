@@ -1,5 +1,7 @@
 //! The flows of the segments at a point: residuals, matrices, touches; and multipliers where the orbit is cut at a touch.
 
+use std::f64::consts::TAU;
+
 use hammerbeam_motion::{
     Stretch, System,
     exact::{MotionError, complete_touches, touches_lacking},
@@ -11,6 +13,13 @@ use crate::{NoEigenvalues, spectrum::Spectrum};
 
 /// Parts of a segment by which nodes are carried away from a touch, tried one after the other: no two of these cuts are as far apart as instants of a symmetric motion are.
 const ELSEWHERE: [f64; 4] = [0.382, 0.618, 0.146, 0.854];
+
+/// Excitation frequency over the lowest eigenfrequency from which on rounding of states would leave less of
+/// an orbit than its
+/// tolerance asks for.
+const FAST: f64 = 1e3;
+/// Most that rounding of states makes of a residual, in parts of the largest state.
+const ROUNDING: f64 = 1e-12;
 
 impl ShootingProblem {
     /// The flows of all segments from a point.
@@ -29,7 +38,9 @@ impl ShootingProblem {
         }
         // What is evaluated last is often observed next.
         self.integrator.begin_course();
-        let evaluated = (0..self.segments).try_for_each(|segment| self.evaluate_segment(segment, point));
+        let mut flights = Vec::new();
+        let evaluated =
+            (0..self.segments).try_for_each(|segment| self.evaluate_segment((segment, &mut flights), point));
         self.integrator.end_course();
         if let Err(error) = evaluated {
             // What was noted is not the whole motion.
@@ -38,18 +49,69 @@ impl ShootingProblem {
             self.failure = Some(error);
             return Err(EvaluationError::NotFinite);
         }
+        for segment in flights {
+            self.sharpen_flight(segment, point);
+        }
         self.put_touches_right();
         complete_touches(&mut self.touches);
         Ok(())
     }
 
-    fn evaluate_segment(&mut self, segment: usize, point: &[f64]) -> Result<(), MotionError> {
+    /// Whether the excitation is so fast that a period leaves the slowest mode nearly as it was.
+    fn is_fast(&self, frequency_hz: f64) -> bool {
+        let frequencies = &self.integrator.system().model().natural_frequencies;
+        let slowest = frequencies.iter().copied().fold(f64::INFINITY, f64::min);
+        TAU * frequency_hz > FAST * slowest
+    }
+
+    /// The residual of a segment without forces, by the deviation `d` from the steady motion: `G d_k -
+    /// d_{k+1}`.
+    ///
+    /// It equals the difference of the states but for rounding of these, which the inverse of `G - 1` makes
+    /// larger by the
+    /// excitation frequency over the eigenfrequency. The deviation vanishes at the solution, and rounding of
+    /// it with it.
+    fn sharpen_flight(&mut self, segment: usize, point: &[f64]) {
+        let size = self.node_size();
+        let next = (segment + 1) % self.segments;
+        let frequency_hz = self.frequency(point);
+        let [here, there] = [segment, next].map(|node| {
+            let steady = self.integrator.steady_state(&self.stretch(node, frequency_hz));
+            let node = &point[node * size..(node + 1) * size];
+            let scaled = steady.iter().zip(self.scale.values()).map(|(z, s)| z / s);
+            node.iter().zip(scaled).map(|(x, z)| x - z).collect::<Vec<f64>>()
+        });
+        let matrix = &self.segment_matrices[segment];
+        let sharper: Vec<f64> = (0..size)
+            .map(|i| {
+                let row = &matrix[i * size..(i + 1) * size];
+                row.iter().zip(&here).map(|(g, d)| g * d).sum::<f64>() - there[i]
+            })
+            .collect();
+        let residual = &mut self.residual[segment * size..(segment + 1) * size];
+        let largest = point[..size * self.segments].iter().fold(1.0_f64, |largest, x| largest.max(x.abs()));
+        // At a resonance without damping, or while a stop holds the structure, the motion is another one.
+        let agrees = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING * largest;
+        if residual.iter().zip(&sharper).all(agrees) {
+            residual.copy_from_slice(&sharper);
+        }
+    }
+
+    /// * `flights`: takes the segment if no force acts in it, and its residual is to be put right.
+    fn evaluate_segment(
+        &mut self,
+        (segment, flights): (usize, &mut Vec<usize>),
+        point: &[f64],
+    ) -> Result<(), MotionError> {
         let size = self.node_size();
         let stretch = self.stretch(segment, self.frequency(point));
         let scales = self.scale.values();
         let node: Vec<f64> =
             point[segment * size..(segment + 1) * size].iter().zip(scales).map(|(x, s)| x * s).collect();
+        let steps = self.integrator.counts().steps;
         let flow = self.integrator.flow(&stretch, &node)?;
+        let in_flight = self.integrator.counts().steps == steps
+            && self.integrator.touches().iter().all(|touches| *touches == 0);
         let by_last = self.by_last(&flow);
         let next = (segment + 1) % self.segments;
         for i in 0..size {
@@ -63,6 +125,9 @@ impl ShootingProblem {
             }
         }
         self.touches.iter_mut().zip(self.integrator.touches()).for_each(|(sum, touches)| *sum += touches);
+        if in_flight && self.is_fast(stretch.frequency_hz) {
+            flights.push(segment);
+        }
         for (all, of_segment) in self.at_ends.iter_mut().zip(self.integrator.at_ends()) {
             all.extend_from_slice(of_segment);
         }

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use super::Model;
 
 /// Damping ratio below which a mode counts as undamped: that which changes a multiplier over a period of the mode by less than it is known to.
-const NOTHING: f64 = 1e-10;
+pub(super) const NOTHING: f64 = 1e-10;
 
 /// A mode that nothing damps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,7 @@ impl std::fmt::Display for UndampedMode {
 }
 
 /// A number with three digits at least.
-struct Digits(f64);
+pub(super) struct Digits(pub f64);
 
 impl std::fmt::Display for Digits {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -38,7 +38,21 @@ impl std::fmt::Display for Digits {
     }
 }
 
+/// Excitation frequency over the highest eigenfrequency up to which periodic motion is known to its
+/// tolerance: beyond, a
+/// period leaves every mode as it was, up to rounding.
+const RESOLVED: f64 = 1e6;
+
 impl Model {
+    /// The highest excitation frequency at which rounding leaves enough of periodic motion, if the structure
+    /// vibrates at
+    /// all [Hz].
+    #[must_use]
+    pub fn resolved_hz(&self) -> Option<f64> {
+        let highest = self.system.model().natural_frequencies.iter().copied().fold(0.0, f64::max);
+        (highest > 0.0).then_some(RESOLVED * highest / TAU)
+    }
+
     /// The modes that vibrate (rigid-body modes are not among them) and that nothing damps, lowest first.
     #[must_use]
     pub fn undamped_modes(&self) -> Vec<UndampedMode> {

@@ -102,11 +102,14 @@ fn both_sides(
                 Err(end) => break end,
             }
         };
+        if let Some(last) = walked.last_mut() {
+            last.events.mark_end(kind, &end);
+        }
         if side == Side::Down {
             walked.reverse();
         }
         rows.extend(walked.into_iter().map(|row| varied(row, parameter, curve.parameter.range)));
-        ends.push(in_words(&end, curve, parameter));
+        ends.push(in_words(&end, kind, curve, parameter));
         if end == CurveEnd::Closed {
             ends.push(ends[0].clone());
             break;
@@ -199,7 +202,7 @@ fn named(value: f64, curve: &Curve, parameter: &StudyParameter) -> String {
     format!("{} = {}", curve.parameter.name, parameter.in_range(value, curve.parameter.range))
 }
 
-fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String {
+fn in_words(end: &CurveEnd, kind: CurveKind, curve: &Curve, parameter: &StudyParameter) -> String {
     match end {
         CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
         CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
@@ -215,7 +218,10 @@ fn in_words(end: &CurveEnd, curve: &Curve, parameter: &StudyParameter) -> String
         ),
         CurveEnd::Grazing { parameter: value, cause } => {
             let cause = cause.as_ref().map_or(String::new(), |cause| format!(" ({cause})"));
-            format!("met a grazing at {}{cause}", named(*value, curve, parameter))
+            let resonant = kind.resonant_grazing().map_or(String::new(), |name| {
+                format!(": a resonant grazing ({name}) where the curve ends on that of the grazing")
+            });
+            format!("met a grazing at {}{resonant}{cause}", named(*value, curve, parameter))
         }
         CurveEnd::GrazedAsWell { parameter: value, element } => {
             format!("{element} is grazed as well at {} and struck beyond", named(*value, curve, parameter))
