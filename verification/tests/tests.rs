@@ -10,6 +10,7 @@ mod contact_damping;
 mod contacts;
 mod duffing;
 mod linear;
+mod marginal;
 mod measuring_filter;
 mod relations;
 mod shaw_holmes_1983;

@@ -13,6 +13,7 @@ use hammerbeam_figure::{
     Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Quantity, ResponseCurve, ResponseDiagram,
     ResponsePoint, ResponseSettings, ScaleChoice, Style,
 };
+use hammerbeam_orbit::Stability;
 use hammerbeam_structure::ModeTables;
 use hammerbeam_study::{
     Model, Store, StoreError, StudyFile,
@@ -305,6 +306,7 @@ fn point(row: &Row) -> ResponsePoint {
         contact_force_n: row.maxima.contact_force,
         impact_velocity_m_s: row.maxima.impact_velocity,
         stable: row.stability.may_be_stable(),
+        marginal: row.stability == Stability::Marginal,
         fold: row.events.fold,
         grazing: row.events.grazing,
         flip: row.events.flip,

@@ -6,6 +6,7 @@ use crate::{
     line::{draw_stretches, strokes},
     marks::{Mark, square},
     plot::lettering,
+    stretch::LineLook,
     style::{INK, Pattern, PeriodLook, Style},
     svg::{Anchor, Dashes, Point, Stroke, SvgWriter},
     text::Text,
@@ -15,7 +16,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Sample {
     /// The line of a kind of solutions, stable or not.
-    Line { look: PeriodLook, stable: bool },
+    Line { look: PeriodLook, line: LineLook },
     /// What the lines of a period have in common, as a broad line.
     Period(PeriodLook),
     /// The line of a kind of curves.
@@ -62,7 +63,7 @@ impl Entry {
         let y = at.y - 0.5 * CAPITAL_HEIGHT * style.tick_size;
         let ends = [Point { x: at.x, y }, Point { x: at.x + self.sample_width(), y }];
         match self.sample {
-            Sample::Line { look, stable } => draw_stretches(svg, &[ends.to_vec()], stable, look, style),
+            Sample::Line { look, line } => draw_stretches(svg, &[ends.to_vec()], line, look, style),
             Sample::Pattern(Pattern { colour, dashes }) => {
                 let dashes = dashes.map(|(dash, gap)| Dashes { dash, gap, offset: 0.0 });
                 let stroke = Stroke { colour, width: style.stable_width };

@@ -1,11 +1,13 @@
-//! Stable and unstable lines.
+//! Stable, marginal and unstable lines.
 //!
-//! Unstable lines are dashed *and* thinner: a stretch shorter than a dash still reads as unstable. The
+//! Marginal lines are as broad as stable ones, and dotted. Unstable lines are dashed *and* thinner: a stretch
+//! shorter than a dash still reads as unstable. The
 //! pattern is stretched to fit a whole number of times, and starts and ends with half a gap, so that both
 //! ends of a stretch can be seen. Strokes across a line tell its period, whatever its stability.
 
 use crate::{
     decimate::distance,
+    stretch::LineLook,
     style::{PAPER, PeriodLook, Style},
     svg::{Dashes, Point, Stroke, SvgWriter, number},
 };
@@ -14,14 +16,18 @@ use crate::{
 pub(crate) fn draw_stretches(
     svg: &mut SvgWriter,
     stretches: &[Vec<Point>],
-    stable: bool,
+    line: LineLook,
     look: PeriodLook,
     style: &Style,
 ) {
     let colour = look.colour;
-    let width = if stable { style.stable_width } else { style.unstable_width };
+    let (width, pattern) = match line {
+        LineLook::Stable => (style.stable_width, None),
+        LineLook::Marginal => (style.stable_width, Some(style.dots)),
+        LineLook::Unstable => (style.unstable_width, Some(style.dash)),
+    };
     let lines = stretches.iter().filter(|points| points.len() > 1);
-    let lines = lines.map(|points| (points.as_slice(), if stable { None } else { dashes(points, style) }));
+    let lines = lines.map(|points| (points.as_slice(), pattern.and_then(|pattern| dashes(points, pattern))));
     svg.polylines(lines, Stroke { colour, width });
     let strokes: Vec<[Point; 2]> =
         stretches.iter().flat_map(|points| strokes(points, look.strokes, style)).collect();
@@ -29,17 +35,17 @@ pub(crate) fn draw_stretches(
     svg.polylines(strokes.iter().map(|ends| (ends.as_slice(), None)), thin);
     for points in stretches {
         if let [lone] = points[..] {
-            draw_dot(svg, lone, stable, colour, style);
+            draw_dot(svg, lone, line, colour, style);
         }
     }
 }
 
 /// The pattern that fits a line; none for one without length.
-fn dashes(points: &[Point], style: &Style) -> Option<Dashes> {
+fn dashes(points: &[Point], (dash, gap): (f64, f64)) -> Option<Dashes> {
     let length: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
-    let period = style.dash.0 + style.dash.1;
+    let period = dash + gap;
     let stretched = length / (length / period).round().max(1.0);
-    let (dash, gap) = (stretched * style.dash.0 / period, stretched * style.dash.1 / period);
+    let (dash, gap) = (stretched * dash / period, stretched * gap / period);
     (length > 0.0).then_some(Dashes { dash, gap, offset: dash + 0.5 * gap })
 }
 
@@ -78,13 +84,14 @@ fn across([from, to]: [Point; 2], share: f64, reach: f64) -> [Point; 2] {
     [reach, -reach].map(|side| Point { x: at.0 + side * normal.0, y: at.1 + side * normal.1 })
 }
 
-/// A solution alone: full where stable, open where unstable.
-fn draw_dot(svg: &mut SvgWriter, at: Point, stable: bool, colour: &str, style: &Style) {
-    let fill = if stable { colour } else { PAPER };
+/// A solution alone: full where stable, open where unstable, and open with a broad line where marginal.
+fn draw_dot(svg: &mut SvgWriter, at: Point, line: LineLook, colour: &str, style: &Style) {
+    let fill = if line == LineLook::Stable { colour } else { PAPER };
+    let width = if line == LineLook::Marginal { style.stable_width } else { style.unstable_width };
     let (r, x) = (number(style.stable_width), number(at.x - style.stable_width));
     let diameter = number(2.0 * style.stable_width);
     let outline = format!("M{x} {}a{r} {r} 0 1 0 {diameter} 0a{r} {r} 0 1 0 -{diameter} 0z", number(at.y));
-    svg.path(&outline, fill, Stroke { colour, width: style.unstable_width });
+    svg.path(&outline, fill, Stroke { colour, width });
 }
 
 #[cfg(test)]
@@ -95,7 +102,8 @@ mod tests {
     fn a_whole_number_of_dashes_fits_into_every_stretch() {
         let style = Style::default();
         for length in [0.3, 2.0, 7.0, 399.0] {
-            let dashes = dashes(&[Point { x: 0.0, y: 0.0 }, Point { x: length, y: 0.0 }], &style).unwrap();
+            let line = [Point { x: 0.0, y: 0.0 }, Point { x: length, y: 0.0 }];
+            let dashes = dashes(&line, style.dash).unwrap();
             let count = length / (dashes.dash + dashes.gap);
             assert!((count - count.round()).abs() < 1e-9 && count >= 0.999);
             assert!(dashes.dash < 1.5 * style.dash.0);

@@ -8,6 +8,7 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
+    stretch::LineLook,
     style::{INK, Pattern, line_pattern, stability_colour},
 };
 
@@ -33,8 +34,10 @@ pub struct MultiplierDiagram {
 pub struct Multipliers {
     /// Excitation frequency (Hz).
     pub frequency_hz: f64,
-    /// Whether it is stable.
+    /// Whether it is stable, as far as is known.
     pub stable: bool,
+    /// Whether that is not known, since a multiplier is on the unit circle as well as it is known.
+    pub marginal: bool,
     /// Real and imaginary parts, in any order; one that is not finite is left out.
     pub multipliers: Vec<[f64; 2]>,
 }
@@ -92,7 +95,7 @@ impl MultiplierDiagram {
     /// # Errors
     /// [`FigureError::Empty`] where no multiplier is finite.
     pub fn draw_circle(&self, style: &Style) -> Result<Figure, FigureError> {
-        let finite: Vec<(bool, (f64, f64))> = self.finite().collect();
+        let finite: Vec<(LineLook, (f64, f64))> = self.finite().collect();
         if finite.is_empty() {
             let points = self.solutions.len();
             return Err(FigureError::Empty { quantity: "multiplier", curves: 1, points });
@@ -103,13 +106,20 @@ impl MultiplierDiagram {
         let pattern = Pattern { colour: INK, dashes: None };
         let mut layers = vec![Layer::Levels { at: vec![0.0] }, Layer::Uprights { at: vec![0.0] }];
         let mut legend = Vec::new();
-        for (stable, name) in [(false, "of unstable solutions"), (true, "of stable solutions")] {
+        for line in LineLook::ALL.into_iter().rev() {
             let points: Vec<(f64, f64)> =
-                finite.iter().filter(|(of, _)| *of == stable).map(|(_, at)| *at).collect();
-            let (shape, radius) = if stable { (Shape::Circle, 0.6) } else { (Shape::Square, 0.7) };
-            let dot = Dot { shape, colour: stability_colour(stable), full: stable, radius };
+                finite.iter().filter(|(of, _)| *of == line).map(|(_, at)| *at).collect();
+            let (shape, full, radius) = match line {
+                LineLook::Stable => (Shape::Circle, true, 0.6),
+                LineLook::Marginal => (Shape::Circle, false, 0.8),
+                LineLook::Unstable => (Shape::Square, false, 0.7),
+            };
+            let dot = Dot { shape, colour: stability_colour(line), full, radius };
             if !points.is_empty() {
-                legend.insert(0, Entry { sample: Sample::Dot(dot), name: name.to_owned() });
+                legend.insert(
+                    0,
+                    Entry { sample: Sample::Dot(dot), name: format!("of {} solutions", line.name()) },
+                );
             }
             layers.push(Layer::Dots { points, dot });
         }
@@ -133,7 +143,7 @@ impl MultiplierDiagram {
     }
 
     /// The largest finite multipliers of each solution, with its stability.
-    fn finite(&self) -> impl Iterator<Item = (bool, (f64, f64))> {
+    fn finite(&self) -> impl Iterator<Item = (LineLook, (f64, f64))> {
         self.solutions.iter().flat_map(|solution| {
             let mut finite = solution.multipliers.clone();
             finite.retain(|[re, im]| re.is_finite() && im.is_finite());
@@ -141,7 +151,8 @@ impl MultiplierDiagram {
             // Of a pair both or none, which have one modulus but for rounding.
             let least = finite.get(MOST_IN_PLANE - 1).map_or(0.0, |[re, im]| (1.0 - 1e-9) * re.hypot(*im));
             finite.retain(|[re, im]| re.hypot(*im) >= least);
-            finite.into_iter().map(move |[re, im]| (solution.stable, (re, im)))
+            let line = LineLook::of(solution.stable, solution.marginal);
+            finite.into_iter().map(move |[re, im]| (line, (re, im)))
         })
     }
 

@@ -86,8 +86,10 @@ pub struct PageSolution {
     pub contacts: u32,
     /// Multiplier of largest modulus.
     pub leading_multiplier: [f64; 2],
-    /// Whether the solution is stable.
+    /// Whether the solution is stable, as far as is known.
     pub stable: bool,
+    /// Whether that is not known, since a multiplier is on the unit circle as well as it is known.
+    pub marginal: bool,
     /// The branch turns in frequency.
     pub fold: bool,
     /// A multiplier passes −1.

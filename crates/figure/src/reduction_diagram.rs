@@ -6,6 +6,7 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
+    stretch::LineLook,
     style::{INK, stability_colour},
 };
 
@@ -46,8 +47,10 @@ impl ReductionDiagram {
         let mut layers = Vec::new();
         let mut legend = Vec::new();
         for (below, name) in [(true, "up to the cut-off"), (false, "above the cut-off")] {
-            let (shape, colour) =
-                (if below { Shape::Circle } else { Shape::Square }, stability_colour(below));
+            let (shape, colour) = (
+                if below { Shape::Circle } else { Shape::Square },
+                stability_colour(LineLook::of(below, false)),
+            );
             let dot = Dot { shape, colour, full: below, radius: 1.3 * style.mark_radius };
             let modes = self.modes.iter().filter(|mode| mode.below_cut_off == below && mode.full_hz > 0.0);
             let points: Vec<(f64, f64)> = modes.filter(|mode| !is_rounding(mode)).map(place).collect();

@@ -97,8 +97,11 @@ pub struct ResponsePoint {
     pub contact_force_n: f64,
     /// Largest speed with which a contact is reached (m/s).
     pub impact_velocity_m_s: f64,
-    /// Whether the solution is stable; at an event the neighbours decide how the line is drawn.
+    /// Whether the solution is stable, as far as is known; at an event the neighbours decide how the line is
+    /// drawn.
     pub stable: bool,
+    /// Whether that is not known, since a multiplier is on the unit circle as well as it is known.
+    pub marginal: bool,
     /// The branch turns: a multiplier of +1.
     pub fold: bool,
     /// A contact begins or ends: it is reached with zero velocity.

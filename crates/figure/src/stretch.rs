@@ -5,15 +5,45 @@
 pub(crate) struct Sample {
     pub(crate) x: f64,
     pub(crate) y: f64,
-    pub(crate) stable: bool,
-    /// Stability may change here, so that the flag `stable` says nothing about the lines on both sides.
+    pub(crate) look: LineLook,
+    /// Stability may change here, so that the look of the point says nothing about the lines on both sides.
     pub(crate) bifurcation: bool,
+}
+
+/// How a line says whether its solutions are stable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LineLook {
+    Stable,
+    /// A multiplier stays on the unit circle, as well as it is known.
+    Marginal,
+    Unstable,
+}
+
+impl LineLook {
+    pub(crate) const ALL: [Self; 3] = [Self::Stable, Self::Marginal, Self::Unstable];
+
+    /// * `stable`: no multiplier is known to lie outside the unit circle.
+    pub(crate) fn of(stable: bool, marginal: bool) -> Self {
+        match (stable, marginal) {
+            (false, _) => Self::Unstable,
+            (true, true) => Self::Marginal,
+            (true, false) => Self::Stable,
+        }
+    }
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Marginal => "marginal",
+            Self::Unstable => "unstable",
+        }
+    }
 }
 
 /// A stretch of a branch: a line, or a dot where a solution stands alone.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stretch {
-    pub(crate) stable: bool,
+    pub(crate) look: LineLook,
     pub(crate) vertices: Vec<Vertex>,
 }
 
@@ -43,19 +73,20 @@ pub(crate) fn stretches(samples: &[Sample], range: (f64, f64)) -> Vec<Stretch> {
 
 fn dot(lone: &Sample, (from, to): (f64, f64)) -> Option<Stretch> {
     let vertices = vec![Vertex { x: lone.x, y: lone.y, keep: true }];
-    (from..=to).contains(&lone.x).then_some(Stretch { stable: lone.stable, vertices })
+    (from..=to).contains(&lone.x).then_some(Stretch { look: lone.look, vertices })
 }
 
 fn lines(samples: &[Sample], range: (f64, f64)) -> Vec<Stretch> {
     let mut stretches: Vec<Stretch> = Vec::new();
-    for pair in samples.windows(2) {
+    let passing = passing_marginal(samples);
+    for (k, pair) in samples.windows(2).enumerate() {
         let Some((start, end)) = cut(&pair[0], &pair[1], range) else { continue };
-        let stable = joins_stable(&pair[0], &pair[1]);
+        let look = look_between([&pair[0], &pair[1]], [passing[k], passing[k + 1]]);
         match stretches.last_mut() {
-            Some(open) if open.stable == stable && same_place(open.vertices.last(), &start) => {
+            Some(open) if open.look == look && same_place(open.vertices.last(), &start) => {
                 open.vertices.push(end);
             }
-            _ => stretches.push(Stretch { stable, vertices: vec![start, end] }),
+            _ => stretches.push(Stretch { look, vertices: vec![start, end] }),
         }
     }
     stretches
@@ -65,12 +96,29 @@ fn same_place(last: Option<&Vertex>, start: &Vertex) -> bool {
     last.is_some_and(|last| last.x == start.x && last.y == start.y)
 }
 
-/// Whether the solutions between two neighbours are stable: as the one that is not a bifurcation says.
-fn joins_stable(start: &Sample, end: &Sample) -> bool {
-    match (start.bifurcation, end.bifurcation) {
-        (true, false) => end.stable,
-        (false, true) => start.stable,
-        _ => start.stable && end.stable,
+/// Which solutions are marginal between neighbours that are not: a multiplier passes the unit circle, and
+/// their look says
+/// as little of the lines beside them as that of a bifurcation.
+fn passing_marginal(samples: &[Sample]) -> Vec<bool> {
+    let is_marginal = |k: usize| samples.get(k).is_some_and(|sample| sample.look == LineLook::Marginal);
+    let alone = |k: usize| is_marginal(k) && !is_marginal(k + 1) && (k == 0 || !is_marginal(k - 1));
+    (0..samples.len()).map(alone).collect()
+}
+
+/// The look of the line between two neighbours: as the one says at which stability does not change, else the
+/// less stable
+/// one. Two bifurcations side by side may have stable solutions between them.
+///
+/// * `passing`: whether they are marginal in passing.
+fn look_between([start, end]: [&Sample; 2], passing: [bool; 2]) -> LineLook {
+    let looks = [start.look, end.look];
+    let has = |look: LineLook| looks.contains(&look);
+    match (start.bifurcation || passing[0], end.bifurcation || passing[1]) {
+        (true, false) => end.look,
+        (false, true) => start.look,
+        _ if has(LineLook::Unstable) => LineLook::Unstable,
+        (false, false) if has(LineLook::Marginal) => LineLook::Marginal,
+        _ => LineLook::Stable,
     }
 }
 
@@ -99,11 +147,18 @@ mod tests {
     const EVERYWHERE: (f64, f64) = (-1e9, 1e9);
 
     fn sample(x: f64, stable: bool) -> Sample {
-        Sample { x, y: 10.0 * x, stable, bifurcation: false }
+        Sample { x, y: 10.0 * x, look: LineLook::of(stable, false), bifurcation: false }
+    }
+
+    fn marginal(x: f64) -> Sample {
+        Sample { look: LineLook::Marginal, ..sample(x, true) }
     }
 
     fn ends(stretches: &[Stretch]) -> Vec<(bool, f64, f64)> {
-        stretches.iter().map(|s| (s.stable, s.vertices[0].x, s.vertices.last().unwrap().x)).collect()
+        stretches
+            .iter()
+            .map(|s| (s.look == LineLook::Stable, s.vertices[0].x, s.vertices.last().unwrap().x))
+            .collect()
     }
 
     #[test]
@@ -119,6 +174,30 @@ mod tests {
     fn a_change_without_an_event_is_unstable_between_the_neighbours() {
         let branch = [sample(0.0, true), sample(1.0, true), sample(2.0, false)];
         assert_eq!(ends(&stretches(&branch, EVERYWHERE)), [(true, 0.0, 1.0), (false, 1.0, 2.0)]);
+    }
+
+    #[test]
+    fn solutions_that_stay_marginal_are_a_stretch_of_their_own() {
+        let branch = [sample(0.0, true), marginal(1.0), marginal(2.0), sample(3.0, false), marginal(4.0)];
+        let found = stretches(&branch, EVERYWHERE);
+        let looks: Vec<_> = found.iter().map(|s| (s.look, s.vertices.last().unwrap().x)).collect();
+        assert_eq!(looks, [(LineLook::Marginal, 2.0), (LineLook::Unstable, 4.0)]);
+    }
+
+    #[test]
+    fn one_that_is_marginal_in_passing_looks_like_its_neighbours() {
+        let branch = [sample(0.0, true), marginal(1.0), sample(2.0, true), marginal(3.0), sample(4.0, false)];
+        let found = stretches(&branch, EVERYWHERE);
+        let looks: Vec<_> = found.iter().map(|s| (s.look, s.vertices.last().unwrap().x)).collect();
+        assert_eq!(looks, [(LineLook::Stable, 3.0), (LineLook::Unstable, 4.0)]);
+    }
+
+    #[test]
+    fn two_bifurcations_side_by_side_may_have_stable_solutions_between_them() {
+        let at = |x| Sample { bifurcation: true, ..marginal(x) };
+        let found = stretches(&[sample(0.0, true), at(1.0), at(2.0), sample(3.0, false)], EVERYWHERE);
+        let looks: Vec<_> = found.iter().map(|s| (s.look, s.vertices.last().unwrap().x)).collect();
+        assert_eq!(looks, [(LineLook::Stable, 2.0), (LineLook::Unstable, 3.0)]);
     }
 
     #[test]

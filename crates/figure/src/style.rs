@@ -3,7 +3,7 @@
 //! Colours are told apart by eyes of every kind and in grey print: the nine of the periods have three steps of lightness, and what has
 //! one step has another number of strokes across its line. Nothing is said by colour alone where a line style or a mark can say it.
 
-use crate::{Bifurcation, MotionKind};
+use crate::{Bifurcation, MotionKind, stretch::LineLook};
 
 /// Colour of text, frames and marks.
 pub(crate) const INK: &str = "#222222";
@@ -50,9 +50,13 @@ pub(crate) fn kind_colour(kind: MotionKind) -> &'static str {
     }
 }
 
-/// Colour of what belongs to stable or to unstable solutions.
-pub(crate) fn stability_colour(stable: bool) -> &'static str {
-    PERIOD_COLOURS[usize::from(!stable)]
+/// Colour of what belongs to stable, marginal or unstable solutions.
+pub(crate) fn stability_colour(line: LineLook) -> &'static str {
+    PERIOD_COLOURS[match line {
+        LineLook::Stable => 0,
+        LineLook::Unstable => 1,
+        LineLook::Marginal => 2,
+    }]
 }
 
 /// Colours of period multiples 1, 2, 3 and so on; later ones start again. Dark, medium and light by turns.
@@ -135,6 +139,8 @@ pub struct Style {
     pub unstable_width: f64,
     /// Length of a dash and of the gap behind it (pt).
     pub dash: (f64, f64),
+    /// The same of marginal lines, which are dotted (pt).
+    pub dots: (f64, f64),
     /// Width of the frame and the ticks (pt).
     pub frame_width: f64,
     /// Length of a major tick (pt); a minor one has half of it.
@@ -164,6 +170,7 @@ impl Style {
             stable_width: 0.9,
             unstable_width: 0.6,
             dash: (2.6, 1.4),
+            dots: (0.9, 1.3),
             frame_width: 0.5,
             tick_length: 3.0,
             mark_radius: 1.3,

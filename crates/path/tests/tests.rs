@@ -20,3 +20,4 @@ mod sharp_turns;
 mod sheets;
 mod test_functions;
 mod transfer;
+mod undecided;

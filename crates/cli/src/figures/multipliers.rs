@@ -1,6 +1,7 @@
 //! Figures of the Floquet multipliers of the branches.
 
 use hammerbeam_figure::{MultiplierDiagram, Multipliers, Style};
+use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
     Store, StoreError,
     store::{BranchRecord, Row},
@@ -54,6 +55,7 @@ fn solutions(store: &Store, branch: &BranchRecord) -> Result<Vec<Multipliers>, S
             drawn.push(Multipliers {
                 frequency_hz: row.frequency_hz,
                 stable: row.stability.may_be_stable(),
+                marginal: row.stability == Stability::Marginal,
                 multipliers,
             });
         }

@@ -8,7 +8,7 @@ mod orbits;
 mod shape;
 
 use hammerbeam_figure::{MultiplierRecords, Page, PageBranch, PageSolution};
-use hammerbeam_orbit::Side;
+use hammerbeam_orbit::{Side, Stability};
 use hammerbeam_study::{
     Model, Store, StoreError, StudyFile,
     store::{BranchRecord, RequestKind, Row, WalkRecord},
@@ -129,6 +129,7 @@ fn solution(row: &Row) -> PageSolution {
         contacts: row.maxima.contacts,
         leading_multiplier: row.leading_multiplier,
         stable: row.stability.may_be_stable(),
+        marginal: row.stability == Stability::Marginal,
         fold: row.events.fold,
         flip: row.events.flip,
         neimark_sacker: row.events.neimark_sacker,

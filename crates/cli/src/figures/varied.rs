@@ -1,6 +1,7 @@
 //! Branches over another parameter than the frequency: a response diagram for each piece of the study.
 
 use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint, plain_number};
+use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
     Store, StoreError,
     store::{PieceRecord, StoredVariedRow},
@@ -53,6 +54,7 @@ fn point(row: &StoredVariedRow) -> ResponsePoint {
         contact_force_n: row.numbers[2],
         impact_velocity_m_s: row.numbers[3],
         stable: row.stability.may_be_stable(),
+        marginal: row.stability == Stability::Marginal,
         fold: has("fold"),
         grazing: has("grazing"),
         flip: has("flip"),

@@ -121,7 +121,7 @@ export interface Meta {
 export type Quantity = "displacement" | "acceleration" | "force" | "velocity";
 
 /** Bits of the flags of a solution. */
-export const STABLE = 1, FOLD = 2, FLIP = 4, NEIMARK_SACKER = 8, BRANCH_POINT = 16, GRAZING = 32;
+export const STABLE = 1, FOLD = 2, FLIP = 4, NEIMARK_SACKER = 8, BRANCH_POINT = 16, GRAZING = 32, MARGINAL = 64;
 
 export interface Solutions {
     count: number;

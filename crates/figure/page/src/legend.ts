@@ -5,6 +5,8 @@ import { element } from "./dom";
 import { markedSolutions } from "./marks";
 import type { Dot } from "./overlay";
 import { drawDots } from "./overlay_paint";
+import { hasMarginal } from "./paths";
+import { DOTS } from "./response_paint";
 import type { Layer, Store } from "./state";
 import type { Theme } from "./theme";
 
@@ -22,11 +24,16 @@ const MEASURED: readonly [Dot["layer"], string][] = [
 /** A line of samples with their names; drawn anew when the colours change. */
 export function legend(meta: Meta, solutions: Solutions, store: Store, theme: Theme): HTMLElement {
     const marks = [...markedSolutions(solutions)].filter(([, found]) => found.length > 0).map(([mark]) => mark);
+    const isMarginal = hasMarginal(solutions);
     const root = element("div", { class: "legend", "aria-label": "Legend" });
     const fill = (): void => {
         const periods = [...new Set(meta.branches.map((branch) => branch.period))].sort((a, b) => a - b);
         const items = periods.map((period) => item(`period ${period}`, line(theme.period(period), [], theme.strokes(period))));
-        items.push(item("stable", line(theme.look.ink, [])), item("unstable", line(theme.look.ink, [4, 3])));
+        items.push(item("stable", line(theme.look.ink, [])));
+        if (isMarginal) {
+            items.push(item("marginal", line(theme.look.ink, DOTS, 0, 2)));
+        }
+        items.push(item("unstable", line(theme.look.ink, [4, 3])));
         items.push(...marks.map((mark) => item(mark.name, (context) => {
             const path = new Path2D();
             mark.outline(path, MIDDLE, SIZE / 2, mark.radius);
@@ -86,10 +93,10 @@ function layerSwitch(store: Store, layer: Layer, entry: HTMLElement): HTMLElemen
     return made;
 }
 
-const line = (colour: string, dash: number[], strokes = 0): Draw => (context) => {
+const line = (colour: string, dash: readonly number[], strokes = 0, width = dash.length > 0 ? 1.1 : 2): Draw => (context) => {
     context.strokeStyle = colour;
-    context.lineWidth = dash.length > 0 ? 1.1 : 2;
-    context.setLineDash(dash);
+    context.lineWidth = width;
+    context.setLineDash([...dash]);
     context.beginPath();
     context.moveTo(0, SIZE / 2);
     context.lineTo(24, SIZE / 2);

@@ -1,6 +1,6 @@
 // One mark for each kind of event, as in the printed figures, thinned where they overlap.
 
-import { BRANCH_POINT, FLIP, FOLD, GRAZING, NEIMARK_SACKER, STABLE, type Look, type Solutions } from "./data";
+import { BRANCH_POINT, FLIP, FOLD, GRAZING, MARGINAL, NEIMARK_SACKER, STABLE, type Look, type Solutions } from "./data";
 
 export interface Mark {
     /** The events that have it. */
@@ -62,7 +62,7 @@ export function markedSolutions(solutions: Solutions): Map<Mark, number[]> {
     const marked = new Map(MARKS.map((mark) => [mark, [] as number[]]));
     for (let k = 0; k < solutions.count; k++) {
         const flags = solutions.flags[k] ?? 0;
-        if ((flags & ~STABLE) !== 0) {
+        if ((flags & ~(STABLE | MARGINAL)) !== 0) {
             const ofUnstable = !besideStable(solutions, k);
             MARKS.filter((mark) => (flags & mark.bits) !== 0 && (mark.ofUnstable ?? ofUnstable) === ofUnstable).forEach((mark) => marked.get(mark)?.push(k));
         }

@@ -1,11 +1,17 @@
 // The numbers of a solution in words.
 
-import { STABLE, type Meta, type Solutions } from "./data";
+import { MARGINAL, STABLE, type Meta, type Solutions } from "./data";
 import { complex, digits, hertz, MEASURES, periodName } from "./format";
 import { eventNames } from "./marks";
 
 export function isStable(solutions: Solutions, solution: number): boolean {
     return ((solutions.flags[solution] ?? 0) & STABLE) !== 0;
+}
+
+/** What is known of the stability of a solution: marginal where a multiplier is on the unit circle as well as it is known. */
+export function stabilityOf(solutions: Solutions, solution: number): string {
+    const isMarginal = ((solutions.flags[solution] ?? 0) & MARGINAL) !== 0;
+    return isMarginal ? "marginal" : isStable(solutions, solution) ? "stable" : "unstable";
 }
 
 /** Names and values of everything that is known of a solution. */
@@ -20,7 +26,7 @@ export function numbersOf(meta: Meta, solutions: Solutions, solution: number): [
     return [
         ["Frequency", hertz(solutions.frequency[solution] ?? NaN)],
         ["Branch", `${branch?.id ?? "–"}, ${periodName(branch?.period ?? 1)}, solution ${solution - (branch?.first ?? 0) + 1} of ${branch?.count ?? 0}`],
-        ["Stability", isStable(solutions, solution) ? "stable" : "unstable"],
+        ["Stability", stabilityOf(solutions, solution)],
         ...(events === "" ? [] : [["Event", events] as [string, string]]),
         ["Max. displacement", value("displacement")],
         ["Max. acceleration", value("acceleration")],

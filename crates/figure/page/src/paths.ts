@@ -1,15 +1,44 @@
 // Lines of branches on a canvas: cut where stability changes, cut to what is seen, without points nearer than half a pixel.
 
-import { STABLE, type Solutions } from "./data";
+import { BRANCH_POINT, FLIP, FOLD, MARGINAL, NEIMARK_SACKER, STABLE, type Solutions } from "./data";
 import type { Scales } from "./curves";
 
 export interface Lines {
     stable: Path2D;
+    marginal: Path2D;
     unstable: Path2D;
     /** Short lines across both, which tell the period. */
     strokes: Path2D;
-    /** Places of branches of one solution, and whether they are stable. */
-    dots: [number, number, boolean][];
+    /** Places of branches of one solution, and what they look like. */
+    dots: [number, number, Look][];
+}
+
+/** How a line says whether its solutions are stable. */
+export type Look = "stable" | "marginal" | "unstable";
+
+const BIFURCATION = FOLD | FLIP | NEIMARK_SACKER | BRANCH_POINT;
+
+function lookOf(flags: number): Look {
+    return (flags & STABLE) === 0 ? "unstable" : (flags & MARGINAL) === 0 ? "stable" : "marginal";
+}
+
+/** Whether a solution is marginal and neither a bifurcation nor one between others that are not marginal. */
+function staysMarginal(flags: Solutions["flags"], k: number, first: number, end: number): boolean {
+    const isMarginal = (other: number): boolean => other >= first && other < end && ((flags[other] ?? 0) & MARGINAL) !== 0;
+    return isMarginal(k) && ((flags[k] ?? 0) & BIFURCATION) === 0 && (isMarginal(k - 1) || isMarginal(k + 1));
+}
+
+/** The look of the line from one solution to the next: unstable if one is, marginal where they stay so. */
+function lookBetween(flags: Solutions["flags"], k: number, first: number, end: number): Look {
+    if (((flags[k] ?? 0) & (flags[k + 1] ?? 0) & STABLE) === 0) {
+        return "unstable";
+    }
+    return staysMarginal(flags, k, first, end) || staysMarginal(flags, k + 1, first, end) ? "marginal" : "stable";
+}
+
+/** Whether a line of a stretch of solutions is marginal. */
+export function hasMarginal(solutions: Solutions): boolean {
+    return solutions.flags.some((flags, k) => (flags & MARGINAL) !== 0 && staysMarginal(solutions.flags, k, 0, solutions.count));
 }
 
 /** Strokes across a line: so many in a group, the distances of groups and of strokes in a group along it, and half their length. */
@@ -99,14 +128,19 @@ function clipped(x: number, y: number, dx: number, dy: number, box: [number, num
 
 /** Lines of a stretch of solutions; a level that is not finite is a gap. */
 export function linesOf(solutions: Solutions, levels: Float64Array, first: number, count: number, scales: Scales, strokes: Strokes): Lines {
-    const lines: Lines = { stable: new Path2D(), unstable: new Path2D(), strokes: new Path2D(), dots: [] };
+    const lines: Lines = { stable: new Path2D(), marginal: new Path2D(), unstable: new Path2D(), strokes: new Path2D(), dots: [] };
     const stroker = new Stroker(lines.strokes, strokes);
     const { left, top, width, height, perX, perY, lowX, lowY } = scales;
     const margin = 20;
     const box: [number, number, number, number] = [left - margin, top - margin, left + width + margin, top + height + margin];
-    const pens = [new Pen(lines.unstable, box, stroker), new Pen(lines.stable, box, stroker)] as const;
+    const pens = {
+        stable: new Pen(lines.stable, box, stroker),
+        marginal: new Pen(lines.marginal, box, stroker),
+        unstable: new Pen(lines.unstable, box, stroker),
+    };
     const { frequency, flags } = solutions;
-    let [lastX, lastY, lastStable, drawn] = [NaN, NaN, -1, 0];
+    let [lastX, lastY, drawn] = [NaN, NaN, 0];
+    let last: Look | null = null;
     const end = first + count;
     for (let k = first; k < end; k++) {
         const x = left + ((frequency[k] ?? NaN) - lowX) * perX;
@@ -116,22 +150,22 @@ export function linesOf(solutions: Solutions, levels: Float64Array, first: numbe
             continue;
         }
         if (Number.isNaN(lastX)) {
-            lastStable = -1;
+            last = null;
         } else {
-            const isStable = (flags[k] ?? 0) & (flags[k - 1] ?? 0) & STABLE;
-            const pen = pens[isStable === 1 ? 1 : 0];
-            const next = k + 1 < end ? (flags[k] ?? 0) & (flags[k + 1] ?? 0) & STABLE : -1;
-            if (isStable !== lastStable) {
+            const look = lookBetween(flags, k - 1, first, end);
+            const pen = pens[look];
+            const next = k + 1 < end ? lookBetween(flags, k, first, end) : null;
+            if (look !== last) {
                 pen.begin(lastX, lastY);
-                lastStable = isStable;
+                last = look;
             }
-            pen.to(x, y, next !== isStable);
+            pen.to(x, y, next !== look);
             drawn++;
         }
         [lastX, lastY] = [x, y];
     }
     if (drawn === 0 && !Number.isNaN(lastX)) {
-        lines.dots.push([lastX, lastY, ((flags[end - 1] ?? 0) & STABLE) === STABLE]);
+        lines.dots.push([lastX, lastY, lookOf(flags[end - 1] ?? 0)]);
     }
     return lines;
 }

@@ -20,6 +20,9 @@ export interface Scene {
     marked: Map<Mark, number[]>;
 }
 
+/** Dots of marginal lines and the gaps between (CSS pixels). */
+export const DOTS: readonly number[] = [2, 3];
+
 /** Draws everything; returns the number of branches of which something was drawn. */
 export function paintResponse(context: CanvasRenderingContext2D, frame: Frame, scene: Scene): number {
     const scales = scalesOf(frame.range(), frame.plot.bbox);
@@ -83,16 +86,19 @@ function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: S
         context.setLineDash([5 * density, 3 * density]);
         context.stroke(lines.unstable);
         context.lineWidth = 2 * density;
+        context.setLineDash(DOTS.map((length) => length * density));
+        context.stroke(lines.marginal);
         context.setLineDash([]);
         context.stroke(lines.stable);
         context.lineWidth = 1.1 * density;
         context.stroke(lines.strokes);
-        for (const [x, y, isStable] of lines.dots) {
+        for (const [x, y, look] of lines.dots) {
             context.beginPath();
             context.arc(x, y, 3 * density, 0, 2 * Math.PI);
-            if (isStable) {
+            if (look === "stable") {
                 context.fill();
             } else {
+                context.lineWidth = (look === "marginal" ? 2 : 1.1) * density;
                 context.stroke();
             }
         }

@@ -35,6 +35,7 @@ fn flags(solution: &PageSolution) -> u16 {
         solution.neimark_sacker,
         solution.branch_point,
         solution.grazing,
+        solution.marginal,
     ];
     bits.iter().enumerate().map(|(bit, set)| u16::from(*set) << bit).sum()
 }
@@ -52,6 +53,7 @@ mod tests {
             contacts: 70_000,
             stable: true,
             grazing: true,
+            marginal: true,
             ..PageSolution::default()
         };
         let branch = PageBranch { solutions: vec![solution; 2], ..PageBranch::default() };
@@ -64,6 +66,6 @@ mod tests {
         };
         assert_eq!([single(0), single(4), single(5)], [1e-3, f32::INFINITY, -2.0]);
         assert_eq!(bytes[64..66], u16::MAX.to_le_bytes());
-        assert_eq!(bytes[68..70], 0b10_0001_u16.to_le_bytes());
+        assert_eq!(bytes[68..70], 0b110_0001_u16.to_le_bytes());
     }
 }

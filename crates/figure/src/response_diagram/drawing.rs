@@ -10,6 +10,7 @@ use crate::{
     marks::Mark,
     plot::{Area, Plot, lettering, room_below, room_left, room_right},
     scale::{Scale, ScaleKind, extent},
+    stretch::LineLook,
     style::{INK, PeriodLook, SHADE, Style, period_look},
     svg::{Anchor, Point, SvgWriter, points},
     text::{Text, wrap},
@@ -137,9 +138,12 @@ impl<'a> Page<'a> {
         let curves = self.diagram.curves.len();
         let solutions: usize = self.diagram.curves.iter().map(|curve| curve.points.len()).sum();
         let (branches, names) = (if curves == 1 { "branch" } else { "branches" }, names.join(" and "));
+        let has_marginal = self.panels.iter().any(|panel| panel.has(LineLook::Marginal));
         let mut description = format!(
-            "{names} over {}, {curves} {branches} with {solutions} solutions; stable solid, unstable dashed",
-            if self.diagram.parameter.is_empty() { "excitation frequency" } else { &self.diagram.parameter }
+            "{names} over {}, {curves} {branches} with {solutions} solutions; \
+             stable solid, {}unstable dashed",
+            if self.diagram.parameter.is_empty() { "excitation frequency" } else { &self.diagram.parameter },
+            if has_marginal { "marginal dotted, " } else { "" }
         );
         if !self.diagram.chaotic_ranges_hz.is_empty() {
             let words = |(from, to): &(f64, f64)| format!("{from:.3} to {to:.3} Hz");
@@ -192,10 +196,10 @@ fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
         sample: Sample::Period(period_look(multiple)),
         name: period_name(multiple),
     });
-    let lines = [(true, "stable"), (false, "unstable")]
+    let lines = LineLook::ALL
         .into_iter()
-        .filter(|(stable, _)| panels.iter().any(|panel| panel.has(*stable)))
-        .map(|(stable, name)| Entry { sample: Sample::Line { look, stable }, name: name.to_owned() });
+        .filter(|line| panels.iter().any(|panel| panel.has(*line)))
+        .map(|line| Entry { sample: Sample::Line { look, line }, name: line.name().to_owned() });
     let marks = Mark::ALL
         .into_iter()
         .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))

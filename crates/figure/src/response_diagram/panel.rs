@@ -8,7 +8,7 @@ use crate::{
     marks::Mark,
     plot::Plot,
     scale::{Scale, ScaleKind, extent},
-    stretch::{Sample, Stretch, Vertex, stretches},
+    stretch::{LineLook, Sample, Stretch, Vertex, stretches},
     style::{Style, period_look},
     svg::{Point, SvgWriter},
     text::Text,
@@ -71,9 +71,9 @@ impl Panel {
         }
     }
 
-    /// Whether a stable (or unstable) solution is drawn.
-    pub(super) fn has(&self, stable: bool) -> bool {
-        self.lines.iter().flat_map(|line| &line.stretches).any(|stretch| stretch.stable == stable)
+    /// Whether a line of this look is drawn.
+    pub(super) fn has(&self, look: LineLook) -> bool {
+        self.lines.iter().flat_map(|line| &line.stretches).any(|stretch| stretch.look == look)
     }
 
     /// Whether an event of a kind is drawn.
@@ -90,15 +90,17 @@ impl Panel {
         multiples
     }
 
-    /// Draws marks and lines: unstable lines under stable ones, grazing marks under both, the other marks on
+    /// Draws marks and lines: unstable lines under marginal and stable ones, grazing marks under both, the
+    /// other marks on
     /// top.
     pub(super) fn draw(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
         let marks = self.marks(plot, style);
         for (mark, places) in marks.iter().filter(|(mark, _)| mark.is_behind()) {
             mark.draw(svg, places, style.mark_radius);
         }
-        self.draw_lines(svg, plot, style, false);
-        self.draw_lines(svg, plot, style, true);
+        for look in LineLook::ALL.into_iter().rev() {
+            self.draw_lines(svg, plot, style, look);
+        }
         for (mark, places) in marks.iter().filter(|(mark, _)| !mark.is_behind()) {
             mark.draw(svg, places, style.mark_radius);
         }
@@ -113,13 +115,13 @@ impl Panel {
         &self.measured
     }
 
-    fn draw_lines(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style, stable: bool) {
+    fn draw_lines(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style, of: LineLook) {
         for line in &self.lines {
             let look = period_look(line.period_multiple);
-            let stretches = line.stretches.iter().filter(|stretch| stretch.stable == stable);
+            let stretches = line.stretches.iter().filter(|stretch| stretch.look == of);
             let stretches: Vec<_> =
                 stretches.map(|stretch| on_page(&stretch.vertices, plot, style)).collect();
-            draw_stretches(svg, &stretches, stable, look, style);
+            draw_stretches(svg, &stretches, of, look, style);
         }
     }
 
@@ -171,7 +173,7 @@ fn sample(point: &ResponsePoint, quantity: Quantity, kind: ScaleKind) -> Sample 
     Sample {
         x: point.frequency_hz,
         y: if kind.shows(value) && ScaleKind::Linear.shows(point.frequency_hz) { value } else { f64::NAN },
-        stable: point.stable,
+        look: LineLook::of(point.stable, point.marginal),
         bifurcation: point.fold || point.flip || point.neimark_sacker || point.branch_point,
     }
 }

@@ -32,7 +32,7 @@ fn without_fonts(svg: &str) -> String {
 #[test]
 fn of_a_pair_both_are_drawn() {
     let multipliers = vec![[0.9, 0.0], [-0.8, 0.0], [0.7, 0.0], [0.1, 0.5], [0.1, -0.5], [0.2, 0.0]];
-    let solution = Multipliers { frequency_hz: 40.0, stable: true, multipliers };
+    let solution = Multipliers { frequency_hz: 40.0, stable: true, marginal: false, multipliers };
     let diagram = MultiplierDiagram { title: String::new(), solutions: vec![solution] };
     let svg = diagram.draw_circle(&Style::single_column()).unwrap().svg();
     assert_eq!(svg.matches("a0.6 0.6 0 1 0").count(), 10, "two arcs for each of five dots");

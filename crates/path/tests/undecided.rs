@@ -1,0 +1,114 @@
+//! Test functions of which a part stays at zero: its sign is rounding, and makes no event.
+//!
+//! The path is the unit circle `x^2 + l^2 = 1` from its top, once around, and the test function is `min
+//! |g_i|` with the
+//! sign of `(-1)^k`, k the number of negative `g_i`. A `g_i` below [`KNOWN`] is undecided.
+
+use hammerbeam_path::{
+    Branch, DenseProblem, Direction, ParameterRange, PathProblem, Settings, StopReason, TestValue, follow,
+};
+
+/// What a part of the function is known to.
+const KNOWN: f64 = 1e-11;
+
+type Part = fn(x: f64, l: f64) -> f64;
+
+/// The circle with one test function that is made of several parts.
+struct Circle<P> {
+    inner: P,
+    parts: Vec<Part>,
+    at: [f64; 2],
+}
+
+impl<P: PathProblem> PathProblem for Circle<P> {
+    left_to!(inner but evaluate);
+
+    fn evaluate(&mut self, point: &[f64]) -> Result<(), hammerbeam_path::EvaluationError> {
+        self.at = [point[0], point[1]];
+        self.inner.evaluate(point)
+    }
+
+    fn tests(&mut self, values: &mut Vec<TestValue>) {
+        self.tests_without(&[0], values);
+    }
+
+    fn tests_without(&mut self, left_out: &[u32], values: &mut Vec<TestValue>) {
+        let mut parts: Vec<f64> = self.parts.iter().map(|part| part(self.at[0], self.at[1])).collect();
+        parts.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let undecided = parts.iter().filter(|part| part.abs() < KNOWN).count() as u32;
+        let kept = &parts[left_out[0] as usize..];
+        let count = kept.iter().filter(|part| **part < 0.0).count() as u32;
+        let least = kept.first().map_or(1.0, |part| part.abs());
+        let value = if count % 2 == 0 { least } else { -least };
+        *values = vec![TestValue { undecided, left_out: left_out[0], ..TestValue::new(value, count) }];
+    }
+}
+
+/// Zeros of the function as `[x, l]`, once around the circle.
+fn zeros(parts: &[Part], step: f64) -> Vec<[f64; 2]> {
+    let equation = |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
+        residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
+        jacobian.copy_from_slice(&[2.0 * z[0], 2.0 * z[1]]);
+        0
+    };
+    let mut circle = Circle { inner: DenseProblem::new(1, equation), parts: parts.to_vec(), at: [0.0, 0.0] };
+    let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
+    let range = ParameterRange::new(-2.0, 2.0).unwrap();
+    let branch: Branch = follow(&mut circle, &[1.0, 0.0], Direction::Increasing, range, settings).unwrap();
+    assert_eq!(branch.stop, StopReason::Closed);
+    let at = branch.points.iter().filter(|point| point.events.zeros & 1 == 1);
+    at.map(|point| [point.point[0], point.point[1]]).collect()
+}
+
+/// Of either sign, changing at every step.
+const ROUNDING: Part = |x, l| 1e-14 * (1e5 * (x + 2.0 * l)).sin();
+/// Zero where the circle meets `x = 0.3`.
+const LINE: Part = |x, _| x - 0.3;
+
+fn assert_at_the_line(found: &[[f64; 2]], what: &str) {
+    assert_eq!(found.len(), 2, "{what}: {found:?}");
+    assert!(found.iter().all(|[x, _]| (x - 0.3).abs() < 1e-9), "{what}: {found:?}");
+}
+
+#[test]
+fn what_stays_at_zero_makes_no_event() {
+    for step in [0.3, 0.1, 0.01] {
+        assert!(zeros(&[ROUNDING], step).is_empty(), "step {step}");
+        assert!(zeros(&[ROUNDING, |x, l| -1e-14 * (3e4 * (x - l)).cos()], step).is_empty(), "step {step}");
+    }
+}
+
+#[test]
+fn the_zero_of_one_part_is_found_beside_parts_that_stay_at_zero() {
+    for step in [0.3, 0.1, 0.01] {
+        assert_at_the_line(&zeros(&[LINE], step), "alone");
+        assert_at_the_line(&zeros(&[LINE, ROUNDING], step), "beside one");
+        let more: Part = |x, l| -1e-14 * (3e4 * (x - l)).cos();
+        assert_at_the_line(&zeros(&[LINE, ROUNDING, more], step), "beside two");
+    }
+}
+
+/// Zero for `x < 0`, and the same on both sides of that or of the other sign: nothing happens within a
+/// stretch at zero.
+#[test]
+fn what_is_at_zero_over_a_stretch_makes_no_event_where_it_comes_or_leaves() {
+    let same: Part = |x, _| if x > 0.0 { x * x } else { 1e-15 };
+    let other: Part = |x, l| if x > 0.0 { x * x * (l + 1e-3).signum() } else { -1e-15 };
+    for step in [0.3, 0.1, 0.01] {
+        assert!(zeros(&[same], step).is_empty(), "step {step}");
+        // At l = 0, where it starts, its own sign jumps, without a zero.
+        assert!(zeros(&[other], step).is_empty(), "step {step}");
+        assert_at_the_line(&zeros(&[same, LINE], step), "beside a stretch");
+    }
+}
+
+/// A zero that is crossed is undecided at the zero alone.
+#[test]
+fn a_zero_that_is_crossed_is_an_event_however_flat_it_is() {
+    let flat: Part = |x, _| (x - 0.3).powi(3);
+    for step in [0.3, 0.1, 0.01] {
+        let found = zeros(&[flat], step);
+        assert_eq!(found.len(), 2, "step {step}: {found:?}");
+        assert!(found.iter().all(|[x, _]| (x - 0.3).abs() < 1e-3), "{found:?}");
+    }
+}
