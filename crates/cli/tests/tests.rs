@@ -14,6 +14,7 @@ mod figure_refused;
 mod impact_oscillator;
 mod interrupts;
 mod json;
+mod marginal;
 mod memory;
 mod motions;
 mod overlay;

@@ -61,6 +61,9 @@ pub use document::{Problem, Report};
 pub use export::{export_csv, export_states};
 pub use file::{Study, StudyError, StudyFile};
 pub use identity::DATA_VERSION;
-pub use model::{Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedMode};
+pub use model::{
+    Drift, Model, PointStart, PointStartError, PointStartKind, StudyParameter, UndampedInContact,
+    UndampedMode,
+};
 pub use orbit_solver::OrbitSolver;
 pub use store::{Store, StoreError};

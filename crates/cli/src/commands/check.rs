@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use hammerbeam_study::{
-    Drift, Model, Study, StudyFile, UndampedMode,
+    Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
     file::{
         Amplitude, Approach, Beam, Damping, ExcitationKind, FixedTo, Load, Lumped, ModalRatio, Place,
         Reduction, ReductionMethod, Side, Stop, StopLaw, Structure,
@@ -35,6 +35,8 @@ fn document(study: &Study, model: &Model) -> Value {
         "eigenfrequencies_hz": eigenfrequencies_hz(model),
         "frequency_hz": study.excitation.frequency_hz,
         "undamped_modes": model.undamped_modes().iter().map(undamped_document).collect::<Vec<_>>(),
+        "undamped_in_contact":
+            model.undamped_in_contact().iter().map(in_contact_document).collect::<Vec<_>>(),
         "drifts": model.drifts().iter().map(drift_document).collect::<Vec<_>>(),
         "stops": study.stops.iter().map(|stop| stop.name.as_str()).collect::<Vec<_>>(),
         "response_point": study.response.point,
@@ -57,6 +59,26 @@ pub const UNDAMPED_ADVICE: &str =
 /// A mode without damping.
 pub fn undamped_document(mode: &UndampedMode) -> Value {
     json!({ "mode": mode.number, "frequency_hz": mode.frequency_hz, "damping_ratio": mode.ratio })
+}
+
+/// A mode without damping while stops are closed.
+pub fn in_contact_document(mode: &UndampedInContact) -> Value {
+    let motion: serde_json::Map<String, Value> =
+        mode.motion.iter().map(|(name, size)| (name.clone(), (*size).into())).collect();
+    json!({ "stops": mode.stops, "frequency_hz": mode.frequency_hz, "motion": motion })
+}
+
+/// The modes without damping while stops are closed, and what that means.
+fn in_contact_text(modes: &[UndampedInContact]) -> Option<String> {
+    let first = modes.first()?;
+    let others = match modes.len() - 1 {
+        0 => String::new(),
+        others => format!(" (and {others} more of this kind)"),
+    };
+    Some(format!(
+        "undamped     {first}{others}: steady states with closed contacts may be marginal, and simulation takes long \
+         to settle; {UNDAMPED_ADVICE}"
+    ))
 }
 
 /// The modes without damping, and what that means.
@@ -92,6 +114,7 @@ fn text(study: &Study, model: &Model) -> String {
     lines.push(format!("modes        {}{more} Hz", frequencies.join(", ")));
     lines.push(format!("damping      {}", damping_text(study)));
     lines.extend(undamped_text(&model.undamped_modes(), model.system.dof()));
+    lines.extend(in_contact_text(&model.undamped_in_contact()));
     lines.push(format!("excitation   {}", excitation_text(study)));
     lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
     lines.extend(study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop))));

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
-    Model, OrbitSolver, Store, Study, StudyFile, UndampedMode,
+    Model, OrbitSolver, Store, Study, StudyFile, UndampedInContact, UndampedMode,
     run::{Plan, RunOutcome},
     store::{JobRecord, PieceRecord, StoredReason, WalkRecord},
     summary::{BranchSummary, Peak, summarise},
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use crate::{
     args::RunOptions,
-    commands::check::{UNDAMPED_ADVICE, undamped_document},
+    commands::check::{UNDAMPED_ADVICE, in_contact_document, undamped_document},
     drift,
     failure::Failure,
     figures::{self, Drawn, Wishes},
@@ -56,6 +56,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         pieces,
         jobs,
         undamped: model.undamped_modes(),
+        undamped_in_contact: model.undamped_in_contact(),
     };
     let result = match outcome {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
@@ -91,6 +92,7 @@ struct Summary<'a> {
     pieces: Vec<PieceRecord>,
     jobs: Vec<JobRecord>,
     undamped: Vec<UndampedMode>,
+    undamped_in_contact: Vec<UndampedInContact>,
 }
 
 impl Summary<'_> {
@@ -164,7 +166,9 @@ impl Summary<'_> {
     /// Why solutions are marginal all along branches: a bifurcation makes one or two.
     fn marginal_text(&self) -> Option<String> {
         let marginal: u64 = self.branches.iter().map(|branch| branch.marginal).sum();
-        let mut modes = self.undamped.iter();
+        let open = self.undamped.iter().map(ToString::to_string);
+        let in_contact = self.undamped_in_contact.iter().map(ToString::to_string);
+        let mut modes = open.chain(in_contact);
         let first = modes.next().filter(|_| marginal > 0)?;
         let others = match modes.count() {
             0 => String::new(),
@@ -181,6 +185,7 @@ impl Summary<'_> {
         let failed = self
             .failed()
             .map(|(job, message)| json!({ "frequency_hz": job.frequency_hz, "message": message }));
+        let in_contact = self.undamped_in_contact.iter().map(in_contact_document);
         json!({
             "unfinished": self.left(),
             "failed": failed.collect::<Vec<_>>(),
@@ -189,6 +194,7 @@ impl Summary<'_> {
             "solutions": self.solutions(),
             "branches": self.branches.iter().map(branch_document).collect::<Vec<_>>(),
             "varied": self.pieces.iter().map(piece_document).collect::<Vec<_>>(),
+            "undamped_in_contact": in_contact.collect::<Vec<_>>(),
             "undamped_modes": self.undamped.iter().map(undamped_document).collect::<Vec<_>>(),
             "figures": figures,
         })

@@ -10,6 +10,7 @@ mod load;
 mod parameter;
 mod structure;
 mod undamped;
+mod undamped_in_contact;
 
 use std::sync::Arc;
 
@@ -21,6 +22,7 @@ pub use drift::Drift;
 pub use initial::{PointStart, PointStartError, PointStartKind};
 pub use parameter::StudyParameter;
 pub use undamped::UndampedMode;
+pub use undamped_in_contact::UndampedInContact;
 
 use family::{Reference, StudyFamily};
 

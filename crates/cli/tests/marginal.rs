@@ -1,0 +1,119 @@
+//! Marginal solutions in whole runs: the words in tables, JSON and figures, the modes that make them, and
+//! `verify`.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use std::fs;
+
+use crate::common::{Workshop, assert_success, stdout};
+
+/// Two undamped masses in a range with a stop that is touched, between its resonances.
+const CHAIN: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "a", mass_kg = 1.0 }, { name = "b", mass_kg = 1.0 }]
+spring = [
+    { between = ["a", "ground"], stiffness_n_m = 1.0 },
+    { between = ["a", "b"], stiffness_n_m = 0.7 },
+]
+[excitation]
+kind = "force"
+at = "a"
+amplitude_n = 0.1
+frequency_hz = [0.05, 0.08]
+[[stop]]
+name = "s"
+at = "b"
+law = "linear"
+stiffness_n_m = 5.0
+gap_m = 0.25
+side = "above"
+[search]
+frequencies = 0
+[continuation]
+max_step_hz = 0.0005
+"#;
+
+/// A gear pair whose teeth have a damper, on a weak spring that has none.
+const GEARS: &str = r#"
+[structure]
+kind = "lumped"
+mass = [{ name = "pinion", mass_kg = 1.0 }, { name = "wheel", mass_kg = 2.0 }]
+spring = [{ between = ["pinion", "ground"], stiffness_n_m = 1.0 }]
+damper = [{ between = ["pinion", "wheel"], damping_n_s_m = 200.0 }]
+[excitation]
+kind = "force"
+at = "pinion"
+amplitude_n = 20.0
+frequency_hz = [100.0, 120.0]
+[[stop]]
+name = "teeth"
+between = ["pinion", "wheel"]
+law = "two-sided"
+stiffness_n_m = 4e5
+gap_m = 1e-4
+"#;
+
+#[test]
+fn marginal_solutions_have_their_word_in_every_table_and_verify_agrees() {
+    let workshop = Workshop::exported(CHAIN);
+    let rows = workshop.table("results/export/branches.csv");
+    let marginal = rows.iter().filter(|row| row["stable"] == "marginal").count();
+    assert!(marginal > 30, "{marginal} of {}", rows.len());
+    assert!(rows.iter().all(|row| ["marginal", "false"].contains(&row["stable"].as_str())));
+    assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
+    let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
+    let document: serde_json::Value = serde_json::from_str(&stdout(&run)).unwrap();
+    let branches = document["branches"].as_array().unwrap();
+    let counted: u64 = branches.iter().map(|branch| branch["marginal_solutions"].as_u64().unwrap()).sum();
+    assert_eq!(counted, marginal as u64);
+    assert_eq!(document["undamped_modes"].as_array().unwrap().len(), 2);
+    let figure = fs::read_to_string(workshop.path("results/response_displacement.svg")).unwrap();
+    assert!(figure.contains("marginal dotted"), "the description names them");
+}
+
+#[test]
+fn figures_without_marginal_solutions_do_not_speak_of_them() {
+    let damped = CHAIN.replacen("[excitation]", "[damping]\nmodal_ratio = 0.05\n[excitation]", 1);
+    let workshop = Workshop::exported(&damped);
+    let figure = fs::read_to_string(workshop.path("results/response_displacement.svg")).unwrap();
+    assert!(!figure.contains("marginal"), "no legend entry, and nothing in the description");
+}
+
+/// Both gears together, 3 kg on 1 N/m: `sqrt(1/3)/(2 pi)` Hz.
+#[test]
+fn a_mode_that_is_undamped_while_teeth_are_closed_is_named_with_its_frequency() {
+    let check = |study: &str| {
+        let workshop = Workshop::with(study);
+        let text = workshop.hammerbeam(&["check", "study.toml"]);
+        assert_success(&text);
+        let document = workshop.hammerbeam(&["check", "study.toml", "--json"]);
+        let document: serde_json::Value = serde_json::from_str(&stdout(&document)).unwrap();
+        (stdout(&text), document["undamped_in_contact"].clone())
+    };
+    let (text, found) = check(GEARS);
+    let hz = (1.0_f64 / 3.0).sqrt() / std::f64::consts::TAU;
+    assert_eq!(found.as_array().unwrap().len(), 1, "{found}");
+    assert!((found[0]["frequency_hz"].as_f64().unwrap() / hz - 1.0).abs() < 1e-9, "{found}");
+    assert_eq!(found[0]["stops"], serde_json::json!(["teeth"]));
+    assert!((found[0]["motion"]["wheel"].as_f64().unwrap() - 1.0).abs() < 1e-9, "{found}");
+    assert!(text.contains("with \"teeth\" closed") && text.contains("modal_ratio"), "{text}");
+    let damped = GEARS.replacen(
+        "damper = [",
+        "damper = [{ between = [\"pinion\", \"ground\"], damping_n_s_m = 0.1 }, ",
+        1,
+    );
+    let (text, found) = check(&damped);
+    assert!(found.as_array().unwrap().is_empty() && !text.contains("undamped"), "{text}");
+}
+
+/// A stop that holds all that moves leaves no mode to be named.
+#[test]
+fn one_mass_with_a_stop_has_no_mode_in_contact() {
+    let workshop = Workshop::driven_mass(
+        "frequency_hz = [0.1, 0.2]\n[[stop]]\nat = \"m\"\nside = \"above\"\n\
+         law = \"linear\"\nstiffness_n_m = 1.0\n",
+    );
+    let check = workshop.hammerbeam(&["check", "study.toml"]);
+    assert_success(&check);
+    assert!(!stdout(&check).contains("undamped"), "{}", stdout(&check));
+}

@@ -1,0 +1,171 @@
+//! Modes without damping that show only while stops are closed.
+//!
+//! While an element with the shape s presses, its stiff contact holds `s . q` next to constant. In the limit
+//! of a rigid
+//! contact the structure moves in the null space of the shapes, `q = N y` with orthonormal columns of N, and
+//! its modes there
+//! are those of `N^T K N`, with the damping `N^T C N`. A damper between the teeth of a gear pair damps every
+//! mode of the open
+//! pair, but not the motion of both gears together, on the weak spring that holds them: as long as the teeth
+//! are closed it has
+//! a damping ratio like the square of the ratio of the stiffnesses, and multipliers that are not told from
+//! the unit circle.
+//!
+//! Each element is closed alone, and all together. What is undamped with all elements open is told by
+//! `undamped.rs`.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, Side};
+
+use super::{
+    Model,
+    undamped::{Digits, NOTHING},
+};
+
+/// A mode has the frequency of another one within this part of it.
+const SAME: f64 = 1e-6;
+/// Entries below this part of the largest are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A mode that nothing damps while stops are closed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UndampedInContact {
+    /// The stops, by their names.
+    pub stops: Vec<String>,
+    /// Eigenfrequency with rigid contacts [Hz].
+    pub frequency_hz: f64,
+    /// Displacement of the points that it moves, by their names; the largest is 1.
+    pub motion: Vec<(String, f64)>,
+}
+
+impl std::fmt::Display for UndampedInContact {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let names: Vec<String> = self.stops.iter().map(|name| format!("\"{name}\"")).collect();
+        let shown = self.motion.iter().take(4).map(|(name, size)| format!("{name} {size:.3}"));
+        let more = if self.motion.len() > 4 { ", ..." } else { "" };
+        write!(
+            f,
+            "with {} closed, the motion ({}{more}) at {} Hz has next to no damping",
+            names.join(", "),
+            shown.collect::<Vec<_>>().join(", "),
+            Digits(self.frequency_hz)
+        )
+    }
+}
+
+impl Model {
+    /// The modes that vibrate and that nothing damps while each stop alone, or all of them, are closed.
+    #[must_use]
+    pub fn undamped_in_contact(&self) -> Vec<UndampedInContact> {
+        let opening: Vec<usize> = self
+            .system
+            .elements()
+            .iter()
+            .enumerate()
+            .filter(|(_, element)| !element.law.contacts().is_empty())
+            .map(|(index, _)| index)
+            .collect();
+        let mut closed: Vec<Vec<usize>> = opening.iter().map(|&index| vec![index]).collect();
+        if opening.len() > 1 {
+            closed.push(opening);
+        }
+        let mut known: Vec<f64> = self.undamped_modes().iter().map(|mode| mode.frequency_hz).collect();
+        let mut found = Vec::new();
+        for elements in closed {
+            for mode in self.undamped_while_closed(&elements) {
+                if known.iter().all(|hz| (hz / mode.frequency_hz - 1.0).abs() > SAME) {
+                    known.push(mode.frequency_hz);
+                    found.push(mode);
+                }
+            }
+        }
+        found
+    }
+
+    fn undamped_while_closed(&self, elements: &[usize]) -> Vec<UndampedInContact> {
+        let model = self.system.model();
+        let n = self.system.dof();
+        let shapes = elements.iter().map(|&index| self.system.elements()[index].shape.as_slice());
+        let free = null_space(n, shapes);
+        if free.is_empty() {
+            return Vec::new();
+        }
+        let projected = |entry: &dyn Fn(usize, usize) -> f64| {
+            let of = |a: &[f64], b: &[f64]| -> f64 {
+                (0..n).map(|i| a[i] * (0..n).map(|j| entry(i, j) * b[j]).sum::<f64>()).sum()
+            };
+            Mat::from_fn(free.len(), free.len(), |i, j| of(&free[i], &free[j]))
+        };
+        let rates = &model.natural_frequencies;
+        let stiffness = projected(&|i, j| if i == j { rates[i] * rates[i] } else { 0.0 });
+        let damping = projected(&|i, j| model.damping[(i, j)]);
+        let Ok(modes) = stiffness.self_adjoint_eigen(Side::Lower) else { return Vec::new() };
+        let highest = rates.iter().copied().fold(0.0, f64::max);
+        let mut found = Vec::new();
+        for k in 0..free.len() {
+            let rate = modes.S()[k].max(0.0).sqrt();
+            let shape: Vec<f64> = (0..free.len()).map(|i| modes.U()[(i, k)]).collect();
+            let loss: f64 = (0..shape.len())
+                .map(|i| shape[i] * (0..shape.len()).map(|j| damping[(i, j)] * shape[j]).sum::<f64>())
+                .sum();
+            if rate <= ROUNDING * highest || loss >= 2.0 * NOTHING * rate {
+                continue;
+            }
+            let modal: Vec<f64> =
+                (0..n).map(|i| free.iter().zip(&shape).map(|(row, y)| row[i] * y).sum()).collect();
+            found.push(UndampedInContact {
+                stops: elements.iter().map(|&index| self.system.elements()[index].name.clone()).collect(),
+                frequency_hz: rate / TAU,
+                motion: self.points_in(&modal),
+            });
+        }
+        found
+    }
+
+    /// How the named points move in a combination of the modes.
+    fn points_in(&self, modal: &[f64]) -> Vec<(String, f64)> {
+        let points = self.system.model().points.iter();
+        let of = |shape: &[f64]| shape.iter().zip(modal).map(|(a, b)| a * b).sum::<f64>();
+        let moved: Vec<(String, f64)> = points.map(|point| (point.name.clone(), of(&point.shape))).collect();
+        let largest =
+            moved.iter().map(|(_, size)| *size).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        let scaled = moved.into_iter().map(|(name, size)| (name, size / largest));
+        scaled.filter(|(_, size)| size.abs() > ROUNDING).collect()
+    }
+}
+
+/// An orthonormal basis of what is orthogonal to these rows.
+fn null_space<'a>(dimension: usize, rows: impl Iterator<Item = &'a [f64]>) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let reduced = |vector: &mut Vec<f64>, basis: &[Vec<f64>]| {
+        let before = norm(vector);
+        // Twice is enough for rounding.
+        for direction in basis.iter().chain(basis) {
+            let share: f64 = vector.iter().zip(direction).map(|(a, b)| a * b).sum();
+            vector.iter_mut().zip(direction).for_each(|(a, b)| *a -= share * b);
+        }
+        let left = norm(vector);
+        vector.iter_mut().for_each(|entry| *entry /= left);
+        left > ROUNDING * before
+    };
+    for row in rows {
+        let mut row = row.to_vec();
+        if reduced(&mut row, &basis) {
+            basis.push(row);
+        }
+    }
+    let rank = basis.len();
+    for i in 0..dimension {
+        let mut unit = vec![0.0; dimension];
+        unit[i] = 1.0;
+        if basis.len() < dimension && reduced(&mut unit, &basis) {
+            basis.push(unit);
+        }
+    }
+    basis.split_off(rank)
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+}
