@@ -68,7 +68,7 @@ pub fn multipliers() -> MultiplierDiagram {
     let solution = |frequency_hz: f64| {
         let (re, im) = (0.02 * frequency_hz, 0.3);
         let multipliers = vec![[re, im], [re, -im]];
-        Multipliers { frequency_hz, stable: re.hypot(im) < 1.0, multipliers }
+        Multipliers { frequency_hz, stable: re.hypot(im) < 1.0, marginal: false, multipliers }
     };
     let solutions = (20..70).map(f64::from).map(solution).collect();
     MultiplierDiagram { title: String::new(), solutions }
