@@ -1,4 +1,5 @@
-//! Checks a results folder against simulation: `completeness STUDY RESULTS [FREQUENCIES] [STATES] [LONGEST PERIOD] [SEED]`.
+//! Checks a results folder against simulation: `completeness STUDY RESULTS [FREQUENCIES] [STATES] [LONGEST
+//! PERIOD] [SEED]`.
 #![allow(clippy::print_stdout, reason = "a command")]
 
 use std::{env, fs, path::Path};

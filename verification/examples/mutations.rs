@@ -1,7 +1,7 @@
 //! Mutates inputs of every reader for so many seconds, and counts: `mutations [SECONDS] [SEED]`.
 //!
-//! An input that makes a reader fail is written to `mutation-READER-NUMBER`, and the program ends with exit code 1.
-//! Ended by the system (memory, a signal), the last input is in the folder named at the beginning.
+//! An input that makes a reader fail is written to `mutation-READER-NUMBER`, and the program ends with exit
+//! code 1. Ended by the system (memory, a signal), the last input is in the folder named at the beginning.
 #![allow(clippy::print_stdout, reason = "the counts are what it is for")]
 
 use std::{

@@ -1,5 +1,6 @@
-//! Random systems in two systems of units: `random_systems FIRST COUNT [SOLUTIONS]`. One line for each system, and one for each difference between its answers
-//! in the one and in the other units, or with the independent integrator.
+//! Random systems in two systems of units: `random_systems FIRST COUNT [SOLUTIONS]`. One line for each
+//! system, and one for each difference between its answers in the one and in the other units, or with the
+//! independent integrator.
 #![allow(clippy::print_stdout, reason = "a command")]
 
 use std::{env, time::Instant};

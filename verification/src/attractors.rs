@@ -1,7 +1,7 @@
 //! Periodic attractors by plain simulation from random states.
 //!
-//! A motion has settled when its state repeats after N excitation periods, N up to the longest period that is looked for; one that does not
-//! within the given number of periods is aperiodic, longer, or slow.
+//! A motion has settled when its state repeats after N excitation periods, N up to the longest period that is
+//! looked for; one that does not within the given number of periods is aperiodic, longer, or slow.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -75,7 +75,8 @@ pub fn distance(system: &System, a: &[f64], b: &[f64]) -> f64 {
 
 /// Attractors that random states settle to at a frequency, and the number of motions that did not settle.
 ///
-/// * `size`: energy norm of the largest motions to be expected [kg^1/2 m/s]; states reach to one and a half times of it.
+/// * `size`: energy norm of the largest motions to be expected [kg^1/2 m/s]; states reach to one and a half
+///   times of it.
 ///
 /// # Errors
 /// [`MotionError`] if a motion cannot be computed.

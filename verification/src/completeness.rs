@@ -1,7 +1,8 @@
 //! Whether computed branches hold every periodic attractor that simulation finds.
 //!
-//! At random frequencies random states are simulated until they repeat. Each attractor must be one of the orbits in which the branches of its period
-//! cross that frequency. What is not found is what a run misses, or where simulation and shooting disagree.
+//! At random frequencies random states are simulated until they repeat. Each attractor must be one of the
+//! orbits in which the branches of its period cross that frequency. What is not found is what a run misses,
+//! or where simulation and shooting disagree.
 
 use hammerbeam_motion::{
     System,
@@ -127,7 +128,8 @@ fn energy_norm(results: &Results, orbit: &PeriodicSolution) -> f64 {
     orbit.nodes[0].iter().enumerate().map(|(i, z)| (z * unit(i)).powi(2)).sum::<f64>().sqrt()
 }
 
-/// A motion that creeps alternately towards an orbit seems to have a multiple of its period: shooting from there tells.
+/// A motion that creeps alternately towards an orbit seems to have a multiple of its period: shooting from
+/// there tells.
 fn shortest(results: &Results, attractor: Attractor) -> Attractor {
     let guess = |state: &[f64], period: usize| PeriodicSolution {
         frequency_hz: attractor.frequency_hz,

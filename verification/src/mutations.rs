@@ -1,9 +1,9 @@
 //! Damaged input: every reader of the program on files that someone, or something, has changed.
 //!
-//! A reader may refuse a file or take it; it may not panic, take more than [`PATIENCE`], or run out of memory. Files
-//! that are there anyway (studies, fixtures of the signal readers, a results database) are the corpus, besides
-//! those in `verification/corpus/`, which once made a reader fail or are odd by hand. The same seed makes the same
-//! mutations.
+//! A reader may refuse a file or take it; it may not panic, take more than [`PATIENCE`], or run out of
+//! memory. Files that are there anyway (studies, fixtures of the signal readers, a results database) are the
+//! corpus, besides those in `verification/corpus/`, which once made a reader fail or are odd by hand. The
+//! same seed makes the same mutations.
 
 use std::{
     fs,

@@ -1,7 +1,8 @@
-//! Random studies, the same ones from the same seed: one to three masses, springs, dampers, loads, one to three stops of any law.
+//! Random studies, the same ones from the same seed: one to three masses, springs, dampers, loads, one to
+//! three stops of any law.
 //!
-//! Numbers are of the order of one in units of a mass, a spring and a force, so that contacts matter; what a study means in other units is a matter of
-//! [`relations`](crate::relations).
+//! Numbers are of the order of one in units of a mass, a spring and a force, so that contacts matter; what a
+//! study means in other units is a matter of [`relations`](crate::relations).
 
 use std::fmt::Write as _;
 

@@ -67,7 +67,8 @@ impl Results {
         self.stored.branches()
     }
 
-    /// Orbits in which the branches of a period multiple cross a frequency, each with the number of its branch.
+    /// Orbits in which the branches of a period multiple cross a frequency, each with the number of its
+    /// branch.
     ///
     /// # Errors
     /// The store refuses.

@@ -1,7 +1,9 @@
-//! The shaken beam of van de Vorst et al. between two equal stops, one on either side: symmetry, and the limit of one stop.
+//! The shaken beam of van de Vorst et al. between two equal stops, one on either side: symmetry, and the
+//! limit of one stop.
 //!
-//! With equal stops the equations are unchanged by half an excitation period and a change of sign, so there are symmetric orbits: their second half
-//! is the first turned over. Everything here follows from that; no number is printed anywhere.
+//! With equal stops the equations are unchanged by half an excitation period and a change of sign, so there
+//! are symmetric orbits: their second half is the first turned over. Everything here follows from that; no
+//! number is printed anywhere.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use crate::common::{Rig, paper_beam_with};
@@ -99,7 +101,8 @@ fn a_clearance_is_two_stops() {
     }
 }
 
-/// As the upper stop is moved away its contacts cease, and from there on the orbit is that of the lower stop alone.
+/// As the upper stop is moved away its contacts cease, and from there on the orbit is that of the lower stop
+/// alone.
 #[test]
 fn beam_with_a_far_stop_is_the_beam_with_one_stop() {
     let frequency_hz = 20.0;

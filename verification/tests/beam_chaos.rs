@@ -1,7 +1,9 @@
-//! van de Vorst, Fey, de Kraker, van Campen: between the stable branches, at 41 to 65 and 78 to 95 Hz, the paper finds chaos.
+//! van de Vorst, Fey, de Kraker, van Campen: between the stable branches, at 41 to 65 and 78 to 95 Hz, the
+//! paper finds chaos.
 //!
-//! What simulation makes of the beam there, against shooting, which knows nothing of it: chaos where no orbit is stable, quasi-periodic motion beyond the
-//! Neimark-Sacker points of the branches, and the periodic windows in between. docs/attractors.md has the table.
+//! What simulation makes of the beam there, against shooting, which knows nothing of it: chaos where no orbit
+//! is stable, quasi-periodic motion beyond the Neimark-Sacker points of the branches, and the periodic
+//! windows in between. docs/attractors.md has the table.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use crate::common::{Rig, extensive, paper_beam, walk};
@@ -29,7 +31,8 @@ fn from_rest(rig: &Rig, frequency_hz: f64) -> Classified {
 /// Where chaos is looked for, in both ranges of the paper.
 const CHAOTIC_HZ: [f64; 6] = [45.0, 49.0, 53.0, 83.5, 85.0, 93.0];
 
-/// Both indicators say chaos, the interval of the largest exponent is well above zero, and the sum over all exponents is the divergence.
+/// Both indicators say chaos, the interval of the largest exponent is well above zero, and the sum over all
+/// exponents is the divergence.
 #[test]
 fn both_indicators_find_chaos_where_the_paper_does() {
     let rig = paper_beam();
@@ -56,8 +59,9 @@ fn run_about(frequency_hz: f64) -> Results {
     Results::of_run(&study, tempfile::tempdir().unwrap().path(), 2).unwrap()
 }
 
-/// What a run finds there of one, two and three periods, by its search from many states, has a multiplier outside the unit circle: no orbit is left for a motion to settle to. One frequency of each
-/// range; `HAMMERBEAM_EXTENSIVE=1` looks at all six.
+/// What a run finds there of one, two and three periods, by its search from many states, has a multiplier
+/// outside the unit circle: no orbit is left for a motion to settle to. One frequency of each range;
+/// `HAMMERBEAM_EXTENSIVE=1` looks at all six.
 #[test]
 fn no_orbit_of_the_branches_is_stable_where_chaos_is_found() {
     let looked_at = if extensive() { &CHAOTIC_HZ[..] } else { &[45.0, 85.0] };
@@ -87,7 +91,8 @@ fn orbit_at(rig: &Rig, period_multiple: u32, start_hz: f64, frequency_hz: f64) -
     at.unwrap()
 }
 
-/// Beyond a Neimark-Sacker point the orbit has a pair of multipliers outside the unit circle, and the motion goes to a torus about it.
+/// Beyond a Neimark-Sacker point the orbit has a pair of multipliers outside the unit circle, and the motion
+/// goes to a torus about it.
 #[test]
 fn motion_beyond_neimark_sacker_points_is_quasi_periodic() {
     let rig = paper_beam();
@@ -106,7 +111,8 @@ fn motion_beyond_neimark_sacker_points_is_quasi_periodic() {
     }
 }
 
-/// Periodic windows between the chaos: simulation and shooting find the same orbit of two periods, to the eight digits to which the motion repeats.
+/// Periodic windows between the chaos: simulation and shooting find the same orbit of two periods, to the
+/// eight digits to which the motion repeats.
 #[test]
 fn periodic_windows_are_found_by_simulation_and_by_shooting() {
     let rig = paper_beam();

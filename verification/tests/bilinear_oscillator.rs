@@ -1,10 +1,11 @@
 //! The bilinear oscillator: a mass on a spring, and on a stiffer one beyond its rest position.
 //!
-//! Free, it spends `pi/w1` on one side and `pi/w2` on the other, so its frequency is `w0 = 2 w1 w2/(w1 + w2)` at every amplitude
-//! (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155, section 2; Thompson and Stewart, *Nonlinear Dynamics and Chaos* (1986), chapter 15).
+//! Free, it spends `pi/w1` on one side and `pi/w2` on the other, so its frequency is `w0 = 2 w1 w2/(w1 + w2)`
+//! at every amplitude (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155, section 2; Thompson and Stewart,
+//! *Nonlinear Dynamics and Chaos* (1986), chapter 15).
 //!
-//! The equation `m x'' + c x' + k(x) x = F cos W t` is homogeneous: the response is proportional to F, and the place of the resonance depends on
-//! the damping alone.
+//! The equation `m x'' + c x' + k(x) x = F cos W t` is homogeneous: the response is proportional to F, and
+//! the place of the resonance depends on the damping alone.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::{PI, SQRT_2, TAU};
@@ -37,7 +38,8 @@ fn free_frequency(soft: f64, stiff: f64, amplitude: f64) -> f64 {
     TAU * free_orbit(&rig.system, &rig.response, amplitude, &OrbitSettings::default()).unwrap().frequency_hz
 }
 
-/// Unit mass on 1 N/m one way and 2 N/m the other: T = pi + pi/sqrt 2 s, so w = 2 sqrt 2/(1 + sqrt 2) = 1.1716 rad/s.
+/// Unit mass on 1 N/m one way and 2 N/m the other: T = pi + pi/sqrt 2 s, so w = 2 sqrt 2/(1 + sqrt 2) =
+/// 1.1716 rad/s.
 #[test]
 fn bilinear_oscillator_frequency_is_1_1716_at_stiffness_ratio_2() {
     let found = free_frequency(1.0, 2.0, 1e-2);
@@ -92,7 +94,8 @@ fn resonance(ratio: f64) -> f64 {
     TAU * top
 }
 
-/// The forced resonance lies at `w0 (1 + O(z^2))`, as that of a linear oscillator does at `w sqrt(1 - 2 z^2)`.
+/// The forced resonance lies at `w0 (1 + O(z^2))`, as that of a linear oscillator does at `w sqrt(1 - 2
+/// z^2)`.
 #[test]
 fn forced_resonance_tends_to_the_free_frequency_with_the_square_of_the_damping() {
     let ratios = [0.02, 0.01, 0.005, 0.0025];

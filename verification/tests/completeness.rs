@@ -1,4 +1,6 @@
-//! What simulation finds is there, and nothing is there twice: the paper's beam over a part of its range, where periods 1 to 4 and chaos follow each other; and a bilinear oscillator, `x'' + 0.1 x' + k(x) x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`, through the whole run.
+//! What simulation finds is there, and nothing is there twice: the paper's beam over a part of its range,
+//! where periods 1 to 4 and chaos follow each other; and a bilinear oscillator, `x'' + 0.1 x' + k(x) x =
+//! cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`, through the whole run.
 //! `HAMMERBEAM_EXTENSIVE=1` looks at 200 frequencies and 100 states.
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
@@ -48,7 +50,8 @@ fn results() -> &'static Mutex<(Results, TempDir)> {
     })
 }
 
-/// The study of the whole check ([docs](../../docs/completeness.md)) over a part of the range; with four search frequencies to the hertz.
+/// The study of the whole check ([docs](../../docs/completeness.md)) over a part of the range; with four
+/// search frequencies to the hertz.
 fn beam() -> String {
     let whole = include_str!("../../studies/beam-with-stop-completeness.toml");
     let parts = [
@@ -82,7 +85,8 @@ fn every_periodic_attractor_of_random_motions_is_on_a_branch() {
     assert!(report.missing.is_empty(), "{:?}", report.missing);
 }
 
-/// At random frequencies, no two of the orbits that the branches pass are the same, whatever the excitation period at which they begin.
+/// At random frequencies, no two of the orbits that the branches pass are the same, whatever the excitation
+/// period at which they begin.
 #[test]
 fn no_orbit_is_on_two_branches_or_twice_on_one() {
     let guard = results().lock().unwrap();

@@ -1,7 +1,9 @@
-//! The closing question of van de Vorst, Fey, de Kraker and van Campen: what damping in the contact does to the beam, whose measured modal damping, 0.003, is a
-//! fifth of the 0.015 that their main case has. Law: Lankarani and Nikravesh, J. Mech. Des. 112 (1990), 369-376.
+//! The closing question of van de Vorst, Fey, de Kraker and van Campen: what damping in the contact does to
+//! the beam, whose measured modal damping, 0.003, is a fifth of the 0.015 that their main case has. Law:
+//! Lankarani and Nikravesh, J. Mech. Des. 112 (1990), 369-376.
 //!
-//! The numbers are our own, read off branches over 34 to 45 Hz (docs/conclusions.md); what is asserted is that orbits found afresh at the peaks have them, and their order.
+//! The numbers are our own, read off branches over 34 to 45 Hz (docs/conclusions.md); what is asserted is
+//! that orbits found afresh at the peaks have them, and their order.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use crate::common::{Rig, hertz, paper_beam_with};
@@ -30,7 +32,8 @@ fn subharmonic_peak(rig: &Rig, frequency_hz: f64, period_multiple: u32) -> f64 {
     1e3 * orbit.maxima.displacement
 }
 
-/// A coefficient of 0.6 (of which 0.76 comes out) takes as much from the main peak as five times the modal damping.
+/// A coefficient of 0.6 (of which 0.76 comes out) takes as much from the main peak as five times the modal
+/// damping.
 #[test]
 fn contact_damping_brings_the_main_peak_down_to_that_of_five_times_the_modal_damping() {
     let found = [
@@ -45,7 +48,8 @@ fn contact_damping_brings_the_main_peak_down_to_that_of_five_times_the_modal_dam
     }
 }
 
-/// The same coefficient brings the main peaks of the 1/2 and the 1/3 subharmonic branch down to those of five times the modal damping, too, where they would be more than twice as high.
+/// The same coefficient brings the main peaks of the 1/2 and the 1/3 subharmonic branch down to those of five
+/// times the modal damping, too, where they would be more than twice as high.
 #[test]
 fn the_same_coefficient_does_it_for_the_subharmonic_peaks() {
     let elastic = |ratio| paper_beam_with(ratio, &[(-1.0, hertz(4.5e9, 0.0))]);

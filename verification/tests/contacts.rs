@@ -1,4 +1,5 @@
-//! What is reported of contacts and maxima, against the balance of momentum and against dense sampling by the general integrator.
+//! What is reported of contacts and maxima, against the balance of momentum and against dense sampling by the
+//! general integrator.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::TAU;
@@ -34,7 +35,8 @@ fn orbit(rig: &Rig, frequency_hz: f64, period_multiple: u32) -> PeriodicSolution
     find_start(&rig.system, &rig.response, frequency_hz, period_multiple, &settings).unwrap()
 }
 
-/// Momentum: over a period the table's impulse carries the weight, `int F dt = m g T`; the damper moves with the table and back, so it carries none.
+/// Momentum: over a period the table's impulse carries the weight, `int F dt = m g T`; the damper moves with
+/// the table and back, so it carries none.
 #[test]
 fn table_carries_the_weight_of_a_bouncing_mass_on_average() {
     let laws = [Law::Linear(LinearStop::with_gap(3e4, 0.0).unwrap()), hertz(2e6, 0.0)];
@@ -72,7 +74,8 @@ struct Values {
     force: f64,
 }
 
-/// Orbits are sampled at equal phases first, then more densely between those on either side of what is sought.
+/// Orbits are sampled at equal phases first, then more densely between those on either side of what is
+/// sought.
 struct Sampler<'a> {
     rig: &'a Rig,
     orbit: &'a PeriodicSolution,
@@ -124,7 +127,8 @@ impl Sampler<'_> {
         phases.iter().zip(&states).map(|(&phase, state)| (phase, self.values(phase, state))).collect()
     }
 
-    /// Largest of a value: about the five largest local maxima of the equal phases once more, in a thousandth of their distance.
+    /// Largest of a value: about the five largest local maxima of the equal phases once more, in a thousandth
+    /// of their distance.
     fn largest(&self, coarse: &[(f64, Values)], of: fn(&Values) -> f64) -> f64 {
         let peak = |i: &usize| {
             let [before, at, after] = [i - 1, *i, i + 1].map(|k| of(&coarse[k].1));
@@ -170,7 +174,8 @@ fn beam_orbits(rig: &Rig) -> Vec<PeriodicSolution> {
     found.map(|(frequency_hz, multiple)| orbit(rig, frequency_hz, multiple)).to_vec()
 }
 
-/// Displacements to 1e-8 and accelerations to 1e-6: the acceleration has its peak within a contact of a hundred microseconds.
+/// Displacements to 1e-8 and accelerations to 1e-6: the acceleration has its peak within a contact of a
+/// hundred microseconds.
 #[test]
 fn maxima_and_contacts_of_the_beam_are_those_of_dense_sampling() {
     let rig = paper_beam();

@@ -46,7 +46,8 @@ impl Duffing {
     }
 }
 
-/// Harmonic balance: `x = c_0 + sum c_k cos k t + s_k sin k t`, the cubic force by sampling, exact for that many samples.
+/// Harmonic balance: `x = c_0 + sum c_k cos k t + s_k sin k t`, the cubic force by sampling, exact for that
+/// many samples.
 mod harmonic_balance {
     use super::{Duffing, TAU};
 
@@ -120,7 +121,8 @@ mod harmonic_balance {
         right
     }
 
-    /// Newton's method in the plane through `point` normal to `tangent`; the point found and the tangent there.
+    /// Newton's method in the plane through `point` normal to `tangent`; the point found and the tangent
+    /// there.
     pub fn correct(duffing: Duffing, mut point: Vec<f64>, tangent: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let guess = point.clone();
         for _ in 0..12 {
@@ -169,7 +171,8 @@ mod harmonic_balance {
         found
     }
 
-    /// `max |x|` of the sum of harmonics: by Newton's method on its derivative from the largest of some values.
+    /// `max |x|` of the sum of harmonics: by Newton's method on its derivative from the largest of some
+    /// values.
     fn amplitude(point: &[f64]) -> f64 {
         let at = |t: f64| {
             let mut jet = [point[0], 0.0, 0.0];
@@ -222,9 +225,11 @@ fn folds_of_a_softening_spring_are_those_of_harmonic_balance() {
     assert_folds_of_harmonic_balance(Duffing { damping: 0.05, cubic: -0.1, force: 0.15 }, (0.6, 1.3));
 }
 
-/// Folds of `A^2 ((1 - W^2 + 3/4 a A^2)^2 + (2 z W)^2) = F^2`, the first-order harmonic balance: where its derivative by `A^2` vanishes too.
+/// Folds of `A^2 ((1 - W^2 + 3/4 a A^2)^2 + (2 z W)^2) = F^2`, the first-order harmonic balance: where its
+/// derivative by `A^2` vanishes too.
 ///
-/// With `u = 3/4 a A^2` that is `(1 - s + u)(1 - s + 3 u) + 4 z^2 s = 0` for `s = W^2`: two values of s for each u, and F tells u.
+/// With `u = 3/4 a A^2` that is `(1 - s + u)(1 - s + 3 u) + 4 z^2 s = 0` for `s = W^2`: two values of s for
+/// each u, and F tells u.
 fn first_order_folds(Duffing { damping, cubic, force }: Duffing) -> [f64; 2] {
     let square = |u: f64, branch: f64| {
         // s^2 + s (4 z^2 - 2 - 4 u) + (1 + u)(1 + 3 u) = 0.
@@ -273,8 +278,9 @@ fn first_order_harmonic_balance_is_off_by_the_square_of_the_nonlinearity() {
     }
 }
 
-/// Jump-down at `W^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2` and jump-up at `W = 1 + (3/2)^(4/3) (a F^2)^(1/3)/2`, for light damping and a weak
-/// nonlinearity: here `a F^2 = 1e-6` and `z = 0.001`. The damping left out of the jump-up is `(z/(W - 1))^2`, 1.4 %, of `W - 1`; the third harmonic left out of the
+/// Jump-down at `W^2 = (1 + sqrt(1 + 3 a F^2/(4 z^2)))/2` and jump-up at `W = 1 + (3/2)^(4/3) (a
+/// F^2)^(1/3)/2`, for light damping and a weak nonlinearity: here `a F^2 = 1e-6` and `z = 0.001`. The damping
+/// left out of the jump-up is `(z/(W - 1))^2`, 1.4 %, of `W - 1`; the third harmonic left out of the
 /// jump-down is `3/256 (a x^2)^2 = 5e-4` with `a x^2 = 4/3 (W^2 - 1)`.
 #[test]
 fn jump_frequencies_are_those_of_brennan_and_others() {

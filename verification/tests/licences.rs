@@ -1,7 +1,7 @@
 //! Licences of everything that is built into the program: allowed ones, and listed in `docs/third-party.md`.
 //!
-//! The list is what `cargo tree` says of the lock file, without a network. With `HAMMERBEAM_UPDATE=1` the test writes it
-//! anew instead of comparing.
+//! The list is what `cargo tree` says of the lock file, without a network. With `HAMMERBEAM_UPDATE=1` the
+//! test writes it anew instead of comparing.
 
 use std::{collections::BTreeSet, env, fs, path::Path, process::Command};
 
@@ -63,7 +63,10 @@ fn what_is_built_in_has_a_licence_that_allows_it_and_is_listed() {
         fs::write(&page, &list).unwrap();
     }
     let written = fs::read_to_string(&page).unwrap();
-    assert!(written == list, "docs/third-party.md is not what the lock file gives; HAMMERBEAM_UPDATE=1 writes it");
+    assert!(
+        written == list,
+        "docs/third-party.md is not what the lock file gives; HAMMERBEAM_UPDATE=1 writes it"
+    );
 }
 
 #[test]

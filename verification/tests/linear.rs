@@ -1,7 +1,8 @@
-//! Closed forms of linear vibration, along whole branches: a mass on a spring and damper, driven by a force or by the ground; under its
-//! own weight; and pressed on a stop that it never leaves.
+//! Closed forms of linear vibration, along whole branches: a mass on a spring and damper, driven by a force
+//! or by the ground; under its own weight; and pressed on a stop that it never leaves.
 //!
-//! Textbook formulas (Inman, *Engineering Vibration*, chapters 2 and 3). With `W = 2 pi f`, `w^2 = k/m`, `z = c/(2 m w)`, `r = W/w`:
+//! Textbook formulas (Inman, *Engineering Vibration*, chapters 2 and 3). With `W = 2 pi f`, `w^2 = k/m`, `z =
+//! c/(2 m w)`, `r = W/w`:
 //!
 //! | | |
 //! |---|---|
@@ -9,7 +10,8 @@
 //! | ground `U cos W t` | `Y = U (1 + 2 i z r) / (1 - r^2 + 2 i z r)` |
 //! | multipliers | `exp(-z w T) exp(+-i w sqrt(1 - z^2) T)` |
 //!
-//! Stops that are out of reach keep the equations linear. Tolerances are those of an orbit (1e-10 of its norm) with a margin of ten.
+//! Stops that are out of reach keep the equations linear. Tolerances are those of an orbit (1e-10 of its
+//! norm) with a margin of ten.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::TAU;
@@ -150,8 +152,9 @@ fn ground_motion_is_transmitted_through_spring_and_damper() {
     all.for_each(|orbit| assert!(isolated(orbit.frequency_hz, orbit.maxima.displacement)));
 }
 
-/// Under a weight the mass sags by `m g / k`; the gap is that of the undeformed structure. While it does not touch, `max |y|` is sag plus amplitude;
-/// it grazes where `|X(W)| = gap - sag`, and no contact is found below.
+/// Under a weight the mass sags by `m g / k`; the gap is that of the undeformed structure. While it does not
+/// touch, `max |y|` is sag plus amplitude; it grazes where `|X(W)| = gap - sag`, and no contact is found
+/// below.
 #[test]
 fn sagging_mass_reaches_its_stop_at_the_frequency_of_the_closed_form() {
     let (sag, gap) = (MASS * 9.81 / STIFFNESS, 0.030);
@@ -179,8 +182,8 @@ fn sagging_mass_reaches_its_stop_at_the_frequency_of_the_closed_form() {
     assert_eq!(branch.rows[grazing + 1].solution.maxima.contacts, 1);
 }
 
-/// A stop that presses with 120 N stays closed: the branch is that of the stiffness `k + s`, about `-P/(k + s)`, with the force `P k/(k + s)` on
-/// average, so an impulse of `P k T/(k + s)` a period.
+/// A stop that presses with 120 N stays closed: the branch is that of the stiffness `k + s`, about `-P/(k +
+/// s)`, with the force `P k/(k + s)` on average, so an impulse of `P k T/(k + s)` a period.
 #[test]
 fn preloaded_stop_that_never_opens_only_adds_its_stiffness() {
     let (stop, preload) = (1200.0, 120.0);
@@ -201,7 +204,8 @@ fn preloaded_stop_that_never_opens_only_adds_its_stiffness() {
     }
 }
 
-/// Two masses in series on a spring each: at the anti-resonance `W^2 = k_2/m_2` the driven one hardly moves, `F / (i c W)`-like small.
+/// Two masses in series on a spring each: at the anti-resonance `W^2 = k_2/m_2` the driven one hardly moves,
+/// `F / (i c W)`-like small.
 #[test]
 fn absorber_stills_the_driven_mass_at_its_own_frequency() {
     let (k2, m2, c2) = (50.0, 0.5, 0.01);
@@ -215,7 +219,8 @@ fn absorber_stills_the_driven_mass_at_its_own_frequency() {
     let rig = rig(model, &load, out_of_reach());
     let omega = (k2 / m2).sqrt();
     let orbit = find_start(&rig.system, &rig.response, omega / TAU, 1, &OrbitSettings::default()).unwrap();
-    // Eliminate the absorber: its dynamic stiffness seen by the mass is D m2 W^2 / (m2 W^2 - D), D = k2 + i c2 W.
+    // Eliminate the absorber: its dynamic stiffness seen by the mass is D m2 W^2 / (m2 W^2 - D), D = k2 + i
+    // c2 W.
     let inertia = m2 * omega * omega;
     let link = [k2, c2 * omega];
     let seen = over([-link[0] * inertia, -link[1] * inertia], [link[0] - inertia, link[1]]);

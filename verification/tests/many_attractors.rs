@@ -22,7 +22,8 @@ fn five() -> &'static Mutex<(Results, TempDir)> {
     })
 }
 
-/// Impacts span 1.8 kHz of 50 kHz, and the search looks every 2.1 kHz. The study asks for up to three periods.
+/// Impacts span 1.8 kHz of 50 kHz, and the search looks every 2.1 kHz. The study asks for up to three
+/// periods.
 #[test]
 fn a_stable_solution_of_three_periods_within_narrow_impacts_is_on_a_branch() {
     let folder = tempfile::tempdir().unwrap();

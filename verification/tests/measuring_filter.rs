@@ -1,8 +1,11 @@
-//! How much a low-pass filter of 850 Hz lowers the largest acceleration of the paper's beam: van de Vorst, Fey, de Kraker and van Campen put their shift of 600 % down to it.
+//! How much a low-pass filter of 850 Hz lowers the largest acceleration of the paper's beam: van de Vorst,
+//! Fey, de Kraker and van Campen put their shift of 600 % down to it.
 //!
-//! The orbit at 36.2 Hz (their figure 9) goes through the filter twice: line by line of its spectrum (`periodic_low_pass`), and in time, through the differential equations of two
-//! sections `x'' + 2 z w_c x' + w_c^2 x = w_c^2 u`, `z = cos(pi/8), cos(3 pi/8)`, by Runge and Kutta's method over two periods, of which the first lets them settle. The ratios are those that a
-//! calculation with SciPy's `butter(4, ..., analog=True)` and `freqs` gave from 32 768 samples of the motion that simulation settles to.
+//! The orbit at 36.2 Hz (their figure 9) goes through the filter twice: line by line of its spectrum
+//! (`periodic_low_pass`), and in time, through the differential equations of two sections `x'' + 2 z w_c x' +
+//! w_c^2 x = w_c^2 u`, `z = cos(pi/8), cos(3 pi/8)`, by Runge and Kutta's method over two periods, of which
+//! the first lets them settle. The ratios are those that a calculation with SciPy's `butter(4, ...,
+//! analog=True)` and `freqs` gave from 32 768 samples of the motion that simulation settles to.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::{PI, TAU};
@@ -68,7 +71,8 @@ fn filter_of_850_hz_lowers_the_largest_acceleration_seven_times_and_leaves_the_d
     for (cut_off_hz, expected) in [(850.0, 7.053), (1500.0, 4.048), (3000.0, 2.127)] {
         let found = behind(&acceleration, cut_off_hz);
         let in_time = largest(&by_runge_kutta(&acceleration, duration / SAMPLES as f64, cut_off_hz));
-        // Straight lines between samples lower a line of 3000 Hz by (w h)^2/12 = 2e-5, and those above it by more.
+        // Straight lines between samples lower a line of 3000 Hz by (w h)^2/12 = 2e-5, and those above it by
+        // more.
         assert!((found / in_time - 1.0).abs() < 5e-5, "{cut_off_hz} Hz: {found} and {in_time} m/s^2");
         let ratio = orbit.maxima.acceleration / found;
         assert!((ratio - expected).abs() < 1e-3, "{cut_off_hz} Hz: {ratio}");

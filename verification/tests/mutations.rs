@@ -1,5 +1,5 @@
-//! Damaged input makes no reader panic or crawl: a few hundred mutations each; `examples/mutations.rs` does it for
-//! as long as one likes.
+//! Damaged input makes no reader panic or crawl: a few hundred mutations each; `examples/mutations.rs` does
+//! it for as long as one likes.
 
 use std::path::Path;
 

@@ -1,7 +1,9 @@
-//! The same physics written another way has the same answers: branches, events, orbits, contacts, multipliers, and verification agrees with every solution.
+//! The same physics written another way has the same answers: branches, events, orbits, contacts,
+//! multipliers, and verification agrees with every solution.
 //!
-//! Four relations over the studies of `studies/` on short ranges and the ten of `verification/studies/`. By default quick studies are held against one relation
-//! each; `HAMMERBEAM_EXTENSIVE=1` takes all relations of all studies. Tolerances have their reasons in `relations/compare.rs`.
+//! Four relations over the studies of `studies/` on short ranges and the ten of `verification/studies/`. By
+//! default quick studies are held against one relation each; `HAMMERBEAM_EXTENSIVE=1` takes all relations of
+//! all studies. Tolerances have their reasons in `relations/compare.rs`.
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
 
 use hammerbeam_verification::relations::{Answers, Limits, Relation, Units, differences};
@@ -17,7 +19,8 @@ fn relations(study: &Table) -> [Relation; 4] {
     [Relation::Units(units), Relation::Shifted(0.137), Relation::Mirrored, Relation::Swapped]
 }
 
-/// Holds a study against its relation of the default suite, or against all of them; a longer study has none by default.
+/// Holds a study against its relation of the default suite, or against all of them; a longer study has none
+/// by default.
 fn check(text: &str, by_default: Option<usize>) {
     if by_default.is_none() && !extensive() {
         return;

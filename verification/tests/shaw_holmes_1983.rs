@@ -1,12 +1,15 @@
-//! The rigid impact oscillator `x'' + x = cos(w t)`, `x <= s`, `x' -> -e x'` at `x = s`, as the limit of ever stiffer contacts that lose energy.
+//! The rigid impact oscillator `x'' + x = cos(w t)`, `x <= s`, `x' -> -e x'` at `x = s`, as the limit of ever
+//! stiffer contacts that lose energy.
 //!
-//! Orbits with one impact of speed V in each period `T = 2 pi/w` are in closed form (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155, section 3; written out anew
-//! here): with `g = 1/(1 - w^2)` and `C = cot(T/2)`
+//! Orbits with one impact of speed V in each period `T = 2 pi/w` are in closed form (Shaw and Holmes, J.
+//! Sound Vib. 90 (1983), 129-155, section 3; written out anew here): with `g = 1/(1 - w^2)` and `C =
+//! cot(T/2)`
 //!
 //! `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2 = g^2`.
 //!
-//! Their multipliers have the product `e^2` and the sum `-2 e cos T + (1 + e) (a/V) sin T`, with the acceleration a at the impact (Nordmark, J. Sound Vib. 145
-//! (1991), 279-297, has the `1/V` of grazing orbits in it). The rigid stop itself has it to rounding; where stops of stiffness k take its place, what differs
+//! Their multipliers have the product `e^2` and the sum `-2 e cos T + (1 + e) (a/V) sin T`, with the
+//! acceleration a at the impact (Nordmark, J. Sound Vib. 145 (1991), 279-297, has the `1/V` of grazing orbits
+//! in it). The rigid stop itself has it to rounding; where stops of stiffness k take its place, what differs
 //! falls with the duration of a contact, like `k^(-2/5)` for a Hertz contact and `k^(-1/2)` for a linear one.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
@@ -72,7 +75,8 @@ fn converged(e: f64, stiffnesses: [f64; 2], found: [[f64; 3]; 2]) -> ([f64; 2], 
     (errors, (errors[1] / errors[0]).ln() / (stiffnesses[1] / stiffnesses[0]).ln())
 }
 
-/// Coefficient with which a model lets two bodies alone part with `e`: `(1 + e) c = ln((1 + c)/(1 - e c))`, by bisection.
+/// Coefficient with which a model lets two bodies alone part with `e`: `(1 + e) c = ln((1 + c)/(1 - e c))`,
+/// by bisection.
 fn coefficient_for(model: RestitutionModel, e: f64) -> f64 {
     let (mut low, mut high) = (0.05, 0.95);
     for _ in 0..100 {
@@ -94,7 +98,8 @@ fn the_rigid_stop_has_the_closed_form() {
     }
 }
 
-/// Lankarani and Nikravesh, and Lee and Wang, take no more than `c = 3/4`, with which 0.58 of the speed is left: they are asked for more.
+/// Lankarani and Nikravesh, and Lee and Wang, take no more than `c = 3/4`, with which 0.58 of the speed is
+/// left: they are asked for more.
 #[test]
 fn stiffer_hertz_contacts_with_restitution_converge_to_the_rigid_stop() {
     for (model, e) in [
@@ -116,8 +121,10 @@ fn stiffer_hertz_contacts_with_restitution_converge_to_the_rigid_stop() {
     }
 }
 
-/// The orbit of `e = 1` with an elastic Hertz stop in place of the rigid one. Nothing damps it, so no motion settles to it: it is corrected from the rigid one, which is the same forwards and backwards
-/// about its impact. With the force the other way round that is at half the period, and at phase 0 the mass turns: `x = -g + (s - g) cos(T/2) - V sin(T/2)`.
+/// The orbit of `e = 1` with an elastic Hertz stop in place of the rigid one. Nothing damps it, so no motion
+/// settles to it: it is corrected from the rigid one, which is the same forwards and backwards about its
+/// impact. With the force the other way round that is at half the period, and at phase 0 the mass turns: `x =
+/// -g + (s - g) cos(T/2) - V sin(T/2)`.
 fn elastic(stiffness: f64) -> [f64; 3] {
     let law = Law::Hertz(HertzStop::with_gap(stiffness, GAP).unwrap());
     let rig = rig(law, -1.0);
@@ -143,7 +150,8 @@ fn elastic(stiffness: f64) -> [f64; 3] {
     read(&orbit)
 }
 
-/// A contact without loss gives the speed back, as a rigid stop with `e = 1` does: multipliers stay on the unit circle, with the product 1.
+/// A contact without loss gives the speed back, as a rigid stop with `e = 1` does: multipliers stay on the
+/// unit circle, with the product 1.
 #[test]
 fn stiffer_elastic_hertz_contacts_converge_to_the_rigid_stop_that_loses_nothing() {
     let found = [1e8, 1e12].map(elastic);
@@ -155,7 +163,8 @@ fn stiffer_elastic_hertz_contacts_converge_to_the_rigid_stop_that_loses_nothing(
     assert!((slope + 0.4).abs() < 0.01, "{errors:?}, slope {slope}");
 }
 
-/// A spring with a damper that has a fixed part of the critical damping: `e = exp(-(pi - 2 x) tan x)`, `sin x` that part.
+/// A spring with a damper that has a fixed part of the critical damping: `e = exp(-(pi - 2 x) tan x)`, `sin
+/// x` that part.
 #[test]
 fn stiffer_springs_with_dampers_converge_to_the_rigid_stop() {
     let restitution = |x: f64| (-(PI - 2.0 * x) * x.tan()).exp();
@@ -172,7 +181,8 @@ fn stiffer_springs_with_dampers_converge_to_the_rigid_stop() {
     assert!((slope + 0.5).abs() < 0.01, "{errors:?}, slope {slope}");
 }
 
-/// A stop that stays closed is a spring and a damper more: `|x| = F/|k - m w^2 + i c w|`, and multipliers of modulus `exp(-c T/2)`.
+/// A stop that stays closed is a spring and a damper more: `|x| = F/|k - m w^2 + i c w|`, and multipliers of
+/// modulus `exp(-c T/2)`.
 #[test]
 fn a_preloaded_stop_that_stays_closed_adds_its_spring_and_its_damper() {
     let (stiffness, damping, force, frequency_hz): (f64, f64, f64, f64) = (3.0, 0.4, 0.2, 0.25);

@@ -1,4 +1,5 @@
-//! Two masses on springs and dampers, a one-sided spring between them that acts when they come closer than a gap.
+//! Two masses on springs and dampers, a one-sided spring between them that acts when they come closer than a
+//! gap.
 //!
 //! | quantity | first | second |
 //! |---|---|---|
@@ -8,8 +9,8 @@
 //! | force | 5 cos(2 pi f t) N | none |
 //!
 //! The spring of `k` N/m pushes with `k (x1 - x2 - gap)` where that is positive. There is no closed form; the
-//! comparisons are an own shooting with the classical Runge-Kutta method in physical coordinates, the energy balance of a period, and
-//! the linear response as `k` tends to zero.
+//! comparisons are an own shooting with the classical Runge-Kutta method in physical coordinates, the energy
+//! balance of a period, and the linear response as `k` tends to zero.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::TAU;
@@ -76,7 +77,8 @@ fn rate(stiffness: f64, phase: f64, [x1, x2, v1, v2]: State) -> State {
 
 /// One period by the classical Runge-Kutta method.
 ///
-/// A step across the onset or the release, where the slope of the force jumps by `k`, errs by less than `k v h^2 / m`: 1e-10 m/s here.
+/// A step across the onset or the release, where the slope of the force jumps by `k`, errs by less than `k v
+/// h^2 / m`: 1e-10 m/s here.
 fn period(stiffness: f64, frequency_hz: f64, mut state: State) -> State {
     const STEPS: u32 = 400_000;
     let h = 1.0 / (frequency_hz * f64::from(STEPS));
@@ -151,9 +153,11 @@ fn orbit_is_that_of_an_own_shooting() {
     }
 }
 
-/// The force's work per period, `int F v1 dt`, is what the dampers take, `int c1 v1^2 + c2 v2^2 dt`; the spring between gives back what it takes.
+/// The force's work per period, `int F v1 dt`, is what the dampers take, `int c1 v1^2 + c2 v2^2 dt`; the
+/// spring between gives back what it takes.
 ///
-/// The integrands are periodic with kinks in their second derivatives: the trapezoidal rule with 20 000 points is good to 1e-8.
+/// The integrands are periodic with kinks in their second derivatives: the trapezoidal rule with 20 000
+/// points is good to 1e-8.
 #[test]
 fn work_of_the_force_over_a_period_is_what_the_dampers_dissipate() {
     const POINTS: u32 = 20_000;
@@ -175,7 +179,8 @@ fn work_of_the_force_over_a_period_is_what_the_dampers_dissipate() {
     }
 }
 
-/// Without the spring each mass answers alone; with a weak one the response differs in proportion to its stiffness.
+/// Without the spring each mass answers alone; with a weak one the response differs in proportion to its
+/// stiffness.
 #[test]
 fn response_tends_to_the_linear_one_in_proportion_to_the_stiffness_between() {
     let frequency_hz = 2.0;

@@ -1,7 +1,8 @@
-//! A mass between two wells, `x'' + c x' - x + x^3 = F cos(w t)`: a linear term that pushes away from the middle.
+//! A mass between two wells, `x'' + c x' - x + x^3 = F cos(w t)`: a linear term that pushes away from the
+//! middle.
 //!
-//! Small motions about a well at `x = 1` are those of `u'' + c u' + 2 u = F cos(w t)`, so the amplitude is
-//! `F / |2 - w^2 + i c w|`; what both wells do is each other's mirror image. About the middle they are those of
+//! Small motions about a well at `x = 1` are those of `u'' + c u' + 2 u = F cos(w t)`, so the amplitude is `F
+//! / |2 - w^2 + i c w|`; what both wells do is each other's mirror image. About the middle they are those of
 //! `u'' + c u' - u = F cos(w t)`, a saddle with the multipliers `exp((-c/2 +- sqrt(c^2/4 + 1)) T)`.
 
 use std::f64::consts::TAU;
@@ -62,7 +63,8 @@ fn both_wells_and_the_saddle_between_them_are_as_small_motions_have_it() {
         } else {
             found[if x > 0.0 { 2 } else { 0 }] += 1;
             assert!(orbit.stable());
-            // What is left out is of the order of the square of the force. The product of the multipliers is exact.
+            // What is left out is of the order of the square of the force. The product of the multipliers is
+            // exact.
             let largest = orbit.maxima.displacement;
             assert!((largest - 1.0 - amplitude).abs() < 20.0 * FORCE * FORCE, "{largest}");
             let modulus = (-DAMPING * period / 2.0).exp();

@@ -1,7 +1,9 @@
-//! van de Vorst, Fey, de Kraker, van Campen: what the text concludes, in numbers. docs/conclusions.md has the tables.
+//! van de Vorst, Fey, de Kraker, van Campen: what the text concludes, in numbers. docs/conclusions.md has the
+//! tables.
 //!
-//! The peaks are those of an independent adaptive Runge-Kutta integration of the full equations, read off to a tenth of a hertz and a hundredth of a
-//! millimetre; the tolerances are these digits and twice these digits.
+//! The peaks are those of an independent adaptive Runge-Kutta integration of the full equations, read off to
+//! a tenth of a hertz and a hundredth of a millimetre; the tolerances are these digits and twice these
+//! digits.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::f64::consts::TAU;
@@ -59,7 +61,8 @@ fn third_subharmonic_peaks_are_11_24_mm_at_99_5_hz_and_16_26_mm_at_108_hz() {
     assert_peak(peak(&rows, 105.0, 109.9), 108.0, 16.26);
 }
 
-/// Amplitudes of the harmonics of an orbit of two periods, in the displacement relative to the support: order k at k f/2.
+/// Amplitudes of the harmonics of an orbit of two periods, in the displacement relative to the support: order
+/// k at k f/2.
 fn harmonics(rig: &Rig, orbit: &PeriodicSolution) -> Vec<f64> {
     const SAMPLES: u32 = 4096;
     let phases: Vec<f64> = (0..SAMPLES).map(|k| 2.0 * f64::from(k) / f64::from(SAMPLES)).collect();
@@ -80,8 +83,9 @@ fn harmonics(rig: &Rig, orbit: &PeriodicSolution) -> Vec<f64> {
     (0..=20).map(amplitude).collect()
 }
 
-/// Text: at 67.8 Hz the 1/2 orbit carries a strong 135.6 Hz, close to f2 = 137.3 Hz. In displacement it is the strongest line above the
-/// excitation; with the square of its frequency, in acceleration, the strongest of all up to 678 Hz.
+/// Text: at 67.8 Hz the 1/2 orbit carries a strong 135.6 Hz, close to f2 = 137.3 Hz. In displacement it is
+/// the strongest line above the excitation; with the square of its frequency, in acceleration, the strongest
+/// of all up to 678 Hz.
 #[test]
 fn at_67_8_hz_the_half_subharmonic_orbit_carries_a_strong_line_at_135_6_hz() {
     let rig = paper_beam();
@@ -121,7 +125,8 @@ fn shaken_by(amplitude: f64) -> Rig {
     Rig { system, response: Response { shape: point.shape, support_ratio: point.support_ratio } }
 }
 
-/// With no gap only the exponent 3/2 of the contact makes the response anything but proportional to the amplitude.
+/// With no gap only the exponent 3/2 of the contact makes the response anything but proportional to the
+/// amplitude.
 #[test]
 fn amplitude_of_the_table_moves_the_harmonic_peaks_by_less_than_half_a_percent() {
     let peaks = |amplitude: f64| {
@@ -140,7 +145,8 @@ fn amplitude_of_the_table_moves_the_harmonic_peaks_by_less_than_half_a_percent()
     }
 }
 
-/// Away from the peaks a fifth of the damping changes the accelerations by some ten percent at most ("the levels of xi = 0.015"); at a peak by a factor of 2.6.
+/// Away from the peaks a fifth of the damping changes the accelerations by some ten percent at most ("the
+/// levels of xi = 0.015"); at a peak by a factor of 2.6.
 #[test]
 fn both_dampings_give_the_same_accelerations_away_from_the_peaks() {
     let laws = [(-1.0, hertz(4.5e9, 0.0))];

@@ -8,9 +8,10 @@
 //! | support motion | 0.5015 cos(2 pi f t) mm | printed |
 //! | stop | Hertz, 4.5e9 N/m^1.5, no gap, below, rides on the support | printed |
 //!
-//! The figures are not at hand. Heights and places of the peaks are those of a brute-force simulation of the full equations by an adaptive
-//! Runge-Kutta method, with the digits to which they were noted; they are approximate. What the peaks *are* follows from the paper's text: a
-//! superharmonic resonance of order n of mode i is where the n-th harmonic of mode i outweighs its other ones.
+//! The figures are not at hand. Heights and places of the peaks are those of a brute-force simulation of the
+//! full equations by an adaptive Runge-Kutta method, with the digits to which they were noted; they are
+//! approximate. What the peaks *are* follows from the paper's text: a superharmonic resonance of order n of
+//! mode i is where the n-th harmonic of mode i outweighs its other ones.
 //!
 //! The branch is computed once, both ways from 30 Hz, at the default steps.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
@@ -45,7 +46,8 @@ fn solutions(low_hz: f64, high_hz: f64) -> impl Iterator<Item = &'static Periodi
     solutions.filter(move |solution| (low_hz..=high_hz).contains(&solution.frequency_hz))
 }
 
-/// Asserts place and height of a peak found within `hz` -0.4/+0.4, and that the branch is lower on both sides.
+/// Asserts place and height of a peak found within `hz` -0.4/+0.4, and that the branch is lower on both
+/// sides.
 fn assert_peak(hz: f64, place: f64, millimetres: f64, height: f64) -> &'static BranchRow {
     let peak = branch().peak(hz - 0.4, hz + 0.4);
     assert_abs_diff_eq!(peak.solution.frequency_hz, hz, epsilon = place);
@@ -67,7 +69,8 @@ fn second_resonance_peak_is_5_90_mm_at_36_3_hz_and_stable() {
     assert_eq!(strongest_harmonic(rig(), &peak.solution, F2, 1), 4);
 }
 
-/// The anti-resonance that splits the resonance: the fourth harmonic of f2 outweighs the others twofold there too.
+/// The anti-resonance that splits the resonance: the fourth harmonic of f2 outweighs the others twofold there
+/// too.
 #[test]
 fn fourth_superharmonic_of_f2_splits_the_resonance_at_34_7_hz() {
     let dip =
@@ -116,8 +119,9 @@ fn seventh_superharmonic_of_f2_peaks_at_19_8_hz_at_2_45_mm() {
     assert_eq!(strongest_harmonic(rig(), &peak.solution, F2, 1), 7);
 }
 
-/// "Much smaller but can still be seen": the falling flank of the resonance nearly levels off, in displacement and in acceleration,
-/// and the tenth harmonic of f3 has its largest amplitude at f3/10 = 41.4 Hz.
+/// "Much smaller but can still be seen": the falling flank of the resonance nearly levels off, in
+/// displacement and in acceleration, and the tenth harmonic of f3 has its largest amplitude at f3/10 = 41.4
+/// Hz.
 #[test]
 fn tenth_superharmonic_of_f3_is_a_shoulder_near_41_hz() {
     let slope = |low_hz: f64, high_hz: f64, value: fn(&PeriodicSolution) -> f64| {
@@ -137,8 +141,9 @@ fn tenth_superharmonic_of_f3_is_a_shoulder_near_41_hz() {
     assert_abs_diff_eq!(largest.frequency_hz, 41.43, epsilon = 0.15);
 }
 
-/// Printed 37.65 Hz in one place and 37.64 Hz in another, with 11 x 37.64 = 414 = f3; we find 37.71 Hz, 0.06 Hz more, in
-/// the smooth minimum of the maximum acceleration. The eleventh harmonic of f3 is largest at 37.6 Hz.
+/// Printed 37.65 Hz in one place and 37.64 Hz in another, with 11 x 37.64 = 414 = f3; we find 37.71 Hz, 0.06
+/// Hz more, in the smooth minimum of the maximum acceleration. The eleventh harmonic of f3 is largest at 37.6
+/// Hz.
 #[test]
 fn maximum_acceleration_dips_at_37_65_hz() {
     let acceleration = |s: &&PeriodicSolution| s.maxima.acceleration;
@@ -155,7 +160,8 @@ fn maximum_acceleration_dips_at_37_65_hz() {
     assert_abs_diff_eq!(largest.frequency_hz, 37.65, epsilon = 0.1);
 }
 
-/// Asserts that simulation finds a stable harmonic orbit at a frequency of figures 7 to 10, and that it lies on the branch.
+/// Asserts that simulation finds a stable harmonic orbit at a frequency of figures 7 to 10, and that it lies
+/// on the branch.
 fn assert_drawn(frequency_hz: f64) {
     let orbit =
         find_start(&rig().system, &rig().response, frequency_hz, 1, &OrbitSettings::default()).unwrap();

@@ -1,8 +1,9 @@
-//! van de Vorst, Fey, de Kraker, van Campen: the walk along the harmonic branch of figure 3, from 19 to 110 Hz
-//! through every fold and grazing point, unattended.
+//! van de Vorst, Fey, de Kraker, van Campen: the walk along the harmonic branch of figure 3, from 19 to 110
+//! Hz through every fold and grazing point, unattended.
 //!
-//! Parameters are those of `van_de_vorst_harmonic_branch.rs`. Nothing here is known from print; these are statements that hold for every
-//! branch of periodic orbits, checked on one that is hard to walk. `HAMMERBEAM_EXTENSIVE=1` walks all of it in steps of 0.001 Hz.
+//! Parameters are those of `van_de_vorst_harmonic_branch.rs`. Nothing here is known from print; these are
+//! statements that hold for every branch of periodic orbits, checked on one that is hard to walk.
+//! `HAMMERBEAM_EXTENSIVE=1` walks all of it in steps of 0.001 Hz.
 #![allow(clippy::unwrap_used, reason = "a test ends where its structure is wrong")]
 
 use std::sync::OnceLock;
@@ -15,7 +16,8 @@ use crate::common::{
 use hammerbeam_orbit::{BranchRow, OrbitSettings, Side, Stability, StopReason};
 
 const RANGE_HZ: (f64, f64) = (19.0, 110.0);
-/// Two folds are the same below this [Hz]; the closest pair of distinct ones is 7e-8 Hz apart, so pairs are told apart by their number.
+/// Two folds are the same below this [Hz]; the closest pair of distinct ones is 7e-8 Hz apart, so pairs are
+/// told apart by their number.
 const SAME_FOLD_HZ: f64 = 1e-6;
 
 fn rig() -> &'static Rig {
@@ -75,8 +77,9 @@ fn every_multiplier_is_finite_and_they_are_ordered() {
     }
 }
 
-/// Liouville: the stop has no damping, so the product of the multipliers is `exp(-T tr C)`, here 1e-29 to 1e-5. The smallest are
-/// near 1e-13, of a matrix with entries of 1e2 that is known to 1e-11 or so; the product holds to 1e-7 all the same.
+/// Liouville: the stop has no damping, so the product of the multipliers is `exp(-T tr C)`, here 1e-29 to
+/// 1e-5. The smallest are near 1e-13, of a matrix with entries of 1e2 that is known to 1e-11 or so; the
+/// product holds to 1e-7 all the same.
 #[test]
 fn product_of_the_multipliers_is_that_of_liouville_on_every_row() {
     let damping = &rig().system.model().damping;
@@ -89,8 +92,9 @@ fn product_of_the_multipliers_is_that_of_liouville_on_every_row() {
     }
 }
 
-/// The fold is where the tangent has no part along the frequency, located to 1e-10 of the step or so; the multiplier passes +1 with
-/// a slope that is largest just behind grazing, where it takes 2e-7 from 1 (20.005 Hz).
+/// The fold is where the tangent has no part along the frequency, located to 1e-10 of the step or so; the
+/// multiplier passes +1 with a slope that is largest just behind grazing, where it takes 2e-7 from 1 (20.005
+/// Hz).
 #[test]
 fn a_multiplier_is_plus_one_at_every_fold() {
     let rows = branch().rows.iter().filter(|row| row.events.fold);
@@ -101,8 +105,8 @@ fn a_multiplier_is_plus_one_at_every_fold() {
     }
 }
 
-/// `det(M - 1) dx/ds = -dR/df df/ds` along a branch: the branch runs up exactly where an even number of multipliers exceeds +1, once it does
-/// so somewhere. This owes nothing to determinants.
+/// `det(M - 1) dx/ds = -dR/df df/ds` along a branch: the branch runs up exactly where an even number of
+/// multipliers exceeds +1, once it does so somewhere. This owes nothing to determinants.
 #[test]
 fn branch_turns_exactly_where_a_multiplier_passes_plus_one() {
     let exceeding = |row: &BranchRow| {
@@ -169,8 +173,8 @@ fn folds_come_in_pairs_as_close_as_1e_5_hz() {
     assert!(close >= 2, "{folds:?}");
 }
 
-/// Where the branch has several orbits at one frequency these are distinct: the distance of any two is far above what separates the
-/// same orbit in two walks of different steps, both read off by chords.
+/// Where the branch has several orbits at one frequency these are distinct: the distance of any two is far
+/// above what separates the same orbit in two walks of different steps, both read off by chords.
 #[test]
 fn no_stretch_is_walked_twice() {
     let (system, branch, coarse, folds) = (&rig().system, branch(), coarse(), branch().folds());

@@ -1,7 +1,9 @@
-//! The three eigenfrequencies that van de Vorst et al. measured, 17.2, 128.9 and 378.9 Hz: modulus and contact mass that come closest.
+//! The three eigenfrequencies that van de Vorst et al. measured, 17.2, 128.9 and 378.9 Hz: modulus and
+//! contact mass that come closest.
 //!
-//! Independently of the program: a beam of two spans by the solution of Euler and Bernoulli, the contact mass between them, no elements, no reduction; and instead of least squares by derivatives the best modulus in closed form
-//! (frequencies go with its root) and the mass by golden section.
+//! Independently of the program: a beam of two spans by the solution of Euler and Bernoulli, the contact mass
+//! between them, no elements, no reduction; and instead of least squares by derivatives the best modulus in
+//! closed form (frequencies go with its root) and the mass by golden section.
 //!
 //! | what | value |
 //! |---|---|
@@ -118,7 +120,8 @@ fn measured_eigenfrequencies_ask_for_a_modulus_of_176_gpa_and_a_contact_mass_of_
     let found = update(&study, &data, &UpdateSettings::default()).unwrap();
     assert!(found.end.converged());
     let [e, m] = [&found.parameters[0], &found.parameters[1]];
-    // Elements and reduction move the frequencies by up to 5e-5, which moves the mass by about ten times as much.
+    // Elements and reduction move the frequencies by up to 5e-5, which moves the mass by about ten times as
+    // much.
     assert!((e.value / modulus - 1.0).abs() < 5e-4, "{} {modulus}", e.value);
     assert!((m.value / mass - 1.0).abs() < 1e-3, "{} {mass}", m.value);
     assert!(

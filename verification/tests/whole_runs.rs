@@ -1,4 +1,5 @@
-//! Two Duffing oscillators through the whole run: an isola, and a pair of asymmetric orbits that is one branch.
+//! Two Duffing oscillators through the whole run: an isola, and a pair of asymmetric orbits that is one
+//! branch.
 //!
 //! `x'' + c x' + x + x^3 = F cos(2 pi f t)`.
 #![allow(clippy::unwrap_used, reason = "a test ends where its study is wrong")]
@@ -96,7 +97,8 @@ fn simulation_finds_period_three_within_the_isola_only() {
     }
 }
 
-/// The pair leaves the symmetric orbits at one branch point and meets them at the other, `c = 0.2`, `F = 15`: both arms and both ends are one branch.
+/// The pair leaves the symmetric orbits at one branch point and meets them at the other, `c = 0.2`, `F = 15`:
+/// both arms and both ends are one branch.
 #[test]
 fn a_pair_of_mirror_images_is_one_closed_branch_met_from_either_end() {
     let more = "[response]\nperiod_multiples = [1]\n[continuation]\nmax_step_hz = 0.0005";

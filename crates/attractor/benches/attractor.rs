@@ -21,7 +21,8 @@ use hammerbeam_motion::{
     general::{GeneralSettings, advance},
 };
 
-/// Steps of these tolerances leave monodromies of the beam good to about 1e-9 in both integrators, as in the benchmark of the motion crate.
+/// Steps of these tolerances leave monodromies of the beam good to about 1e-9 in both integrators, as in the
+/// benchmark of the motion crate.
 const EXACT: ExactSettings = ExactSettings { tolerance: 1e-9 };
 const GENERAL: f64 = 1e-11;
 
@@ -130,7 +131,8 @@ fn grid(count: usize) -> Grid {
 /// How long a motion may take to repeat at 36 Hz.
 const PATIENCE: Patience = Patience { skipped: 0, periods: 400, longest: 8 };
 
-/// Cells of a basin at 36 Hz: an 8 x 8 grid with the attractors found on the way, and one motion from rest until it repeats.
+/// Cells of a basin at 36 Hz: an 8 x 8 grid with the attractors found on the way, and one motion from rest
+/// until it repeats.
 fn cells(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("basin_cells");
     let grid = grid(8);
@@ -160,7 +162,8 @@ const CORES: usize = 2;
 /// Its cells.
 const WHOLE: f64 = 200.0 * 200.0;
 
-/// What a basin of 200 x 200 cells takes on two cores, from cells of the same rectangle by both integrators: a grid of 32 x 32 by the exact one, sixteen cells spread over it by the general one.
+/// What a basin of 200 x 200 cells takes on two cores, from cells of the same rectangle by both integrators:
+/// a grid of 32 x 32 by the exact one, sixteen cells spread over it by the general one.
 fn whole_basin(_: &mut Criterion) {
     let (stop, grid) = (AtomicBool::new(false), grid(32));
     let begun = Instant::now();

@@ -1,15 +1,19 @@
 //! Basins of attraction over a grid of two coordinates of the initial state.
 //!
-//! From the middle of every cell the motion is followed until it repeats (`settle.rs`), or until it comes near an attractor that is known: within
-//! [`NEAR`] of one of its states, and closer than a period of it before. A motion that does not repeat is examined (`classify.rs`); it belongs to
-//! a known attractor without a period if most of its further states lie among those of that attractor, as close as those lie to one another.
+//! From the middle of every cell the motion is followed until it repeats (`settle.rs`), or until it comes
+//! near an attractor that is known: within [`NEAR`] of one of its states, and closer than a period of it
+//! before. A motion that does not repeat is examined (`classify.rs`); it belongs to a known attractor without
+//! a period if most of its further states lie among those of that attractor, as close as those lie to one
+//! another.
 //!
-//! **The same bits for any number of threads.** Cells are done in rounds whose sizes depend on the number of cells done alone. Within a round every cell
-//! knows the attractors of the rounds before, and no other; afterwards those that are new are numbered in the order of their cells. So a round
-//! can be computed on any number of threads, and again after it was lost.
+//! **The same bits for any number of threads.** Cells are done in rounds whose sizes depend on the number of
+//! cells done alone. Within a round every cell knows the attractors of the rounds before, and no other;
+//! afterwards those that are new are numbered in the order of their cells. So a round can be computed on any
+//! number of threads, and again after it was lost.
 //!
-//! **Fractions.** Of N cells a basin with k of them has the fraction `p = k/N`, with the standard error `sqrt(p (1 - p)/N)` of a sample of N random
-//! states. A grid samples a basin with smooth borders better than that.
+//! **Fractions.** Of N cells a basin with k of them has the fraction `p = k/N`, with the standard error
+//! `sqrt(p (1 - p)/N)` of a sample of N random states. A grid samples a basin with smooth borders better than
+//! that.
 
 use std::sync::atomic::AtomicBool;
 
@@ -22,7 +26,8 @@ use crate::{
     settle::{Patience, Settled, advance_period, distance, settle_unless},
 };
 
-/// Distance, relative to the motion, from a known periodic attractor at which a motion that comes closer belongs to it.
+/// Distance, relative to the motion, from a known periodic attractor at which a motion that comes closer
+/// belongs to it.
 const NEAR: f64 = 1e-4;
 /// Distance of two periodic attractors up to which they are the same.
 const SAME: f64 = 1e-5;
@@ -63,7 +68,8 @@ enum Destination {
     Known(usize),
     /// To one that was not known when its round began.
     New(Attractor),
-    /// No motion begins at the state, or it cannot be computed, or it keeps a contact closed that remembers how it began.
+    /// No motion begins at the state, or it cannot be computed, or it keeps a contact closed that remembers
+    /// how it began.
     Lost,
 }
 
@@ -72,8 +78,9 @@ enum Destination {
 pub struct Round {
     /// The first cell of the round.
     pub first: usize,
-    /// Number of the attractor of each of its cells, counted from 1; 0 where no motion begins or leads to an attractor: behind a rigid stop, within a contact that remembers its
-    /// impact, where a motion settles with such a contact closed, or cannot be computed.
+    /// Number of the attractor of each of its cells, counted from 1; 0 where no motion begins or leads to an
+    /// attractor: behind a rigid stop, within a contact that remembers its impact, where a motion settles
+    /// with such a contact closed, or cannot be computed.
     pub cells: Vec<u32>,
     /// Attractors that are new; the first one has the number `known + 1`.
     pub found: Vec<Attractor>,
@@ -239,8 +246,8 @@ fn is_among(scales: &[f64], known: &Attractor, states: &[Vec<f64>]) -> bool {
         let others = known.states.iter().enumerate().filter(|(k, _)| Some(*k) != but);
         others.map(|(_, other)| distance(scales, other, state)).fold(f64::INFINITY, f64::min)
     };
-    // How far the states of the attractor lie from one another: exceeded by one in twenty. Chaos may visit bands in turn, which lie differently close: equal steps through the states would see
-    // some bands only.
+    // How far the states of the attractor lie from one another: exceeded by one in twenty. Chaos may visit
+    // bands in turn, which lie differently close: equal steps through the states would see some bands only.
     let count = known.states.len();
     let place = |i: usize| ((i as f64 * GOLDEN).fract() * count as f64) as usize;
     let mut own: Vec<f64> =
@@ -281,7 +288,8 @@ pub fn behind_rigid_stops(
     Ok((0..grid.cells()).map(|cell| map.check_in_front_of_stops(&grid.state(cell)).is_err()).collect())
 }
 
-/// Part of the cells that lead to each attractor, with its standard error; index 0 is for motions that cannot be computed.
+/// Part of the cells that lead to each attractor, with its standard error; index 0 is for motions that cannot
+/// be computed.
 #[must_use]
 pub fn fractions(cells: &[u32], attractors: usize) -> Vec<Estimate> {
     let mut counts = vec![0_u64; attractors + 1];

@@ -1,22 +1,30 @@
 //! What kind of motion an attractor is: periodic, quasi-periodic, chaotic, or doubtful.
 //!
-//! A motion that repeats (`settle.rs`) is periodic. Of one that does not, two indicators are asked: the largest exponent, and K of the 0-1
-//! test on that entry of the state that moves most. With the largest exponent `L` per period over N periods,
+//! A motion that repeats (`settle.rs`) is periodic. Of one that does not, two indicators are asked: the
+//! largest exponent, and K of the 0-1 test on that entry of the state that moves most. With the largest
+//! exponent `L` per period over N periods,
 //!
 //! | indicator | regular | chaotic | else |
 //! |---|---|---|---|
 //! | exponent | `-2/N <= L <= 10/N`, half width `<= 20/N`, not surely below zero | `L - half width > 10/N` | undecided, or below: still settling |
 //! | 0-1 test | `K < 0.2` | `K > 0.8` | undecided |
 //!
-//! and, of a motion that both call regular, its returns over eight times as many periods (`returns.rs`): the distance to the state n periods before, for every n up to the longest period looked for, stays the same on average where there is
-//! no period, and falls where the motion still settles to one. If it falls by a fifth or more from the first quarter of these periods to the last, for any n, or for all n together by about the same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow bands
-//! looks regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in its spectrum. So a motion is quasi-periodic only if its returns are those on a torus:
-//! that of n periods which is closest is three times as far after `3 n`, is not rounding, and the last states lie between earlier ones, where those of a motion that creeps past an orbit are at the end of its way.
+//! and, of a motion that both call regular, its returns over eight times as many periods (`returns.rs`): the
+//! distance to the state n periods before, for every n up to the longest period looked for, stays the same on
+//! average where there is no period, and falls where the motion still settles to one. If it falls by a fifth
+//! or more from the first quarter of these periods to the last, for any n, or for all n together by about the
+//! same factor from each quarter to the next, the motion is still settling. Weak chaos in narrow bands looks
+//! regular to both indicators as well: its exponent is below `10/N`, and its bands make lines in its
+//! spectrum. So a motion is quasi-periodic only if its returns are those on a torus: that of n periods which
+//! is closest is three times as far after `3 n`, is not rounding, and the last states lie between earlier
+//! ones, where those of a motion that creeps past an orbit are at the end of its way.
 //!
-//! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln N/N`, and do not shrink. What they gain on one part of the torus they lose on another, so that the half width is
-//! larger than what is left over; where it is not, and `L` is below zero with all of its interval, the motion settles, however slowly.) Where both agree the motion is quasi-periodic or
-//! chaotic; where they do not it is doubtful, with the reason. A motion whose largest exponent is below zero is on its way to a periodic one: it is given
-//! time once more, and then called doubtful.
+//! (The tangent vectors of a regular motion without a period grow like N at most, so that `L` is about `ln
+//! N/N`, and do not shrink. What they gain on one part of the torus they lose on another, so that the half
+//! width is larger than what is left over; where it is not, and `L` is below zero with all of its interval,
+//! the motion settles, however slowly.) Where both agree the motion is quasi-periodic or chaotic; where they
+//! do not it is doubtful, with the reason. A motion whose largest exponent is below zero is on its way to a
+//! periodic one: it is given time once more, and then called doubtful.
 
 use crate::{
     AttractorError, Estimate, Lyapunov, LyapunovSettings, SectionMap,
@@ -31,13 +39,16 @@ const REGULAR_BELOW: f64 = 0.2;
 const CHAOTIC_ABOVE: f64 = 0.8;
 /// What the exponent per period of a regular motion may be, times the number of periods.
 const ZERO: f64 = 10.0;
-/// What its half width may be, times the number of periods. A torus that stretches tangent vectors by e on the way shows `1/n` in each of the 20 blocks of `n = N/20` periods, so that `10/N` is usual.
+/// What its half width may be, times the number of periods. A torus that stretches tangent vectors by e on
+/// the way shows `1/n` in each of the 20 blocks of `n = N/20` periods, so that `10/N` is usual.
 const WIDTH: f64 = 20.0;
 /// The same below zero.
 const SHRINKING: f64 = 2.0;
-/// What both indicators call regular is followed for so many times as long: in the periods of the average a motion that creeps past an orbit shows too little of its way, and a torus too little of itself.
+/// What both indicators call regular is followed for so many times as long: in the periods of the average a
+/// motion that creeps past an orbit shows too little of its way, and a torus too little of itself.
 const CONFIRMED: u64 = 7;
-/// The high end of its interval below which it is surely negative, times the number of periods: rounding makes 1e-13 of it.
+/// The high end of its interval below which it is surely negative, times the number of periods: rounding
+/// makes 1e-13 of it.
 const SURELY: f64 = 0.01;
 
 /// How much is spent on a motion.
@@ -84,7 +95,8 @@ pub enum Doubt {
     ZeroOneUndecided,
     /// Both indicators say regular, but the motion does not come back as on a torus.
     NotTurning,
-    /// Neighbouring motions come closer, but it has not repeated yet, or only after more periods than were looked for.
+    /// Neighbouring motions come closer, but it has not repeated yet, or only after more periods than were
+    /// looked for.
     NotSettled,
 }
 

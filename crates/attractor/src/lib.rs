@@ -1,9 +1,11 @@
-//! Attractors of a motion: simulation in time, sweeps, Poincare sections, Lyapunov exponents and basins of attraction.
+//! Attractors of a motion: simulation in time, sweeps, Poincare sections, Lyapunov exponents and basins of
+//! attraction.
 //!
 //! # Mathematics
-//! A motion is seen section by section ([`SectionMap`]): `z(k + 1) = P(z(k))`, with the fundamental matrix `dP/dz` where tangent vectors are
-//! wanted. Of a [`System`](hammerbeam_motion::System) a section is an excitation period or a part of it, by the exact integrator; any vector field
-//! serves as well, by the general one, and so does any map.
+//! A motion is seen section by section ([`SectionMap`]): `z(k + 1) = P(z(k))`, with the fundamental matrix
+//! `dP/dz` where tangent vectors are wanted. Of a [`System`](hammerbeam_motion::System) a section is an
+//! excitation period or a part of it, by the exact integrator; any vector field serves as well, by the
+//! general one, and so does any map.
 //!
 //! | question | indicator | file |
 //! |---|---|---|
@@ -21,11 +23,12 @@
 //! | `grid.rs`, `basins.rs` | where the motions from a grid of states lead |
 //! | `parallel.rs`, `random.rs` | work on many threads with the same results; numbers from a seed |
 //!
-//! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of cells does so step by step, and can show
-//! progress and stop in between.
+//! Nothing here prints, reads files or looks at the clock. Whoever drives a sweep, an average or a round of
+//! cells does so step by step, and can show progress and stop in between.
 //!
 //! # Example
-//! The exponents of Henon's map `x' = 1 - 1.4 x^2 + y`, `y' = 0.3 x`: 0.419 and, since areas shrink by 0.3, `ln 0.3` less that.
+//! The exponents of Henon's map `x' = 1 - 1.4 x^2 + y`, `y' = 0.3 x`: 0.419 and, since areas shrink by 0.3,
+//! `ln 0.3` less that.
 //! ```
 //! use hammerbeam_attractor::{LyapunovSettings, StepMap, lyapunov};
 //!

@@ -1,22 +1,29 @@
 //! The whole spectrum of Lyapunov exponents of a motion.
 //!
-//! With the growth `g_i(k)` of the tangent directions over the sections `k` of duration `h` (`tangents.rs`) the exponents are the means
+//! With the growth `g_i(k)` of the tangent directions over the sections `k` of duration `h` (`tangents.rs`)
+//! the exponents are the means
 //!
 //! `lambda_i = 1/(N h) sum_k g_i(k)`, `lambda_1 >= lambda_2 >= ...`.
 //!
-//! **Their sum** is the mean of `ln |det P|/h`. The flow of `z' = g(t, z)` changes volumes at the rate `tr dg/dz`, so for a structure with contacts whose
-//! force depends on the displacement alone it is `-tr(M^-1 C)`, whatever the motion: an invariant, which says how good the fundamental matrices are. A contact whose force depends on the velocity adds the mean
-//! of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e` (the determinant of its jump is `e^2`). A law that remembers the speed `v` of its impact adds the mean of `phi^T df/dv . dv/dq'` besides, where `dv/dz` is how the speed
-//! of neighbours that were struck at other speeds goes with their present state. Where a rigid stop sticks, what the motion was relative to it is forgotten: two
-//! exponents are minus infinity for each stop that is held at once, and so is the sum; one is where an impact without restitution does not stick. The others are those of the motion that is left.
+//! **Their sum** is the mean of `ln |det P|/h`. The flow of `z' = g(t, z)` changes volumes at the rate `tr
+//! dg/dz`, so for a structure with contacts whose force depends on the displacement alone it is `-tr(M^-1
+//! C)`, whatever the motion: an invariant, which says how good the fundamental matrices are. A contact whose
+//! force depends on the velocity adds the mean of `phi^T phi df/dr'`, every impact on a rigid stop `2 ln e`
+//! (the determinant of its jump is `e^2`). A law that remembers the speed `v` of its impact adds the mean of
+//! `phi^T df/dv . dv/dq'` besides, where `dv/dz` is how the speed of neighbours that were struck at other
+//! speeds goes with their present state. Where a rigid stop sticks, what the motion was relative to it is
+//! forgotten: two exponents are minus infinity for each stop that is held at once, and so is the sum; one is
+//! where an impact without restitution does not stick. The others are those of the motion that is left.
 //!
-//! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the motion their means are
-//! independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean with 95 per cent, with the standard deviation `s` of the block means and Student's
-//! `t` for `BLOCKS - 1` degrees of freedom. The correlation of neighbouring blocks is told besides: beyond
-//! `2/sqrt(BLOCKS)` the blocks are too short or the motion has not settled, and the half width is too small.
+//! **Confidence.** The sections are cut into [`BLOCKS`] blocks. Where those are longer than the memory of the
+//! motion their means are independent, and `lambda` lies within `t s/sqrt(BLOCKS)` of the mean with 95 per
+//! cent, with the standard deviation `s` of the block means and Student's `t` for `BLOCKS - 1` degrees of
+//! freedom. The correlation of neighbouring blocks is told besides: beyond `2/sqrt(BLOCKS)` the blocks are
+//! too short or the motion has not settled, and the half width is too small.
 //!
-//! **Dimension.** With the largest k for which `S_k = lambda_1 + ... + lambda_k >= 0` the dimension after Kaplan and Yorke is
-//! `k + S_k/|lambda_(k+1)|`; that of the section for a motion that is driven periodically, of the attractor itself for a field that does not depend on time.
+//! **Dimension.** With the largest k for which `S_k = lambda_1 + ... + lambda_k >= 0` the dimension after
+//! Kaplan and Yorke is `k + S_k/|lambda_(k+1)|`; that of the section for a motion that is driven
+//! periodically, of the attractor itself for a field that does not depend on time.
 //!
 //! # Source
 //! See `tangents.rs`; Kaplan and Yorke, Lecture Notes in Mathematics 730 (1979), 204-227.
@@ -227,7 +234,8 @@ pub fn lyapunov(
     Ok(average.spectrum().expect("all blocks are whole"))
 }
 
-/// Mean of some values and the half width of its interval of 95 per cent (with the t of 19 degrees of freedom, however many there are).
+/// Mean of some values and the half width of its interval of 95 per cent (with the t of 19 degrees of
+/// freedom, however many there are).
 fn estimate(values: impl Iterator<Item = f64> + Clone) -> Estimate {
     let count = values.clone().count() as f64;
     let value = values.clone().sum::<f64>() / count;

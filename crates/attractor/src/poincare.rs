@@ -33,7 +33,8 @@ pub struct SectionPoint {
 /// Points of a section over so many more periods of a motion, in order of time.
 ///
 /// # Errors
-/// The motion cannot be computed; [`AttractorError::Input`]: the phase is not from 0 to 1, or there is no such element.
+/// The motion cannot be computed; [`AttractorError::Input`]: the phase is not from 0 to 1, or there is no
+/// such element.
 pub fn poincare(
     simulation: &mut Simulation,
     section: Section,

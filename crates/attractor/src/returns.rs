@@ -2,20 +2,28 @@
 //!
 //! With `D(n)` the mean distance of the states at the start of periods k and `k + n`:
 //!
-//! - A motion that still settles comes back closer and closer: `D(n)` falls from the first quarter of the periods to the last, for some n. Where little is left to fall within these periods, it falls by the same factor from
-//!   each quarter to the next, for all n alike; on a torus the quarters differ either way.
-//! - On a torus the map turns every angle by the same amount, so that the shift of n periods is a turn, and that of `3 n` periods three times that turn. Of many n one turns by little; there
-//!   `D(3 n)` is about `3 D(n)`, whatever the shape of the torus and the speed along it, as a short way is gone three times. In chaos, in bands that are visited in a fixed order as well, the closest n
-//!   keeps the order of the bands and says nothing of the place in them: `D(3 n)` is about `D(n)`.
-//! - But so does what creeps past an orbit, or towards one whose period is longer than those looked for: it goes a short way three times, too. What tells it from a torus is that its last states lie at the end of what was
-//!   visited: states of the past are behind them, and nothing is ahead. On a torus that was seen whole the last states fall between earlier ones, with neighbours on opposite sides. On one near a resonance, of which these
-//!   periods show but a part, the way of n periods is as long at the end as at the beginning, where it grows or falls beside an orbit.
+//! - A motion that still settles comes back closer and closer: `D(n)` falls from the first quarter of the
+//!   periods to the last, for some n. Where little is left to fall within these periods, it falls by the same
+//!   factor from each quarter to the next, for all n alike; on a torus the quarters differ either way.
+//! - On a torus the map turns every angle by the same amount, so that the shift of n periods is a turn, and
+//!   that of `3 n` periods three times that turn. Of many n one turns by little; there `D(3 n)` is about `3
+//!   D(n)`, whatever the shape of the torus and the speed along it, as a short way is gone three times. In
+//!   chaos, in bands that are visited in a fixed order as well, the closest n keeps the order of the bands
+//!   and says nothing of the place in them: `D(3 n)` is about `D(n)`.
+//! - But so does what creeps past an orbit, or towards one whose period is longer than those looked for: it
+//!   goes a short way three times, too. What tells it from a torus is that its last states lie at the end of
+//!   what was visited: states of the past are behind them, and nothing is ahead. On a torus that was seen
+//!   whole the last states fall between earlier ones, with neighbours on opposite sides. On one near a
+//!   resonance, of which these periods show but a part, the way of n periods is as long at the end as at the
+//!   beginning, where it grows or falls beside an orbit.
 
 use crate::settle::{REPEATED, distance};
 
-/// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks by `1/N` in a period has 0.5.
+/// Part to which returns may fall on a torus: those of the beam's keep 0.98 and more, a motion that shrinks
+/// by `1/N` in a period has 0.5.
 const STEADY: f64 = 0.8;
-/// Least part by which returns fall from each quarter to the next in a motion that settles slowly, and by how much that part differs between quarters at most.
+/// Least part by which returns fall from each quarter to the next in a motion that settles slowly, and by how
+/// much that part differs between quarters at most.
 const LEAST_FALL: f64 = 0.002;
 const EVEN: f64 = 2.0;
 /// `D(3 n)/D(n)` from which on the shift is a turn: half-way between three and one.
@@ -26,19 +34,23 @@ const PART: usize = 8;
 const MOST: usize = 1024;
 /// Pairs of states of a mean.
 const PAIRS: usize = 512;
-/// A neighbour ahead is sought up to so many times the distance of the one behind (three at most where a turn is a golden section of the circle, more where it is nearer to a fraction),
+/// A neighbour ahead is sought up to so many times the distance of the one behind (three at most where a turn
+/// is a golden section of the circle, more where it is nearer to a fraction),
 const AHEAD: f64 = 16.0;
 /// within a cone of that half angle, as its cosine.
 const CONE: f64 = 0.5;
-/// By how much the way of n periods may differ between the first quarter and the last on a torus of which a part is seen.
+/// By how much the way of n periods may differ between the first quarter and the last on a torus of which a
+/// part is seen.
 const SAME: f64 = 0.03;
-/// Part of the last states that have to lie between earlier ones, and least number of states that are looked at.
+/// Part of the last states that have to lie between earlier ones, and least number of states that are looked
+/// at.
 const BETWEEN: f64 = 0.5;
 const LAST: usize = 16;
 /// As many of them are enough.
 const MOST_LAST: usize = 64;
 
-/// Whether the returns after some number of periods, up to the longest, come closer and closer, or those after all of them slowly and evenly.
+/// Whether the returns after some number of periods, up to the longest, come closer and closer, or those
+/// after all of them slowly and evenly.
 pub(crate) fn settles(states: &[Vec<f64>], scales: &[f64], longest: usize) -> bool {
     let mean = |pairs: &[Vec<f64>], n: usize, apart: fn(&[f64], &[f64], &[f64]) -> f64| {
         let all = pairs.iter().zip(&pairs[n..]).map(|(before, now)| apart(scales, before, now));
@@ -100,7 +112,8 @@ pub(crate) fn returns(states: &[Vec<f64>], scales: &[f64]) -> Returns {
     if is_even || end_between_earlier_ones(states, scales, n) { Returns::Turning } else { Returns::Creeping }
 }
 
-/// Whether most of the last states, one of each place that n periods come back to, have earlier states on opposite sides.
+/// Whether most of the last states, one of each place that n periods come back to, have earlier states on
+/// opposite sides.
 fn end_between_earlier_ones(states: &[Vec<f64>], scales: &[f64], n: usize) -> bool {
     let n = n.max(LAST).min(states.len());
     let lies_between = |k: usize| {
@@ -122,7 +135,8 @@ fn end_between_earlier_ones(states: &[Vec<f64>], scales: &[f64], n: usize) -> bo
     between as f64 >= BETWEEN * count as f64
 }
 
-/// Distance of two states in the scales: relative to states, which may be near zero, means would be those of few.
+/// Distance of two states in the scales: relative to states, which may be near zero, means would be those of
+/// few.
 fn apart(scales: &[f64], a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).zip(scales).map(|((a, b), scale)| ((a - b) / scale).powi(2)).sum::<f64>().sqrt()
 }
@@ -133,7 +147,8 @@ mod tests {
 
     use super::*;
 
-    /// States on a torus of some angles, each turned by its part of a circle in a period, bent by its second harmonic.
+    /// States on a torus of some angles, each turned by its part of a circle in a period, bent by its second
+    /// harmonic.
     fn torus(rotations: &[f64]) -> Vec<Vec<f64>> {
         let state = |k: usize| {
             let angles = rotations.iter().map(|rotation| TAU * rotation * k as f64);
@@ -151,7 +166,8 @@ mod tests {
         }
     }
 
-    /// Towards an orbit of 36 points and away from one, on one side and from side to side, and at rest on it: none of it turns.
+    /// Towards an orbit of 36 points and away from one, on one side and from side to side, and at rest on it:
+    /// none of it turns.
     #[test]
     fn what_creeps_past_an_orbit_of_long_period_does_not_turn() {
         for rate in [-3e-3, -1e-3, -1e-4, -1e-5, 1e-5, 1e-4, 1e-3] {

@@ -1,8 +1,10 @@
 //! What this room needs of a motion: the state, and the fundamental matrix, over one section.
 //!
-//! A section is a stretch of the motion that always has the same duration: a part of the excitation period of a [`System`], of the period or of the
-//! time of a vector field, or one step of a map. Sections are counted, so that a motion that depends on time knows its phase. A fundamental matrix may be asked for over a part of a section
-//! ([`Part`]): over all of it one direction may grow so much more than another that this one is lost in rounding.
+//! A section is a stretch of the motion that always has the same duration: a part of the excitation period of
+//! a [`System`], of the period or of the time of a vector field, or one step of a map. Sections are counted,
+//! so that a motion that depends on time knows its phase. A fundamental matrix may be asked for over a part
+//! of a section ([`Part`]): over all of it one direction may grow so much more than another that this one is
+//! lost in rounding.
 
 use faer::Mat;
 use hammerbeam_motion::{
@@ -31,7 +33,8 @@ pub trait SectionMap {
     /// Duration of a section, in the unit of time in which exponents are wanted.
     fn duration(&self) -> f64;
 
-    /// Sizes of the entries of a state against one another: distances and tangent vectors are measured in them, length as the state.
+    /// Sizes of the entries of a state against one another: distances and tangent vectors are measured in
+    /// them, length as the state.
     fn scales(&self) -> Vec<f64> {
         vec![1.0; self.dimension()]
     }
@@ -58,7 +61,8 @@ pub trait SectionMap {
 
     /// Refuses a settled motion in which a contact stays closed that remembers how it began.
     ///
-    /// * `state`: that to which the motion has come last, at phase 0; `periods`: excitation periods that are looked at.
+    /// * `state`: that to which the motion has come last, at phase 0; `periods`: excitation periods that are
+    ///   looked at.
     ///
     /// # Errors
     /// [`AttractorError::NeverOpens`], or the motion cannot be computed.
@@ -71,13 +75,15 @@ pub trait SectionMap {
         0
     }
 
-    /// What `ln |det P|` of the last [`SectionMap::flow`] has to be, where that is known otherwise; minus infinity where the motion lost directions for good.
+    /// What `ln |det P|` of the last [`SectionMap::flow`] has to be, where that is known otherwise; minus
+    /// infinity where the motion lost directions for good.
     fn growth_of_volume(&self) -> Option<f64> {
         None
     }
 }
 
-/// A system at one excitation frequency, by the exact integrator; a section is a whole part of the excitation period.
+/// A system at one excitation frequency, by the exact integrator; a section is a whole part of the excitation
+/// period.
 #[derive(Debug)]
 pub struct SystemMap {
     integrator: ExactIntegrator,
@@ -146,7 +152,8 @@ impl SystemMap {
         -(0..damping.nrows()).map(|i| damping[(i, i)]).sum::<f64>()
     }
 
-    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes, or in a contact whose law remembers its impact.
+    /// Refuses a state at phase 0 that lies behind a rigid stop, where no motion comes, or in a contact whose
+    /// law remembers its impact.
     ///
     /// # Errors
     /// [`AttractorError::BehindRigidStop`], [`AttractorError::WithinContact`], of the first such stop.
@@ -169,7 +176,8 @@ impl SystemMap {
         Ok(())
     }
 
-    /// The first element whose contact remembers its impact and stays closed over these periods: the state lies within it after each of them, and nothing has touched it.
+    /// The first element whose contact remembers its impact and stays closed over these periods: the state
+    /// lies within it after each of them, and nothing has touched it.
     fn stays_closed(&mut self, state: &[f64], periods: usize) -> Result<Option<usize>, AttractorError> {
         let period = Stretch { frequency_hz: self.frequency_hz, start: 0.0, end: 1.0 };
         let mut closed = self.remembered_contacts(state);
@@ -188,7 +196,8 @@ impl SystemMap {
         Ok(closed.first().map(|(element, _)| *element))
     }
 
-    /// Elements within a contact that remembers its impact, and the numbers of these contacts among those of all elements.
+    /// Elements within a contact that remembers its impact, and the numbers of these contacts among those of
+    /// all elements.
     fn remembered_contacts(&self, state: &[f64]) -> Vec<(usize, usize)> {
         let (system, mut first) = (self.integrator.system(), 0);
         let mut within = Vec::new();
@@ -208,7 +217,8 @@ impl SystemMap {
     }
 }
 
-/// Sizes of modal states: velocities 1, displacements one over the eigenfrequency or, for slower modes, over the excitation.
+/// Sizes of modal states: velocities 1, displacements one over the eigenfrequency or, for slower modes, over
+/// the excitation.
 #[must_use]
 pub fn state_scales(system: &System, frequency_hz: f64) -> Vec<f64> {
     let reference = std::f64::consts::TAU * frequency_hz;
@@ -267,7 +277,8 @@ impl SectionMap for SystemMap {
         self.integrator.directions_lost()
     }
 
-    /// `-tr(M^-1 C)` times the duration, and what contacts contribute; not known where a contact that remembers its impact swallows nearly all of it.
+    /// `-tr(M^-1 C)` times the duration, and what contacts contribute; not known where a contact that
+    /// remembers its impact swallows nearly all of it.
     fn growth_of_volume(&self) -> Option<f64> {
         self.growth_of_volume
     }
@@ -284,7 +295,8 @@ pub struct FieldMap<F> {
 
 impl<F: VectorField> FieldMap<F> {
     /// * `duration`: of a section, in the unit of the field's time.
-    /// * `parts`: sections after which the time of the field begins anew: those of a period; 1 where the field does not depend on time.
+    /// * `parts`: sections after which the time of the field begins anew: those of a period; 1 where the
+    ///   field does not depend on time.
     ///
     /// # Errors
     /// [`AttractorError::Input`].

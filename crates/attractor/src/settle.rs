@@ -1,8 +1,10 @@
 //! Whether a motion repeats: it is advanced period by period until it does, or until patience ends.
 //!
-//! A motion repeats after n periods if its state comes back to within [`REPEATED`] of its size, both in the scales of the map. A motion that
-//! creeps towards an orbit of period m, changing sides or turning about it, comes back after a multiple of m first: twice where a multiplier is
-//! negative, thrice where a pair turns by a third. Where the state is close after a divisor of n, too, it is given time for as long as it still comes closer.
+//! A motion repeats after n periods if its state comes back to within [`REPEATED`] of its size, both in the
+//! scales of the map. A motion that creeps towards an orbit of period m, changing sides or turning about it,
+//! comes back after a multiple of m first: twice where a multiplier is negative, thrice where a pair turns by
+//! a third. Where the state is close after a divisor of n, too, it is given time for as long as it still
+//! comes closer.
 
 use std::collections::VecDeque;
 
@@ -84,7 +86,8 @@ pub fn advance_period(
 /// Advances a motion until it repeats.
 ///
 /// * `parts`: sections in a period of the map.
-/// * `arrived`: asked after every period with the states so far, the newest last, at most `patience.longest + 1` of them; the motion ends when it says true.
+/// * `arrived`: asked after every period with the states so far, the newest last, at most `patience.longest +
+///   1` of them; the motion ends when it says true.
 ///
 /// # Errors
 /// The motion cannot be computed.
@@ -144,7 +147,8 @@ mod tests {
     use super::*;
     use crate::StepMap;
 
-    /// Turning by `turn` of a circle and shrinking in every step, towards the fixed point 0 of a map about (1, 1).
+    /// Turning by `turn` of a circle and shrinking in every step, towards the fixed point 0 of a map about
+    /// (1, 1).
     fn spiral(turn: f64, shrink: f64) -> impl SectionMap {
         StepMap::new(2, move |z: &[f64]| {
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();

@@ -1,7 +1,8 @@
 //! Motion in time: states at a sampling rate, and every contact from touch to release.
 //!
-//! The motion is that of the exact integrator, excitation period by excitation period: closed form in flight, contacts certified, so no contact
-//! of the motion is missed between samples, whatever the sampling rate. Parts of a contact that lie in neighbouring periods are joined.
+//! The motion is that of the exact integrator, excitation period by excitation period: closed form in flight,
+//! contacts certified, so no contact of the motion is missed between samples, whatever the sampling rate.
+//! Parts of a contact that lie in neighbouring periods are joined.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -51,7 +52,8 @@ pub struct ContactRecord {
 
 /// Where a motion is at the end of a period: what it needs to go on with the same bits.
 ///
-/// The state and the contacts are not all of it: a law that remembers the speed of its impact goes on with that. What sticks to a rigid stop, the state tells.
+/// The state and the contacts are not all of it: a law that remembers the speed of its impact goes on with
+/// that. What sticks to a rigid stop, the state tells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SimulationCheckpoint {
     /// `[q; q']` at phase 0, length 2n.
@@ -60,7 +62,8 @@ pub struct SimulationCheckpoint {
     pub periods: u64,
     /// Contacts that are closed, as far as they were seen.
     pub open: Vec<ContactRecord>,
-    /// The speed of the impact that the law of each element remembers [m/s], infinite where it remembers none; empty if no law of the system does.
+    /// The speed of the impact that the law of each element remembers [m/s], infinite where it remembers
+    /// none; empty if no law of the system does.
     pub impact_speeds: Vec<f64>,
 }
 

@@ -1,8 +1,9 @@
 //! Stepped-sine sweeps with the state carried over, and diagrams from many initial states.
 //!
-//! At each frequency the motion is let settle, told apart (`classify.rs`) and sampled once in every excitation period. In a sweep it begins where it
-//! ended at the frequency before, at phase 0, so that it follows a branch as far as that is stable and hysteresis shows. In a diagram it begins at
-//! each of several states, the same ones at every frequency: rest, the motion without contacts, and states about it.
+//! At each frequency the motion is let settle, told apart (`classify.rs`) and sampled once in every
+//! excitation period. In a sweep it begins where it ended at the frequency before, at phase 0, so that it
+//! follows a branch as far as that is stable and hysteresis shows. In a diagram it begins at each of several
+//! states, the same ones at every frequency: rest, the motion without contacts, and states about it.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -48,7 +49,8 @@ pub struct SweepPoint {
     pub largest_exponent: Option<crate::Estimate>,
     /// K of the 0-1 test, if it was needed.
     pub zero_one: Option<f64>,
-    /// Displacement of the observable at phase 0 of each sampled period [m]: as many as the period of a periodic motion.
+    /// Displacement of the observable at phase 0 of each sampled period [m]: as many as the period of a
+    /// periodic motion.
     pub samples: Vec<f64>,
     /// Largest absolute displacement of the observable over the sampled periods [m].
     pub max_abs_displacement: f64,
@@ -105,7 +107,8 @@ impl Sweeper {
         self.observe(frequency_hz, classified)
     }
 
-    /// Whether a motion can begin at a state at phase 0 that this sweeper has not come to itself: in no contact whose law remembers its impact.
+    /// Whether a motion can begin at a state at phase 0 that this sweeper has not come to itself: in no
+    /// contact whose law remembers its impact.
     #[must_use]
     pub fn can_begin(&mut self, state: &[f64]) -> bool {
         let frequency_hz = self.map.frequency_hz();
@@ -147,8 +150,9 @@ impl Sweeper {
         })
     }
 
-    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always the same ones; of those about it, none behind a rigid stop or within a contact
-    /// that remembers its impact: where no draw is in front of all of them, the last one is reflected at them.
+    /// States from which a diagram is begun: rest, the motion without contacts, and states about it, always
+    /// the same ones; of those about it, none behind a rigid stop or within a contact that remembers its
+    /// impact: where no draw is in front of all of them, the last one is reflected at them.
     ///
     /// # Errors
     /// [`AttractorError::Input`]: the frequency makes no sense.
@@ -167,7 +171,8 @@ impl Sweeper {
         let n = steady.len() / 2;
         let mut states = vec![vec![0.0; 2 * n], steady.clone()];
         while states.len() < count {
-            // Six reaches, from half the motion without contacts to sixteen times as much; low modes move most.
+            // Six reaches, from half the motion without contacts to sixteen times as much; low modes move
+            // most.
             let reach = size * 2f64.powi((states.len() as i32 - 2) % 6 - 1);
             let about = |i: usize, random: &mut Random| {
                 steady[i] + reach * scales[i] * random.signed() / (1 + i % n) as f64

@@ -1,23 +1,29 @@
 //! Orthonormal tangent vectors that are carried along a motion.
 //!
-//! Over a section with the fundamental matrix `P` the frame `Q` becomes `P Q = Q' R` with an orthonormal `Q'` and an upper triangular `R` of positive
-//! diagonal. The diagonal holds the growth of the volumes of order one, two and so on: their logarithms, summed, are what exponents are made of, and
-//! the sum over all of them is `ln |det P|` whatever the frame.
+//! Over a section with the fundamental matrix `P` the frame `Q` becomes `P Q = Q' R` with an orthonormal `Q'`
+//! and an upper triangular `R` of positive diagonal. The diagonal holds the growth of the volumes of order
+//! one, two and so on: their logarithms, summed, are what exponents are made of, and the sum over all of them
+//! is `ln |det P|` whatever the frame.
 //!
-//! **Parts.** Of a direction that shrinks by more than 1e16 against another over a section only rounding is left. So a section is cut into halves, and those again, until none has more than
-//! [`SPREAD`] between what its directions grow by: an impact on a rigid stop with the speed `v` stretches one direction by `1/v` and another by `v`, and in chaos that may be any speed. What a
-//! single impact does no cut takes apart: so parts are not cut more often than the map allows ([`SectionMap::most_halvings`]), and taken as they are then; an impact 1e-4 times as fast as the
-//! motion leaves eight digits. The next section begins with parts of the size with which this one has ended.
+//! **Parts.** Of a direction that shrinks by more than 1e16 against another over a section only rounding is
+//! left. So a section is cut into halves, and those again, until none has more than [`SPREAD`] between what
+//! its directions grow by: an impact on a rigid stop with the speed `v` stretches one direction by `1/v` and
+//! another by `v`, and in chaos that may be any speed. What a single impact does no cut takes apart: so parts
+//! are not cut more often than the map allows ([`SectionMap::most_halvings`]), and taken as they are then; an
+//! impact 1e-4 times as fast as the motion leaves eight digits. The next section begins with parts of the
+//! size with which this one has ended.
 //!
 //! # Source
-//! Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980), 9-20 and 21-30; Eckmann and Ruelle, Rev. Mod. Phys. 57 (1985), 617-656, section V.C. What differs: Householder's
-//! reflections instead of Gram-Schmidt, which loses the directions that shrink most.
+//! Benettin, Galgani, Giorgilli and Strelcyn, Meccanica 15 (1980), 9-20 and 21-30; Eckmann and Ruelle, Rev.
+//! Mod. Phys. 57 (1985), 617-656, section V.C. What differs: Householder's reflections instead of
+//! Gram-Schmidt, which loses the directions that shrink most.
 
 use faer::Mat;
 
 use crate::{AttractorError, Part, SectionMap};
 
-/// Largest difference of the logarithms of growth in one part at which all directions are told apart to six digits and more.
+/// Largest difference of the logarithms of growth in one part at which all directions are told apart to six
+/// digits and more.
 const SPREAD: f64 = 13.8;
 /// Parts are joined where it is less than this share of that.
 const CALM: f64 = 0.25;
@@ -100,13 +106,15 @@ impl Tangents {
         Ok(())
     }
 
-    /// `ln R_ii` of the last section, in descending order of volume: what each direction grew by; minus infinity where it is lost for good.
+    /// `ln R_ii` of the last section, in descending order of volume: what each direction grew by; minus
+    /// infinity where it is lost for good.
     #[must_use]
     pub fn growth(&self) -> &[f64] {
         &self.growth
     }
 
-    /// What the sum over the growth of the last section has to be, where [`SectionMap::growth_of_volume`] tells.
+    /// What the sum over the growth of the last section has to be, where [`SectionMap::growth_of_volume`]
+    /// tells.
     #[must_use]
     pub fn growth_of_volume(&self) -> Option<f64> {
         self.growth_of_volume
@@ -141,9 +149,11 @@ impl Tangents {
     }
 }
 
-/// The frame and its growth from the product of a fundamental matrix and a frame; `None` if the product is singular or not finite.
+/// The frame and its growth from the product of a fundamental matrix and a frame; `None` if the product is
+/// singular or not finite.
 ///
-/// * `lost`: so many directions are lost for good; their growth is minus infinity, and the frame keeps its size by directions that nothing says anything of.
+/// * `lost`: so many directions are lost for good; their growth is minus infinity, and the frame keeps its
+///   size by directions that nothing says anything of.
 fn carry(mut product: Vec<f64>, n: usize, lost: usize) -> Option<Carried> {
     if lost > 0 {
         let largest = product.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
@@ -160,12 +170,14 @@ fn carry(mut product: Vec<f64>, n: usize, lost: usize) -> Option<Carried> {
         Some(&smallest) => growth[ascending[n - 1]] - growth[smallest],
         None => 0.0,
     };
-    // What is left of lost directions is rounding: they are those that grow least, once no other one shrinks nearly as much.
+    // What is left of lost directions is rounding: they are those that grow least, once no other one shrinks
+    // nearly as much.
     ascending.iter().take(lost).for_each(|&i| growth[i] = f64::NEG_INFINITY);
     Some(Carried { frame, growth, spread })
 }
 
-/// `A = Q R` by reflections: writes Q by columns and the logarithms of the diagonal of R, made positive. False if R is singular or not finite.
+/// `A = Q R` by reflections: writes Q by columns and the logarithms of the diagonal of R, made positive.
+/// False if R is singular or not finite.
 fn triangularise(a: &mut [f64], n: usize, q: &mut [f64], growth: &mut [f64]) -> bool {
     let mut signs = vec![1.0; n];
     for k in 0..n {
@@ -204,7 +216,8 @@ fn reflect(vector: &[f64], column: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// A matrix of seven orders of magnitude: `Q` is orthonormal, and `Q^T A` is upper triangular with the positive diagonal that is told.
+    /// A matrix of seven orders of magnitude: `Q` is orthonormal, and `Q^T A` is upper triangular with the
+    /// positive diagonal that is told.
     #[test]
     fn reflections_give_an_orthonormal_frame_and_the_growth_of_volumes() {
         let n = 5;

@@ -1,20 +1,24 @@
 //! The 0-1 test for chaos: a second opinion beside the exponents, from one observable alone.
 //!
-//! A series `x_1 .. x_N` drives a point in the plane, `p(n) = sum_(j<=n) x_j cos(j c)`, `q(n) = sum_(j<=n) x_j sin(j c)`. Regular motion leaves the point bounded
-//! for almost every `c`, chaotic motion lets it diffuse. With the mean square displacement
+//! A series `x_1 .. x_N` drives a point in the plane, `p(n) = sum_(j<=n) x_j cos(j c)`, `q(n) = sum_(j<=n)
+//! x_j sin(j c)`. Regular motion leaves the point bounded for almost every `c`, chaotic motion lets it
+//! diffuse. With the mean square displacement
 //!
 //! `M(n) = 1/(N - n_cut) sum_j (p(j + n) - p(j))^2 + (q(j + n) - q(j))^2`, `n = 1 .. n_cut = N/10`,
 //!
-//! `K_c` is the correlation of `M(n)` with `n`. The median K over [`ANGLES`] values of `c` is near 0 for regular and near 1 for chaotic motion. The series
-//! has to be sampled about as often as the motion changes: once in an excitation period.
+//! `K_c` is the correlation of `M(n)` with `n`. The median K over [`ANGLES`] values of `c` is near 0 for
+//! regular and near 1 for chaotic motion. The series has to be sampled about as often as the motion changes:
+//! once in an excitation period.
 //!
-//! **Bands.** The source subtracts from `M` the oscillation that the mean of the series causes. Chaos of a structure with stops often jumps between two or more
-//! bands in a fixed order; the order is a strong periodic part, whose oscillation hides the diffusion in the same way. So the mean of every
-//! [`CLASSES`]-th value is subtracted from the series itself, for each remainder: what has the period 1, 2, 3, 4, 6, 8, 12 or 24 is gone, and with
-//! it the oscillation. Regular motion stays regular.
+//! **Bands.** The source subtracts from `M` the oscillation that the mean of the series causes. Chaos of a
+//! structure with stops often jumps between two or more bands in a fixed order; the order is a strong
+//! periodic part, whose oscillation hides the diffusion in the same way. So the mean of every [`CLASSES`]-th
+//! value is subtracted from the series itself, for each remainder: what has the period 1, 2, 3, 4, 6, 8, 12
+//! or 24 is gone, and with it the oscillation. Regular motion stays regular.
 //!
 //! # Source
-//! Gottwald and Melbourne, Proc. R. Soc. A 460 (2004), 603-611; SIAM J. Appl. Dyn. Syst. 8 (2009), 129-145, which is what is done here, apart from the bands.
+//! Gottwald and Melbourne, Proc. R. Soc. A 460 (2004), 603-611; SIAM J. Appl. Dyn. Syst. 8 (2009), 129-145,
+//! which is what is done here, apart from the bands.
 
 use std::f64::consts::PI;
 
@@ -110,7 +114,8 @@ mod tests {
         (0..2000).map(|_| step()).collect()
     }
 
-    /// The logistic map in its chaotic range and with its period of eight, as Gottwald and Melbourne (2009) show them.
+    /// The logistic map in its chaotic range and with its period of eight, as Gottwald and Melbourne (2009)
+    /// show them.
     #[test]
     fn logistic_map_is_chaotic_at_3_97_and_regular_at_3_55() {
         let chaotic = zero_one(&logistic(3.97)).unwrap();

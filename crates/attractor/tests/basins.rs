@@ -1,4 +1,5 @@
-//! Basins: the same bits for any number of threads and after a stop, and every cell as the general integrator has it.
+//! Basins: the same bits for any number of threads and after a stop, and every cell as the general integrator
+//! has it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::{f64::consts::TAU, sync::atomic::AtomicBool};
@@ -75,7 +76,8 @@ fn a_stop_loses_no_finished_round_and_the_rest_has_the_same_bits() {
     assert_eq!(second.attractors(), attractors);
 }
 
-/// The general integrator, which shares no code with the exact one, brings the motion of every fifth cell to the same attractor.
+/// The general integrator, which shares no code with the exact one, brings the motion of every fifth cell to
+/// the same attractor.
 #[test]
 fn motions_by_the_general_integrator_end_on_the_attractor_of_their_cell() {
     let (cells, attractors) = all(basins(duffing(), FREQUENCY_HZ, grid(CELLS)), 2);
@@ -126,7 +128,8 @@ fn impact_oscillator() -> System {
     oscillator(1.0, 0.04, 0.4, vec![stop])
 }
 
-/// Chaos of an impact oscillator at 0.48 Hz in two bands that are visited in turn, one of them near the origin, beside an orbit of two periods: as many cells as lead to it, it is one.
+/// Chaos of an impact oscillator at 0.48 Hz in two bands that are visited in turn, one of them near the
+/// origin, beside an orbit of two periods: as many cells as lead to it, it is one.
 #[test]
 fn chaos_in_bands_is_one_attractor() {
     let axis =

@@ -12,7 +12,8 @@ use hammerbeam_motion::{
 const SETTINGS: ExactSettings = ExactSettings { tolerance: 1e-11 };
 const PHASES: [f64; 3] = [0.0, 0.31, 0.77];
 
-/// All numbers of a period and of the checkpoint behind it: the shortest texts that read back to the same bits.
+/// All numbers of a period and of the checkpoint behind it: the shortest texts that read back to the same
+/// bits.
 fn period(simulation: &mut Simulation) -> (String, SimulationCheckpoint) {
     let written = simulation.period_at(&PHASES).unwrap();
     let checkpoint = simulation.checkpoint();
@@ -90,7 +91,8 @@ fn contacts_without_a_memory() {
     }
 }
 
-/// Laws that remember their impacts, closed at borders: neither the state nor the contact tell how fast they closed.
+/// Laws that remember their impacts, closed at borders: neither the state nor the contact tell how fast they
+/// closed.
 #[test]
 fn contacts_that_remember_their_impact() {
     let mut closed = 0;
@@ -127,7 +129,8 @@ fn the_beam_with_contacts_that_remember() {
     }
 }
 
-/// A rigid stop that holds the mass at borders of periods, after chatter and, without restitution, after one impact.
+/// A rigid stop that holds the mass at borders of periods, after chatter and, without restitution, after one
+/// impact.
 #[test]
 fn masses_that_stick_to_rigid_stops() {
     for restitution in [0.0, 0.5] {

@@ -24,7 +24,8 @@ fn henon(a: f64) -> impl SectionMap {
     })
 }
 
-/// Henon's map is chaotic at 1.4; its fixed point loses stability at `a = 3 (1 - 0.3)^2/4 = 0.3675`, the orbit of period 2 at 0.9125.
+/// Henon's map is chaotic at 1.4; its fixed point loses stability at `a = 3 (1 - 0.3)^2/4 = 0.3675`, the
+/// orbit of period 2 at 0.9125.
 #[test]
 fn henon_map_is_periodic_or_chaotic_as_is_known() {
     assert_eq!(kind(&mut henon(0.3), &[0.1, 0.1]).class, Class::Periodic { period: 1 });
@@ -34,7 +35,8 @@ fn henon_map_is_periodic_or_chaotic_as_is_known() {
     assert_eq!(chaos.class, Class::Chaotic, "{:?} {:?}", chaos.largest_exponent, chaos.zero_one);
 }
 
-/// A map of the plane with an attracting circle, turned by `2 pi rotation` at each step: quasi-periodic if the rotation is irrational.
+/// A map of the plane with an attracting circle, turned by `2 pi rotation` at each step: quasi-periodic if
+/// the rotation is irrational.
 fn circle(rotation: f64) -> impl SectionMap {
     StepMap::new(2, move |z: &[f64]| {
         let (sin, cos) = (TAU * rotation).sin_cos();
@@ -50,8 +52,9 @@ fn circle(rotation: f64) -> impl SectionMap {
     })
 }
 
-/// The logistic map `x' = r x (1 - x)` just beyond the end of its period doublings, r = 3.5699457, beside a direction that contracts: weak chaos in many narrow bands, and periodic windows. No map of an
-/// interval, and no map that shrinks every area, has an invariant circle, so none of its motions is quasi-periodic.
+/// The logistic map `x' = r x (1 - x)` just beyond the end of its period doublings, r = 3.5699457, beside a
+/// direction that contracts: weak chaos in many narrow bands, and periodic windows. No map of an interval,
+/// and no map that shrinks every area, has an invariant circle, so none of its motions is quasi-periodic.
 #[test]
 fn weak_chaos_in_bands_is_not_called_quasi_periodic() {
     let mut restless = 0;
@@ -91,7 +94,8 @@ fn undamped_oscillator_under_an_incommensurate_force_is_quasi_periodic() {
     assert_eq!(found.class, Class::QuasiPeriodic, "{:?} {:?}", found.largest_exponent, found.zero_one);
 }
 
-/// Ueda (1979): of `x'' + 0.05 x' + x^3 = 7.5 cos t` all motions are chaotic. With `0.2` and `5.5` there are periodic ones.
+/// Ueda (1979): of `x'' + 0.05 x' + x^3 = 7.5 cos t` all motions are chaotic. With `0.2` and `5.5` there are
+/// periodic ones.
 #[test]
 fn ueda_oscillator_is_chaotic() {
     let cubic = || vec![element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()))];
@@ -101,7 +105,8 @@ fn ueda_oscillator_is_chaotic() {
     assert_eq!(found.class, Class::Chaotic, "{:?} {:?}", found.largest_exponent, found.zero_one);
 }
 
-/// The beam at 34.2 Hz comes to an orbit of 36 periods, more than are looked for, and at 76.07 Hz creeps from an orbit of two periods to one of four just behind the flip: neither is a torus.
+/// The beam at 34.2 Hz comes to an orbit of 36 periods, more than are looked for, and at 76.07 Hz creeps from
+/// an orbit of two periods to one of four just behind the flip: neither is a torus.
 #[test]
 fn orbits_of_long_periods_and_slow_flips_are_no_tori() {
     for (frequency_hz, skipped, longest) in [(34.2, 10_000, 32), (34.2, 20_000, 64), (76.07, 50, 32)] {
@@ -128,7 +133,8 @@ fn beam_is_periodic_at_36_and_chaotic_at_53_hz() {
     }
 }
 
-/// With no time to settle a periodic motion is not called anything else: here it shrinks by 0.7 per cent in a period.
+/// With no time to settle a periodic motion is not called anything else: here it shrinks by 0.7 per cent in a
+/// period.
 #[test]
 fn motion_that_still_settles_is_doubtful() {
     let mut map =
@@ -139,8 +145,9 @@ fn motion_that_still_settles_is_doubtful() {
     assert_eq!(found.class, Class::Doubtful(Doubt::NotSettled), "{:?}", found.largest_exponent);
 }
 
-/// A motion that settles ever so slowly, on either side of its fixed point in turn or turning about it, looks regular to both indicators: its exponents are within rounding of zero and its series has two
-/// frequencies at most. That its returns come closer tells it from a torus.
+/// A motion that settles ever so slowly, on either side of its fixed point in turn or turning about it, looks
+/// regular to both indicators: its exponents are within rounding of zero and its series has two frequencies
+/// at most. That its returns come closer tells it from a torus.
 #[test]
 fn motion_that_settles_too_slowly_for_the_exponents_is_doubtful() {
     let impatient =

@@ -56,12 +56,14 @@ fn exponents_add_up_to_the_divergence_for_every_loss_free_law() {
     }
 }
 
-/// Where a motion is periodic its exponents are `ln |multiplier| / T`; the leading one is asked for again by a longer average.
+/// Where a motion is periodic its exponents are `ln |multiplier| / T`; the leading one is asked for again by
+/// a longer average.
 #[test]
 fn sections_of_any_length_give_the_same_exponents() {
     let of = |parts| spectrum(paper_beam(), 53.0, parts, (200, 400)).0;
     let (coarse, fine) = (of(2), of(8));
-    // Both are the same motion as long as rounding has not parted them, then two samples of the same attractor.
+    // Both are the same motion as long as rounding has not parted them, then two samples of the same
+    // attractor.
     let (a, b) = (coarse.exponents[0], fine.exponents[0]);
     assert!((a.value - b.value).abs() < a.half_width + b.half_width, "{a:?} {b:?}");
 }
@@ -73,7 +75,8 @@ fn largest_exponent_of_the_beam_at_53_hz_is_surely_positive() {
     assert!(found.exponents[0].low() > 1.0, "{:?}", found.exponents[0]);
 }
 
-/// Ueda's oscillator as a system with a cubic spring: 0.1034 and -0.1534 (Sprott 2003), here from the exact integrator.
+/// Ueda's oscillator as a system with a cubic spring: 0.1034 and -0.1534 (Sprott 2003), here from the exact
+/// integrator.
 #[test]
 fn ueda_oscillator_as_a_system_has_the_published_exponents() {
     let cubic = element(&[1.0], 0.0, Law::Power(PowerSpring::cubic(1.0).unwrap()));
@@ -85,8 +88,8 @@ fn ueda_oscillator_as_a_system_has_the_published_exponents() {
     assert!((found.sum - divergence).abs() < 1e-6);
 }
 
-/// A mass between two wells, `x'' + 0.25 x' - x + x^3 = 0.4 cos t`: 0.1572 and -0.4072 (Sprott 2003, appendix A), with a
-/// linear element that pushes away from the middle.
+/// A mass between two wells, `x'' + 0.25 x' - x + x^3 = 0.4 cos t`: 0.1572 and -0.4072 (Sprott 2003, appendix
+/// A), with a linear element that pushes away from the middle.
 #[test]
 fn two_well_oscillator_has_the_published_exponents() {
     let springs = [(-1.0, Degree::Linear), (1.0, Degree::Cubic)];

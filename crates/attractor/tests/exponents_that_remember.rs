@@ -1,8 +1,10 @@
-//! Exponents in chaos with laws that remember the speed of their impacts, by the exact integrator and by a second method that shares nothing with it: the general integrator's variational
-//! equations, and Gram and Schmidt instead of reflections.
+//! Exponents in chaos with laws that remember the speed of their impacts, by the exact integrator and by a
+//! second method that shares nothing with it: the general integrator's variational equations, and Gram and
+//! Schmidt instead of reflections.
 //!
-//! The rule for the sum of the exponents, which has a part that these laws alone have, is held to the determinants of the second method, too. Neither integrator begins within such a contact: that
-//! method goes from one excitation period at whose start the contact is open to the next such one, which is a *leg*.
+//! The rule for the sum of the exponents, which has a part that these laws alone have, is held to the
+//! determinants of the second method, too. Neither integrator begins within such a contact: that method goes
+//! from one excitation period at whose start the contact is open to the next such one, which is a *leg*.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::collections::VecDeque;
@@ -21,7 +23,8 @@ use hammerbeam_motion::{
 
 const FREQUENCY_HZ: f64 = 0.44;
 
-/// Modes of these circular frequencies and 1 % damping, driven and stopped at a point that all of them move alike.
+/// Modes of these circular frequencies and 1 % damping, driven and stopped at a point that all of them move
+/// alike.
 fn system(frequencies: &[f64], model_of_loss: RestitutionModel) -> System {
     let n = frequencies.len();
     let damping = Mat::from_fn(n, n, |i, j| if i == j { 0.02 * frequencies[i] } else { 0.0 });
@@ -117,8 +120,9 @@ fn leg(system: &System, state: &[f64]) -> (usize, Vec<f64>, Mat<f64>) {
     unreachable!("a contact that never opens")
 }
 
-/// Along one motion, that of the exact integrator, both give the same growth in every leg: what they differ by is the error of the fundamental matrices, 1e-9 of their largest entries, over what
-/// the direction that shrinks most leaves of them, a thousandth at worst. Errors of legs have either sign.
+/// Along one motion, that of the exact integrator, both give the same growth in every leg: what they differ
+/// by is the error of the fundamental matrices, 1e-9 of their largest entries, over what the direction that
+/// shrinks most leaves of them, a thousandth at worst. Errors of legs have either sign.
 #[test]
 fn both_methods_give_the_same_growth_along_one_motion() {
     for (name, system) in chaotic_ones() {
@@ -158,7 +162,8 @@ fn both_methods_give_the_same_growth_along_one_motion() {
     }
 }
 
-/// Each on its own motion, from the same state: the motions part by a factor e in three to four periods, from 1e-11 to 1e-7 in about thirty, and until then the growth is the same leg by leg.
+/// Each on its own motion, from the same state: the motions part by a factor e in three to four periods, from
+/// 1e-11 to 1e-7 in about thirty, and until then the growth is the same leg by leg.
 #[test]
 fn growth_is_the_same_until_the_motions_part() {
     for (name, system) in chaotic_ones() {
@@ -182,7 +187,8 @@ fn growth_is_the_same_until_the_motions_part() {
                 break;
             }
             together += periods;
-            // A state that is off by 1e-7 meets the stop with another speed, and what an impact stretches goes with one over that.
+            // A state that is off by 1e-7 meets the stop with another speed, and what an impact stretches
+            // goes with one over that.
             for (a, b) in growth.iter().zip(&growth_of_general) {
                 assert!((a - b).abs() < 1e-4, "{name}, period {period}: {growth:?} {growth_of_general:?}");
             }
@@ -191,7 +197,8 @@ fn growth_is_the_same_until_the_motions_part() {
     }
 }
 
-/// Exponents of the second method alone, over so many blocks of legs: mean and half width of 95 per cent [1/s].
+/// Exponents of the second method alone, over so many blocks of legs: mean and half width of 95 per cent
+/// [1/s].
 fn by_general(system: &System, start: &[f64], blocks: usize, legs: usize) -> Vec<(f64, f64)> {
     let mut frame = Frame::new(system);
     let mut state = start.to_vec();
@@ -237,8 +244,9 @@ fn long_averages_of_both_methods_are_within_their_intervals() {
     }
 }
 
-/// A contact that swallows nearly all of its impact while a constant force presses it: rounding of the velocity makes errors in it that shorter steps do not lessen, and steps went down by thousands.
-/// Exponents are told all the same, and their sum.
+/// A contact that swallows nearly all of its impact while a constant force presses it: rounding of the
+/// velocity makes errors in it that shorter steps do not lessen, and steps went down by thousands. Exponents
+/// are told all the same, and their sum.
 #[test]
 fn a_contact_that_swallows_its_impact_takes_steps_of_its_motion() {
     let (mass, stiffness, damping) = (0.587_f64, 2.009_f64, 0.117_f64);

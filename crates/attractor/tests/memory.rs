@@ -1,4 +1,5 @@
-//! Laws that remember their impact, where a contact lies over phase 0: the motion is the one whose load has another phase, which has no contact there.
+//! Laws that remember their impact, where a contact lies over phase 0: the motion is the one whose load has
+//! another phase, which has no contact there.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -91,7 +92,8 @@ fn a_sweep_goes_on_from_within_a_contact() {
     );
 }
 
-/// A weight of 8 N against a force of 0.2 N: after its first bounces the contact stays closed, and its damping says for ever how fast it began. Such a motion is not one of the system.
+/// A weight of 8 N against a force of 0.2 N: after its first bounces the contact stays closed, and its
+/// damping says for ever how fast it began. Such a motion is not one of the system.
 #[test]
 fn a_contact_that_stays_closed_is_refused_by_name() {
     let system = pressed(0.0, 8.0);
@@ -112,7 +114,8 @@ fn a_contact_that_stays_closed_is_refused_by_name() {
     assert_eq!((cells, basins.attractors().len()), (vec![0; 4], 0));
 }
 
-/// A contact that lies over phase 0 and opens in every period is none that stays closed; nor is one that is open at phase 0.
+/// A contact that lies over phase 0 and opens in every period is none that stays closed; nor is one that is
+/// open at phase 0.
 #[test]
 fn a_contact_over_phase_0_is_told_from_one_that_stays_closed() {
     let (_, over) = orbit();
@@ -130,7 +133,8 @@ fn a_contact_over_phase_0_is_told_from_one_that_stays_closed() {
     }
 }
 
-/// The rest and the linear motion lie within the contact of a weight; the other states of a diagram do not, whatever the law.
+/// The rest and the linear motion lie within the contact of a weight; the other states of a diagram do not,
+/// whatever the law.
 #[test]
 fn a_diagram_begins_in_front_of_contacts() {
     let settings = SweepSettings { effort: Effort::default(), sampled: 8, motion: ExactSettings::default() };

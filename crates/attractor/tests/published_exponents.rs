@@ -1,6 +1,7 @@
 //! Exponents of published systems, each by the general integrator.
 //!
-//! Sprott, *Chaos and Time-Series Analysis*, Oxford University Press 2003, appendix A, tabulates for the parameters below
+//! Sprott, *Chaos and Time-Series Analysis*, Oxford University Press 2003, appendix A, tabulates for the
+//! parameters below
 //!
 //! | system | exponents | dimension after Kaplan and Yorke |
 //! |---|---|---|
@@ -8,8 +9,9 @@
 //! | Roessler | 0.0714, 0, -5.3943 | 2.0132 |
 //! | Ueda | 0.1034, 0, -0.1534 | 2.6741 |
 //!
-//! (the zero of Ueda's oscillator is that of the phase, which is no part of its state here). Tolerances: half a unit of the
-//! last digit and twice the half width of the average, which itself is bounded: by 5e-3, and with `HAMMERBEAM_EXTENSIVE`, which averages 400 times as long, by 1.5e-4.
+//! (the zero of Ueda's oscillator is that of the phase, which is no part of its state here). Tolerances: half
+//! a unit of the last digit and twice the half width of the average, which itself is bounded: by 5e-3, and
+//! with `HAMMERBEAM_EXTENSIVE`, which averages 400 times as long, by 1.5e-4.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;

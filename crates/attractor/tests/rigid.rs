@@ -30,8 +30,8 @@ fn spectrum(system: System, frequency_hz: f64, averaged: u64) -> (Spectrum, f64)
     (lyapunov(&mut map, &state, settings).unwrap(), map.divergence())
 }
 
-/// Impact oscillators with stops at the rest position and beyond, whatever their motion: the sum is `-c + 2 ln e` times the impacts per time, which are counted by a trace of
-/// the same motion.
+/// Impact oscillators with stops at the rest position and beyond, whatever their motion: the sum is `-c + 2
+/// ln e` times the impacts per time, which are counted by a trace of the same motion.
 #[test]
 fn every_impact_takes_two_logarithms_of_its_restitution() {
     for (e, gap, frequency) in [(0.8, 0.0, 2.76), (0.8, 1.0, 0.79), (0.5, 0.0, 3.3)] {
@@ -56,7 +56,8 @@ fn every_impact_takes_two_logarithms_of_its_restitution() {
     }
 }
 
-/// The beam in contact with laws that lose energy: `-tr(M^-1 C)` plus the mean divergence of the contact, with that of its memory.
+/// The beam in contact with laws that lose energy: `-tr(M^-1 C)` plus the mean divergence of the contact,
+/// with that of its memory.
 #[test]
 fn sums_are_those_of_the_divergence_for_laws_that_lose_energy() {
     let hertz = HertzStop::with_gap(4.5e9, 0.0).unwrap();
@@ -79,8 +80,9 @@ fn sums_are_those_of_the_divergence_for_laws_that_lose_energy() {
     }
 }
 
-/// Chaos of the beam against a rigid stop, from rest at neighbouring frequencies, whose motions have parted long before: whatever the speeds of its impacts, volumes change in every period by
-/// what the dampers and the impacts take, and vanish where the beam sticks.
+/// Chaos of the beam against a rigid stop, from rest at neighbouring frequencies, whose motions have parted
+/// long before: whatever the speeds of its impacts, volumes change in every period by what the dampers and
+/// the impacts take, and vanish where the beam sticks.
 #[test]
 fn volumes_beside_a_rigid_stop_change_by_what_dampers_and_impacts_take() {
     let (mut impacts, mut sticks) = (0, 0);
@@ -108,7 +110,8 @@ fn volumes_beside_a_rigid_stop_change_by_what_dampers_and_impacts_take() {
     assert!(impacts > 500 && sticks > 0, "{impacts} periods with impacts, {sticks} with sticking");
 }
 
-/// Beside a mode that sticks in every period, one with little damping and one of which 1e-27 is left after a period: what is damped is not what is lost.
+/// Beside a mode that sticks in every period, one with little damping and one of which 1e-27 is left after a
+/// period: what is damped is not what is lost.
 #[test]
 fn strongly_damped_directions_are_not_lost_where_another_one_sticks() {
     let damping = faer::mat![[0.05, 0.0, 0.0], [0.0, 0.04, 0.0], [0.0, 0.0, 10.0]];
@@ -128,7 +131,8 @@ fn strongly_damped_directions_are_not_lost_where_another_one_sticks() {
     assert_eq!(values[4..], [f64::NEG_INFINITY; 2]);
 }
 
-/// Pressed on, the mass sticks once in every period: both directions are forgotten, and so is any neighbouring state.
+/// Pressed on, the mass sticks once in every period: both directions are forgotten, and so is any
+/// neighbouring state.
 #[test]
 fn exponents_are_minus_infinity_where_a_stop_sticks() {
     let system = oscillator(1.0, 0.05, 1.0, vec![element(&[1.0], 0.0, rigid(0.3, 0.0))]);
@@ -143,9 +147,11 @@ fn exponents_are_minus_infinity_where_a_stop_sticks() {
     assert_eq!(found.kaplan_yorke_dimension, 0.0);
 }
 
-/// A mass without damping comes to rest in an impact without restitution, at an instant t at which the load pulls it away; nothing but t is left of how it came there. With the load `F cos(W t)`
-/// it flies from rest at t until it comes back after the time T with the speed v, where a neighbour that left dt later is `-F cos(W t) sin(w T)/w dt` away and so comes
-/// `F cos(W t) sin(w T)/(w v) dt` later: the mean logarithm of that over time is the exponent that is left.
+/// A mass without damping comes to rest in an impact without restitution, at an instant t at which the load
+/// pulls it away; nothing but t is left of how it came there. With the load `F cos(W t)` it flies from rest
+/// at t until it comes back after the time T with the speed v, where a neighbour that left dt later is `-F
+/// cos(W t) sin(w T)/w dt` away and so comes `F cos(W t) sin(w T)/(w v) dt` later: the mean logarithm of that
+/// over time is the exponent that is left.
 #[test]
 fn an_impact_without_restitution_that_does_not_stick_loses_one_direction() {
     for frequency in [2.2, 2.4, 2.8, 4.4] {

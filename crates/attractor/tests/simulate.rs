@@ -91,8 +91,8 @@ fn contacts_agree_with_the_maxima_of_the_motion() {
     }
 }
 
-/// A law without loss gives back all the energy of each contact, to 1e-8 of impulse times velocity of the hardest contact: the error of a step is
-/// bounded against the whole motion.
+/// A law without loss gives back all the energy of each contact, to 1e-8 of impulse times velocity of the
+/// hardest contact: the error of a step is bounded against the whole motion.
 #[test]
 fn loss_free_laws_lose_no_energy_in_any_contact() {
     let laws = [
@@ -113,8 +113,9 @@ fn loss_free_laws_lose_no_energy_in_any_contact() {
     }
 }
 
-/// An undamped mass on a soft spring that strikes a stop of stiffness k at speed v stays for half a period `pi/sqrt(k)`, with the impulse 2 v and the
-/// largest force `v sqrt(k)`: here with `k = 1e8` and the spring's 1 N/m, to parts in a million.
+/// An undamped mass on a soft spring that strikes a stop of stiffness k at speed v stays for half a period
+/// `pi/sqrt(k)`, with the impulse 2 v and the largest force `v sqrt(k)`: here with `k = 1e8` and the spring's
+/// 1 N/m, to parts in a million.
 #[test]
 fn an_impact_on_a_linear_stop_is_half_a_sine() {
     let stop = element(&[1.0], 0.0, Law::Linear(LinearStop::with_gap(1e8, 0.5).unwrap()));

@@ -46,7 +46,8 @@ fn orbits(
     found.orbits.iter().filter(|orbit| orbit.stable()).map(|orbit| orbit.maxima.displacement).collect()
 }
 
-/// A hardening spring: the sweep up stays on the resonant motion where the sweep down does not, and both are orbits that shooting finds.
+/// A hardening spring: the sweep up stays on the resonant motion where the sweep down does not, and both are
+/// orbits that shooting finds.
 #[test]
 fn sweeps_up_and_down_follow_the_two_branches_of_a_duffing_oscillator() {
     let system = duffing();
@@ -75,7 +76,8 @@ fn sweeps_up_and_down_follow_the_two_branches_of_a_duffing_oscillator() {
     }
 }
 
-/// Of the beam from several states at two frequencies: each periodic motion is an orbit of that period that shooting finds.
+/// Of the beam from several states at two frequencies: each periodic motion is an orbit of that period that
+/// shooting finds.
 #[test]
 fn periodic_motions_of_the_beam_are_orbits() {
     let system = paper_beam();

@@ -17,8 +17,8 @@ const AFTER: &str = "Exit codes: 0 done, 1 no result, 2 bad input, 3 verify foun
 
 /// Steady states of structures that hit things.
 ///
-/// Describe a linear structure with stops, gaps and local springs in a study file, and compute all of its periodic
-/// responses over the excitation frequency, stable and unstable.
+/// Describe a linear structure with stops, gaps and local springs in a study file, and compute all of its
+/// periodic responses over the excitation frequency, stable and unstable.
 #[derive(Debug, Parser)]
 #[command(name = "hammerbeam", version, after_help = AFTER, arg_required_else_help = true)]
 pub struct Arguments {
@@ -48,7 +48,8 @@ pub enum Command {
     Sweep(SweepOptions),
     /// Compute the Lyapunov exponents of a motion
     Lyapunov(LyapunovOptions),
-    /// Compute which attractor each of a grid of initial states leads to; started again, it goes on where it was
+    /// Compute which attractor each of a grid of initial states leads to; started again, it goes on where it
+    /// was
     Basins(BasinsOptions),
     /// Fit parameters of a study to measured eigenfrequencies, damping ratios and responses
     Update(UpdateOptions),
@@ -86,7 +87,8 @@ pub struct ModesOptions {
     /// Study file
     pub study: PathBuf,
 
-    /// Folder, made if it is not there, into which the structure, its modes, the error of the reduction and the excitation are drawn
+    /// Folder, made if it is not there, into which the structure, its modes, the error of the reduction and
+    /// the excitation are drawn
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -123,7 +125,8 @@ pub struct OrbitOptions {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=64))]
     pub period_multiple: u32,
 
-    /// Folder, made if it is not there, into which each solution is drawn: over its period, in the phase plane, and its spectrum
+    /// Folder, made if it is not there, into which each solution is drawn: over its period, in the phase
+    /// plane, and its spectrum
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -148,11 +151,13 @@ pub struct UpdateOptions {
     #[arg(long, value_name = "PERCENT", default_value_t = 95.0, value_parser = percent)]
     pub confidence: f64,
 
-    /// Further starts around that of the data file; the lowest minimum is taken [default: 6, or 0 with responses]
+    /// Further starts around that of the data file; the lowest minimum is taken [default: 6, or 0 with
+    /// responses]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(..=10_000))]
     pub starts: Option<u32>,
 
-    /// Also take intervals from the profile of chi-squared, which holds where the model bends; takes many more fits
+    /// Also take intervals from the profile of chi-squared, which holds where the model bends; takes many
+    /// more fits
     #[arg(long)]
     pub profile: bool,
 }
@@ -196,7 +201,8 @@ pub struct FigureOptions {
     #[arg(long, value_enum, default_value_t = FigureScale::Automatic)]
     pub scale: FigureScale,
 
-    /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may be given several times [default: those of the study]
+    /// Draw the orbit in which a branch crosses a frequency: HZ, or HZ:N for one of N excitation periods; may
+    /// be given several times [default: those of the study]
     #[arg(long, value_name = "HZ[:N]", value_parser = orbit)]
     pub orbit: Vec<DrawnOrbit>,
 

@@ -14,7 +14,8 @@ pub struct CompareOptions {
     /// Results folder of a run
     pub results: PathBuf,
 
-    /// Tables of measured points (CSV with units in its titles), records of single frequencies, or folders of records
+    /// Tables of measured points (CSV with units in its titles), records of single frequencies, or folders of
+    /// records
     #[arg(required = true)]
     pub measured: Vec<PathBuf>,
 
@@ -30,7 +31,8 @@ pub struct CompareOptions {
     #[arg(long, value_name = "HZ", conflicts_with = "frequency_factor", value_parser = number, allow_negative_numbers = true)]
     pub frequency_offset: Option<f64>,
 
-    /// Fit an offset of the frequency instead of a factor, from -15 to 18 % of the median frequency of the points
+    /// Fit an offset of the frequency instead of a factor, from -15 to 18 % of the median frequency of the
+    /// points
     #[arg(long, conflicts_with_all = ["frequency_factor", "frequency_offset"])]
     pub fit_offset: bool,
 
@@ -42,7 +44,8 @@ pub struct CompareOptions {
     #[arg(long, value_name = "RATIO", default_value_t = 1.5, value_parser = above_one, allow_negative_numbers = true)]
     pub reach: f64,
 
-    /// Point of the structure where the sensor is [default: the response point of the study, whose maxima are stored]; needs --out, since RESULTS/compare is what the page lays over the response point
+    /// Point of the structure where the sensor is [default: the response point of the study, whose maxima are
+    /// stored]; needs --out, since RESULTS/compare is what the page lays over the response point
     #[arg(long, value_name = "NAME", requires = "out")]
     pub point: Option<String>,
 
@@ -54,7 +57,8 @@ pub struct CompareOptions {
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=32))]
     pub order: u32,
 
-    /// Of records: channel, by name or number from 1 on, that is excited; its strongest line is the excitation frequency [default: the number before "Hz" in the file's name is]
+    /// Of records: channel, by name or number from 1 on, that is excited; its strongest line is the
+    /// excitation frequency [default: the number before "Hz" in the file's name is]
     #[arg(long, value_name = "NAME")]
     pub reference: Option<String>,
 
@@ -68,7 +72,8 @@ pub struct RigOptions {
     /// Study file with a table [rig]
     pub study: PathBuf,
 
-    /// Results folder, made if it is not there; branches of the same study that it holds are taken as they are
+    /// Results folder, made if it is not there; branches of the same study that it holds are taken as they
+    /// are
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 

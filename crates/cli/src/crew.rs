@@ -1,8 +1,9 @@
 //! Work on several threads that gives the same with any number of them.
 //!
-//! Work is handed over piece by piece and begun in that order; what comes of a piece is asked for by whoever handed it over, in whatever order that one likes. The
-//! thread that hands over works as well: while it waits, and where more is waiting than the others can begin with. So a crew of one has no other thread,
-//! and what waits takes little memory.
+//! Work is handed over piece by piece and begun in that order; what comes of a piece is asked for by whoever
+//! handed it over, in whatever order that one likes. The thread that hands over works as well: while it
+//! waits, and where more is waiting than the others can begin with. So a crew of one has no other thread, and
+//! what waits takes little memory.
 
 use std::{
     collections::VecDeque,
@@ -155,7 +156,8 @@ mod tests {
         }
     }
 
-    /// Three pieces that wait for one another end only if three threads are at work at once, the caller's among them.
+    /// Three pieces that wait for one another end only if three threads are at work at once, the caller's
+    /// among them.
     #[test]
     fn threads_work_at_the_same_time() {
         let (crew, barrier) = (Crew::of(3), Arc::new(Barrier::new(3)));

@@ -7,7 +7,8 @@ use crate::failure::Failure;
 /// Warns of directions that only stops hold.
 ///
 /// # Errors
-/// [`Failure::BadInput`] if nothing holds a direction: then no periodic solution is isolated, and there is nothing to follow.
+/// [`Failure::BadInput`] if nothing holds a direction: then no periodic solution is isolated, and there is
+/// nothing to follow.
 pub fn heed(model: &Model) -> Result<(), Failure> {
     let drifts = model.drifts();
     if let Some(drift) = drifts.iter().find(|drift| !drift.held_by_stops) {

@@ -64,7 +64,8 @@ impl Wishes {
         }
     }
 
-    /// What a run draws at its end: all but the multipliers, two figures for each branch, which take longer than all the others.
+    /// What a run draws at its end: all but the multipliers, two figures for each branch, which take longer
+    /// than all the others.
     pub fn of_run(file: &StudyFile) -> Self {
         let mut wishes = Self::of(file);
         wishes.kinds.retain(|kind| *kind != FigureKind::Multipliers);
@@ -95,7 +96,8 @@ pub fn draw(
     Ok(())
 }
 
-/// Where a stored solution is missing or cannot be read, the figures that need it are named with the reason, and the others are drawn.
+/// Where a stored solution is missing or cannot be read, the figures that need it are named with the reason,
+/// and the others are drawn.
 fn unless_damaged<T>(
     result: Result<T, impl Into<Failure>>,
     name: &str,
@@ -168,7 +170,8 @@ fn draw_response(
     Ok(())
 }
 
-/// What there is to draw of branches, with the words that files have for it: where nothing is ever touched neither contact forces nor impact velocities.
+/// What there is to draw of branches, with the words that files have for it: where nothing is ever touched
+/// neither contact forces nor impact velocities.
 fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, Quantity)> {
     let has = |value: fn(&ResponsePoint) -> f64| {
         curves.iter().flat_map(|curve| &curve.points).any(|point| value(point) > 0.0)

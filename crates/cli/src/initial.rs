@@ -21,7 +21,8 @@ impl From<AttractorError> for Failure {
     }
 }
 
-/// The state that `--initial` means: one in front of every rigid stop, and in no contact whose law remembers its impact.
+/// The state that `--initial` means: one in front of every rigid stop, and in no contact whose law remembers
+/// its impact.
 ///
 /// * `map`: of the system at the frequency.
 pub fn state(
@@ -101,7 +102,8 @@ fn numbers_of(text: &str, size: usize) -> Result<Vec<f64>, Failure> {
     if state.len() == size { Ok(state) } else { Err(refused(&format!("found {} number(s)", state.len()))) }
 }
 
-/// The state at phase 0 of the orbit in which a branch crosses the frequency: of a stable one where there are several.
+/// The state at phase 0 of the orbit in which a branch crosses the frequency: of a stable one where there are
+/// several.
 fn of_branch(
     text: &str,
     map: &mut SystemMap,

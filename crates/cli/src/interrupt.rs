@@ -1,7 +1,9 @@
 //! Ctrl-C and SIGTERM: what is finished is kept, and the command ends within a second.
 //!
-//! Commands look at the flag between pieces of work, end in order and say what is kept. A piece of work that takes longer than [`PATIENCE`] (one period of a motion with millions of force
-//! steps, the eigenvalues of a large matrix) cannot be waited for: then the process ends from beside. Nothing is lost by that but the piece: results are written in transactions, and files are replaced whole.
+//! Commands look at the flag between pieces of work, end in order and say what is kept. A piece of work that
+//! takes longer than [`PATIENCE`] (one period of a motion with millions of force steps, the eigenvalues of a
+//! large matrix) cannot be waited for: then the process ends from beside. Nothing is lost by that but the
+//! piece: results are written in transactions, and files are replaced whole.
 
 use std::{
     process,

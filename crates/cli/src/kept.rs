@@ -97,7 +97,8 @@ pub fn state_words(state: &[f64]) -> impl Iterator<Item = String> {
 
 /// Branches of the folder given, else those of the results if there are some.
 ///
-/// They are read before the work, so that a wrong folder is told at once, and again after it, when they are to be let go before the store is closed: nobody may read the results then.
+/// They are read before the work, so that a wrong folder is told at once, and again after it, when they are
+/// to be let go before the store is closed: nobody may read the results then.
 pub fn branches(
     results: Option<&Path>,
     out: Option<&Path>,

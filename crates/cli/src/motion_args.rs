@@ -44,7 +44,8 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Results folder, made if it is not there: keeps the motion, so that the same command goes on after an interruption, with samples.csv, contacts.csv and stroboscopic.csv
+    /// Results folder, made if it is not there: keeps the motion, so that the same command goes on after an
+    /// interruption, with samples.csv, contacts.csv and stroboscopic.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -58,7 +59,8 @@ pub struct LyapunovOptions {
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
-    /// Last frequency of a series, above the first, or the same for that one alone; the motion begins anew at each
+    /// Last frequency of a series, above the first, or the same for that one alone; the motion begins anew at
+    /// each
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub to: Option<f64>,
 
@@ -85,7 +87,8 @@ pub struct LyapunovOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Results folder, made if it is not there: keeps the exponents, so that the same series goes on after an interruption, with spectra.csv, exponents.csv, convergence.csv and section.csv
+    /// Results folder, made if it is not there: keeps the exponents, so that the same series goes on after an
+    /// interruption, with spectra.csv, exponents.csv, convergence.csv and section.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -142,7 +145,8 @@ pub struct SweepOptions {
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub from: Option<f64>,
 
-    /// Last frequency, above the first, or the same for that one alone [default: the high end of the study's range]
+    /// Last frequency, above the first, or the same for that one alone [default: the high end of the study's
+    /// range]
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub to: Option<f64>,
 
@@ -172,7 +176,8 @@ pub struct SweepOptions {
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Results folder, made if it is not there: keeps the motions, so that the same command goes on after an interruption, with sweep.csv and sweep_samples.csv
+    /// Results folder, made if it is not there: keeps the motions, so that the same command goes on after an
+    /// interruption, with sweep.csv and sweep_samples.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -190,7 +195,8 @@ pub struct BasinsOptions {
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
     pub frequency: f64,
 
-    /// First coordinate and its range: q1 .. qn or v1 .. vn for modal displacements and velocities, displacement or velocity for those of the response point in the first mode
+    /// First coordinate and its range: q1 .. qn or v1 .. vn for modal displacements and velocities,
+    /// displacement or velocity for those of the response point in the first mode
     #[arg(long, value_name = "NAME=LOW..HIGH", value_parser = axis)]
     pub x: AxisOption,
 
@@ -205,11 +211,13 @@ pub struct BasinsOptions {
     #[command(flatten)]
     pub effort: EffortOptions,
 
-    /// Results folder whose branches the attractors are compared with [default: that of --out, if it holds branches]
+    /// Results folder whose branches the attractors are compared with [default: that of --out, if it holds
+    /// branches]
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
-    /// Results folder, made if it is not there: keeps the cells, so that the same command goes on after an interruption, with basins.csv and attractors.csv
+    /// Results folder, made if it is not there: keeps the cells, so that the same command goes on after an
+    /// interruption, with basins.csv and attractors.csv
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 

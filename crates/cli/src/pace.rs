@@ -1,7 +1,8 @@
 //! How long work still takes, and the lines that say so where no bar can be shown.
 //!
 //! What is left is estimated from the part that was done since this command began, and only when that says
-//! something: at least a tenth, and two seconds. So an estimate is never more than nine times what has passed.
+//! something: at least a tenth, and two seconds. So an estimate is never more than nine times what has
+//! passed.
 
 use std::time::{Duration, Instant};
 

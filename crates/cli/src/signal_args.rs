@@ -34,7 +34,8 @@ pub struct InputOptions {
     /// Time series: CSV, universal file (dataset 58), WAV, NumPy (.npy, .npz) or MATLAB (.mat up to -v7)
     pub file: PathBuf,
 
-    /// Channel, by its name or its number from 1 on; may be given several times [default: filter takes all, other commands the first displacement, velocity, acceleration or force]
+    /// Channel, by its name or its number from 1 on; may be given several times [default: filter takes all,
+    /// other commands the first displacement, velocity, acceleration or force]
     #[arg(long, value_name = "NAME")]
     pub channel: Vec<String>,
 
@@ -211,11 +212,13 @@ pub struct ExponentOptions {
     #[arg(long, value_name = "SAMPLES")]
     pub theiler_window: Option<u32>,
 
-    /// Samples for which neighbours are followed [default: seven mean periods, doubled until distances grow no more; 25 samples of a map]
+    /// Samples for which neighbours are followed [default: seven mean periods, doubled until distances grow
+    /// no more; 25 samples of a map]
     #[arg(long, value_name = "SAMPLES", value_parser = clap::value_parser!(u32).range(4..))]
     pub steps: Option<u32>,
 
-    /// First and last sample of the straight part, as in 40:150, or "period" for the steepest mean period after the first [default: it is looked for]
+    /// First and last sample of the straight part, as in 40:150, or "period" for the steepest mean period
+    /// after the first [default: it is looked for]
     #[arg(long, value_name = "FROM:TO", value_parser = straight_part)]
     pub fit: Option<StraightPart>,
 

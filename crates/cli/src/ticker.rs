@@ -1,5 +1,5 @@
-//! The progress of work whose length is known: a bar after a second, or a line every ten seconds when standard
-//! error is not a terminal.
+//! The progress of work whose length is known: a bar after a second, or a line every ten seconds when
+//! standard error is not a terminal.
 
 use std::time::{Duration, Instant};
 

@@ -46,7 +46,8 @@ fn column<'t>(table: &'t str, title: &str) -> Vec<&'t str> {
     rows.map(|row| row[place]).collect()
 }
 
-/// At the touch the force of the damper sets in with a jump, and with it a multiplier passes +1 without having been there: the fold is a corner.
+/// At the touch the force of the damper sets in with a jump, and with it a multiplier passes +1 without
+/// having been there: the fold is a corner.
 #[test]
 fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
     let stop = "law = \"linear\"\nstiffness_n_m = 20.0\ndamping_n_s_m = 0.5\ngap_m = 0.5";
@@ -70,7 +71,8 @@ fn a_fold_at_the_touch_of_a_damper_agrees_and_one_beside_it_does_not() {
     }
 }
 
-/// A contact that begins the more slowly the nearer its branch comes to the border: multipliers of 1e6, and states that are rounded by more than what still changes.
+/// A contact that begins the more slowly the nearer its branch comes to the border: multipliers of 1e6, and
+/// states that are rounded by more than what still changes.
 #[test]
 fn a_branch_ends_before_the_border_at_which_its_contact_splits_in_some_hundred_solutions() {
     let stop = "law = \"flores\"\nrestitution = 0.7\nstiffness_n_m15 = 20.0\ngap_m = 0.5";
@@ -86,8 +88,10 @@ fn a_branch_ends_before_the_border_at_which_its_contact_splits_in_some_hundred_s
     assert!((1..1000).contains(&beside), "{beside} solutions beside the border");
 }
 
-/// Where the contact of a preloaded sphere begins to open, a step may begin just before the place at which it turns: neither the opening nor the corner of the stiffness, `sqrt(p)`, may get lost in front of
-/// the first node of that step, nor behind the last one of the step before. (At the usual 1e-9 one row still disagrees by 1.1e-9.)
+/// Where the contact of a preloaded sphere begins to open, a step may begin just before the place at which it
+/// turns: neither the opening nor the corner of the stiffness, `sqrt(p)`, may get lost in front of the first
+/// node of that step, nor behind the last one of the step before. (At the usual 1e-9 one row still disagrees
+/// by 1.1e-9.)
 #[test]
 fn multipliers_agree_where_a_preloaded_contact_begins_to_open() {
     let stop = "law = \"hertz\"\nstiffness_n_m15 = 20.0\npreload_n = 0.2";
@@ -124,7 +128,8 @@ fn one_mass(spring: &str, drive: &str, stops: &str, max_step: &str) -> Workshop 
     ))
 }
 
-/// Beside the border two sheets of orbits lie close to one another, with one contact and with two: the walks on both end there, and none falls onto the other, which looked like a flip.
+/// Beside the border two sheets of orbits lie close to one another, with one contact and with two: the walks
+/// on both end there, and none falls onto the other, which looked like a flip.
 #[test]
 fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
     let study = r#"
@@ -163,7 +168,8 @@ fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
     assert_success(&output);
     let text = stdout(&output);
     assert_eq!(text.matches("s opens and is pressed on again at once").count(), 2, "{text}");
-    // Where rows crowd beside the border, multipliers are good to 1.1e-9; those of the other sheet would be off by far more.
+    // Where rows crowd beside the border, multipliers are good to 1.1e-9; those of the other sheet would be
+    // off by far more.
     let found = workshop.hammerbeam(&["verify", "results", "--all", "--tolerance", "2e-9"]);
     assert_success(&found);
     // On no sheet does the number of contacts change.
@@ -175,7 +181,8 @@ fn a_branch_does_not_fall_onto_the_other_sheet_beside_a_splitting() {
     assert!(contacts == ["1", "2"] || contacts == ["2", "1"], "{sheets:?}");
 }
 
-/// A stop that takes almost all that an impact has stops pressing before it opens, and is pressed on again: it is closed throughout, and nothing grazes where that begins.
+/// A stop that takes almost all that an impact has stops pressing before it opens, and is pressed on again:
+/// it is closed throughout, and nothing grazes where that begins.
 #[test]
 fn a_contact_that_presses_no_more_for_a_while_is_closed_all_the_time() {
     let stop = "[[stop]]\nname = \"s\"\nat = \"m\"\nside = \"above\"\nlaw = \"hunt-crossley\"\npreload_n = 3.7033\nstiffness_n_m15 = 3.9506e5\nloss_s_m = 54.22";
@@ -188,7 +195,8 @@ fn a_contact_that_presses_no_more_for_a_while_is_closed_all_the_time() {
     assert_success(&workshop.hammerbeam(&["verify", "results", "--all"]));
 }
 
-/// A contact whose law begins at the level of a rigid stop has the force that rounding of the level gives it, or none.
+/// A contact whose law begins at the level of a rigid stop has the force that rounding of the level gives it,
+/// or none.
 #[test]
 fn a_force_that_rounding_makes_is_none() {
     let stop = |law: &str| {

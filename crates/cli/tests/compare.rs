@@ -49,7 +49,8 @@ fn force(f: f64) -> f64 {
     0.1 - 0.021 * f
 }
 
-/// A run of the oscillator, and `points.csv`: frequencies 5 % too low, displacements half of what they are, in millimetres.
+/// A run of the oscillator, and `points.csv`: frequencies 5 % too low, displacements half of what they are,
+/// in millimetres.
 fn measured() -> Workshop {
     let workshop = Workshop::with(OSCILLATOR);
     assert_success(&workshop.hammerbeam(&["run", "study.toml", "--out", "results"]));
@@ -120,7 +121,8 @@ fn points_over_branches() {
         number(&given["residual_before"]["log_rms_within_reach"])
             > number(&given["residual_after"]["log_rms_within_reach"])
     );
-    // What was not measured is not compared; what was, behind a filter at the eigenfrequency, is smaller by a root of two there.
+    // What was not measured is not compared; what was, behind a filter at the eigenfrequency, is smaller by a
+    // root of two there.
     assert_bad_input(
         &workshop.hammerbeam(&["compare", "results", "points.csv", "--quantity", "acceleration"]),
         &["no acceleration was measured", "displacement"],
@@ -158,7 +160,8 @@ fn factor_at_an_end_of_what_is_tried_is_told_in_words_and_in_the_document() {
     );
 }
 
-/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are told in words, in the document and in the figure.
+/// The range is 0.3 to 0.8 Hz: points exactly at its ends meet the branch, those beyond are told in words, in
+/// the document and in the figure.
 #[test]
 fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
     let workshop = measured();
@@ -194,7 +197,8 @@ fn points_at_the_ends_of_the_range_meet_the_branch_and_those_beyond_are_told() {
     assert!(stderr(&far).contains(told), "{}", stderr(&far));
 }
 
-/// Two masses on their own springs that never meet: displacement over displacement of the support, in closed form.
+/// Two masses on their own springs that never meet: displacement over displacement of the support, in closed
+/// form.
 #[test]
 fn points_of_another_point_are_held_against_orbits_that_are_gone_over_again() {
     let study = TWO_MASSES.replace("gap_m = 1.0e-3", "gap_m = 1.0e3").replace("[3.0, 14.0]", "[4.0, 6.0]")
@@ -340,7 +344,8 @@ fn a_virtual_rig_goes_through_the_whole_comparison() {
     let signal = &found["signals"][0];
     assert_eq!(signal["measured_as"], "periodic, 1");
     assert!(number(&signal["computed"]["correlation"]) > 0.99, "{signal}");
-    // What `overlay` tells is told here, too: a harmonic is the same at every frequency, and there is no branch of period 2.
+    // What `overlay` tells is told here, too: a harmonic is the same at every frequency, and there is no
+    // branch of period 2.
     let report = fs::read_to_string(workshop.path("one/report.md")).unwrap();
     for (index, file, part) in [
         (0, "figure_07.csv", "are as alike as the scatter"),

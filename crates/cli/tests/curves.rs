@@ -7,7 +7,8 @@ use crate::common::{Workshop, assert_success, stdout};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
-/// A mass on a spring and a damper [kg, N/m, N s/m] beside stops, under a force [N] in a range of frequency [Hz].
+/// A mass on a spring and a damper [kg, N/m, N s/m] beside stops, under a force [N] in a range of frequency
+/// [Hz].
 fn oscillator([mass, stiffness, damping]: [f64; 3], force: f64, range: [f64; 2], stops: &str) -> String {
     format!(
         r#"
@@ -65,7 +66,8 @@ fn columns<const N: usize>(workshop: &Workshop, table: &str, names: [&str; N]) -
     lines.map(row).collect()
 }
 
-/// On the way the depth of a contact becomes smaller than the steps of differences: motions that barely touch took thousands of steps once, with derivatives by a parameter of their stop, and the curves ended.
+/// On the way the depth of a contact becomes smaller than the steps of differences: motions that barely touch
+/// took thousands of steps once, with derivatives by a parameter of their stop, and the curves ended.
 #[test]
 fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
     let curve = |of, near_hz| curve(of, near_hz, "stop.stop.stiffness_n_m", [2.0, 60.0]);
@@ -82,7 +84,9 @@ fn curves_of_folds_and_flips_pass_contacts_that_are_barely_touched() {
     }
 }
 
-/// A mass between two stops touches both half a period apart as long as its motion is linear: the curve is that of the linear amplitude, whether they are one two-sided stop or two. Where one of two is moved away alone, the other is struck.
+/// A mass between two stops touches both half a period apart as long as its motion is linear: the curve is
+/// that of the linear amplitude, whether they are one two-sided stop or two. Where one of two is moved away
+/// alone, the other is struck.
 #[test]
 fn a_symmetric_orbit_grazes_both_of_its_stops() {
     let stop = |name: &str, law: &str| stop(name, &format!("{law}\nstiffness_n_m = 30.0\ngap_m = 0.6"));
@@ -114,7 +118,9 @@ fn a_symmetric_orbit_grazes_both_of_its_stops() {
     }
 }
 
-/// A constant load p moves the orbits of such a mass by p (its spring has 1 N/m). The curve is that of one stop, `A + p = 1`: it goes on to where the motion leaves the other, and ends, with that one grazed to 1e-6, where it would be struck.
+/// A constant load p moves the orbits of such a mass by p (its spring has 1 N/m). The curve is that of one
+/// stop, `A + p = 1`: it goes on to where the motion leaves the other, and ends, with that one grazed to
+/// 1e-6, where it would be struck.
 #[test]
 fn a_grazing_curve_ends_where_the_opposite_stop_would_be_struck() {
     let stop = |name: &str, side: &str| {
@@ -139,8 +145,9 @@ fn a_grazing_curve_ends_where_the_opposite_stop_would_be_struck() {
     assert_eq!((ended("lower is grazed as well at"), ended("end of the range")), (1, 3), "{ends:?}");
 }
 
-/// Two rigid stops that a linear motion comes to touch at once: its branch turns the corner and goes on with impacts on both, and the corner moves on its curve. With a force F over a damped mass on a
-/// spring (1 kg, 1 N/m, c) the amplitude `F/((1 - w^2)^2 + c^2 w^2)^(1/2)` is the gap there.
+/// Two rigid stops that a linear motion comes to touch at once: its branch turns the corner and goes on with
+/// impacts on both, and the corner moves on its curve. With a force F over a damped mass on a spring (1 kg, 1
+/// N/m, c) the amplitude `F/((1 - w^2)^2 + c^2 w^2)^(1/2)` is the gap there.
 #[test]
 fn a_symmetric_branch_turns_the_corner_at_two_rigid_stops() {
     const GAP: f64 = 0.6;
@@ -184,7 +191,8 @@ fn a_symmetric_branch_turns_the_corner_at_two_rigid_stops() {
     }
 }
 
-/// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it crawled there for thousands of rows once.
+/// The flip comes to a grazing on both sides, and on from there is where the multiplier jumps: it crawled
+/// there for thousands of rows once.
 #[test]
 fn a_curve_ends_where_it_meets_a_grazing() {
     let flip = curve("flip", 0.071713, "excitation.amplitude_n", [0.4, 6.8]);
@@ -204,7 +212,8 @@ fn a_curve_ends_where_it_meets_a_grazing() {
     assert!(columns(&workshop, "curves.csv", ["parameter"]).len() < 2000);
 }
 
-/// A contact that is closed, opens for an instant and closes: without a gap the motion is proportional to the force, so the curve over it is a straight line.
+/// A contact that is closed, opens for an instant and closes: without a gap the motion is proportional to the
+/// force, so the curve over it is a straight line.
 #[test]
 fn a_grazing_from_inside_is_followed() {
     let keys = "law = \"linear\"\nstiffness_n_m = 6.29\nside = \"below\"\ngap_m = 0.0";
@@ -230,8 +239,9 @@ fn a_grazing_from_inside_is_followed() {
     }
 }
 
-/// A Neimark-Sacker point 2e-5 Hz from a grazing, behind which multipliers go like the root of the distance: its curve over the damping reaches the end of the range of frequency on one side and that of the damping on the other, in
-/// steps of its own bend and not of that distance (18 000 rows once).
+/// A Neimark-Sacker point 2e-5 Hz from a grazing, behind which multipliers go like the root of the distance:
+/// its curve over the damping reaches the end of the range of frequency on one side and that of the damping
+/// on the other, in steps of its own bend and not of that distance (18 000 rows once).
 #[test]
 fn a_curve_beside_a_grazing_goes_on_in_long_steps() {
     let study = r#"
@@ -280,7 +290,8 @@ range = [0.005, 0.1]
     assert!(curve.contains("end of the range of the parameter"), "{curve}");
 }
 
-/// A curve of flips of two masses comes to a corner at which a contact changes. It is seen in the equations only within a millionth of the ranges, so that the last row knows nothing of a grazing yet.
+/// A curve of flips of two masses comes to a corner at which a contact changes. It is seen in the equations
+/// only within a millionth of the ranges, so that the last row knows nothing of a grazing yet.
 #[test]
 fn a_curve_that_turns_at_a_change_of_contacts_ends_at_a_grazing() {
     let study = r#"

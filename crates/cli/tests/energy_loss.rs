@@ -4,7 +4,8 @@
 use crate::common::{Workshop, assert_success, mass_against_a_stop as study, stderr, stdout};
 use serde_json::Value;
 
-/// Two masses whose largest contact force wanders over the border of two steps of the integrator, where the polynomial of neither tells its place well: it is that of the general integrator.
+/// Two masses whose largest contact force wanders over the border of two steps of the integrator, where the
+/// polynomial of neither tells its place well: it is that of the general integrator.
 #[test]
 fn a_force_that_is_largest_at_the_border_of_two_steps_is_verified() {
     let one_mass = study("law = \"hu-guo\"\nstiffness_n_m15 = 20.0\nrestitution = 0.7");
@@ -43,7 +44,8 @@ fn an_orbit_in_contact_at_phase_0_is_found() {
     assert!((found[0] / found[1] - 1.0).abs() < 1e-8, "{found:?}");
 }
 
-/// A contact that passes phase 0 on the branch moves the phase: the run goes to both ends, and `verify` agrees with the stored orbits at their phases.
+/// A contact that passes phase 0 on the branch moves the phase: the run goes to both ends, and `verify`
+/// agrees with the stored orbits at their phases.
 #[test]
 fn a_branch_whose_contact_passes_phase_0_is_followed_and_verified() {
     let stop = "law = \"lankarani-nikravesh\"\nstiffness_n_m15 = 1e4\nrestitution = 0.7";
@@ -59,7 +61,8 @@ fn a_branch_whose_contact_passes_phase_0_is_followed_and_verified() {
     held_behind_a_filter(&workshop);
 }
 
-/// Orbits that are in contact at phase 0 cannot be gone over from there: behind a filter they are gaps, and the others are compared. A filter of forty times the frequency leaves a displacement as it is, within 1 %.
+/// Orbits that are in contact at phase 0 cannot be gone over from there: behind a filter they are gaps, and
+/// the others are compared. A filter of forty times the frequency leaves a displacement as it is, within 1 %.
 fn held_behind_a_filter(workshop: &Workshop) {
     let mut table = "frequency [Hz],tip [m],kind,period\n".to_owned();
     for row in workshop.csv("results").lines().skip(1).filter(|row| row.contains(",true,")).step_by(10) {
@@ -85,7 +88,8 @@ fn held_behind_a_filter(workshop: &Workshop) {
     assert_eq!(explained + none + too_far, number(&stored, "explained"), "{filtered}");
 }
 
-/// A weight that presses the mass through its gap, and a force that throws it off at every turn if it is strong enough.
+/// A weight that presses the mass through its gap, and a force that throws it off at every turn if it is
+/// strong enough.
 fn pressed(amplitude_n: f64) -> Workshop {
     let study = study("law = \"lankarani-nikravesh\"\nstiffness_n_m15 = 1e6\nrestitution = 0.6");
     let vary = study.find("[[vary]]").unwrap();
@@ -97,7 +101,8 @@ fn pressed(amplitude_n: f64) -> Workshop {
     )
 }
 
-/// The linear response and the place of rest lie within the contact: a run begins in front of it, and has the orbit that `sweep` settles on from a state far away.
+/// The linear response and the place of rest lie within the contact: a run begins in front of it, and has the
+/// orbit that `sweep` settles on from a state far away.
 #[test]
 fn a_run_begins_in_front_of_a_contact_against_which_a_weight_presses() {
     let workshop = pressed(1000.0);

@@ -5,7 +5,8 @@ use std::fs;
 
 use crate::common::{Workshop, assert_success};
 
-/// `x'' + 0.1 x' + x = cos W t` with 19 N/m more above zero: its harmonic branch flips, and branches of doubled period join pairs of flips.
+/// `x'' + 0.1 x' + x = cos W t` with 19 N/m more above zero: its harmonic branch flips, and branches of
+/// doubled period join pairs of flips.
 const BILINEAR: &str = r#"
 title = "Bilinear oscillator"
 
@@ -89,7 +90,8 @@ fn every_event_of_a_solution_stands_in_the_table_of_events_with_what_is_known_of
     }
 }
 
-/// With one stop, what a grazing says of its contact is how their number changes from one row to the next, on both sides of where the branch began.
+/// With one stop, what a grazing says of its contact is how their number changes from one row to the next, on
+/// both sides of where the branch began.
 #[test]
 fn contacts_appear_and_vanish_in_the_order_of_the_rows() {
     let workshop = Workshop::with(BILINEAR);

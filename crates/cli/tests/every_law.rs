@@ -1,4 +1,5 @@
-//! Every law of a contact from the study file to verified branches: what bends the resonance, where it sets in, and where the energy goes.
+//! Every law of a contact from the study file to verified branches: what bends the resonance, where it sets
+//! in, and where the energy goes.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::{collections::HashMap, f64::consts::TAU, fs};
@@ -92,7 +93,8 @@ fn followed_and_verified(law: &str, study: &str, loses: bool) {
     assert_eq!((&document["sampled"], &document["stored"]), (&all.into(), &all.into()), "{law}");
 }
 
-/// The motions that touch from 5.2 to 6.4 Hz, all of them stable; and those that do not, which are stable and become, at the touch and the fold beside it, unstable ones that do: one change.
+/// The motions that touch from 5.2 to 6.4 Hz, all of them stable; and those that do not, which are stable and
+/// become, at the touch and the fold beside it, unstable ones that do: one change.
 fn the_resonance_is_bent(law: &str, solutions: &[HashMap<String, String>]) {
     let of = |branch: &str| solutions.iter().filter(|row| row["branch"] == branch).collect::<Vec<_>>();
     let stable = |branch: &str| of(branch).iter().map(|row| row["stable"] == "true").collect::<Vec<_>>();
@@ -117,7 +119,8 @@ fn the_resonance_is_bent(law: &str, solutions: &[HashMap<String, String>]) {
     assert_eq!((ends("2"), ends("1")[1]), ([5.2, 6.4], 6.4), "{law}");
 }
 
-/// Where the motion without contacts reaches the stop: `|F/(k - W^2 + i c W)| = gap`, above the resonance. A fold is beside it, where an orbit in contact has a multiplier at +1.
+/// Where the motion without contacts reaches the stop: `|F/(k - W^2 + i c W)| = gap`, above the resonance. A
+/// fold is beside it, where an orbit in contact has a multiplier at +1.
 fn the_contact_begins_in_closed_form(law: &str, workshop: &Workshop) {
     let k = STIFFNESS * (1.0 - 2.0 * DAMPING_RATIO.powi(2));
     let square = k + (k * k - STIFFNESS.powi(2) + (FORCE / GAP).powi(2)).sqrt();
@@ -160,7 +163,8 @@ fn the_parameter_goes_from_end_to_end(law: &str, workshop: &Workshop) {
     assert!(reached.values().all(|reached| *reached == ends), "{law}: {reached:?}");
 }
 
-/// Over a period of an orbit that touches once: the excitation's work is what the damper takes and what the contact loses.
+/// Over a period of an orbit that touches once: the excitation's work is what the damper takes and what the
+/// contact loses.
 fn the_energy_is_balanced(law: &str, workshop: &Workshop, loses: bool) {
     let frequency = TOUCHING_HZ.to_string();
     let simulate = ["simulate", "study.toml", "--frequency", &frequency, "--periods", "1", "--out", "motion"];

@@ -153,7 +153,8 @@ fn a_run_draws_what_figure_draws_of_its_folder_byte_for_byte() {
     assert!(history.contains("low-pass filter of 30 Hz") && history.contains("13.7 Hz, period 1"));
 }
 
-/// Figures are no part of a study's identity: another orbit is drawn by the same command, and nothing is computed again.
+/// Figures are no part of a study's identity: another orbit is drawn by the same command, and nothing is
+/// computed again.
 #[test]
 fn an_orbit_that_is_added_to_the_study_is_drawn_by_the_next_run() {
     let workshop = short_run("");
@@ -200,7 +201,8 @@ fn branches_over_another_parameter_are_drawn_over_it() {
     assert_same(&workshop, &drawn, ["first", "second"]);
 }
 
-/// While a run writes its folder, it can be drawn as far as it has come; before there is anything, a sentence says so.
+/// While a run writes its folder, it can be drawn as far as it has come; before there is anything, a sentence
+/// says so.
 #[test]
 fn a_folder_that_is_being_written_is_drawn_as_far_as_it_has_come() {
     let workshop = Workshop::with(crate::common::TWO_MASSES);
@@ -225,7 +227,8 @@ fn a_folder_that_is_being_written_is_drawn_as_far_as_it_has_come() {
     assert!(workshop.path("drawn/response_displacement.svg").is_file());
 }
 
-/// What is there when drawing is interrupted is whole, and what was there before and was not come to is as it was.
+/// What is there when drawing is interrupted is whole, and what was there before and was not come to is as it
+/// was.
 #[cfg(unix)]
 #[test]
 fn ctrl_c_while_drawing_leaves_whole_files_and_exits_with_130() {

@@ -1,4 +1,5 @@
-//! What the command that draws says of folders that are not whole, are drawn into twice at once, or hold what the font lacks.
+//! What the command that draws says of folders that are not whole, are drawn into twice at once, or hold what
+//! the font lacks.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::fs;
@@ -110,7 +111,8 @@ fn a_damaged_solution_between_those_that_are_drawn_is_told() {
     let workshop = short_run("[continuation]\nmax_step_hz = 0.0001\n");
     let database = crate::common::database(workshop.path("results/results.db"));
     let one = |query: &str| database.query_row(query, [], |row| row.get::<_, i64>(0)).unwrap();
-    // Keys hold the start above bit 33, the side in bit 32, and the number on that side; the down side comes first, reversed.
+    // Keys hold the start above bit 33, the side in bit 32, and the number on that side; the down side comes
+    // first, reversed.
     let of_branch = "id >> 33 = (SELECT id FROM start WHERE branch = 1)";
     let count =
         |side: u8| one(&format!("SELECT count(*) FROM solution WHERE {of_branch} AND id >> 32 & 1 = {side}"));

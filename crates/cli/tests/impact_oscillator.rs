@@ -1,11 +1,14 @@
 //! The example of an impact oscillator, from the study file to verified branches, against its closed form.
 //!
-//! `x'' + c x' + x = F cos W t`, `x <= g`, `x' -> -e x'`. Over the period `T = 2 pi/W` the free motion is `[a b; k d]`. An orbit with one impact of the speed v in a period has, with the particular motion p and its
+//! `x'' + c x' + x = F cos W t`, `x <= g`, `x' -> -e x'`. Over the period `T = 2 pi/W` the free motion is `[a
+//! b; k d]`. An orbit with one impact of the speed v in a period has, with the particular motion p and its
 //! velocity p' at the impact, `X = g - p`:
 //!
-//! `-p' - e v = X (1 - a)/b`, `(1 + e) v = X (k - (1 - d)(1 - a)/b)`, `p^2 + (p'/W)^2 = A^2`, `A = F/|1 - W^2 + i c W|`,
+//! `-p' - e v = X (1 - a)/b`, `(1 + e) v = X (k - (1 - d)(1 - a)/b)`, `p^2 + (p'/W)^2 = A^2`, `A = F/|1 - W^2
+//! + i c W|`,
 //!
-//! a quadratic equation for X. Its multipliers have the product `e^2 exp(-c T)` and the sum `-e (a + d) + b (a_+ + e a_-)/v`, with the accelerations `a_- = F cos W t - c v - g` and `a_+ = a_- + c (1 + e) v`.
+//! a quadratic equation for X. Its multipliers have the product `e^2 exp(-c T)` and the sum `-e (a + d) + b
+//! (a_+ + e a_-)/v`, with the accelerations `a_- = F cos W t - c v - g` and `a_+ = a_- + c (1 + e) v`.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::{f64::consts::TAU, fs};
@@ -106,8 +109,8 @@ fn the_example_is_run_to_its_closed_form_and_verified() {
         let f = row.frequency;
         let orbits = closed_form(f).into_iter().flatten();
         let nearest = orbits.min_by(|x, y| (x[0] - row.speed).abs().total_cmp(&(y[0] - row.speed).abs()));
-        // Near a fold the speed goes like the root of the frequency, so stored solutions, good to 1e-12, have it to 1e-6.
-        // At a fold itself there may be none by rounding.
+        // Near a fold the speed goes like the root of the frequency, so stored solutions, good to 1e-12, have
+        // it to 1e-6. At a fold itself there may be none by rounding.
         let Some([speed, sum]) = nearest else {
             let beside = [1.0 - 1e-9, 1.0 + 1e-9].map(|factor| closed_form(factor * f));
             assert!(row.event.contains("fold") || beside.iter().any(Option::is_some), "no orbit at {f} Hz");
@@ -150,7 +153,8 @@ fn the_example_is_run_to_its_closed_form_and_verified() {
     assert_eq!(verified["disagreements"].as_array().map(Vec::len), Some(0), "{verified}");
 }
 
-/// The figures of an orbit with one impact: the impulse that stops unit mass at its speed and throws it back, and a velocity that jumps.
+/// The figures of an orbit with one impact: the impulse that stops unit mass at its speed and throws it back,
+/// and a velocity that jumps.
 #[test]
 fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
     let workshop = Workshop::with(STUDY);
@@ -169,7 +173,8 @@ fn the_impulse_of_an_orbit_is_drawn_as_the_closed_form_has_it() {
     assert!(read("orbit-1-phase.svg").contains(">jump at an impact<"));
 }
 
-/// While a constant force holds the mass on its stop, it is at rest: what the stop presses with is part of its acceleration.
+/// While a constant force holds the mass on its stop, it is at rest: what the stop presses with is part of
+/// its acceleration.
 #[test]
 fn a_mass_that_is_held_has_no_acceleration() {
     let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 0.9\norder = 0\n";
@@ -195,7 +200,8 @@ fn a_mass_that_is_held_has_no_acceleration() {
     );
 }
 
-/// Orbits of two periods with one impact in them: where it vanishes the linear motion is left, whose branch is another one.
+/// Orbits of two periods with one impact in them: where it vanishes the linear motion is left, whose branch
+/// is another one.
 #[test]
 fn orbits_of_two_periods_end_where_their_impact_vanishes() {
     let workshop = Workshop::exported(&format!("{STUDY}\n[response]\nperiod_multiples = [1, 2]\n"));

@@ -1,4 +1,5 @@
-//! Ctrl-C and SIGTERM in the midst of work that takes minutes: answered in a moment, and what is finished is kept.
+//! Ctrl-C and SIGTERM in the midst of work that takes minutes: answered in a moment, and what is finished is
+//! kept.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![cfg(unix)]
 

@@ -15,7 +15,8 @@ fn linear() -> Workshop {
     workshop
 }
 
-/// Amplitude [m] and phase lag [rad] of the absolute displacement of a mass on its spring, with the damping ratio 0.02 of its motion relative to the frame, which moves by 0.5 mm times a cosine.
+/// Amplitude [m] and phase lag [rad] of the absolute displacement of a mass on its spring, with the damping
+/// ratio 0.02 of its motion relative to the frame, which moves by 0.5 mm times a cosine.
 fn answer(natural: f64, f: f64) -> (f64, f64) {
     let w = 2.0 * PI * f;
     // x = u + q, q'' + 2 z w0 q' + w0^2 q = w^2 u: q = w^2 u/(w0^2 - w^2 + 2 i z w0 w).
@@ -34,7 +35,8 @@ fn second() -> f64 {
     4000.0_f64.sqrt()
 }
 
-/// Frequency of the orbit, that of the measurement (5 % lower), its delay, and the factor by which it reads too little.
+/// Frequency of the orbit, that of the measurement (5 % lower), its delay, and the factor by which it reads
+/// too little.
 const ORBIT_HZ: f64 = 4.8;
 const MEASURED_HZ: f64 = ORBIT_HZ / 1.05;
 const DELAY_S: f64 = 0.0837;
@@ -120,7 +122,8 @@ fn other_sensors_other_points_and_filters_are_laid_over_too() {
         let t = k as f64 / RATE;
         let phase = 2.0 * PI * MEASURED_HZ * (t - DELAY_S);
         let (v, a) = (-w * (phase - lag).sin(), -w * w * (phase - lag).cos());
-        // Behind a filter of first order with its cut-off at the frequency: a root of two less, an eighth of a period late.
+        // Behind a filter of first order with its cut-off at the frequency: a root of two less, an eighth of
+        // a period late.
         let behind = amplitude / 2.0_f64.sqrt() * (phase - lag - PI / 4.0).cos();
         let other = of_other * (phase - other_lag).cos();
         writeln!(csv, "{t},{},{},{other},{behind}", 1e3 * amplitude * v, amplitude * a / 9.80665).unwrap();
@@ -157,7 +160,8 @@ fn other_sensors_other_points_and_filters_are_laid_over_too() {
     assert!(stdout(&output).contains("with the factor -1, 0.5"), "{}", stdout(&output));
 }
 
-/// A record whose clock shows the time of day, and a frequency that is a little off: over the record it makes 3e-4 of a period, over a day two of them.
+/// A record whose clock shows the time of day, and a frequency that is a little off: over the record it makes
+/// 3e-4 of a period, over a day two of them.
 #[test]
 fn the_shift_is_that_of_the_record_wherever_its_clock_begins() {
     let workshop = linear();
@@ -181,7 +185,8 @@ fn the_shift_is_that_of_the_record_wherever_its_clock_begins() {
     assert_eq!(first.split(',').next().unwrap().parse::<f64>().unwrap(), DAY_S);
 }
 
-/// A record of 4400 samples a period, more than the 1024 of a waveform: its 1480th harmonic would be folded down to the 456th.
+/// A record of 4400 samples a period, more than the 1024 of a waveform: its 1480th harmonic would be folded
+/// down to the 456th.
 #[test]
 fn what_a_waveform_does_not_hold_is_not_folded_into_it() {
     let workshop = linear();
@@ -210,7 +215,8 @@ fn the_orbit_is_found_by_its_size_where_the_factor_is_given() {
     let arguments = ["record.csv", "--reference", "frame", "--frequency-factor", "1.05", "--within", "4"];
     let given = ["--amplitude-factor", "2", "--out", "laid"];
     let found = overlay(&workshop, &[&arguments[..], &given].concat());
-    // Orbits are a thousandth apart, and the answer rises there by 20 % from one hundredth of the frequency to the next.
+    // Orbits are a thousandth apart, and the answer rises there by 20 % from one hundredth of the frequency
+    // to the next.
     assert!((number(&found["orbit"]["over_measured"]) - 1.05).abs() < 1.1e-3, "{found}");
     assert!(number(&found["residual_after"]) < 0.03 && number(&found["orbit"]["tried"]) > 50.0, "{found}");
     assert_eq!(found["amplitude_factor"]["given"], true);

@@ -1,7 +1,9 @@
-//! The page: written by the command, always the same bytes, with clear sentences about what is missing, and opened in a real browser.
+//! The page: written by the command, always the same bytes, with clear sentences about what is missing, and
+//! opened in a real browser.
 //!
-//! The browser is driven by a script of the page (`crates/figure/page/test`). It needs Node; its packages, a browser among them, are installed from the lock file
-//! where they are missing. Where that cannot be had the test says so and passes, unless `HAMMERBEAM_REQUIRE_BROWSER=1`.
+//! The browser is driven by a script of the page (`crates/figure/page/test`). It needs Node; its packages, a
+//! browser among them, are installed from the lock file where they are missing. Where that cannot be had the
+//! test says so and passes, unless `HAMMERBEAM_REQUIRE_BROWSER=1`.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::print_stderr, reason = "it has to say that it was skipped")]
 
@@ -64,8 +66,9 @@ fn the_page_of_a_run_is_the_same_again_opens_in_a_browser_and_says_what_is_missi
     without_anything(&workshop);
 }
 
-/// Displacement and velocity of the response point over the first excitation period of the solutions at the beginning and at the end of all branches, whose orbits every page
-/// carries, as a simulation from their stored states has them, three times as finely as the page.
+/// Displacement and velocity of the response point over the first excitation period of the solutions at the
+/// beginning and at the end of all branches, whose orbits every page carries, as a simulation from their
+/// stored states has them, three times as finely as the page.
 fn courses(workshop: &Workshop) -> Value {
     let store = Store::open(&workshop.path("results")).unwrap();
     let file = StudyFile::parse("study.toml", store.about("study").unwrap()).unwrap();
@@ -95,7 +98,8 @@ fn courses(workshop: &Workshop) -> Value {
     ends.into_iter().filter(|(_, _, _, of_side)| *of_side > 0).map(course).collect()
 }
 
-/// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to end.
+/// The stored multipliers of solutions spread over all branches, with their numbers over all branches end to
+/// end.
 fn multipliers(workshop: &Workshop) -> Value {
     let store = Store::open(&workshop.path("results")).unwrap();
     let mut keys = Vec::new();
@@ -207,7 +211,8 @@ fn straight(period_multiple: u32) -> PageBranch {
     PageBranch { id: period_multiple, period_multiple, solutions, ..PageBranch::default() }
 }
 
-/// Masses with stops on both sides, two orbits with multipliers that are not finite, a section, measured points.
+/// Masses with stops on both sides, two orbits with multipliers that are not finite, a section, measured
+/// points.
 fn everything() -> Page {
     let solution = |k: u32| PageSolution {
         frequency_hz: 10.0 + f64::from(k),

@@ -1,4 +1,5 @@
-//! Numbers of a study as parameters, every constant of damping of the structure and of stops, and numbers that change the modes: where a branch ends, the study with that value has the same orbit.
+//! Numbers of a study as parameters, every constant of damping of the structure and of stops, and numbers
+//! that change the modes: where a branch ends, the study with that value has the same orbit.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::fs;
@@ -109,14 +110,16 @@ const HUNT_CROSSLEY: (&str, &str) = (
     "law = \"hunt-crossley\"\nstiffness_n_m15 = 3.0e5\nloss_s_m = 0.6",
 );
 
-/// A parameter, the line of the study that gives it, with `{}` for its value, and the value of the study and that at the end of the range.
+/// A parameter, the line of the study that gives it, with `{}` for its value, and the value of the study and
+/// that at the end of the range.
 type Case<'a> = (&'a str, &'a str, [&'a str; 2]);
 
 fn written((_, line, _): Case<'_>, value: &str) -> String {
     line.replace("{}", value)
 }
 
-/// Follows branches over parameters, and asks for the motion of the study with the value at the upper end of each, from the state that it has there: it repeats.
+/// Follows branches over parameters, and asks for the motion of the study with the value at the upper end of
+/// each, from the state that it has there: it repeats.
 fn meet_the_studies_at_their_ends(study: &str, cases: &[Case<'_>], hz: &str) {
     let vary = |&(parameter, _, [low, high]): &Case<'_>| {
         format!("[[vary]]\nparameter = \"{parameter}\"\nrange = [{low}, {high}]\nfrequency_hz = {hz}\n")
@@ -192,7 +195,8 @@ fn damping_of_a_shaken_beam_varies() {
     meet_the_studies_at_their_ends(BEAM, &cases, "23.5");
 }
 
-/// What changes the modes, and with them what the state means: springs and masses, length and stiffness of a beam; of a stop what has no other parameter.
+/// What changes the modes, and with them what the state means: springs and masses, length and stiffness of a
+/// beam; of a stop what has no other parameter.
 #[test]
 fn numbers_that_change_the_modes_vary() {
     let cases = [
@@ -211,7 +215,8 @@ fn numbers_that_change_the_modes_vary() {
     meet_the_studies_at_their_ends(&beam, &cases, "23.5");
 }
 
-/// The grazing of a linear motion over its spring and its mass: `F/((k - m w^2)^2 + (c w)^2)^(1/2)` is the gap at every row of the curve.
+/// The grazing of a linear motion over its spring and its mass: `F/((k - m w^2)^2 + (c w)^2)^(1/2)` is the
+/// gap at every row of the curve.
 #[test]
 fn a_grazing_moves_with_spring_and_mass_as_the_closed_form_says() {
     let curves = [("spring.1.stiffness_n_m", [0.8, 1.3]), ("mass.m.mass_kg", [0.8, 1.2])].map(|(key, range)| {

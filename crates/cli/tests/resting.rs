@@ -1,9 +1,11 @@
-//! Structures that rest on their stop at phase 0, in a state that is thousands of times smaller than their orbit.
+//! Structures that rest on their stop at phase 0, in a state that is thousands of times smaller than their
+//! orbit.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::common::{Workshop, assert_success, stdout};
 
-/// 1 kg on 100 N/m, critically damped, pressed with 2 N against a stiff stop; the force of 10 N presses it on at phase 0.
+/// 1 kg on 100 N/m, critically damped, pressed with 2 N against a stiff stop; the force of 10 N presses it on
+/// at phase 0.
 fn study(phase_rad: f64, tolerance: f64) -> Workshop {
     Workshop::with(&format!(
         r#"
@@ -36,7 +38,8 @@ tolerance = {tolerance:e}
     ))
 }
 
-/// Solutions that a run stores, every one of which is computed again and agrees: a residual of 1e-9 of the orbit is several millionths of the state at phase 0.
+/// Solutions that a run stores, every one of which is computed again and agrees: a residual of 1e-9 of the
+/// orbit is several millionths of the state at phase 0.
 fn verified(phase_rad: f64, tolerance: f64) -> u64 {
     let workshop = study(phase_rad, tolerance);
     let run = workshop.hammerbeam(&["run", "study.toml", "--out", "results", "--json"]);
@@ -55,7 +58,8 @@ fn solutions_agree_whatever_the_phase_at_which_the_structure_rests() {
     }
 }
 
-/// Five thousandths of a hertz are sixty steps; relative to the state at phase 0 a tolerance of 1e-12 of the orbit is below rounding, and the walk would make thousands of solutions.
+/// Five thousandths of a hertz are sixty steps; relative to the state at phase 0 a tolerance of 1e-12 of the
+/// orbit is below rounding, and the walk would make thousands of solutions.
 #[test]
 fn a_close_tolerance_does_not_make_a_walk_crawl() {
     let (loose, close) = (verified(0.0, 1e-10), verified(0.0, 1e-12));

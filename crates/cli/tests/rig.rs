@@ -1,4 +1,5 @@
-//! The virtual rig of the studies folder, on a coarser sweep, through the whole comparison of the paper's section 4.
+//! The virtual rig of the studies folder, on a coarser sweep, through the whole comparison of the paper's
+//! section 4.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::fs;
@@ -56,7 +57,8 @@ fn the_virtual_rig_goes_through_section_4_of_the_paper() {
     filters(&found);
 }
 
-/// The rig is built for 17.2, 128.9 and 378.9 Hz and a damping of 0.003; its table falls 23 % behind at 70 Hz. The decay shows it, within its intervals of 95 % (widened by a half: three of them at once).
+/// The rig is built for 17.2, 128.9 and 378.9 Hz and a damping of 0.003; its table falls 23 % behind at 70
+/// Hz. The decay shows it, within its intervals of 95 % (widened by a half: three of them at once).
 fn eigenfrequencies_and_table(workshop: &Workshop, found: &Value) {
     let modes = found["eigenfrequencies"].as_array().unwrap();
     // Up to 0.6 of 850 Hz; a mode that fades too fast is told as not measured.
@@ -95,7 +97,9 @@ fn shift_and_factor(found: &Value) {
         let residual = |which: &str| number(&one[which]["log_rms"]);
         let within = |which: &str| number(&one[which]["within_reach"]);
         assert!(within("residual_after") > within("residual_before"), "{one}");
-        // What the fit makes small is not the residual over all that meet a branch, but the sum in which points far off are constants: behind the filter, where amplitudes hardly differ, that residual rises in this coarse sweep.
+        // What the fit makes small is not the residual over all that meet a branch, but the sum in which
+        // points far off are constants: behind the filter, where amplitudes hardly differ, that residual
+        // rises in this coarse sweep.
         if one["name"] != "filtered_acceleration" {
             assert!(residual("residual_after") < 0.8 * residual("residual_before"), "{}", one["name"]);
         }
@@ -148,7 +152,8 @@ fn signals(workshop: &Workshop, found: &Value) {
         assert_eq!(number(&signal["measured_hz"]), measured_hz);
         assert_eq!(signal["measured_as"], format!("periodic, {period}"), "{signal}");
         let computed = &signal["computed"];
-        // The pair of figure 12 is printed with one frequency, probably by mistake; the paper's pairs are 4 to 9 % apart.
+        // The pair of figure 12 is printed with one frequency, probably by mistake; the paper's pairs are 4
+        // to 9 % apart.
         if index != 5 {
             assert!((number(&computed["frequency_hz"]) / computed_hz - 1.0).abs() < 0.035, "{signal}");
         }

@@ -74,7 +74,8 @@ fn killed(study: &str, after: Duration) -> Workshop {
     }
 }
 
-/// A run that got Ctrl-C after this time, or earlier if all was computed by then, and how many lines of rows it kept.
+/// A run that got Ctrl-C after this time, or earlier if all was computed by then, and how many lines of rows
+/// it kept.
 #[cfg(unix)]
 fn interrupted(study: &str, after: Duration, whole: usize) -> (Workshop, usize) {
     let mut wait = after;
@@ -177,7 +178,8 @@ fn the_starter_study_checks_and_runs() {
     assert!(workshop.csv("starter/results").lines().count() > 100);
 }
 
-/// The states of a run are those from which `simulate` repeats: an orbit of `n` periods is there again after `n`.
+/// The states of a run are those from which `simulate` repeats: an orbit of `n` periods is there again after
+/// `n`.
 #[test]
 fn exported_states_and_multipliers_belong_to_the_rows() {
     let workshop = short_run("");

@@ -1,4 +1,5 @@
-//! A study of several branches gives the same exported bytes with any number of threads, after kills, and in pieces.
+//! A study of several branches gives the same exported bytes with any number of threads, after kills, and in
+//! pieces.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::{

@@ -333,7 +333,8 @@ fn nothing_found_is_exit_code_1() {
     assert_eq!(document["error"]["exit_code"], 1);
 }
 
-/// Numbers that ask for more samples than there is room for, and samples whose squares are not finite, are refused in a sentence.
+/// Numbers that ask for more samples than there is room for, and samples whose squares are not finite, are
+/// refused in a sentence.
 #[test]
 fn what_is_beyond_all_bounds_is_refused() {
     let rows = |factor: &str| -> String {

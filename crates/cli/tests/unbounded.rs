@@ -34,7 +34,8 @@ max_step_hz = 1e-3
     for row in &rows {
         let w = std::f64::consts::TAU * number(row, "frequency_hz");
         let share = number(row, "max_abs_displacement_m") * (1.0 - w * w).abs();
-        // A point is within 1e-10 of a hundredth of the range from the path: 6e-14 Hz, twice that relative to 0.159 Hz in w^2.
+        // A point is within 1e-10 of a hundredth of the range from the path: 6e-14 Hz, twice that relative to
+        // 0.159 Hz in w^2.
         assert!((share - 1.0).abs() < 1e-8 + 1e-12 / (1.0 - w * w).abs(), "{share} at {w} rad/s");
     }
     let ends = std::fs::read_to_string(workshop.path("results/export/ends.csv")).unwrap();

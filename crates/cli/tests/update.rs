@@ -44,7 +44,8 @@ fn springs_are_found_and_the_study_is_written_with_them() {
     }
     assert_eq!(document["degrees_of_freedom"], 0);
     assert!(document["chi_squared_probability"].is_null());
-    // Each mass stands on its own spring, so which frequency is whose is open: 4000 and 500 N/m, for 1 and 0.5 kg, give the same two.
+    // Each mass stands on its own spring, so which frequency is whose is open: 4000 and 500 N/m, for 1 and
+    // 0.5 kg, give the same two.
     assert!(
         stderr(&output)
             .contains("other values fit about as well: structure.spring.1.stiffness_n_m = 4.000000e3"),

@@ -75,7 +75,8 @@ fn places(rows: &[Row], key: &str, filter: impl Fn(&Row) -> bool) -> Vec<f64> {
     rows.iter().filter(|row| filter(row)).map(|row| number(row, key)).collect()
 }
 
-/// The folds of the branch over the force at 0.25 Hz lie on the curve of folds, found another way; the curve passes both folds of the response and has one cusp.
+/// The folds of the branch over the force at 0.25 Hz lie on the curve of folds, found another way; the curve
+/// passes both folds of the response and has one cusp.
 #[test]
 fn branches_and_curves_of_the_example_meet() {
     let workshop = Workshop::with(STUDY);
@@ -140,7 +141,9 @@ fn a_grazing_curve_is_that_of_the_linear_amplitude() {
     assert!(!workshop.path("results/export/parameter_branches.csv").exists());
 }
 
-/// Two masses between three stops, one of them with a damper, whose contact closes at phase 0 at one amplitude on the way: the curve of Neimark-Sacker points goes on, and ends at that of the diagram at twice the force.
+/// Two masses between three stops, one of them with a damper, whose contact closes at phase 0 at one
+/// amplitude on the way: the curve of Neimark-Sacker points goes on, and ends at that of the diagram at twice
+/// the force.
 #[test]
 fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
     let curve = "[[curve]]\nof = \"neimark-sacker\"\nnear_hz = 4.0167\nparameter = \"excitation.amplitude_n\"\nrange = [0.9, 2.0]\n";
@@ -165,7 +168,8 @@ fn a_curve_passes_where_a_damped_stop_closes_at_the_phase_of_its_start() {
     assert!(off < 1e-8, "{hz} Hz, off by {off:e}");
 }
 
-/// What is stored is not computed again; a piece more goes into the same folder, and the branches stay as they are.
+/// What is stored is not computed again; a piece more goes into the same folder, and the branches stay as
+/// they are.
 #[test]
 fn pieces_are_added_to_a_folder_and_taken_out_of_it() {
     let (without, pieces) = STUDY.split_once("[[vary]]").unwrap();

@@ -6,7 +6,8 @@ use std::{fs, process::Output, sync::OnceLock};
 use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, stderr, stdout};
 use serde_json::Value;
 
-/// Two masses around their second resonance, with contacts and folds, in steps that make some hundred solutions.
+/// Two masses around their second resonance, with contacts and folds, in steps that make some hundred
+/// solutions.
 fn results() -> &'static Workshop {
     static RESULTS: OnceLock<Workshop> = OnceLock::new();
     RESULTS.get_or_init(|| {
@@ -144,7 +145,8 @@ fn a_fold_that_is_none_is_found() {
     assert_found("events = 1", middle(), "events");
 }
 
-/// A weight on a damped stop that it leaves for an instant: the touch is as weak as the flight is low, the contact as deep as ever.
+/// A weight on a damped stop that it leaves for an instant: the touch is as weak as the flight is low, the
+/// contact as deep as ever.
 #[test]
 fn touches_of_a_deep_contact_that_just_opens_agree() {
     let workshop = Workshop::with(
@@ -186,7 +188,8 @@ fn touches_of_a_deep_contact_that_just_opens_agree() {
     assert_eq!(velocity["disagree"], 0, "{document:#}");
 }
 
-/// A spring that is just touched beside a rigid stop that is struck hard: what the spring pushes with is known as badly as its own shallow contact, and not as well as the other's.
+/// A spring that is just touched beside a rigid stop that is struck hard: what the spring pushes with is
+/// known as badly as its own shallow contact, and not as well as the other's.
 #[test]
 fn the_force_of_a_contact_is_judged_by_its_own_depth() {
     let workshop = Workshop::driven_mass(
@@ -227,7 +230,8 @@ fn the_force_of_a_contact_is_judged_by_its_own_depth() {
     assert_eq!(found.status.code(), Some(3), "{}", stdout(&found));
 }
 
-/// A stop with a damper, where its touch sets in with a jump: the located grazing has a touch or has none, and one branch has an orbit that is cut at its touch.
+/// A stop with a damper, where its touch sets in with a jump: the located grazing has a touch or has none,
+/// and one branch has an orbit that is cut at its touch.
 #[test]
 fn touches_of_a_damper_that_graze_or_lie_at_the_cut_agree() {
     for damping in [3.0, 12.0] {

@@ -27,8 +27,8 @@ fn a_range_over_eight_decades_has_one_branch_from_end_to_end() {
         let w = std::f64::consts::TAU * number(row, "frequency_hz");
         let expected = 0.4 / (1.0 - w * w).hypot(0.04 * w);
         let share = number(row, "max_abs_displacement_m") / expected;
-        // Displacements are small beside velocities, in which orbits are measured, by the frequency over that at the
-        // start; and a point is within 1e-10 of a hundredth of the range from the path.
+        // Displacements are small beside velocities, in which orbits are measured, by the frequency over that
+        // at the start; and a point is within 1e-10 of a hundredth of the range from the path.
         let (off, damping) = (1.0 - w * w, 0.04 * 0.04);
         let by_rate = (2.0 * off.abs() + damping) * w / (off * off + damping * w * w);
         let by_path = std::f64::consts::TAU * 1e-12 * 1e6 * by_rate;

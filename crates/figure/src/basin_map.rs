@@ -1,4 +1,5 @@
-//! Basins of attraction: a plane of initial states, each cell in the colour of the attractor that it leads to.
+//! Basins of attraction: a plane of initial states, each cell in the colour of the attractor that it leads
+//! to.
 
 use std::collections::BTreeSet;
 
@@ -26,7 +27,8 @@ pub struct BasinMap {
     pub y_range: (f64, f64),
     /// Cells in a row, and rows.
     pub cells_along: usize,
-    /// Attractor of each cell, counted from 1, row by row from the lower left corner; 0 where it is not known. Cells that are still missing are left white.
+    /// Attractor of each cell, counted from 1, row by row from the lower left corner; 0 where it is not
+    /// known. Cells that are still missing are left white.
     pub cells: Vec<u32>,
     /// Whether each of these cells begins behind a rigid stop, where no motion can begin; may be shorter.
     pub behind_stop: Vec<bool>,

@@ -1,7 +1,8 @@
 //! A chart: panels on top of each other, each a frame with layers, under one title and one legend.
 //!
-//! Every figure but the response diagram and the curves is a function from its data to one of these. A value without a place on an axis
-//! (not finite, not positive on a logarithmic one, outside the ends) is a gap in a line and left out of a cloud; a panel without any is refused.
+//! Every figure but the response diagram and the curves is a function from its data to one of these. A value
+//! without a place on an axis (not finite, not positive on a logarithmic one, outside the ends) is a gap in a
+//! line and left out of a cloud; a panel without any is refused.
 
 use crate::{
     Figure, FigureError, ScaleChoice, Style,
@@ -96,7 +97,8 @@ impl Chart {
     /// The figure.
     ///
     /// # Errors
-    /// [`FigureError::Empty`] where a panel has no value with a place; [`FigureError::NoQuantity`] without a panel.
+    /// [`FigureError::Empty`] where a panel has no value with a place; [`FigureError::NoQuantity`] without a
+    /// panel.
     pub(crate) fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
         let plots = self.plots(style)?;
         let last = plots.last().ok_or(FigureError::NoQuantity)?;

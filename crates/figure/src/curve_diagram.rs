@@ -1,7 +1,8 @@
-//! Curves of bifurcations: the excitation frequency over a second parameter, with the points of codimension two.
+//! Curves of bifurcations: the excitation frequency over a second parameter, with the points of codimension
+//! two.
 //!
-//! Colour and dashes tell what a curve is of; a point of codimension two has a dot with its name beside it, where that covers neither the frame nor a curve nor another
-//! name, if there is such a place.
+//! Colour and dashes tell what a curve is of; a point of codimension two has a dot with its name beside it,
+//! where that covers neither the frame nor a curve nor another name, if there is such a place.
 
 use crate::{
     Figure, FigureError, Style,
@@ -149,7 +150,8 @@ impl CurveDiagram {
         self.curves.iter().flat_map(|curve| &curve.points).filter(|point| !point.name.is_empty())
     }
 
-    /// Dots and names of the points of codimension two; one that lies on another with the same name is that one.
+    /// Dots and names of the points of codimension two; one that lies on another with the same name is that
+    /// one.
     fn draw_names(&self, svg: &mut SvgWriter, plot: &Plot, style: &Style) {
         let lines: Vec<Vec<Point>> = self.curves.iter().map(|curve| line(plot, curve, style)).collect();
         let mut taken: Vec<Area> = Vec::new();

@@ -33,7 +33,8 @@ impl Figure {
     /// The figure as a PDF file of one page; text is text, in the glyphs that it uses.
     ///
     /// # Errors
-    /// [`FigureError::Rendering`] if a figure has what the writer does not know, which is a bug of this crate.
+    /// [`FigureError::Rendering`] if a figure has what the writer does not know, which is a bug of this
+    /// crate.
     pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
         let (svg, size_mm) = (&self.svg, [self.width_mm, self.height_mm]);
         pdf::pdf(&svg.text, &svg.characters, &self.description, size_mm)
@@ -46,7 +47,8 @@ impl Figure {
         &self.description
     }
 
-    /// Characters of its texts that the bundled font lacks, in the order of their codes; the replacement character � stands for each.
+    /// Characters of its texts that the bundled font lacks, in the order of their codes; the replacement
+    /// character � stands for each.
     pub fn characters_lacking(&self) -> impl Iterator<Item = char> + '_ {
         self.svg.lacking.iter().copied()
     }

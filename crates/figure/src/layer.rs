@@ -120,7 +120,8 @@ fn draw_line(svg: &mut SvgWriter, plot: &Plot, (line, pattern): (&[(f64, f64)], 
     svg.polylines(lines.iter().map(|line| (line.as_slice(), dashes)), stroke);
 }
 
-/// Rectangles, cut at the ends of the axes; neighbours overlap by a hair, so that no light shows between them.
+/// Rectangles, cut at the ends of the axes; neighbours overlap by a hair, so that no light shows between
+/// them.
 fn draw_cells(svg: &mut SvgWriter, plot: &Plot, cells: &[[f64; 4]], colour: &'static str) {
     let area = plot.area;
     let mut data = String::new();

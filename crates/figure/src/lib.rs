@@ -23,8 +23,9 @@
 //! ```
 //!
 //! # The rooms
-//! Data run from the diagram to the page. [`ResponseDiagram`], [`CurveDiagram`], [`StructureDiagram`] and [`ModeDiagram`] draw themselves; every other
-//! kind is a file that turns its data into a `chart`, panels of layers over one axis:
+//! Data run from the diagram to the page. [`ResponseDiagram`], [`CurveDiagram`], [`StructureDiagram`] and
+//! [`ModeDiagram`] draw themselves; every other kind is a file that turns its data into a `chart`, panels of
+//! layers over one axis:
 //!
 //! | room | what it knows |
 //! |---|---|
@@ -39,20 +40,24 @@
 //! | `svg`, `png`, `pdf` | the few elements we need, in points; the renderer with the bundled font alone; the PNG file in `png/file.rs`; from what the renderer reads to a PDF, its faces in `pdf/face.rs` |
 //!
 //! # Decisions
-//! - **Own SVG writer, not a plotting library.** What makes these figures good (dashes that fit their stretch,
-//!   decimation on the page, marks thinned on the page) is not what a plotting library has, and what it has is
-//!   200 lines here.
-//! - **Line style and width tell stability, lightness and strokes across the line tell the period, shape tells the event**, so a grey copy
-//!   still says it all.
-//! - **A tenth of a pixel.** Lines are simplified on the page to 0.024 pt, a tenth of a pixel at 300 per inch;
-//!   folds, ends of stretches and the ends of the axis stay. A hundred thousand solutions become some tens of
-//!   kilobytes.
-//! - **Own PNG files, not the renderer's.** Figures are opaque and have few colours: one or three bytes a pixel, without filters, are deflated in half the time of
-//!   the four filtered ones that the renderer writes, into files that are a quarter smaller.
-//! - **Own PDF, by `pdf-writer`, from the tree that the renderer reads.** Of the libraries that turn SVG into PDF, `svg2pdf` 0.13 and `krilla-svg` 0.8 are made for other versions of that
-//!   tree than our renderer's: they would bring a second parser of SVG (11 and 48 further crates, without text and images in the first). `pdf-writer` brings two besides itself, and our figures are paths and text.
-//! - **The font is Arimo**, bundled. An SVG carries the glyphs that it uses, some 10 kB, so that nothing has to be installed where it is opened; text stays text, to be
-//!   searched and changed. A program that does not read such fonts takes Arial or Helvetica, whose widths are the same.
+//! - **Own SVG writer, not a plotting library.** What makes these figures good (dashes that fit their
+//!   stretch, decimation on the page, marks thinned on the page) is not what a plotting library has, and what
+//!   it has is 200 lines here.
+//! - **Line style and width tell stability, lightness and strokes across the line tell the period, shape
+//!   tells the event**, so a grey copy still says it all.
+//! - **A tenth of a pixel.** Lines are simplified on the page to 0.024 pt, a tenth of a pixel at 300 per
+//!   inch; folds, ends of stretches and the ends of the axis stay. A hundred thousand solutions become some
+//!   tens of kilobytes.
+//! - **Own PNG files, not the renderer's.** Figures are opaque and have few colours: one or three bytes a
+//!   pixel, without filters, are deflated in half the time of the four filtered ones that the renderer
+//!   writes, into files that are a quarter smaller.
+//! - **Own PDF, by `pdf-writer`, from the tree that the renderer reads.** Of the libraries that turn SVG into
+//!   PDF, `svg2pdf` 0.13 and `krilla-svg` 0.8 are made for other versions of that tree than our renderer's:
+//!   they would bring a second parser of SVG (11 and 48 further crates, without text and images in the
+//!   first). `pdf-writer` brings two besides itself, and our figures are paths and text.
+//! - **The font is Arimo**, bundled. An SVG carries the glyphs that it uses, some 10 kB, so that nothing has
+//!   to be installed where it is opened; text stays text, to be searched and changed. A program that does not
+//!   read such fonts takes Arial or Helvetica, whose widths are the same.
 
 mod axis;
 mod base64;

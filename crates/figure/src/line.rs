@@ -49,7 +49,8 @@ fn dashes(points: &[Point], (dash, gap): (f64, f64)) -> Option<Dashes> {
     (length > 0.0).then_some(Dashes { dash, gap, offset: dash + 0.5 * gap })
 }
 
-/// Strokes across a line, in groups of a number at equal distances; none across one that is shorter than a stroke.
+/// Strokes across a line, in groups of a number at equal distances; none across one that is shorter than a
+/// stroke.
 pub(crate) fn strokes(points: &[Point], in_a_group: usize, style: &Style) -> Vec<[Point; 2]> {
     let length: f64 = points.windows(2).map(|pair| distance(pair[0], pair[1])).sum();
     if in_a_group == 0 || length < 2.0 * style.stroke_reach {

@@ -1,7 +1,7 @@
 //! The mode shapes of a structure, each in a band of its own with its frequency, its points and the stops.
 //!
-//! Shapes are relative to the support and scaled to the same largest displacement. Between the places of a beam the line is a cubic with
-//! slopes by differences; where an end cannot turn its slope is zero.
+//! Shapes are relative to the support and scaled to the same largest displacement. Between the places of a
+//! beam the line is a cubic with slopes by differences; where an end cannot turn its slope is zero.
 
 use crate::{
     Figure, FigureError, Style,

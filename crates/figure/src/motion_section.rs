@@ -1,4 +1,5 @@
-//! The stroboscopic (Poincaré) section: displacement and velocity of the response point at one phase of every period.
+//! The stroboscopic (Poincaré) section: displacement and velocity of the response point at one phase of every
+//! period.
 
 use crate::{
     Figure, FigureError, Style,

@@ -1,4 +1,5 @@
-//! Floquet multipliers of a branch: their moduli over the frequency, and in the complex plane with the unit circle.
+//! Floquet multipliers of a branch: their moduli over the frequency, and in the complex plane with the unit
+//! circle.
 
 use std::f64::consts::TAU;
 
@@ -90,7 +91,8 @@ impl MultiplierDiagram {
         .draw(style)
     }
 
-    /// Multipliers in the complex plane about the unit circle; of many the four of largest modulus of each solution, with the partner of the last.
+    /// Multipliers in the complex plane about the unit circle; of many the four of largest modulus of each
+    /// solution, with the partner of the last.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no multiplier is finite.

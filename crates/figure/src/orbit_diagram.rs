@@ -1,4 +1,5 @@
-//! An orbit: its motion, forces and impulses over a period, its phase portrait, and its spectrum. The samples come from the caller.
+//! An orbit: its motion, forces and impulses over a period, its phase portrait, and its spectrum. The samples
+//! come from the caller.
 
 mod impulse;
 
@@ -19,7 +20,8 @@ pub use impulse::OrbitImpulse;
 /// Ratio of the largest amplitude of a spectrum to the least that is drawn.
 const DEPTH: f64 = 1e5;
 
-/// An orbit in samples at equal steps over its period, both ends of which are the same instant and are given once.
+/// An orbit in samples at equal steps over its period, both ends of which are the same instant and are given
+/// once.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OrbitDiagram {
     /// Title above the figures; empty for none.
@@ -70,9 +72,11 @@ impl OrbitDiagram {
         name.cloned().unwrap_or_else(|| format!("local element {}", element + 1))
     }
 
-    /// Displacement, acceleration, forces of the local elements, impulses of rigid stops and support motion over the period.
+    /// Displacement, acceleration, forces of the local elements, impulses of rigid stops and support motion
+    /// over the period.
     ///
-    /// Where a velocity jumps the displacement has a corner and the acceleration a gap: it is an impulse there.
+    /// Where a velocity jumps the displacement has a corner and the acceleration a gap: it is an impulse
+    /// there.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
@@ -121,7 +125,8 @@ impl OrbitDiagram {
         self.chart("one period of the orbit", x, panels, legend, Some(0.16)).draw(style)
     }
 
-    /// Velocity over displacement, with the points at phase 0; below it these points alone, the Poincaré section. A velocity that jumps is a gap with dots across it.
+    /// Velocity over displacement, with the points at phase 0; below it these points alone, the Poincaré
+    /// section. A velocity that jumps is a gap with dots across it.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
@@ -158,8 +163,9 @@ impl OrbitDiagram {
 
     /// Amplitudes of the harmonics of the acceleration, with the eigenfrequencies marked.
     ///
-    /// The samples `x_j` of an orbit have the harmonics `c_k = 2/n |sum_j x_j exp(-2 pi i j k/n) + n/T sum_i dv_i exp(-2 pi i k t_i/T)|`, with the jumps `dv_i` of
-    /// the velocity at the times `t_i` of impacts, in the period T; those up to a quarter of the samples are drawn.
+    /// The samples `x_j` of an orbit have the harmonics `c_k = 2/n |sum_j x_j exp(-2 pi i j k/n) + n/T sum_i
+    /// dv_i exp(-2 pi i k t_i/T)|`, with the jumps `dv_i` of the velocity at the times `t_i` of impacts, in
+    /// the period T; those up to a quarter of the samples are drawn.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where there are no finite samples.
@@ -193,7 +199,8 @@ impl OrbitDiagram {
         self.chart("spectrum of the acceleration", x, panels, vec![legend], None).draw(style)
     }
 
-    /// Amplitude of a harmonic, by Goertzel's sum written out; the phase is reduced first, so that it stays exact.
+    /// Amplitude of a harmonic, by Goertzel's sum written out; the phase is reduced first, so that it stays
+    /// exact.
     fn amplitude(&self, values: &[f64], k: usize) -> f64 {
         let n = values.len();
         let angle = |j: usize| TAU * ((j * k) % n) as f64 / n as f64;
@@ -262,8 +269,9 @@ mod tests {
         is(2, 3.0);
         is(5, 0.5);
     }
-    /// Between two walls at constant speed V, thrown back from both: the acceleration is `2 V` times impulses of alternating sign, whose odd harmonics
-    /// are `8 V/T` and whose even ones vanish. At 3 Hz, over two excitation periods.
+    /// Between two walls at constant speed V, thrown back from both: the acceleration is `2 V` times impulses
+    /// of alternating sign, whose odd harmonics are `8 V/T` and whose even ones vanish. At 3 Hz, over two
+    /// excitation periods.
     #[test]
     fn impulses_have_the_harmonics_of_a_motion_between_two_walls() {
         let impulse = |cycles: f64, speed: f64| OrbitImpulse {

@@ -1,11 +1,15 @@
-//! The page: everything in a results folder in one HTML file, which any browser opens without a server or a network.
+//! The page: everything in a results folder in one HTML file, which any browser opens without a server or a
+//! network.
 //!
-//! The file holds a short script and the data it shows: what is small as JSON, solutions and their multipliers as little-endian arrays, and orbits as records, in base64.
-//! Solutions are decoded when the page opens, multipliers when a solution is selected for the first time. Orbits are decoded one at a time, when they are asked for: each is a record of its own, as
-//! long as a multiple of three bytes, so that its place in the base64 text is known. Their values are rounded to less than a pixel of what is drawn of them (`page/orbits/record.rs`).
+//! The file holds a short script and the data it shows: what is small as JSON, solutions and their
+//! multipliers as little-endian arrays, and orbits as records, in base64. Solutions are decoded when the page
+//! opens, multipliers when a solution is selected for the first time. Orbits are decoded one at a time, when
+//! they are asked for: each is a record of its own, as long as a multiple of three bytes, so that its place
+//! in the base64 text is known. Their values are rounded to less than a pixel of what is drawn of them
+//! (`page/orbits/record.rs`).
 //!
-//! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its sources, so that nobody who builds this crate
-//! needs Node; a test says that it is what the sources give.
+//! The script is written in TypeScript, in `page/` of this crate. What it is built into is stored beside its
+//! sources, so that nobody who builds this crate needs Node; a test says that it is what the sources give.
 
 mod columns;
 mod document;
@@ -152,14 +156,16 @@ pub struct PageStop {
     pub other: Option<u32>,
     /// Whether it rides on the moving support.
     pub rides: bool,
-    /// Where it is touched: displacements (m) of the place relative to what carries the stop, and whether the stop lies above.
+    /// Where it is touched: displacements (m) of the place relative to what carries the stop, and whether the
+    /// stop lies above.
     pub levels: Vec<(f64, bool)>,
 }
 
 impl Page {
     /// The whole file.
     ///
-    /// The same page gives the same bytes. Numbers that are not finite are kept where they can be; where not they are left out by the page.
+    /// The same page gives the same bytes. Numbers that are not finite are kept where they can be; where not
+    /// they are left out by the page.
     #[must_use]
     pub fn html(&self) -> String {
         document::html(self)

@@ -1,7 +1,9 @@
-//! From SVG to PDF: paths as they are, text as text in the bundled faces, of which the file carries what it uses.
+//! From SVG to PDF: paths as they are, text as text in the bundled faces, of which the file carries what it
+//! uses.
 //!
-//! The SVG is read by the renderer that draws the PNG, so both show the same. Nothing of the day or the machine goes into the file: the same
-//! figure is the same file, byte for byte. Only what our figures are made of is known here, opaque paths and text; anything else is refused.
+//! The SVG is read by the renderer that draws the PNG, so both show the same. Nothing of the day or the
+//! machine goes into the file: the same figure is the same file, byte for byte. Only what our figures are
+//! made of is known here, opaque paths and text; anything else is refused.
 
 mod face;
 

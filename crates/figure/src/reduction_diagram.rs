@@ -34,7 +34,8 @@ pub struct ReducedMode {
 }
 
 impl ReductionDiagram {
-    /// The figure, in that style; errors below 1e-12 stand there as triangles that point down, which the legend says.
+    /// The figure, in that style; errors below 1e-12 stand there as triangles that point down, which the
+    /// legend says.
     ///
     /// # Errors
     /// [`FigureError::Empty`] where no mode has a positive frequency and a finite error.

@@ -1,5 +1,5 @@
-//! The response diagram: maximum displacement and acceleration of the response point, contact force and impact velocity over the
-//! excitation frequency, or over another parameter.
+//! The response diagram: maximum displacement and acceleration of the response point, contact force and
+//! impact velocity over the excitation frequency, or over another parameter.
 //!
 //! Figures 3 and 4 of van de Vorst, Fey, de Kraker, van Campen are of this kind.
 
@@ -17,8 +17,8 @@ use crate::{
 pub struct ResponseDiagram {
     /// Title above the figure; empty for none, as most journals want it.
     pub title: String,
-    /// What the horizontal axis measures, with the unit, for branches over another parameter: all that is said of the frequency is then
-    /// said of that parameter. Empty for the frequency.
+    /// What the horizontal axis measures, with the unit, for branches over another parameter: all that is
+    /// said of the frequency is then said of that parameter. Empty for the frequency.
     pub parameter: String,
     /// The branches, in the order in which they are drawn.
     pub curves: Vec<ResponseCurve>,

@@ -71,7 +71,8 @@ impl Scale {
         Self { kind, from, to }
     }
 
-    /// A scale for data: a margin above, a margin below or, for a linear one that is near zero, zero; from -1 to 1 where everything is zero.
+    /// A scale for data: a margin above, a margin below or, for a linear one that is near zero, zero; from -1
+    /// to 1 where everything is zero.
     pub(crate) fn around(kind: ScaleKind, (least, greatest): (f64, f64)) -> Self {
         match kind {
             ScaleKind::Logarithmic => {

@@ -1,4 +1,5 @@
-//! Symbols of sketches of structures: walls, springs, dampers, arrows, dimension lines, in points on the page.
+//! Symbols of sketches of structures: walls, springs, dampers, arrows, dimension lines, in points on the
+//! page.
 //!
 //! The symbols are those of mechanics textbooks, so that a sketch needs no legend.
 
@@ -152,7 +153,8 @@ fn head(tip: Point, left: Point, right: Point) -> String {
     format!("M{}L{}L{}z", pair(tip), pair(left), pair(right))
 }
 
-/// A dimension line between two places of the horizontal, with its label in the middle, and thin lines up to what it measures.
+/// A dimension line between two places of the horizontal, with its label in the middle, and thin lines up to
+/// what it measures.
 pub(crate) fn dimension(
     svg: &mut SvgWriter,
     (from, to): (f64, f64),

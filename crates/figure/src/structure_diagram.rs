@@ -1,7 +1,8 @@
 //! The structure as a sketch: what holds it, what it carries, what it can hit, and what moves it.
 //!
-//! Along a beam the sketch is to scale; its depth, the gaps and all symbols are not. A displacement is positive upwards, that of
-//! lumped masses to the right. What a sketch cannot say stands below it in words, which come from the caller.
+//! Along a beam the sketch is to scale; its depth, the gaps and all symbols are not. A displacement is
+//! positive upwards, that of lumped masses to the right. What a sketch cannot say stands below it in words,
+//! which come from the caller.
 
 mod beam;
 mod lumped;
@@ -30,7 +31,8 @@ pub struct StructureDiagram {
     pub layout: SketchLayout,
     /// The stops.
     pub stops: Vec<SketchStop>,
-    /// Names of the points, ends or masses that follow the support motion; `ground` for the ground of lumped masses.
+    /// Names of the points, ends or masses that follow the support motion; `ground` for the ground of lumped
+    /// masses.
     pub moving: Vec<String>,
     /// Names of the points at which a force acts.
     pub forces: Vec<String>,
@@ -117,7 +119,8 @@ pub struct SketchStop {
     pub carrier: SketchCarrier,
     /// How it looks.
     pub kind: StopKind,
-    /// Whether it is on the side of positive displacements; of a two-sided one and of a spring that always acts it says nothing.
+    /// Whether it is on the side of positive displacements; of a two-sided one and of a spring that always
+    /// acts it says nothing.
     pub above: bool,
     /// Whether there is a gap at rest.
     pub has_gap: bool,
@@ -156,7 +159,8 @@ impl StructureDiagram {
     /// The figure.
     ///
     /// # Errors
-    /// [`FigureError::Crowded`] for more masses than a sketch has room for, [`FigureError::Empty`] for no mass or a beam without a length.
+    /// [`FigureError::Crowded`] for more masses than a sketch has room for, [`FigureError::Empty`] for no
+    /// mass or a beam without a length.
     pub fn draw(&self, style: &Style) -> Result<Figure, FigureError> {
         let width = points(style.width_mm);
         let title = wrap(&self.title, style.label_size, width - 2.0 * MARGIN);

@@ -1,7 +1,8 @@
 //! The look of every figure, in one place: sizes on paper, line widths, type sizes, colours.
 //!
-//! Colours are told apart by eyes of every kind and in grey print: the nine of the periods have three steps of lightness, and what has
-//! one step has another number of strokes across its line. Nothing is said by colour alone where a line style or a mark can say it.
+//! Colours are told apart by eyes of every kind and in grey print: the nine of the periods have three steps
+//! of lightness, and what has one step has another number of strokes across its line. Nothing is said by
+//! colour alone where a line style or a mark can say it.
 
 use crate::{Bifurcation, MotionKind, stretch::LineLook};
 
@@ -36,7 +37,8 @@ pub(crate) fn line_pattern(number: usize) -> Pattern {
 /// Colour of a kind of motion that is not certain.
 const DOUBTFUL: &str = "#898989";
 
-/// Colours of initial states that no motion was computed from, and of those that cannot be: they lie behind a rigid stop.
+/// Colours of initial states that no motion was computed from, and of those that cannot be: they lie behind a
+/// rigid stop.
 pub(crate) const NOT_COMPUTED: &str = INK;
 pub(crate) const IMPOSSIBLE: &str = "#b6b4be";
 
@@ -103,7 +105,8 @@ pub(crate) fn page_colours(dark: bool) -> serde_json::Value {
     })
 }
 
-/// Colour and dashes of a line; `None` for a solid one, else the lengths of a dash and of the gap behind it (pt).
+/// Colour and dashes of a line; `None` for a solid one, else the lengths of a dash and of the gap behind it
+/// (pt).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pattern {
     pub(crate) colour: &'static str,
@@ -230,8 +233,9 @@ mod tests {
         lab(linear(colour))[0]
     }
 
-    /// What eyes see: all three kinds of cones, without those for long, medium or short waves. Machado, Oliveira and Fernandes, IEEE Trans.
-    /// Visualization and Computer Graphics 15 (2009), 1291-1298, severity 1.
+    /// What eyes see: all three kinds of cones, without those for long, medium or short waves. Machado,
+    /// Oliveira and Fernandes, IEEE Trans. Visualization and Computer Graphics 15 (2009), 1291-1298, severity
+    /// 1.
     const EYES: [[[f64; 3]; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
@@ -239,7 +243,8 @@ mod tests {
         [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
     ];
 
-    /// Least distance of two colours in CIE L*a*b* (1976) to any eyes; about 2 is the least that can be seen side by side.
+    /// Least distance of two colours in CIE L*a*b* (1976) to any eyes; about 2 is the least that can be seen
+    /// side by side.
     fn distance(one: &str, other: &str) -> f64 {
         let seen = |eyes: &[[f64; 3]; 3], colour| {
             lab(times(eyes, linear(colour)).map(|part: f64| part.clamp(0.0, 1.0)))

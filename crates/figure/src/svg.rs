@@ -265,7 +265,8 @@ mod tests {
         assert_eq!(escape("a<b> & \"c\"\u{0}\n"), "a&lt;b&gt; &amp; &quot;c&quot;\u{fffd} ");
     }
 
-    /// Drawn as it is, every one of them would be the same empty box, which no reader of a PDF could search for.
+    /// Drawn as it is, every one of them would be the same empty box, which no reader of a PDF could search
+    /// for.
     #[test]
     fn a_character_that_the_font_lacks_is_replaced_and_told() {
         let mut writer = SvgWriter::new(84.0, 20.0, "振動", "");

@@ -1,6 +1,8 @@
-//! The bifurcation diagram of settled motions: where the response point is at phase 0 of every period, over the excitation frequency, and how far it gets.
+//! The bifurcation diagram of settled motions: where the response point is at phase 0 of every period, over
+//! the excitation frequency, and how far it gets.
 //!
-//! Sweeps up and down have a panel each, so that neither covers the other; the panel of the maxima has both and shows the hysteresis.
+//! Sweeps up and down have a panel each, so that neither covers the other; the panel of the maxima has both
+//! and shows the hysteresis.
 
 use crate::{
     Figure, FigureError, MotionKind, Style,

@@ -20,7 +20,8 @@ pub(crate) fn ticks(scale: &Scale, wanted: f64) -> Vec<Tick> {
     }
 }
 
-/// At least two labels, since one alone says nothing of the scale: more than are wanted where these would not give them.
+/// At least two labels, since one alone says nothing of the scale: more than are wanted where these would not
+/// give them.
 fn linear(scale: &Scale, wanted: f64) -> Vec<Tick> {
     let labels = |ticks: &[Tick]| ticks.iter().filter(|tick| tick.label.is_some()).count();
     let mut wanted = wanted.max(1.0);

@@ -41,7 +41,8 @@ fn figure_3(solutions: usize) -> Page {
     page
 }
 
-/// Orbits until there is no room for another one. They are no motions: nothing in them follows from anything else, so that they take twice as much as those of figure 3.
+/// Orbits until there is no room for another one. They are no motions: nothing in them follows from anything
+/// else, so that they take twice as much as those of figure 3.
 fn orbits(room: usize) -> OrbitRecords {
     let wave = |count: usize, rate: f64| (0..count).map(|k| (rate * k as f64).sin()).collect::<Vec<f64>>();
     let pairs = |rate| wave(384, rate).iter().map(|value| [*value, value + 0.3]).collect::<Vec<_>>();

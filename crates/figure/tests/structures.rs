@@ -1,4 +1,5 @@
-//! Sketches of structures and their mode shapes: everything has its place on the page, and what cannot be drawn is refused.
+//! Sketches of structures and their mode shapes: everything has its place on the page, and what cannot be
+//! drawn is refused.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_figure::{
@@ -239,7 +240,8 @@ fn long_names_and_long_last_numbers_stay_on_the_page() {
     }
 }
 
-/// Every text ends before the edge, by the advances of Arial: no glyph of its letters and digits is wider than 0.834 of the type size but M, W and m, digits are 0.556 wide.
+/// Every text ends before the edge, by the advances of Arial: no glyph of its letters and digits is wider
+/// than 0.834 of the type size but M, W and m, digits are 0.556 wide.
 fn assert_in_the_width(figure: &Figure) {
     let width = figure.width_mm() * 72.0 / 25.4;
     let svg = figure.svg();

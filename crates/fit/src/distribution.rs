@@ -1,11 +1,12 @@
 //! The normal, Student's and the chi-squared distribution.
 //!
-//! All come from two functions: the regularised incomplete gamma function `P(a, x)` (series below `a + 1`, continued fraction above) and the regularised
-//! incomplete beta function `I_x(a, b)` (continued fraction). Quantiles are bisected. Relative errors are below 1e-10.
+//! All come from two functions: the regularised incomplete gamma function `P(a, x)` (series below `a + 1`,
+//! continued fraction above) and the regularised incomplete beta function `I_x(a, b)` (continued fraction).
+//! Quantiles are bisected. Relative errors are below 1e-10.
 //!
 //! # Source
-//! Abramowitz and Stegun, *Handbook of Mathematical Functions* (1964), 6.1.41, 6.5.29, 6.5.31, 26.5.8, 26.7.1; continued fractions by the method of Lentz,
-//! Appl. Opt. 15 (1976), 668-671.
+//! Abramowitz and Stegun, *Handbook of Mathematical Functions* (1964), 6.1.41, 6.5.29, 6.5.31, 26.5.8,
+//! 26.7.1; continued fractions by the method of Lentz, Appl. Opt. 15 (1976), 668-671.
 
 use std::f64::consts::TAU;
 
@@ -148,7 +149,8 @@ mod tests {
         }
     }
 
-    /// With two freedoms the tail is `exp(-x/2)`, and the one of Student's distribution with one is an arctangent.
+    /// With two freedoms the tail is `exp(-x/2)`, and the one of Student's distribution with one is an
+    /// arctangent.
     #[test]
     fn closed_forms_are_met() {
         for x in [1e-3, 0.5, 1.9, 2.1, 7.0, 60.0] {

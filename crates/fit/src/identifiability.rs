@@ -2,17 +2,21 @@
 //!
 //! Two scalings of the Jacobian at the best parameters `p*`, two questions.
 //!
-//! **Left open.** In relative parameters (`J diag(p*)`) the k-th right singular vector is a direction of unit length along which the parameters have the standard deviation
-//! `sqrt(v)/s_k`. If the interval along it has a half width of more than [`OPEN`], the data do not exclude that the parameters change by so much together: they leave the direction
-//! open. The parameters with at least a fifth of the direction's largest part are its parameters. If it is one, the data do not determine it; if there are more, the data
-//! do not tell them apart.
+//! **Left open.** In relative parameters (`J diag(p*)`) the k-th right singular vector is a direction of unit
+//! length along which the parameters have the standard deviation `sqrt(v)/s_k`. If the interval along it has
+//! a half width of more than [`OPEN`], the data do not exclude that the parameters change by so much
+//! together: they leave the direction open. The parameters with at least a fifth of the direction's largest
+//! part are its parameters. If it is one, the data do not determine it; if there are more, the data do not
+//! tell them apart.
 //!
-//! **Collinear.** With columns of length one, `1/s_k` is the collinearity index of Brun, Reichert and Kunsch: an index of 20 means that a change of one parameter is made up for by
-//! the others to within a twentieth of its effect. Beyond [`COLLINEAR`] this is told even if the data are precise enough to tell the parameters apart; it then hangs on that precision, and on the model
-//! being right to that precision.
+//! **Collinear.** With columns of length one, `1/s_k` is the collinearity index of Brun, Reichert and Kunsch:
+//! an index of 20 means that a change of one parameter is made up for by the others to within a twentieth of
+//! its effect. Beyond [`COLLINEAR`] this is told even if the data are precise enough to tell the parameters
+//! apart; it then hangs on that precision, and on the model being right to that precision.
 //!
 //! # Source
-//! Brun, Reichert and Kunsch, Water Resour. Res. 37 (2001), 1015-1030: indices above 10 to 15 are called critical there.
+//! Brun, Reichert and Kunsch, Water Resour. Res. 37 (2001), 1015-1030: indices above 10 to 15 are called
+//! critical there.
 
 use faer::Mat;
 
@@ -35,14 +39,16 @@ pub struct Direction {
     pub parts: Vec<f64>,
     /// Parameters that it is about, the largest part first.
     pub parameters: Vec<usize>,
-    /// Half width of the interval along it in relative parameters, or the collinearity index; infinite where the data see nothing at all.
+    /// Half width of the interval along it in relative parameters, or the collinearity index; infinite where
+    /// the data see nothing at all.
     pub measure: f64,
 }
 
 /// What the data leave open.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identifiability {
-    /// Singular values of the Jacobian in relative parameters, in standard deviations of the data; largest first.
+    /// Singular values of the Jacobian in relative parameters, in standard deviations of the data; largest
+    /// first.
     pub singular_values: Vec<f64>,
     /// Collinearity index of all parameters together; infinite where they are dependent.
     pub collinearity_index: f64,
@@ -55,7 +61,8 @@ pub struct Identifiability {
 impl Identifiability {
     /// From a fit.
     ///
-    /// * `typical`: a size of each parameter, for relative changes; that of the best value, where it is not zero.
+    /// * `typical`: a size of each parameter, for relative changes; that of the best value, where it is not
+    ///   zero.
     #[must_use]
     pub fn of(fit: &Fit, inference: &Inference, typical: &[f64]) -> Self {
         let free: Vec<usize> = (0..fit.parameters.len()).filter(|j| !fit.at_bound[*j]).collect();

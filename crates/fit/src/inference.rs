@@ -1,7 +1,9 @@
-//! Standard errors, intervals, correlation and the chi-squared test, to first order about the best parameters.
+//! Standard errors, intervals, correlation and the chi-squared test, to first order about the best
+//! parameters.
 //!
-//! `S = v (J^T J)^-1` over the parameters that no bound holds, from the singular values of J with columns of length one. Where some of these count as zero (less than 1e-6
-//! of the largest), the parameters in their directions have no standard error; the others have that of the remaining directions.
+//! `S = v (J^T J)^-1` over the parameters that no bound holds, from the singular values of J with columns of
+//! length one. Where some of these count as zero (less than 1e-6 of the largest), the parameters in their
+//! directions have no standard error; the others have that of the remaining directions.
 
 use faer::Mat;
 
@@ -30,7 +32,8 @@ pub struct ChiSquared {
     pub value: f64,
     /// Data less parameters.
     pub freedoms: usize,
-    /// Probability that errors with the stated standard deviations alone give as much or more; `None` without freedoms, or where the factor of the deviations was estimated from it.
+    /// Probability that errors with the stated standard deviations alone give as much or more; `None` without
+    /// freedoms, or where the factor of the deviations was estimated from it.
     pub probability: Option<f64>,
 }
 
@@ -43,7 +46,8 @@ pub struct Inference {
     pub quantile: f64,
     /// `v`: 1, or the factor of the variances that the residuals tell; `None` where they cannot.
     pub variance: Option<f64>,
-    /// Of each parameter; `None` where the data do not determine it, a bound holds it, or the variance is not known.
+    /// Of each parameter; `None` where the data do not determine it, a bound holds it, or the variance is not
+    /// known.
     pub standard_errors: Vec<Option<f64>>,
     /// Of each parameter, as the standard errors.
     pub intervals: Vec<Option<Interval>>,

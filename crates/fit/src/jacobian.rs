@@ -36,7 +36,8 @@ impl Decomposed {
         self.singular.iter().filter(|s| **s > RANK * largest).count()
     }
 
-    /// `V_jk`: part of parameter j in direction k. Directions beyond the number of data have no singular value.
+    /// `V_jk`: part of parameter j in direction k. Directions beyond the number of data have no singular
+    /// value.
     pub fn part(&self, parameter: usize, direction: usize) -> f64 {
         self.svd.V()[(parameter, direction)]
     }

@@ -1,12 +1,14 @@
 //! The method of Levenberg and Marquardt, within bounds.
 //!
-//! A step is `-(J^T J + mu C^2)^-1 J^T r` over the parameters that no bound holds, with the lengths C of the columns of J; it is cut off at the bounds. The damping `mu`
-//! follows the ratio of the gained to the predicted reduction of `chi^2`. The fit has converged when the residuals are orthogonal to the tangent plane: with the
-//! singular vectors U of J, `|U^T r|` is by how many standard errors, all parameters together, the next step would still move them.
+//! A step is `-(J^T J + mu C^2)^-1 J^T r` over the parameters that no bound holds, with the lengths C of the
+//! columns of J; it is cut off at the bounds. The damping `mu` follows the ratio of the gained to the
+//! predicted reduction of `chi^2`. The fit has converged when the residuals are orthogonal to the tangent
+//! plane: with the singular vectors U of J, `|U^T r|` is by how many standard errors, all parameters
+//! together, the next step would still move them.
 //!
 //! # Source
-//! Marquardt, J. SIAM 11 (1963), 431-441; Nielsen, *Damping parameter in Marquardt's method* (1999), for the damping; Bates and Watts, Technometrics 23 (1981), 179-183, for
-//! the criterion.
+//! Marquardt, J. SIAM 11 (1963), 431-441; Nielsen, *Damping parameter in Marquardt's method* (1999), for the
+//! damping; Bates and Watts, Technometrics 23 (1981), 179-183, for the criterion.
 
 use faer::Mat;
 
@@ -20,7 +22,8 @@ const FIRST_DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-15;
 /// Damping beyond which no step helps any more.
 const MOST_DAMPING: f64 = 1e12;
-/// A fit that no step improves has converged all the same if it is within this many standard errors: the model's own noise is all that is left.
+/// A fit that no step improves has converged all the same if it is within this many standard errors: the
+/// model's own noise is all that is left.
 const AT_NOISE: f64 = 1e-2;
 /// Steps smaller than this part of each parameter are rounding.
 const ROUNDING: f64 = 1e-14;

@@ -1,25 +1,31 @@
 //! Parameters of a model fitted to data: weighted least squares, intervals, and what the data leave open.
 //!
 //! # Mathematics
-//! A model gives `m` numbers `y_i(p)` for `n` parameters `p`. Data `d_i` have standard deviations `s_i`. With the residuals
-//! `r_i = (y_i - d_i)/s_i` the best parameters minimise
+//! A model gives `m` numbers `y_i(p)` for `n` parameters `p`. Data `d_i` have standard deviations `s_i`. With
+//! the residuals `r_i = (y_i - d_i)/s_i` the best parameters minimise
 //!
 //! `chi^2(p) = sum_i r_i(p)^2`,
 //!
-//! which is maximum likelihood if errors are independent and normal. [`fit`] does it by the method of Levenberg and Marquardt within bounds, from the
-//! Jacobian `J = dr/dp` (m x n).
+//! which is maximum likelihood if errors are independent and normal. [`fit`] does it by the method of
+//! Levenberg and Marquardt within bounds, from the Jacobian `J = dr/dp` (m x n).
 //!
-//! **Uncertainty** (`inference.rs`). To first order the parameters are normal with the covariance `S = v (J^T J)^-1`. If the standard deviations
-//! are known, `v = 1` and intervals use the quantile of the normal distribution; `chi^2` itself is then tested against its distribution with `m - n` degrees
-//! of freedom. If they are known up to a common factor, `v = chi^2/(m - n)` and intervals use Student's distribution with `m - n` degrees of freedom; nothing is left to test.
+//! **Uncertainty** (`inference.rs`). To first order the parameters are normal with the covariance `S = v (J^T
+//! J)^-1`. If the standard deviations are known, `v = 1` and intervals use the quantile of the normal
+//! distribution; `chi^2` itself is then tested against its distribution with `m - n` degrees of freedom. If
+//! they are known up to a common factor, `v = chi^2/(m - n)` and intervals use Student's distribution with `m
+//! - n` degrees of freedom; nothing is left to test.
 //!
-//! **Profiles** (`profile.rs`). Where the model bends within the interval, the first order is not enough. The profile of a parameter is `chi^2` minimised over all others; its interval holds
-//! the values at which the profile exceeds its minimum by at most `v q^2`, with the same quantile `q`. It does not depend on how a parameter is written (a stiffness, its logarithm).
+//! **Profiles** (`profile.rs`). Where the model bends within the interval, the first order is not enough. The
+//! profile of a parameter is `chi^2` minimised over all others; its interval holds the values at which the
+//! profile exceeds its minimum by at most `v q^2`, with the same quantile `q`. It does not depend on how a
+//! parameter is written (a stiffness, its logarithm).
 //!
-//! **What the data leave open** (`identifiability.rs`). In relative parameters `x_j`, `p_j = p_j* (1 + x_j)`, the singular value decomposition of
-//! `J diag(p*)` gives directions of unit length and the standard deviation `sqrt(v)/s_k` of each. A direction in which even a large relative change cannot be excluded is left open: a single
-//! parameter that the data do not determine, or several that they do not tell apart. Collinearity says the same without the data's precision: with the columns of J
-//! scaled to length one, `1/s_k` is by how much a change in this direction is hidden by the parameters making up for each other.
+//! **What the data leave open** (`identifiability.rs`). In relative parameters `x_j`, `p_j = p_j* (1 + x_j)`,
+//! the singular value decomposition of `J diag(p*)` gives directions of unit length and the standard
+//! deviation `sqrt(v)/s_k` of each. A direction in which even a large relative change cannot be excluded is
+//! left open: a single parameter that the data do not determine, or several that they do not tell apart.
+//! Collinearity says the same without the data's precision: with the columns of J scaled to length one,
+//! `1/s_k` is by how much a change in this direction is hidden by the parameters making up for each other.
 //!
 //! | file | idea |
 //! |---|---|
@@ -31,7 +37,8 @@
 //! | `distribution.rs` | normal, Student's and the chi-squared distribution |
 //!
 //! # Source
-//! Bates and Watts, *Nonlinear Regression Analysis and Its Applications* (1988), chapters 2 and 6; Nocedal and Wright, *Numerical Optimization* (2006), chapter 10.
+//! Bates and Watts, *Nonlinear Regression Analysis and Its Applications* (1988), chapters 2 and 6; Nocedal
+//! and Wright, *Numerical Optimization* (2006), chapter 10.
 //!
 //! # Example
 //! A straight line through three points with standard deviations of 0.1.

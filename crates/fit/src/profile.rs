@@ -1,7 +1,9 @@
 //! Intervals from the profile of `chi^2`.
 //!
-//! With the parameter j held at a value, the others minimise `chi^2`; `zeta(p_j) = sign(p_j - p_j*) sqrt((chi^2(p_j) - chi^2(p*))/v)` is the profile in standard errors, a straight
-//! line for a linear model. The ends of the interval are where it reaches `-q` and `q`, found by the secant method from the ends to first order; every fit starts from the last one.
+//! With the parameter j held at a value, the others minimise `chi^2`; `zeta(p_j) = sign(p_j - p_j*)
+//! sqrt((chi^2(p_j) - chi^2(p*))/v)` is the profile in standard errors, a straight line for a linear model.
+//! The ends of the interval are where it reaches `-q` and `q`, found by the secant method from the ends to
+//! first order; every fit starts from the last one.
 //!
 //! # Source
 //! Bates and Watts (1988), section 6.1; Venzon and Moolgavkar, Appl. Stat. 37 (1988), 87-94.
@@ -17,8 +19,9 @@ const MOST_FITS: usize = 12;
 /// Farthest an end is looked for, in half widths of the interval to first order.
 const FARTHEST: f64 = 30.0;
 
-/// An interval of the profile; an end is `None` where the profile does not rise so far: within the bounds, within thirty half widths of the interval to first order, or
-/// because the model cannot be computed or fitted there.
+/// An interval of the profile; an end is `None` where the profile does not rise so far: within the bounds,
+/// within thirty half widths of the interval to first order, or because the model cannot be computed or
+/// fitted there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileInterval {
     /// Lower end.

@@ -31,7 +31,8 @@ fn line(places: &[f64], data: &[f64]) -> Linear {
     Linear { design, data: data.to_vec() }
 }
 
-/// Simple linear regression: with `S = sum (x - mean)^2`, `b = sum (x - mean) y / S`, `var b = s^2/S`, `var a = s^2 (1/m + mean^2/S)`, `cov = -s^2 mean/S`; and the quantiles of the tables.
+/// Simple linear regression: with `S = sum (x - mean)^2`, `b = sum (x - mean) y / S`, `var b = s^2/S`, `var a
+/// = s^2 (1/m + mean^2/S)`, `cov = -s^2 mean/S`; and the quantiles of the tables.
 #[test]
 fn a_straight_line_has_the_intervals_of_the_textbook() {
     let (x, y) = ([0.0, 1.0, 2.0, 4.0, 5.0, 7.0, 8.0], [1.1, 2.9, 5.2, 8.8, 11.1, 15.2, 16.7]);
@@ -89,7 +90,8 @@ fn dependent_parameters_have_no_standard_error_and_are_named_together() {
     assert!((parts[0] + parts[1]).abs() < 1e-9 && (parts[0].abs() - 0.5_f64.sqrt()).abs() < 1e-9);
 }
 
-/// Two columns at a small angle have the collinearity index `1/sqrt(1 - cos)`, from the eigenvalues `1 -+ cos` of their unit product matrix.
+/// Two columns at a small angle have the collinearity index `1/sqrt(1 - cos)`, from the eigenvalues `1 -+
+/// cos` of their unit product matrix.
 #[test]
 fn collinearity_index_of_two_columns_is_that_of_their_angle() {
     let angle = 0.01_f64;

@@ -44,7 +44,8 @@ fn saturation(x: f64, b: &[f64]) -> (f64, Vec<f64>) {
     (b[0] * (1.0 - decay), vec![1.0 - decay, b[0] * x * decay])
 }
 
-/// Misra1a of the Statistical Reference Datasets of NIST, with both of its starts: certified values, standard deviations and residual sum of squares.
+/// Misra1a of the Statistical Reference Datasets of NIST, with both of its starts: certified values, standard
+/// deviations and residual sum of squares.
 #[test]
 fn misra1a_has_its_certified_values() {
     let x = [77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0];

@@ -1,4 +1,5 @@
-//! Flows over one period, against the general integrator at the same accuracy and against the number of modes.
+//! Flows over one period, against the general integrator at the same accuracy and against the number of
+//! modes.
 #![allow(clippy::unwrap_used, missing_docs, reason = "benchmarks")]
 
 #[path = "../tests/common/mod.rs"]
@@ -20,8 +21,8 @@ fn period(system: &System, frequency_hz: f64, periods: u32) -> (Stretch, Vec<f64
     (Stretch { frequency_hz, start: 0.0, end: 1.0 }, common::settled(system, frequency_hz, periods, 0.0))
 }
 
-/// State, fundamental matrix and frequency column: one contact at 36 Hz, two at 22 Hz, about eight at 53 Hz, where motion is chaotic: after a few periods it is still the same
-/// whatever the rounding.
+/// State, fundamental matrix and frequency column: one contact at 36 Hz, two at 22 Hz, about eight at 53 Hz,
+/// where motion is chaotic: after a few periods it is still the same whatever the rounding.
 fn sensitivities(criterion: &mut Criterion) {
     let system = common::paper_beam();
     let mut group = criterion.benchmark_group("flow_with_sensitivities");

@@ -1,17 +1,22 @@
-//! An amplitude that depends on the frequency, as a shaker has it: a table, and the monotone cubic through it.
+//! An amplitude that depends on the frequency, as a shaker has it: a table, and the monotone cubic through
+//! it.
 //!
-//! Between the knots `f_k < f < f_{k+1}`, with `h = f_{k+1} - f_k`, `t = (f - f_k)/h`, values `a_k` and slopes `m_k`, the curve is Hermite's cubic
+//! Between the knots `f_k < f < f_{k+1}`, with `h = f_{k+1} - f_k`, `t = (f - f_k)/h`, values `a_k` and
+//! slopes `m_k`, the curve is Hermite's cubic
 //!
 //! `a = (1 + 2t)(1 - t)^2 a_k + t^2 (3 - 2t) a_{k+1} + h (t (1 - t)^2 m_k - t^2 (1 - t) m_{k+1})`.
 //!
-//! The slope at a knot is the weighted harmonic mean of the secants beside it, zero where they have different signs; at the ends it follows from three points, limited so that
-//! nothing overshoots. So the curve and its derivative are continuous, which is what following a path needs, and it rises and falls where the table does: noise of a measured table
-//! makes no new maxima, as a spline of continuous curvature would.
+//! The slope at a knot is the weighted harmonic mean of the secants beside it, zero where they have different
+//! signs; at the ends it follows from three points, limited so that nothing overshoots. So the curve and its
+//! derivative are continuous, which is what following a path needs, and it rises and falls where the table
+//! does: noise of a measured table makes no new maxima, as a spline of continuous curvature would.
 //!
-//! Beyond its ends the table goes on as `a exp(m (f - f_end)/a)`, which is positive and has the value and slope of the end.
+//! Beyond its ends the table goes on as `a exp(m (f - f_end)/a)`, which is positive and has the value and
+//! slope of the end.
 //!
 //! # Source
-//! Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984), 300-304; the ends as in Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980), 238-246, in the three-point form of Moler.
+//! Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984), 300-304; the ends as in Fritsch and Carlson,
+//! SIAM J. Numer. Anal. 17 (1980), 238-246, in the three-point form of Moler.
 
 /// Why a table is no amplitude.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

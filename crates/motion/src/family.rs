@@ -1,8 +1,10 @@
-//! Systems over a number that the structure itself depends on, as a stiffness or a length: each value has modes of its own.
+//! Systems over a number that the structure itself depends on, as a stiffness or a length: each value has
+//! modes of its own.
 
 use crate::System;
 
-/// Systems over a number. Their modal coordinates depend on it smoothly: modes keep their order and their signs, and elements and loads theirs.
+/// Systems over a number. Their modal coordinates depend on it smoothly: modes keep their order and their
+/// signs, and elements and loads theirs.
 pub trait Family: std::fmt::Debug + Send + Sync {
     /// The system with a value of the number.
     ///

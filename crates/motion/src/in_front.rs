@@ -1,9 +1,11 @@
 //! States in front of the contacts in which no motion can begin.
 //!
-//! A state within a contact whose law remembers its impact does not tell how that contact began, and behind a rigid stop there is no motion at all. Such a state is *reflected* at the stop that
-//! it lies behind by the depth `p`: displacements change by `-2 p w/(phi . w)` with `w_i = phi_i/(w_i^2 + W^2)`, so that it comes to lie in front of the stop by as much, and velocities
-//! stay. This is how a force at the stop would move the structure that hangs, besides, on springs which make it swing with the excitation: no mode is rigid against it, and the direction is that in which the
-//! structure yields most.
+//! A state within a contact whose law remembers its impact does not tell how that contact began, and behind a
+//! rigid stop there is no motion at all. Such a state is *reflected* at the stop that it lies behind by the
+//! depth `p`: displacements change by `-2 p w/(phi . w)` with `w_i = phi_i/(w_i^2 + W^2)`, so that it comes
+//! to lie in front of the stop by as much, and velocities stay. This is how a force at the stop would move
+//! the structure that hangs, besides, on springs which make it swing with the excitation: no mode is rigid
+//! against it, and the direction is that in which the structure yields most.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +15,8 @@ use crate::{Law, LocalElement, System};
 const REFLECTIONS: usize = 8;
 
 impl System {
-    /// A state from which a motion can begin: the given one, or, as long as it lies within contacts of laws that remember their impact or behind rigid stops, its reflection at the deepest of them.
+    /// A state from which a motion can begin: the given one, or, as long as it lies within contacts of laws
+    /// that remember their impact or behind rigid stops, its reflection at the deepest of them.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
     ///
@@ -31,7 +34,8 @@ impl System {
         None
     }
 
-    /// The element, of those in whose contacts no motion begins, behind whose level a state lies most deeply, and how deeply.
+    /// The element, of those in whose contacts no motion begins, behind whose level a state lies most deeply,
+    /// and how deeply.
     fn deepest(&self, frequency_hz: f64, phase: f64, state: &[f64]) -> Option<(usize, f64)> {
         let keeps_out = |law: &Law| law.remembers_impact() || law.rigid().is_some();
         let elements = self.elements().iter().enumerate().filter(|(_, element)| keeps_out(&element.law));

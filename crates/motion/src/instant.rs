@@ -1,7 +1,8 @@
 //! A system at one instant: the rate of its state, and the relative motion of an element.
 //!
-//! At the phase `x` (in cycles), with `u = Re sum_m U_m exp(i 2 pi m x)` and the circular frequency `W`:
-//! `r = phi . q + s u`, `r' = phi . q' + s u'`, `r'' = phi . q'' + s u''`, where `q''` is that of the equations of motion.
+//! At the phase `x` (in cycles), with `u = Re sum_m U_m exp(i 2 pi m x)` and the circular frequency `W`: `r =
+//! phi . q + s u`, `r' = phi . q' + s u'`, `r'' = phi . q'' + s u''`, where `q''` is that of the equations of
+//! motion.
 
 use std::f64::consts::TAU;
 
@@ -29,7 +30,8 @@ impl System {
         motion
     }
 
-    /// Derivatives of the support displacement and of its first two derivatives by time, by the frequency at a fixed phase.
+    /// Derivatives of the support displacement and of its first two derivatives by time, by the frequency at
+    /// a fixed phase.
     ///
     /// # Returns
     /// `[u, u', u'']` by `f` [m/Hz, m/s/Hz, m/s^2/Hz].
@@ -49,7 +51,8 @@ impl System {
         change
     }
 
-    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion. A law that remembers its impact is taken without loss: a state does not tell it.
+    /// Rate `[q'; q'']` of a state at a phase, by the equations of motion. A law that remembers its impact is
+    /// taken without loss: a state does not tell it.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
     #[must_use]
@@ -90,7 +93,8 @@ impl System {
         std::array::from_fn(|k| dot(&element.shape, parts[k]) + element.support_ratio * u[k])
     }
 
-    /// How deeply a state lies behind the level of an element's contact, `sign (r - level)` [m]: of the deepest of its contacts, negative in front of all of them.
+    /// How deeply a state lies behind the level of an element's contact, `sign (r - level)` [m]: of the
+    /// deepest of its contacts, negative in front of all of them.
     ///
     /// * `element`: its number; `phase`: [cycles]; `state`: `[q; q']`, length 2n.
     ///
@@ -109,7 +113,8 @@ impl System {
         contacts.map(|contact| contact.sign * (r - contact.level)).reduce(f64::max)
     }
 
-    /// Elements, by their numbers, in whose contacts a state lies and whose laws remember the impact: how those contacts began is not in the state.
+    /// Elements, by their numbers, in whose contacts a state lies and whose laws remember the impact: how
+    /// those contacts began is not in the state.
     pub fn remembered_contacts(
         &self,
         frequency_hz: f64,

@@ -26,18 +26,20 @@ pub enum Parameter {
         /// Number of the element.
         element: usize,
     },
-    /// Constant of the law of an element, in the unit of the law (N/m, N/m^1.5, N/m^3). The levels of its contacts stay, so it is the penetration
-    /// at rest of a preloaded stop that is held, not the preload.
+    /// Constant of the law of an element, in the unit of the law (N/m, N/m^1.5, N/m^3). The levels of its
+    /// contacts stay, so it is the penetration at rest of a preloaded stop that is held, not the preload.
     Stiffness {
         /// Number of the element.
         element: usize,
     },
-    /// Coefficient of restitution [-]: of a rigid stop, 0 to 1; of a contact that remembers its impacts, more than 0.
+    /// Coefficient of restitution [-]: of a rigid stop, 0 to 1; of a contact that remembers its impacts, more
+    /// than 0.
     Restitution {
         /// Number of the element.
         element: usize,
     },
-    /// Constant of the damping of a contact whose force depends on the velocity, in the unit of its law (N s/m, s/m), > 0.
+    /// Constant of the damping of a contact whose force depends on the velocity, in the unit of its law (N
+    /// s/m, s/m), > 0.
     ContactDamping {
         /// Number of the element.
         element: usize,
@@ -47,7 +49,8 @@ pub enum Parameter {
         /// Number of the family, see [`System::with_family`].
         family: usize,
     },
-    /// How much of a part of the damping the structure has besides the damping as given; negative takes damping away.
+    /// How much of a part of the damping the structure has besides the damping as given; negative takes
+    /// damping away.
     AddedDamping {
         /// Number of the part, see [`DampingPart`].
         part: usize,
@@ -61,12 +64,14 @@ impl Parameter {
 
 /// A part of the damping that can be added: what a unit of it adds to the equations of motion.
 ///
-/// Every system has part 0, a ratio to critical damping of all modes; [`System::with_damping_part`] gives it others, as a damper between two masses.
+/// Every system has part 0, a ratio to critical damping of all modes; [`System::with_damping_part`] gives it
+/// others, as a damper between two masses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DampingPart {
     /// `D` [1/s per unit], n x n, symmetric.
     pub matrix: Mat<f64>,
-    /// `d` [kg^1/2/s per unit], length n: how it transmits the velocity of the support; see [`SupportInput`](hammerbeam_structure::SupportInput).
+    /// `d` [kg^1/2/s per unit], length n: how it transmits the velocity of the support; see
+    /// [`SupportInput`](hammerbeam_structure::SupportInput).
     pub support: Vec<f64>,
 }
 

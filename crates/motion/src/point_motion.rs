@@ -1,11 +1,13 @@
 //! Displacement, velocity and acceleration of a point, read off states of one excitation frequency.
 //!
-//! With the shape `p` of the point (its displacement is `y = p . q + s u`), eigenfrequencies `w_i`, damping `D`, loads `b_m`, and the forces `F_e` of the local elements with shapes `h_e`:
+//! With the shape `p` of the point (its displacement is `y = p . q + s u`), eigenfrequencies `w_i`, damping
+//! `D`, loads `b_m`, and the forces `F_e` of the local elements with shapes `h_e`:
 //!
-//! `y'' = - sum p_i w_i^2 q_i - p . D q' + Re sum_m (p . b_m + s U_m'') exp(i 2 pi m x) + sum_e (p . h_e) F_e`
+//! `y'' = - sum p_i w_i^2 q_i - p . D q' + Re sum_m (p . b_m + s U_m'') exp(i 2 pi m x) + sum_e (p . h_e)
+//! F_e`
 //!
-//! The forces are those that a motion tells: a state alone knows neither what a rigid stop presses with nor how a contact began whose law remembers that. What does not depend on the state is
-//! added up once.
+//! The forces are those that a motion tells: a state alone knows neither what a rigid stop presses with nor
+//! how a contact began whose law remembers that. What does not depend on the state is added up once.
 
 use std::f64::consts::TAU;
 
@@ -35,7 +37,8 @@ struct Drive {
 impl System {
     /// Reads the motion of a point off states at a frequency.
     ///
-    /// * `shape`, `support_ratio`: the displacement of the point is `shape . q + support_ratio u`; `shape` of length n.
+    /// * `shape`, `support_ratio`: the displacement of the point is `shape . q + support_ratio u`; `shape` of
+    ///   length n.
     #[must_use]
     pub fn point_motion(&self, frequency_hz: f64, shape: &[f64], support_ratio: f64) -> PointMotion {
         let (n, model) = (self.dof(), self.model());
@@ -63,7 +66,8 @@ impl PointMotion {
     /// Displacement [m], velocity [m/s] and acceleration [m/s^2] at a phase.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
-    /// * `forces`: of all local elements along their relative displacements [N]; without them the acceleration is that of the free structure.
+    /// * `forces`: of all local elements along their relative displacements [N]; without them the
+    ///   acceleration is that of the free structure.
     #[must_use]
     pub fn at(&self, phase: f64, state: &[f64], forces: &[f64]) -> [f64; 3] {
         let (q, v) = state.split_at(self.shape.len());

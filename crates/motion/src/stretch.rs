@@ -34,10 +34,11 @@ pub struct Flow {
     pub state: Vec<f64>,
     /// Derivative of the final state by the initial one, 2n x 2n (the fundamental matrix).
     pub by_state: Mat<f64>,
-    /// Derivative of the final state by the frequency [1/Hz] at fixed phases: it holds both the change of the load
-    /// and the change of the duration.
+    /// Derivative of the final state by the frequency [1/Hz] at fixed phases: it holds both the change of the
+    /// load and the change of the duration.
     pub by_frequency: Vec<f64>,
     /// Derivative of the final state by the parameter that the integrator was told
-    /// ([`ExactIntegrator::differentiate_by`](crate::exact::ExactIntegrator::differentiate_by)), at fixed phases; empty without one.
+    /// ([`ExactIntegrator::differentiate_by`](crate::exact::ExactIntegrator::differentiate_by)), at fixed
+    /// phases; empty without one.
     pub by_parameter: Vec<f64>,
 }

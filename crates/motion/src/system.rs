@@ -1,8 +1,9 @@
 //! A reduced structure with its load and its local elements: the equations of motion.
 //!
-//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`,
-//! `r_e = phi_e . q + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency (`amplitude.rs`): then so do `u` and `b_m`, besides the
-//! powers of `W` in `b_m`, and derivatives by the frequency hold the slope of that curve.
+//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e . q
+//! + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency
+//! (`amplitude.rs`): then so do `u` and `b_m`, besides the powers of `W` in `b_m`, and derivatives by the
+//! frequency hold the slope of that curve.
 
 mod symmetry;
 mod varied;
@@ -71,7 +72,8 @@ pub struct System {
     families: Vec<Kin>,
 }
 
-/// Harmonics that a curve of the frequency is a factor of: support motion and forces, by the orders of the system.
+/// Harmonics that a curve of the frequency is a factor of: support motion and forces, by the orders of the
+/// system.
 #[derive(Debug, Clone)]
 struct Driven {
     support: Vec<c64>,
@@ -128,9 +130,11 @@ impl System {
         })
     }
 
-    /// Adds a load of which a curve of the frequency is a factor: the amplitude of a shaker that does not keep it.
+    /// Adds a load of which a curve of the frequency is a factor: the amplitude of a shaker that does not
+    /// keep it.
     ///
-    /// * `load`: its amplitudes, which the curve multiplies; no constant part. A load that was added before is replaced.
+    /// * `load`: its amplitudes, which the curve multiplies; no constant part. A load that was added before
+    ///   is replaced.
     ///
     /// # Errors
     /// See [`SystemError`].
@@ -185,7 +189,8 @@ impl System {
         &self.elements
     }
 
-    /// Whether an element has a law that remembers the speed of its impact, so that stretches start where its contact is open.
+    /// Whether an element has a law that remembers the speed of its impact, so that stretches start where its
+    /// contact is open.
     #[must_use]
     pub fn remembers_impacts(&self) -> bool {
         self.elements.iter().any(|element| element.law.remembers_impact())
@@ -203,7 +208,8 @@ impl System {
         &self.orders
     }
 
-    /// Complex amplitude of the support displacement [m] of the order with that index in [`System::orders`] at the circular frequency `W` [rad/s], and its derivative by `W`.
+    /// Complex amplitude of the support displacement [m] of the order with that index in [`System::orders`]
+    /// at the circular frequency `W` [rad/s], and its derivative by `W`.
     #[must_use]
     pub fn support_amplitude(&self, order_index: usize, circular_frequency: f64) -> (c64, c64) {
         let given = self.support[order_index];
@@ -216,7 +222,8 @@ impl System {
         }
     }
 
-    /// What the frequency drives, its factor with the scale of the excitation, and the derivative of that by the circular frequency.
+    /// What the frequency drives, its factor with the scale of the excitation, and the derivative of that by
+    /// the circular frequency.
     fn driven_at(&self, circular_frequency: f64) -> Option<(&Driven, f64, f64)> {
         let driven = self.driven.as_ref()?;
         let (factor, slope) = driven.curve.at(circular_frequency / TAU);

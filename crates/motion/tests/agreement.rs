@@ -1,6 +1,7 @@
 //! The exact integrator against the general one on the six-dof beam of the paper and its relatives.
 //!
-//! The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the largest entry.
+//! The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the
+//! largest entry.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{assert_agreement, beam_with, hertz, paper_beam, settled, uniform_beam};
@@ -11,7 +12,8 @@ use hammerbeam_motion::{
 
 const BOUND: f64 = 1e-9;
 
-/// From one to nine contacts a cycle. The motions are those that starts from rest settle to, or wander through.
+/// From one to nine contacts a cycle. The motions are those that starts from rest settle to, or wander
+/// through.
 #[test]
 fn flows_of_the_beam_agree_for_few_and_many_contacts() {
     let system = paper_beam();

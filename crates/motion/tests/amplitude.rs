@@ -1,4 +1,5 @@
-//! Loads whose amplitude depends on the frequency: against constant ones at one frequency, and against differences.
+//! Loads whose amplitude depends on the frequency: against constant ones at one frequency, and against
+//! differences.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::f64::consts::TAU;
@@ -131,7 +132,8 @@ fn the_general_integrator_agrees() {
                     exact.by_frequency.iter().zip(&general.flow.by_frequency).map(|(a, b)| (a, b, 10.0)),
                 )
             {
-                // The tolerance of the general one is 1e-11 of the motion, that of columns grows with the contacts.
+                // The tolerance of the general one is 1e-11 of the motion, that of columns grows with the
+                // contacts.
                 assert!((a - b).abs() < 1e-7 * size, "{law:?} {support_ratio}: {a} {b}");
             }
         }

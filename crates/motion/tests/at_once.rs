@@ -1,4 +1,5 @@
-//! Contacts that begin or end in one instant while another force acts: stops of the same level on one mass, a mass at rest on the level of a stop, and impacts on a rigid stop within a damped contact.
+//! Contacts that begin or end in one instant while another force acts: stops of the same level on one mass, a
+//! mass at rest on the level of a stop, and impacts on a rigid stop within a damped contact.
 //!
 //! Held against the general integrator, which ends its steps on one boundary after the other.
 #![allow(clippy::unwrap_used, reason = "tests")]
@@ -20,7 +21,8 @@ const W: f64 = TAU * 10.0;
 /// Displacement of the mass under its load at rest [m].
 const STATIC: f64 = 1e-3;
 
-/// Unit mass on a spring with a harmonic load and these stops; one with a preload pushes it towards the others.
+/// Unit mass on a spring with a harmonic load and these stops; one with a preload pushes it towards the
+/// others.
 fn mass(stops: &[(f64, Law)], load: f64) -> System {
     let pushing =
         Law::Hertz(HertzStop::with_preload(5.0 * W * W / STATIC.sqrt(), 1.5 * STATIC * W * W).unwrap());
@@ -41,7 +43,8 @@ fn agree_over_periods(system: &System, bound: f64) -> u32 {
         for period in 0..4 {
             let what = format!("{frequency_hz} Hz, period {period}");
             let next = exact.advance(&stretch, &state).unwrap();
-            // No flow with sensitivities begins in a contact that remembers its impact, and where a rigid stop has held the mass they vanish.
+            // No flow with sensitivities begins in a contact that remembers its impact, and where a rigid
+            // stop has held the mass they vanish.
             let can_begin = !system.is_in_remembered_contact(frequency_hz, 0.0, &state);
             if can_begin && exact.directions_lost() == 0 {
                 touches += assert_agreement(system, &stretch, &state, bound, &what);
@@ -76,7 +79,8 @@ fn stops_of_different_laws_close_at_once() {
     }
 }
 
-/// The force of the damper jumps in the instant of the impact, whose speed the other law keeps: its sensitivities are those of the motion before.
+/// The force of the damper jumps in the instant of the impact, whose speed the other law keeps: its
+/// sensitivities are those of the motion before.
 #[test]
 fn an_impact_that_is_remembered_is_that_before_a_damper_of_the_same_level_acts() {
     let level = 0.2 * STATIC;
@@ -97,11 +101,14 @@ fn an_impact_that_is_remembered_is_that_before_a_damper_of_the_same_level_acts()
     }
 }
 
-/// At rest on the level, with the preload `0.9 s w^2` towards the stop, s being the static displacement, and a load `l s w^2 cos` along with it.
+/// At rest on the level, with the preload `0.9 s w^2` towards the stop, s being the static displacement, and
+/// a load `l s w^2 cos` along with it.
 ///
-/// With `l = -1/2` that presses with 0.4 at first and ever more from then on: the contact closes in the first instant and does not open. With `l = -1.2` it pulls by 0.3 at first, and
-/// pushes from the time on at which `cos = 3/4`: the mass leaves, and comes back with some speed. With `l = 1/2` it presses with 1.4 at first and ever less: an oscillation about the place of rest that was as
-/// large as that is larger later, and the mass leaves and comes back, how often the other integrator tells.
+/// With `l = -1/2` that presses with 0.4 at first and ever more from then on: the contact closes in the first
+/// instant and does not open. With `l = -1.2` it pulls by 0.3 at first, and pushes from the time on at which
+/// `cos = 3/4`: the mass leaves, and comes back with some speed. With `l = 1/2` it presses with 1.4 at first
+/// and ever less: an oscillation about the place of rest that was as large as that is larger later, and the
+/// mass leaves and comes back, how often the other integrator tells.
 #[test]
 fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
     for load in [-0.5, -1.2, 0.5] {
@@ -122,14 +129,16 @@ fn a_mass_at_rest_on_a_level_closes_the_contact_without_speed_or_leaves() {
     }
 }
 
-/// Three stops that share the stiffness of one are that one: all of their contacts begin, part and end in the same instants.
+/// Three stops that share the stiffness of one are that one: all of their contacts begin, part and end in the
+/// same instants.
 #[test]
 fn three_stops_of_one_level_are_one_of_their_stiffnesses_added() {
     let damped = |share: f64| {
         LinearStop::with_gap(share * 300.0 * W * W, 0.0).unwrap().with_damping(share * 20.0 * W).unwrap()
     };
     let elastic = |share: f64| HertzStop::with_gap(share * 300.0 * W * W / STATIC.sqrt(), 0.0).unwrap();
-    // The damped spring stops the bouncing: its last touches are slow, and sensitivities have the rounding of the level over their speed.
+    // The damped spring stops the bouncing: its last touches are slow, and sensitivities have the rounding of
+    // the level over their speed.
     let laws: [(&dyn Fn(f64) -> Law, f64); 4] = [
         (&|share| linear(share * 300.0), 1e-8),
         (&|share| Law::Linear(damped(share)), 1e-7),
@@ -156,7 +165,8 @@ fn three_stops_of_one_level_are_one_of_their_stiffnesses_added() {
     }
 }
 
-/// The mass leaves a damped contact that has parted at the level at which another one closes on the other side.
+/// The mass leaves a damped contact that has parted at the level at which another one closes on the other
+/// side.
 #[test]
 fn a_contact_is_left_where_another_one_closes() {
     let damped = LinearStop::with_gap(300.0 * W * W, 0.0).unwrap().with_damping(20.0 * W).unwrap();
@@ -169,7 +179,8 @@ fn a_contact_is_left_where_another_one_closes() {
     }
 }
 
-/// A rigid stop behind a damped contact: the impact turns the speed round, with which the contact would have to pull, so its force ends with the impact.
+/// A rigid stop behind a damped contact: the impact turns the speed round, with which the contact would have
+/// to pull, so its force ends with the impact.
 #[test]
 fn an_impact_takes_the_force_off_a_damped_contact() {
     let [gap, behind] = [0.1 * STATIC, 0.3 * STATIC];

@@ -31,7 +31,8 @@ fn touches(integrator: &mut ExactIntegrator, q: f64) -> u32 {
     integrator.touches()[0]
 }
 
-/// The displacement at which the first contact of the period is grazed, to rounding: there are two below and one above.
+/// The displacement at which the first contact of the period is grazed, to rounding: there are two below and
+/// one above.
 fn grazed(integrator: &mut ExactIntegrator) -> f64 {
     let (mut two, mut one) = (0.0, 0.5);
     assert_eq!([touches(integrator, two), touches(integrator, one)], [2, 1]);
@@ -42,7 +43,8 @@ fn grazed(integrator: &mut ExactIntegrator) -> f64 {
     two
 }
 
-/// With derivatives by the parameters of a stop contacts of a depth of rounding and more cost no more steps than others.
+/// With derivatives by the parameters of a stop contacts of a depth of rounding and more cost no more steps
+/// than others.
 #[test]
 fn a_contact_of_any_depth_takes_few_steps_with_derivatives_by_its_parameters() {
     let linear = || Law::Linear(LinearStop::with_gap(37.7, 1.0).unwrap());
@@ -64,7 +66,8 @@ fn a_contact_of_any_depth_takes_few_steps_with_derivatives_by_its_parameters() {
     }
 }
 
-/// A shallow contact is a parabola, so its impulse goes like the power 3/2 of its depth, and so does what the stiffness changes of the motion behind it, up to the next contact.
+/// A shallow contact is a parabola, so its impulse goes like the power 3/2 of its depth, and so does what the
+/// stiffness changes of the motion behind it, up to the next contact.
 #[test]
 fn what_the_stiffness_of_a_shallow_contact_changes_goes_with_its_impulse() {
     let mut integrator = beside_a_stop(Law::Linear(LinearStop::with_gap(37.7, 1.0).unwrap()));
@@ -81,7 +84,8 @@ fn what_the_stiffness_of_a_shallow_contact_changes_goes_with_its_impulse() {
     }
 }
 
-/// The mass is pressed on its stop by a constant force so that the penetration `1 + cos(w t + phase)`, up to `lift`, just vanishes once a period; the motion is linear as long as it does not leave.
+/// The mass is pressed on its stop by a constant force so that the penetration `1 + cos(w t + phase)`, up to
+/// `lift`, just vanishes once a period; the motion is linear as long as it does not leave.
 #[test]
 fn a_stretch_may_end_where_a_contact_is_about_to_open() {
     let (frequency_hz, stiffness) = (0.2, 5.9);

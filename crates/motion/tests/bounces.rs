@@ -1,4 +1,5 @@
-//! Bounces on stops that lose energy come back as closed forms, the first integral and the sources of the laws say, and volumes shrink as Liouville's formula does.
+//! Bounces on stops that lose energy come back as closed forms, the first integral and the sources of the
+//! laws say, and volumes shrink as Liouville's formula does.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::PI;
@@ -38,8 +39,8 @@ impl Bounce {
     }
 }
 
-/// With `ratio = c/(2 sqrt(k m)) = sin x` the force ends after the angle `pi - 2 x`, and `e = exp(-(pi - 2 x) tan x)`; overdamped the continuation of that,
-/// `exp(-2 ratio arcosh(ratio)/sqrt(ratio^2 - 1))`.
+/// With `ratio = c/(2 sqrt(k m)) = sin x` the force ends after the angle `pi - 2 x`, and `e = exp(-(pi - 2 x)
+/// tan x)`; overdamped the continuation of that, `exp(-2 ratio arcosh(ratio)/sqrt(ratio^2 - 1))`.
 #[test]
 fn a_spring_with_a_damper_sends_back_the_closed_form() {
     let (mass, stiffness): (f64, f64) = (0.3, 2e4);
@@ -55,7 +56,8 @@ fn a_spring_with_a_damper_sends_back_the_closed_form() {
             ((-2.0 * ratio * ratio.acosh() / root).exp(), 2.0 * ratio.acosh() / root)
         };
         assert!((found / expected - 1.0).abs() < 1e-10, "ratio {ratio}: {found} against {expected}");
-        // Liouville: the damper acts over the time of the contact; the saltation matrix has the determinant 1.
+        // Liouville: the damper acts over the time of the contact; the saltation matrix has the determinant
+        // 1.
         let shrunk = (-damping / mass * time / (stiffness / mass).sqrt()).exp();
         let determinant = flow.by_state.determinant();
         assert!((determinant / shrunk - 1.0).abs() < 1e-9, "ratio {ratio}: {determinant} against {shrunk}");
@@ -73,7 +75,8 @@ fn hunt_crossley_restitution(y: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// First integral of `p'' = -k/m p^1.5 (1 + y p'/v)`; `e = 1 - a v` to first order, and `-integral f_v/m` is the logarithm in it.
+/// First integral of `p'' = -k/m p^1.5 (1 + y p'/v)`; `e = 1 - a v` to first order, and `-integral f_v/m` is
+/// the logarithm in it.
 #[test]
 fn hunt_and_crossley_send_back_what_the_first_integral_says() {
     for (loss, speed) in [(1e-4, 1.0), (0.05, 0.8), (0.4, 0.5), (2.0, 1.0), (20.0, 2.0)] {
@@ -93,7 +96,8 @@ fn hunt_and_crossley_send_back_what_the_first_integral_says() {
     }
 }
 
-/// What comes out of two bodies alone solves `(1 + e_out) c = ln((1 + c)/(1 - e_out c))` with the factor c of the model.
+/// What comes out of two bodies alone solves `(1 + e_out) c = ln((1 + c)/(1 - e_out c))` with the factor c of
+/// the model.
 #[test]
 fn restitution_that_comes_out_is_that_of_the_first_integral() {
     for model in RestitutionModel::ALL {
@@ -135,7 +139,8 @@ fn restitution_that_comes_out_is_that_of_the_printed_factors() {
     }
 }
 
-/// What the sources say of their range: exact to first order near 1 (four models), complete loss at 0 (those with e below the line), fair throughout (Flores).
+/// What the sources say of their range: exact to first order near 1 (four models), complete loss at 0 (those
+/// with e below the line), fair throughout (Flores).
 #[test]
 fn models_are_good_where_their_sources_say() {
     use RestitutionModel::{
@@ -156,7 +161,8 @@ fn models_are_good_where_their_sources_say() {
     assert!((1.0 - out(LeeWang, 0.999) - 0.5e-3).abs() < 1e-5);
 }
 
-/// What a bounce tells: `(m v^2/2) (1 - e^2)` is lost, the impulse is `m v (1 + e)`, and the force of the damper is largest at once if it is heavy.
+/// What a bounce tells: `(m v^2/2) (1 - e^2)` is lost, the impulse is `m v (1 + e)`, and the force of the
+/// damper is largest at once if it is heavy.
 #[test]
 fn records_of_a_bounce_are_those_of_its_speeds() {
     let (mass, speed) = (0.3, 0.7);

@@ -21,7 +21,8 @@ fn times(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     std::array::from_fn(|i| std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j]))
 }
 
-/// A mass of 1 kg on a spring of 1 N/m, pressed on by a stop of 9 N/m up to the displacement -1 m: closed it vibrates with `sqrt(10)` rad/s about -0.9 m, with the amplitude `0.1 m + opening`.
+/// A mass of 1 kg on a spring of 1 N/m, pressed on by a stop of 9 N/m up to the displacement -1 m: closed it
+/// vibrates with `sqrt(10)` rad/s about -0.9 m, with the amplitude `0.1 m + opening`.
 struct Pressed {
     opening: f64,
 }
@@ -35,7 +36,8 @@ impl Pressed {
         [-0.9 + amplitude * phase.cos(), -amplitude * Self::FREQUENCY * phase.sin()]
     }
 
-    /// Over several openings from one phase to another: the time, and the derivative of the end by the start. The force has no jump, so the pieces just follow one another.
+    /// Over several openings from one phase to another: the time, and the derivative of the end by the start.
+    /// The force has no jump, so the pieces just follow one another.
     fn over(&self, openings: u32, (from, to): (f64, f64)) -> (f64, [[f64; 2]; 2]) {
         let speed = Self::FREQUENCY * (self.opening * (0.2 + self.opening)).sqrt();
         let release = PI - (speed / Self::FREQUENCY).atan2(0.1);
@@ -77,7 +79,8 @@ fn a_contact_that_opens_for_an_instant_is_two() {
                 let (time, expected) = pressed.over(3, (from, to));
                 let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: time };
                 let flow = integrator.flow(&stretch, &pressed.state(from)).unwrap();
-                // What the error of the steps leaves undecided of the opening changes the flight with the root of that.
+                // What the error of the steps leaves undecided of the opening changes the flight with the
+                // root of that.
                 let allowed = 2e-8 + 1e-10 / opening.sqrt();
                 let case = format!("opening {opening:e}, from {from} to {to}");
                 assert_eq!(integrator.touches(), [3], "{case}");
@@ -94,7 +97,8 @@ fn a_contact_that_opens_for_an_instant_is_two() {
     }
 }
 
-/// What stays closed by as little is one contact, and costs hardly more steps than one that stays closed by far.
+/// What stays closed by as little is one contact, and costs hardly more steps than one that stays closed by
+/// far.
 #[test]
 fn a_contact_that_nearly_opens_is_one() {
     let mut integrator = integrator();
@@ -120,7 +124,8 @@ fn a_contact_that_nearly_opens_is_one() {
     }
 }
 
-/// Where the penetration of a Hertz contact comes down to next to nothing the slope of its force turns within the root of that. Without damping the motion is the same forwards and backwards from there.
+/// Where the penetration of a Hertz contact comes down to next to nothing the slope of its force turns within
+/// the root of that. Without damping the motion is the same forwards and backwards from there.
 #[test]
 fn a_hertz_contact_that_nearly_opens_has_the_sensitivities_of_the_general_integrator() {
     let system = pressed_by(Law::Hertz(HertzStop::with_preload(9.0, 9.0).unwrap()));

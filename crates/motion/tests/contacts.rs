@@ -1,4 +1,5 @@
-//! Contacts of all kinds against closed forms and invariants: bounces, chatter, permanent and simultaneous contacts, stiff and soft stops.
+//! Contacts of all kinds against closed forms and invariants: bounces, chatter, permanent and simultaneous
+//! contacts, stiff and soft stops.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::{PI, TAU};
@@ -28,7 +29,8 @@ fn assert_close(found: &[f64], expected: &[f64], bound: f64, what: &str) {
     }
 }
 
-/// Unit mass on 1 N/m one way and 2 N/m the other: `T = pi + pi / sqrt(2)`; the flow over a period is the identity.
+/// Unit mass on 1 N/m one way and 2 N/m the other: `T = pi + pi / sqrt(2)`; the flow over a period is the
+/// identity.
 #[test]
 fn the_bilinear_oscillator_returns_after_its_period() {
     let system = oscillator(1.0, 0.0, 0.0, vec![linear(1.0, 0.0)]);
@@ -47,8 +49,8 @@ fn the_bilinear_oscillator_returns_after_its_period() {
 
 /// A mass falls on a linear stop: `q = h - g t^2/2`, then `-x'' = g - k x/m` with `x = -q`, and up again.
 ///
-/// With `w = sqrt(k)`, the depth swings about the static one `g/k` with amplitude `sqrt((g/k)^2 + (v/w)^2)`; contact lasts
-/// `(2 pi - 2 atan(v w / g)) / w`.
+/// With `w = sqrt(k)`, the depth swings about the static one `g/k` with amplitude `sqrt((g/k)^2 + (v/w)^2)`;
+/// contact lasts `(2 pi - 2 atan(v w / g)) / w`.
 #[test]
 fn a_mass_bounces_under_gravity_as_in_closed_form() {
     let (gravity, height, stiffness) = (9.81, 0.05_f64, 1e5_f64);
@@ -114,7 +116,8 @@ fn a_contact_that_stays_closed_is_a_spring() {
     assert_eq!(exact.touches(), &[0]);
 }
 
-/// A shaken beam that is pressed on its stop never leaves it; the contact outlasts the period of the excitation.
+/// A shaken beam that is pressed on its stop never leaves it; the contact outlasts the period of the
+/// excitation.
 #[test]
 fn permanent_contact_under_preload_agrees_with_the_general_integrator() {
     for preload in [20.0, 200.0] {
@@ -172,7 +175,8 @@ fn symmetric_contacts_on_two_stops_keep_the_symmetry() {
     assert!(touches[0] > 10 && touches[0] == touches[1], "{touches:?}");
 }
 
-/// A stop that closes while another one is loaded is found, also where it closes and opens again between two nodes of a step.
+/// A stop that closes while another one is loaded is found, also where it closes and opens again between two
+/// nodes of a step.
 #[test]
 fn a_second_stop_that_closes_during_a_contact_is_found() {
     let structure = || model(&[20.0, 900.0], diagonal(&[0.5, 5.0]));
@@ -194,7 +198,8 @@ fn a_second_stop_that_closes_during_a_contact_is_found() {
     }
 }
 
-/// `q_1 = -cos t` grazes its stop at 1 at the very time, pi, at which `-cos t/2` rises through the level of the other stop.
+/// `q_1 = -cos t` grazes its stop at 1 at the very time, pi, at which `-cos t/2` rises through the level of
+/// the other stop.
 #[test]
 fn a_graze_of_one_stop_does_not_hide_a_touch_of_another() {
     let grazed = element(&[1.0, 0.0], 0.0, hertz(1e6, 1.0));
@@ -248,7 +253,8 @@ fn slow_touches_and_releases_do_not_stall() {
     }
 }
 
-/// A stretch may end at any instant of a contact: the motion to its end and on from there is that of the whole, whichever instant it is.
+/// A stretch may end at any instant of a contact: the motion to its end and on from there is that of the
+/// whole, whichever instant it is.
 #[test]
 fn a_stretch_that_ends_within_a_contact_ends_there() {
     for (system, state) in

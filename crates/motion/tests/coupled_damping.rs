@@ -1,4 +1,5 @@
-//! Dampers that couple modes: the block coordinates against the matrix exponential and the general integrator.
+//! Dampers that couple modes: the block coordinates against the matrix exponential and the general
+//! integrator.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -52,7 +53,8 @@ fn exponential(frequencies: &[f64], damping: &Mat<f64>, time: f64) -> Mat<f64> {
     sum
 }
 
-/// Largest difference of the fundamental matrix, scaled to velocities, from the exponential, relative to the largest entry.
+/// Largest difference of the fundamental matrix, scaled to velocities, from the exponential, relative to the
+/// largest entry.
 fn error(frequencies: &[f64], damping: &Mat<f64>, time: f64) -> f64 {
     let n = frequencies.len();
     let system = System::new(model(frequencies, damping.clone()), &Load::default(), vec![]).unwrap();

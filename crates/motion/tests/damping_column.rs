@@ -1,4 +1,5 @@
-//! The column of the flow by the added damping ratio, against the variational equations of the general integrator (not differences), and a closed form.
+//! The column of the flow by the added damping ratio, against the variational equations of the general
+//! integrator (not differences), and a closed form.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -12,7 +13,8 @@ use hammerbeam_motion::{
     law::{LinearStop, PowerSpring},
 };
 
-/// `dz/dx = g(x, z; p)/f` of a system over the phase x, with its damping ratio as parameter: `dg/dp = [0; -2 w_i v_i]`.
+/// `dz/dx = g(x, z; p)/f` of a system over the phase x, with its damping ratio as parameter: `dg/dp = [0; -2
+/// w_i v_i]`.
 ///
 /// Written for this test from the equations of motion; elements must not move with the support.
 struct Damped<'a> {
@@ -99,8 +101,8 @@ impl VectorField for Damped<'_> {
     }
 }
 
-/// Largest error of the column against the variational equations, relative to the largest entry of displacements and of velocities; and
-/// how often contacts closed.
+/// Largest error of the column against the variational equations, relative to the largest entry of
+/// displacements and of velocities; and how often contacts closed.
 fn error(system: &System, stretch: &Stretch, state: &[f64]) -> (f64, u32) {
     let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-13 }).unwrap();
     integrator.differentiate_by(Some(Parameter::ADDED_DAMPING_RATIO)).unwrap();
@@ -119,7 +121,8 @@ fn error(system: &System, stretch: &Stretch, state: &[f64]) -> (f64, u32) {
 
 const SHAPE: [f64; 3] = [-1.4, 1.1, -0.9];
 
-/// Three modes with a Hertz stop and a cubic spring, under constant and harmonic forces; `damper` couples them.
+/// Three modes with a Hertz stop and a cubic spring, under constant and harmonic forces; `damper` couples
+/// them.
 fn three_modes(frequencies: [f64; 3], (ratio, damper): (f64, f64), laws: &[Law]) -> System {
     let row = [0.5, -0.7, 0.9];
     let modal = modal_damping(&frequencies, ratio);
@@ -139,7 +142,8 @@ fn three_modes(frequencies: [f64; 3], (ratio, damper): (f64, f64), laws: &[Law])
 
 const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
 
-/// From modes as blocks to dampers that make all of them overdamped; with two equal modes, and one that is rigid.
+/// From modes as blocks to dampers that make all of them overdamped; with two equal modes, and one that is
+/// rigid.
 #[test]
 fn the_column_solves_the_variational_equations() {
     let laws = [hertz(5e5, 2e-4), Law::Power(PowerSpring::cubic(1e8).unwrap())];
@@ -158,7 +162,8 @@ fn the_column_solves_the_variational_equations() {
     }
 }
 
-/// In resonance the particular solution starts from rest, and drives the change of its own and of other blocks.
+/// In resonance the particular solution starts from rest, and drives the change of its own and of other
+/// blocks.
 #[test]
 fn the_column_is_exact_on_eigenfrequencies_of_undamped_and_nearly_undamped_structures() {
     let stretch = Stretch { frequency_hz: 3.5, start: 0.1, end: 2.3 };
@@ -175,7 +180,8 @@ fn the_column_is_exact_on_eigenfrequencies_of_undamped_and_nearly_undamped_struc
     }
 }
 
-/// The paper's beam over several contacts, and a beam whose high modes make steps too long for the power series.
+/// The paper's beam over several contacts, and a beam whose high modes make steps too long for the power
+/// series.
 #[test]
 fn the_column_of_beams_solves_the_variational_equations() {
     let paper = paper_beam();

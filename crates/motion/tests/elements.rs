@@ -1,4 +1,5 @@
-//! The exact integrator against the general one: kinds of elements, loads and modes, and several elements at once.
+//! The exact integrator against the general one: kinds of elements, loads and modes, and several elements at
+//! once.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -165,8 +166,8 @@ fn every_kind_of_damping_agrees() {
     }
 }
 
-/// States only: the general integrator measures its errors by the sensitivities met so far, and the velocities of a
-/// rigid-body displacement are exactly zero up to the first contact.
+/// States only: the general integrator measures its errors by the sensitivities met so far, and the
+/// velocities of a rigid-body displacement are exactly zero up to the first contact.
 #[test]
 fn rigid_body_modes_agree() {
     let [_, b, c, d] = FREQUENCIES;

@@ -1,4 +1,5 @@
-//! Contacts that lose energy: both integrators agree on flows, observations and where contacts part and end, also in stretches that start or end within them.
+//! Contacts that lose energy: both integrators agree on flows, observations and where contacts part and end,
+//! also in stretches that start or end within them.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::{PI, TAU};
@@ -14,11 +15,12 @@ use hammerbeam_motion::{
     law::{HertzStop, HuntCrossleyStop, LinearStop, RestitutionModel},
 };
 
-/// The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the largest entry.
+/// The general integrator runs at 1e-13 a step; its sensitivities then have errors of about 1e-10 of the
+/// largest entry.
 const BOUND: f64 = 1e-9;
 
-/// From next to no loss to contacts that are overdamped, with gaps and preloads. At the contact point the beam weighs about 50 g: 140 N s/m are critical
-/// for the linear stop.
+/// From next to no loss to contacts that are overdamped, with gaps and preloads. At the contact point the
+/// beam weighs about 50 g: 140 N s/m are critical for the linear stop.
 #[test]
 fn flows_of_the_beam_agree() {
     let preloaded = LinearStop::with_preload(1e5, 3.0).unwrap().with_damping(15.0).unwrap();
@@ -83,7 +85,8 @@ fn stretches_that_start_and_end_inside_contacts_agree() {
     }
 }
 
-/// Undamped modes without load: what they lose is the work of the contact, by Simpson's rule on samples of the general integrator.
+/// Undamped modes without load: what they lose is the work of the contact, by Simpson's rule on samples of
+/// the general integrator.
 #[test]
 fn the_modes_lose_what_the_contact_takes() {
     let frequencies = [30.0, 170.0, 410.0];
@@ -246,8 +249,9 @@ fn observations_agree() {
     }
 }
 
-/// A mass on a spring that just reaches the stop, by a depth that goes down to nothing: contacts of any depth end, and do next to nothing. With a damper
-/// the fundamental matrix jumps by `c` in the rate that the depth has, as the saltation matrix says.
+/// A mass on a spring that just reaches the stop, by a depth that goes down to nothing: contacts of any depth
+/// end, and do next to nothing. With a damper the fundamental matrix jumps by `c` in the rate that the depth
+/// has, as the saltation matrix says.
 #[test]
 fn grazing_contacts_of_any_depth_come_to_their_end() {
     let (omega, gap) = (100.0, 1e-3);
@@ -272,7 +276,8 @@ fn grazing_contacts_of_any_depth_come_to_their_end() {
                 let flow = exact.flow(&stretch, &state).unwrap_or_else(|error| panic!("{what}: {error}"));
                 assert!(flow.state[0] < 0.0 && flow.state[0] > 1.0001 * state[0], "{what}: {:?}", flow.state);
                 if depth < 1e-12 {
-                    // `c` at the touch, turned round and damped over the half period that follows; the contact itself takes less than a microsecond.
+                    // `c` at the touch, turned round and damped over the half period that follows; the
+                    // contact itself takes less than a microsecond.
                     let jump = law.onset_damping();
                     let decay = (-0.2 * PI / omega).exp();
                     let expected = if exact.touches()[0] > 0 { -decay * jump } else { 0.0 };
@@ -287,7 +292,8 @@ fn grazing_contacts_of_any_depth_come_to_their_end() {
     }
 }
 
-/// A contact whose force has vanished is clear where the general integrator has its penetration end, and not before.
+/// A contact whose force has vanished is clear where the general integrator has its penetration end, and not
+/// before.
 #[test]
 fn a_trace_tells_when_the_penetration_of_a_parted_contact_ends() {
     let laws = [

@@ -172,7 +172,8 @@ fn short_touches_are_found() {
     }
 }
 
-/// Touching the level at the start, moving in and moving out; the half wave in contact lasts `pi / sqrt(w^2 + k)`.
+/// Touching the level at the start, moving in and moving out; the half wave in contact lasts `pi / sqrt(w^2 +
+/// k)`.
 #[test]
 fn a_motion_may_begin_on_the_level() {
     let stop = element(&[1.0], 0.0, Law::Linear(LinearStop::with_gap(15.0, 0.0).unwrap()));

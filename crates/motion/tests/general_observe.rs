@@ -16,7 +16,8 @@ fn watch(system: &System, stretch: &Stretch, state: &[f64], response: (&[f64], f
     observe(system, stretch, state, response, &GeneralSettings::with_tolerance(1e-12)).unwrap()
 }
 
-/// 1 kg at 0.05 m/s: `p = v / sqrt(k)` and `(5/4 v^2 / k)^(2/5)`, the impulse is `2 v`, and it flies on for the rest of the time.
+/// 1 kg at 0.05 m/s: `p = v / sqrt(k)` and `(5/4 v^2 / k)^(2/5)`, the impulse is `2 v`, and it flies on for
+/// the rest of the time.
 #[test]
 fn a_bounce_has_the_force_and_impulse_of_its_speed() {
     let (speed, gap, stiffness) = (0.05, 1e-2, 1e6);
@@ -40,7 +41,8 @@ fn a_bounce_has_the_force_and_impulse_of_its_speed() {
     }
 }
 
-/// A mass that nothing drives on a moving support: its point moves with the support, `u = A cos`, and a stop in space that stays open.
+/// A mass that nothing drives on a moving support: its point moves with the support, `u = A cos`, and a stop
+/// in space that stays open.
 #[test]
 fn a_response_takes_its_part_of_the_support() {
     let resting = supported(model(&[TAU], diagonal(&[0.0])), &[0.0], &[0.0]);
@@ -58,7 +60,8 @@ fn a_response_takes_its_part_of_the_support() {
     assert_eq!((nearest, farthest), (2, 2), "{:?}", found.extrema);
 }
 
-/// A stop that never opens counts as one contact, and its impulse is its mean force times the time: that of the preload and the load.
+/// A stop that never opens counts as one contact, and its impulse is its mean force times the time: that of
+/// the preload and the load.
 #[test]
 fn a_stop_under_heavy_preload_is_closed_throughout() {
     let stop = element(&[1.0], 0.0, Law::Linear(LinearStop::with_preload(300.0, 50.0).unwrap()));
@@ -72,7 +75,8 @@ fn a_stop_under_heavy_preload_is_closed_throughout() {
     assert_near(found.impulse, 50.0 * stretch.duration(), 1e-8, "impulse");
 }
 
-/// `q'' + q + q^3 = 0` at the speed v through the middle: `q^2 = sqrt(1 + 2 v^2) - 1` at the top, and `q + q^3` is its acceleration.
+/// `q'' + q + q^3 = 0` at the speed v through the middle: `q^2 = sqrt(1 + 2 v^2) - 1` at the top, and `q +
+/// q^3` is its acceleration.
 #[test]
 fn the_top_of_a_cubic_spring_is_that_of_its_energy() {
     let spring = Law::Power(PowerSpring::cubic(1.0).unwrap());
@@ -88,7 +92,8 @@ fn the_top_of_a_cubic_spring_is_that_of_its_energy() {
     }
 }
 
-/// Displacement, velocity and impulse to rounding of the tolerance; forces of the exact one are read off polynomials.
+/// Displacement, velocity and impulse to rounding of the tolerance; forces of the exact one are read off
+/// polynomials.
 #[test]
 fn maxima_of_the_beam_are_those_of_the_exact_integrator() {
     let system = paper_beam();
@@ -112,8 +117,8 @@ fn maxima_of_the_beam_are_those_of_the_exact_integrator() {
     }
 }
 
-/// Maxima of both integrators from the same states, over motions with one, several and many contacts of all kinds of laws. What the integrators'
-/// final states differ by, their maxima may differ by too.
+/// Maxima of both integrators from the same states, over motions with one, several and many contacts of all
+/// kinds of laws. What the integrators' final states differ by, their maxima may differ by too.
 #[test]
 fn maxima_of_both_integrators_agree_to_1e_9_with_few_and_many_contacts() {
     let mut touches = Vec::new();

@@ -1,4 +1,5 @@
-//! The general integrator where it is tried hardest: rigid modes, states that are zero, stops that act at one instant, every damping.
+//! The general integrator where it is tried hardest: rigid modes, states that are zero, stops that act at one
+//! instant, every damping.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{assert_agreement, element};
@@ -26,8 +27,8 @@ fn linear(stiffness: f64, gap: f64) -> Law {
     Law::Linear(LinearStop::with_gap(stiffness, gap).unwrap())
 }
 
-/// A free mass that flies, touches and flies back: its velocity does not depend on where it starts until it touches. It comes back with
-/// its speed, and `det = 1`.
+/// A free mass that flies, touches and flies back: its velocity does not depend on where it starts until it
+/// touches. It comes back with its speed, and `det = 1`.
 #[test]
 fn rigid_modes_reach_their_first_contact() {
     for law in [hertz(1e6, 1e-2), linear(1e4, 1e-2)] {
@@ -42,7 +43,8 @@ fn rigid_modes_reach_their_first_contact() {
     }
 }
 
-/// A stretch that ends a few roundings before or behind a touch: what is left behind it may be too short for a step of its own.
+/// A stretch that ends a few roundings before or behind a touch: what is left behind it may be too short for
+/// a step of its own.
 #[test]
 fn a_touch_may_lie_a_rounding_before_the_end() {
     let law = Law::Linear(LinearStop::with_gap(1e4, 1e-2).unwrap().with_damping(20.0).unwrap());
@@ -59,7 +61,8 @@ fn a_touch_may_lie_a_rounding_before_the_end() {
     }
 }
 
-/// A mass at rest in space that a shaken wall hits: all of its state is zero until then, and so is what it depends on.
+/// A mass at rest in space that a shaken wall hits: all of its state is zero until then, and so is what it
+/// depends on.
 #[test]
 fn a_mass_at_rest_is_hit_by_a_wall() {
     for law in [hertz(1e6, 1e-3), linear(1e4, 1e-3)] {
@@ -136,7 +139,8 @@ fn any_law(kind: usize, next: &mut impl FnMut() -> f64) -> Law {
     }
 }
 
-/// One to four modes, every third time a rigid one; dampers from none to far beyond critical, coupling all modes; one to three elements.
+/// One to four modes, every third time a rigid one; dampers from none to far beyond critical, coupling all
+/// modes; one to three elements.
 fn any_system(case: usize, next: &mut impl FnMut() -> f64) -> System {
     let n = 1 + case % 4;
     let rigid = |mode: usize| mode == 0 && case.is_multiple_of(3);
@@ -164,7 +168,8 @@ fn any_system(case: usize, next: &mut impl FnMut() -> f64) -> System {
     System::new(supported(model(&frequencies, damping), &inertia, &vec![0.0; n]), &load, elements).unwrap()
 }
 
-/// Every kind of mode, damping, load and element at once, from rest: both integrators agree, at any tolerance of the general one.
+/// Every kind of mode, damping, load and element at once, from rest: both integrators agree, at any tolerance
+/// of the general one.
 #[test]
 fn every_kind_of_system_is_integrated() {
     let mut next = numbers(1);
@@ -207,7 +212,8 @@ fn a_long_stretch_is_the_product_of_its_parts() {
     assert!(crate::general_common::column_error(&whole.state, &state) < 1e-8);
 }
 
-/// `q = sin(w t)` just touches its level, at any place within a step, borders included. The touch lasts `2 acos(1 - depth) / w`.
+/// `q = sin(w t)` just touches its level, at any place within a step, borders included. The touch lasts `2
+/// acos(1 - depth) / w`.
 #[test]
 fn short_touches_are_found_wherever_they_fall() {
     let w = 3.0;
@@ -221,7 +227,8 @@ fn short_touches_are_found_wherever_they_fall() {
                 Stretch { frequency_hz: w / rate, start: 0.0, end: 0.6 + 1e-3 * f64::from(place % 7) };
             let found = run(&system, &stretch, &[angle.sin(), w * angle.cos()], 1e-12).counts;
             let end = angle + rate * stretch.end;
-            // Tops at a quarter of a turn, and a whole one later; those within the touch of an end do not count.
+            // Tops at a quarter of a turn, and a whole one later; those within the touch of an end do not
+            // count.
             let top = 0.25 * rate;
             let near = |at: f64| ((at - top) / rate - ((at - top) / rate).round()).abs() < 1e-3;
             if !near(angle) && !near(end) {

@@ -1,6 +1,8 @@
-//! The search of the general integrator for places where a field switches: every zero of a switching function is found, however close together they lie.
+//! The search of the general integrator for places where a field switches: every zero of a switching function
+//! is found, however close together they lie.
 //!
-//! The state is the value of a polynomial of time, which steps and dense output follow exactly, so steps are as long as they can be and nothing but the search decides.
+//! The state is the value of a polynomial of time, which steps and dense output follow exactly, so steps are
+//! as long as they can be and nothing but the search decides.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use hammerbeam_motion::general::{Counts, GeneralSettings, Point, VectorField, integrate};

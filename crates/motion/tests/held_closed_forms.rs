@@ -1,11 +1,13 @@
-//! Rigid stops that hold while other elements act, in closed form: a spring as an element or in the structure, rest, lift, and the touch soon after it.
+//! Rigid stops that hold while other elements act, in closed form: a spring as an element or in the
+//! structure, rest, lift, and the touch soon after it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{cubic, diagonal, element, force, hertz, integrator, model, rigid};
 use hammerbeam_motion::{Flow, Law, Load, LocalElement, Stretch, System, law::LinearStop};
 use hammerbeam_structure::{Connection, Damping, Lumped, LumpedMass, Reduction};
 
-/// The oracle of a linear spring: as an element that acts always, or in the structure with the static load of its preload, it is the same motion.
+/// The oracle of a linear spring: as an element that acts always, or in the structure with the static load of
+/// its preload, it is the same motion.
 struct Spring {
     /// Masses of 1 and 0.6 kg in physical coordinates.
     as_element: System,
@@ -52,7 +54,8 @@ impl Spring {
     }
 }
 
-/// `[y; y']` of the masses, and the same of the columns of a flow, from modal ones: `y = Phi q`, `Phi^-1 = Phi^T M`.
+/// `[y; y']` of the masses, and the same of the columns of a flow, from modal ones: `y = Phi q`, `Phi^-1 =
+/// Phi^T M`.
 fn physical(system: &System, flow: &Flow) -> Vec<f64> {
     let masses = [1.0, 0.6];
     let model = system.model();
@@ -118,7 +121,8 @@ fn a_spring_as_an_element_is_one_in_the_structure() {
     }
 }
 
-/// A free mass under the load g on a stop at h, beside a cubic spring: at rest `lambda = g - k h^3`, and all energy that the spring does not hold is lost to the stop.
+/// A free mass under the load g on a stop at h, beside a cubic spring: at rest `lambda = g - k h^3`, and all
+/// energy that the spring does not hold is lost to the stop.
 #[test]
 fn a_mass_rests_on_a_stop_beside_a_spring() {
     let (g, h, k) = (1.0, 0.5, 2.0_f64);
@@ -143,7 +147,8 @@ fn a_mass_rests_on_a_stop_beside_a_spring() {
     }
 }
 
-/// `k h^3 < g(t)` in a part of the period alone: the stop is left where `a + b cos(w t) = k h^3`, to rounding.
+/// `k h^3 < g(t)` in a part of the period alone: the stop is left where `a + b cos(w t) = k h^3`, to
+/// rounding.
 #[test]
 fn a_lift_is_where_load_and_spring_are_in_balance() {
     let (a, b, h, k) = (3.0, 2.5, 0.5, 8.0_f64);
@@ -170,8 +175,9 @@ fn a_lift_is_where_load_and_spring_are_in_balance() {
     assert!((0..4).all(|i| flow.by_state[(i / 2, i % 2)] == 0.0));
 }
 
-/// The pressing force dips below zero by a part of the load, down to rounding: the mass leaves for an instant, or not at all, and rests again. Where the touch comes within the time after the
-/// lift in which rounding decides on the clearance, the search for it ended before it began.
+/// The pressing force dips below zero by a part of the load, down to rounding: the mass leaves for an
+/// instant, or not at all, and rests again. Where the touch comes within the time after the lift in which
+/// rounding decides on the clearance, the search for it ended before it began.
 #[test]
 fn a_touch_soon_after_a_lift_is_met() {
     let (h, k) = (0.5, 8.0_f64);
@@ -191,7 +197,8 @@ fn a_touch_soon_after_a_lift_is_met() {
             "{dip:e}: {:?}",
             trace.state
         );
-        // What the load gave, the spring and the stop took, up to a bounce within the rounding margin of the clearance, 1e-14 m, whose speed is its root.
+        // What the load gave, the spring and the stop took, up to a bounce within the rounding margin of the
+        // clearance, 1e-14 m, whose speed is its root.
         let impulse: f64 = trace.contacts.iter().filter(|c| c.element == 0).map(|c| c.impulse).sum();
         let expected = (3.0 - k * h.powi(3)) / 0.7;
         assert!((impulse / expected - 1.0).abs() < 10.0 * dip * dip + 1e-8, "{dip:e}: {impulse} {expected}");

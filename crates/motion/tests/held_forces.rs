@@ -1,4 +1,5 @@
-//! Rigid stops that stick while other elements act: agreement of both integrators, and of sensitivities with differences. Closed forms: `held_closed_forms.rs`.
+//! Rigid stops that stick while other elements act: agreement of both integrators, and of sensitivities with
+//! differences. Closed forms: `held_closed_forms.rs`.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{
@@ -66,7 +67,8 @@ impl Seen {
     }
 }
 
-/// A Duffing oscillator: impacts, chatter to its end, sticking while the spring pulls, and the lift, located in a force step.
+/// A Duffing oscillator: impacts, chatter to its end, sticking while the spring pulls, and the lift, located
+/// in a force step.
 #[test]
 fn a_duffing_oscillator_chatters_sticks_and_lifts() {
     let mut all = Seen::default();
@@ -136,7 +138,8 @@ fn laws() -> [(&'static str, Law); LAWS] {
     ]
 }
 
-/// Every law beside a stop that sticks and lifts: contacts that close and open meanwhile, from states that are held and free.
+/// Every law beside a stop that sticks and lifts: contacts that close and open meanwhile, from states that
+/// are held and free.
 #[test]
 fn elements_act_while_a_stop_is_held() {
     for (name, law) in laws() {
@@ -189,7 +192,8 @@ fn sensitivities_through_held_force_steps_are_those_of_differences() {
     }
 }
 
-/// A second rigid stop beside the first, and a further element: stops held together under forces, impacts of one while the other is held.
+/// A second rigid stop beside the first, and a further element: stops held together under forces, impacts of
+/// one while the other is held.
 fn two_stops(restitution: f64, second: [f64; 3], coupled: bool, further: LocalElement) -> System {
     let system = pressed(restitution, 1.0, coupled, further);
     let second_stop =
@@ -225,7 +229,8 @@ fn several_stops_are_held_while_elements_act() {
                 exact.advance(&stretch, &state).unwrap();
                 held[exact.directions_lost() / 2] += 1;
                 let what = format!("{name} {restitution} {start}");
-                // Stops that throw one another off chatter in cycles of chatter; each cycle leaves its end out, which the sensitivities feel to about 2e-6.
+                // Stops that throw one another off chatter in cycles of chatter; each cycle leaves its end
+                // out, which the sensitivities feel to about 2e-6.
                 assert_agreement(&system, &stretch, &state, 5e-6, &what);
             }
         }
@@ -233,7 +238,8 @@ fn several_stops_are_held_while_elements_act() {
     assert!(held[1] > 10 && held[2] > 10, "{held:?}");
 }
 
-/// A damper sets in with a jump that throws the held stop off: the lift is at the touch, and the sensitivities jump with it.
+/// A damper sets in with a jump that throws the held stop off: the lift is at the touch, and the
+/// sensitivities jump with it.
 #[test]
 fn a_damper_throws_a_held_stop_off() {
     let load = Load {
@@ -273,7 +279,8 @@ fn a_damper_throws_a_held_stop_off() {
     }
 }
 
-/// Maxima, impulses and numbers of contacts of both integrators while forces act on a held structure; the trace has the same.
+/// Maxima, impulses and numbers of contacts of both integrators while forces act on a held structure; the
+/// trace has the same.
 #[test]
 fn observed_motions_agree() {
     for (name, law) in laws() {

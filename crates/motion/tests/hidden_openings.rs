@@ -1,7 +1,8 @@
-//! Contacts that open for an instant while the excitation acts, against the closed form of the piecewise linear oscillator.
+//! Contacts that open for an instant while the excitation acts, against the closed form of the piecewise
+//! linear oscillator.
 //!
-//! `x'' + c x' + x + k max(x, 0) = a cos(w t + b)`: linear while the contact is open, and while it is closed. The motion is put down at a bottom, `x = -opening`, `x' = 0`,
-//! and followed both ways in closed form.
+//! `x'' + c x' + x + k max(x, 0) = a cos(w t + b)`: linear while the contact is open, and while it is closed.
+//! The motion is put down at a bottom, `x = -opening`, `x' = 0`, and followed both ways in closed form.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -68,7 +69,8 @@ fn times(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
 /// Start, end and the derivative of the end by the start.
 type Passage = ([f64; 2], [f64; 2], [[f64; 2]; 2]);
 
-/// Such a motion from `before` the bottom to `behind` it: start, end and the derivative of the end by the start; `None` where the contact opens once more.
+/// Such a motion from `before` the bottom to `behind` it: start, end and the derivative of the end by the
+/// start; `None` where the contact opens once more.
 fn closed_form(oscillator: Oscillator, opening: f64, (before, behind): (f64, f64)) -> Option<Passage> {
     let flight = Piece { oscillator, stiffness: 1.0, from: (0.0, [-opening, 0.0]) };
     let acceleration = AMPLITUDE * oscillator.phase.cos() + opening;

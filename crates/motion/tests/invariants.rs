@@ -1,4 +1,5 @@
-//! What must hold of every flow of the exact integrator: derivatives, volumes, convergence, and pieces that make a whole.
+//! What must hold of every flow of the exact integrator: derivatives, volumes, convergence, and pieces that
+//! make a whole.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -18,7 +19,8 @@ fn flow(system: &System, stretch: &Stretch, state: &[f64], tolerance: f64) -> Fl
     ExactIntegrator::new(system.clone(), ExactSettings { tolerance }).unwrap().flow(stretch, state).unwrap()
 }
 
-/// Compares a column of derivatives with differences of fourth order of `function` around 0, relative to its largest entry.
+/// Compares a column of derivatives with differences of fourth order of `function` around 0, relative to its
+/// largest entry.
 fn check_jacobian(column: &[f64], step: f64, bound: f64, what: &str, function: impl Fn(f64) -> Vec<f64>) {
     let [far_below, below, above, far_above] = [-2.0, -1.0, 1.0, 2.0].map(|k| function(k * step));
     let differences: Vec<f64> = (0..column.len())
@@ -33,7 +35,8 @@ fn check_jacobian(column: &[f64], step: f64, bound: f64, what: &str, function: i
     }
 }
 
-/// Three modes, coupled by a damper or not, the first rigid if `frequency` is 0, on a shaken support under gravity.
+/// Three modes, coupled by a damper or not, the first rigid if `frequency` is 0, on a shaken support under
+/// gravity.
 fn three_modes(frequency: f64, coupled: bool, elements: Vec<hammerbeam_motion::LocalElement>) -> System {
     let damper = [0.5, -0.7, 0.9];
     let damping = Mat::from_fn(3, 3, |i, j| {
@@ -139,7 +142,8 @@ fn contacts_leave_volumes_alone() {
     }
 }
 
-/// The same of the beam, whose modes lose up to eighty powers of ten in one period of 36 Hz: without damping volumes are kept exactly.
+/// The same of the beam, whose modes lose up to eighty powers of ten in one period of 36 Hz: without damping
+/// volumes are kept exactly.
 #[test]
 fn an_undamped_beam_keeps_volumes_through_contacts() {
     for frequency_hz in [36.0, 53.0] {

@@ -9,8 +9,9 @@ use hammerbeam_motion::{
     law::{HertzStop, HuntCrossleyStop},
 };
 
-/// A mass that is pressed against a stop which takes almost all that an impact has: its force hangs on the velocity more than on the depth, and the polynomials of the steps are least accurate there.
-/// Where the steps lie depends on where the motion is begun.
+/// A mass that is pressed against a stop which takes almost all that an impact has: its force hangs on the
+/// velocity more than on the depth, and the polynomials of the steps are least accurate there. Where the
+/// steps lie depends on where the motion is begun.
 #[test]
 fn forces_that_hang_on_the_velocity_are_as_large_wherever_the_steps_lie() {
     let omega = 5564.1_f64.sqrt();

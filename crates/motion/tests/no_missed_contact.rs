@@ -1,7 +1,8 @@
-//! No contact of a free flight is missed, and none is invented: random flights against dense sampling with refinement.
+//! No contact of a free flight is missed, and none is invented: random flights against dense sampling with
+//! refinement.
 //!
-//! The sampling is a closed form of its own. Levels are set at distances from the highest point of the flight down to 1e-13 m, with
-//! displacements of millimetres: rounding decides only below some 1e-16 m.
+//! The sampling is a closed form of its own. Levels are set at distances from the highest point of the flight
+//! down to 1e-13 m, with displacements of millimetres: rounding decides only below some 1e-16 m.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -86,7 +87,8 @@ impl Flight {
         (0..=count).map(|k| k as f64 / count as f64 * duration).map(|time| (time, self.at(time))).collect()
     }
 
-    /// The highest point over one cycle, maxima refined by Newton's method, and when; `None` unless it is inside and well above the start.
+    /// The highest point over one cycle, maxima refined by Newton's method, and when; `None` unless it is
+    /// inside and well above the start.
     fn highest(&self) -> Option<(f64, f64)> {
         let samples = self.samples();
         let mut best = (0.0, f64::NEG_INFINITY);
@@ -195,7 +197,8 @@ proptest! {
         let samples = flight.samples();
         let after = samples.iter().position(|(_, at)| at[0] > level).unwrap();
         let (mut low, mut high) = (samples[after - 1].0, samples[after].0);
-        // A crossing between two samples that are both below would come earlier: the search below would then fail.
+        // A crossing between two samples that are both below would come earlier: the search below would then
+        // fail.
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             if flight.at(middle)[0] > level { high = middle } else { low = middle }

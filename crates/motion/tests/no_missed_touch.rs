@@ -1,8 +1,10 @@
-//! No contact that closes while forces act is missed, and none is invented: random motions against dense sampling.
+//! No contact that closes while forces act is missed, and none is invented: random motions against dense
+//! sampling.
 //!
-//! The motion up to the contact does not know of the stop that it meets, so it is computed without that stop, where nothing is searched for,
-//! in short steps, and its highest point is found by Newton's method. A stop is then put at distances from that point down to 1e-10 m.
-//! Displacements are millimetres about a preload of up to a tenth of a metre: computations in short and in long steps differ by up to 1e-11 m.
+//! The motion up to the contact does not know of the stop that it meets, so it is computed without that stop,
+//! where nothing is searched for, in short steps, and its highest point is found by Newton's method. A stop
+//! is then put at distances from that point down to 1e-10 m. Displacements are millimetres about a preload of
+//! up to a tenth of a metre: computations in short and in long steps differ by up to 1e-11 m.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -93,7 +95,8 @@ impl Motion {
         state
     }
 
-    /// The highest point that the further stop reads over one cycle, and when; `None` unless it is inside and well above both ends.
+    /// The highest point that the further stop reads over one cycle, and when; `None` unless it is inside and
+    /// well above both ends.
     fn highest(&self) -> Option<(f64, f64)> {
         let mut sampler = Sampler::new(self);
         let fastest = self.modes.iter().map(|mode| mode.frequency).fold(0.0, f64::max);

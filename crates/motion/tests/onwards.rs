@@ -1,4 +1,5 @@
-//! Flows that go on within a contact whose law remembers its impact: chained, they are the flow over the whole.
+//! Flows that go on within a contact whose law remembers its impact: chained, they are the flow over the
+//! whole.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{beam_with, integrator, settled};
@@ -8,7 +9,8 @@ use hammerbeam_motion::{
     law::{HertzStop, RestitutionModel, RestitutionStop},
 };
 
-/// The beam over a cycle that begins in flight, cut into pieces many of which begin and end within contacts: the product of their matrices is the matrix of the whole, which needs no memory.
+/// The beam over a cycle that begins in flight, cut into pieces many of which begin and end within contacts:
+/// the product of their matrices is the matrix of the whole, which needs no memory.
 #[test]
 fn chained_flows_have_the_matrix_of_the_whole() {
     for (stiffness, model, e, frequency_hz) in [

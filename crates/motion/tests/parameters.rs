@@ -1,4 +1,5 @@
-//! Derivatives of flows by parameters of the system, against differences of both integrators and a closed form.
+//! Derivatives of flows by parameters of the system, against differences of both integrators and a closed
+//! form.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::{f64::consts::TAU, sync::Arc};
@@ -19,7 +20,8 @@ use hammerbeam_structure::{ReducedModel, SupportInput};
 const STRETCH: Stretch = Stretch { frequency_hz: 6.0, start: 0.1, end: 1.05 };
 const STATE: [f64; 6] = [2e-3, 1e-3, -1e-5, -0.15, 0.02, 0.001];
 
-/// Three modes on a shaken support under gravity, with a constant and a further harmonic force; a damper may couple them.
+/// Three modes on a shaken support under gravity, with a constant and a further harmonic force; a damper may
+/// couple them.
 fn three_modes(laws: &[Law], coupled: bool) -> System {
     let damper = [0.5, -0.7, 0.9];
     let damping = Mat::from_fn(3, 3, |i, j| {
@@ -64,7 +66,8 @@ fn exact(system: &System, tolerance: f64) -> ExactIntegrator {
     ExactIntegrator::new(system.clone(), ExactSettings { tolerance }).unwrap()
 }
 
-/// Largest error of the column by a parameter against differences of fourth order, relative to the largest entry of each half.
+/// Largest error of the column by a parameter against differences of fourth order, relative to the largest
+/// entry of each half.
 fn error_by_differences(
     (system, stretch, state): (&System, &Stretch, &[f64]),
     parameter: Parameter,
@@ -141,7 +144,8 @@ fn derivatives_by_the_restitution_of_every_model_are_those_of_differences() {
 fn derivatives_agree_with_differences_of_both_integrators() {
     let lossless = (laws(), parameters());
     let lossy = (lossy_laws(), lossy_parameters());
-    // Noise of the differences: states good to 1e-13, steps of 1e-3 to 1e-4 of a parameter; those of gaps are ten times shorter beside laws that lose energy.
+    // Noise of the differences: states good to 1e-13, steps of 1e-3 to 1e-4 of a parameter; those of gaps are
+    // ten times shorter beside laws that lose energy.
     let cases = [(false, &lossless, 1e-8), (true, &lossless, 1e-8), (true, &lossy, 1e-7)];
     for (coupled, (laws, parameters), bound) in cases {
         let system = three_modes(laws, coupled);

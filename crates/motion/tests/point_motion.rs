@@ -1,4 +1,5 @@
-//! Acceleration of a point from the forces that a motion tells: the derivative of its velocity, whatever the law remembers.
+//! Acceleration of a point from the forces that a motion tells: the derivative of its velocity, whatever the
+//! law remembers.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{beam_with, element, force, hertz, integrator, rigid, settled};
@@ -9,8 +10,9 @@ use hammerbeam_motion::{
 
 const SAMPLES: usize = 40_000;
 
-/// Largest difference between accelerations and central differences of velocities, of velocities and those of displacements, each over the largest of them, where no contact begins or ends within the four samples;
-/// and how many of these accelerations lie within a contact.
+/// Largest difference between accelerations and central differences of velocities, of velocities and those of
+/// displacements, each over the largest of them, where no contact begins or ends within the four samples; and
+/// how many of these accelerations lie within a contact.
 fn error(system: &System, (shape, ratio): (&[f64], f64), frequency_hz: f64) -> ([f64; 2], usize) {
     let stretch = Stretch { frequency_hz, start: 0.3, end: 1.3 };
     let state = settled(system, frequency_hz, 60, 0.3);
@@ -40,7 +42,8 @@ fn error(system: &System, (shape, ratio): (&[f64], f64), frequency_hz: f64) -> (
     ([errors[0] / largest[0], errors[1] / largest[1]], inside)
 }
 
-/// Differences of the fourth order over samples that resolve a contact two hundred times leave far less; at the end of a Hertz contact the third derivative of its force has no bound.
+/// Differences of the fourth order over samples that resolve a contact two hundred times leave far less; at
+/// the end of a Hertz contact the third derivative of its force has no bound.
 #[test]
 fn acceleration_of_the_beam_is_the_slope_of_its_velocity_in_every_contact() {
     let restitution = |model| {
@@ -65,7 +68,8 @@ fn acceleration_of_the_beam_is_the_slope_of_its_velocity_in_every_contact() {
     }
 }
 
-/// A constant force presses the mass on a stop, where it comes to rest: no acceleration there, only with the force of the stop.
+/// A constant force presses the mass on a stop, where it comes to rest: no acceleration there, only with the
+/// force of the stop.
 #[test]
 fn held_mass_has_no_acceleration() {
     let model = crate::common::model(&[1.0], crate::common::diagonal(&[0.1]));

@@ -1,4 +1,5 @@
-//! Contacts of the level of a rigid stop: what a held stop keeps at penetration zero neither closes nor opens by rounding, and has no force.
+//! Contacts of the level of a rigid stop: what a held stop keeps at penetration zero neither closes nor opens
+//! by rounding, and has no force.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -46,8 +47,9 @@ fn flow(system: &System, frequency_hz: f64) -> Flow {
     advance(system, &stretch, &START, &GeneralSettings::with_tolerance(1e-12)).unwrap().flow
 }
 
-/// A rigid stop is not passed, so that another contact of its place is never penetrated: the motion is that with the rigid stop alone, whatever law the other has. The mass rests on the stop for a part of
-/// each cycle, at the end of a chatter or at once, and leaves it.
+/// A rigid stop is not passed, so that another contact of its place is never penetrated: the motion is that
+/// with the rigid stop alone, whatever law the other has. The mass rests on the stop for a part of each
+/// cycle, at the end of a chatter or at once, and leaves it.
 #[test]
 fn a_contact_at_the_place_of_a_rigid_stop_does_nothing() {
     for restitution in [0.0, 0.3] {
@@ -70,7 +72,8 @@ fn a_contact_at_the_place_of_a_rigid_stop_does_nothing() {
     }
 }
 
-/// Two points on rigid stops, and a contact between them: it rests as long as both are held, and where one leaves, it closes with that or opens. Both integrators agree.
+/// Two points on rigid stops, and a contact between them: it rests as long as both are held, and where one
+/// leaves, it closes with that or opens. Both integrators agree.
 #[test]
 fn a_contact_between_two_held_points_goes_with_the_first_that_leaves() {
     let (one, two) = (SHAPE, [0.8, -0.9]);
@@ -96,7 +99,8 @@ fn a_contact_between_two_held_points_goes_with_the_first_that_leaves() {
     }
 }
 
-/// Without penetration nothing presses: a mass that a constant load holds against both stops stays where it is, and the rigid one carries all of the load.
+/// Without penetration nothing presses: a mass that a constant load holds against both stops stays where it
+/// is, and the rigid one carries all of the load.
 #[test]
 fn a_mass_at_rest_on_both_stops_stays() {
     for law in laws() {
@@ -112,7 +116,8 @@ fn a_mass_at_rest_on_both_stops_stays() {
     }
 }
 
-/// A slow mass meets both stops while the load still pulls at it a little, so that a stop without restitution does not hold it yet: what it goes back is below rounding.
+/// A slow mass meets both stops while the load still pulls at it a little, so that a stop without restitution
+/// does not hold it yet: what it goes back is below rounding.
 #[test]
 fn a_mass_that_meets_both_stops_just_before_it_is_pressed_on_is_held() {
     let one_mode = |stops| {

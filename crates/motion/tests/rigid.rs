@@ -1,4 +1,5 @@
-//! Rigid stops: bounces in closed form, energy, chatter to its end, and exact sensitivities through all of it.
+//! Rigid stops: bounces in closed form, energy, chatter to its end, and exact sensitivities through all of
+//! it.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{
@@ -21,7 +22,8 @@ fn falling_ball(restitution: f64, gap: f64, g: f64) -> System {
     System::new(model, &load, vec![element(&[1.0], 0.0, rigid(restitution, gap))]).unwrap()
 }
 
-/// From the height h under the load g: impacts at `t_0 (1 + 2 e + 2 e^2 + ...)`, `t_0 = sqrt(2 h/g)`, heights `e^2` of the one before.
+/// From the height h under the load g: impacts at `t_0 (1 + 2 e + 2 e^2 + ...)`, `t_0 = sqrt(2 h/g)`, heights
+/// `e^2` of the one before.
 #[test]
 fn a_ball_bounces_as_the_closed_form_says() {
     let (e, h, g) = (0.7, 0.5, 9.81_f64);
@@ -52,7 +54,8 @@ fn a_ball_bounces_as_the_closed_form_says() {
     }
 }
 
-/// The bounces end at `t_0 (1 + e)/(1 - e)`. From then on the ball lies on the stop, which carries its weight, and all its energy is lost.
+/// The bounces end at `t_0 (1 + e)/(1 - e)`. From then on the ball lies on the stop, which carries its
+/// weight, and all its energy is lost.
 #[test]
 fn chatter_ends_and_the_ball_rests() {
     for e in [0.0, 0.3, 0.8] {
@@ -116,7 +119,8 @@ fn sensitivities_through_impacts_are_those_of_differences() {
     }
 }
 
-/// Three modes, pressed on their rigid stop by a constant load and shaken so that it leaves the stop and comes back in every period: bounces, chatter to its end, sticking, lift-off.
+/// Three modes, pressed on their rigid stop by a constant load and shaken so that it leaves the stop and
+/// comes back in every period: bounces, chatter to its end, sticking, lift-off.
 fn pressed(restitution: f64, damping: faer::Mat<f64>, support_ratio: f64) -> System {
     let shape = vec![1.0, 0.6, -0.4];
     let mut model = model(&[20.0, 55.0, 130.0], damping);
@@ -219,7 +223,8 @@ fn observed_motions_agree_with_the_general_integrator() {
     }
 }
 
-/// Two stops that act on the same structure at different places: impacts while the other is held, both held at once, one let go by an impact on the other.
+/// Two stops that act on the same structure at different places: impacts while the other is held, both held
+/// at once, one let go by an impact on the other.
 fn two_stops(restitution: f64, damping: faer::Mat<f64>, second: [f64; 3]) -> System {
     let mut model = model(&[20.0, 55.0, 130.0], damping);
     model.support = Some(hammerbeam_structure::SupportInput {
@@ -261,7 +266,8 @@ fn several_stops_agree_with_the_general_integrator_and_differences() {
             let stretch = Stretch { frequency_hz: 1.7, start, end };
             let what = format!("{restitution} {second:?} {start}");
             let trace = integrator(&system).trace(&stretch, &state, &[]).unwrap();
-            // Stops that throw one another off chatter in cycles of chatter; each cycle leaves its end out, which the sensitivities feel to about 2e-7.
+            // Stops that throw one another off chatter in cycles of chatter; each cycle leaves its end out,
+            // which the sensitivities feel to about 2e-7.
             assert_agreement(&system, &stretch, &state, 1e-6, &what);
             if trace.contacts.iter().all(|contact| contact.begin.is_some()) {
                 let parameters = if restitution > 0.0 { &PARAMETERS[..] } else { &PARAMETERS[..4] };

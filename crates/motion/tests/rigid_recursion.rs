@@ -1,4 +1,5 @@
-//! Chatter and sticking of one mass against a recursion of its own: closed form from impact to impact, impacts by sampling and bisection.
+//! Chatter and sticking of one mass against a recursion of its own: closed form from impact to impact,
+//! impacts by sampling and bisection.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -37,7 +38,8 @@ impl Oscillator {
         [p + decay * (q * cos + slope * sin), v + decay * (s * cos - (q + half * s) / root * sin)]
     }
 
-    /// The first impact after t_0, by samples of a part of the time in which the load could bring the mass back, and bisection.
+    /// The first impact after t_0, by samples of a part of the time in which the load could bring the mass
+    /// back, and bisection.
     fn next_impact(&self, t_0: f64, state: [f64; 2], end: f64) -> Option<f64> {
         let most = self.constant.abs() + self.force.abs() + 1.0;
         let first = (0.2 * state[1].abs() / most).clamp(1e-13, 1e-3);
@@ -57,7 +59,8 @@ impl Oscillator {
         None
     }
 
-    /// State at the end, number of impacts before the mass first stuck, and the times at which it stuck and was let go for the first time.
+    /// State at the end, number of impacts before the mass first stuck, and the times at which it stuck and
+    /// was let go for the first time.
     fn advance(&self, mut state: [f64; 2], end: f64) -> ([f64; 2], [f64; 2]) {
         let (mut time, mut first) = (0.0, [f64::NAN; 2]);
         while let Some(impact) = self.next_impact(time, state, end) {
@@ -75,7 +78,8 @@ impl Oscillator {
                 if left >= end {
                     return ([0.0, 0.0], first);
                 }
-                // From rest with no acceleration: the first instants are a parabola of third order, which the sampling would not tell from zero.
+                // From rest with no acceleration: the first instants are a parabola of third order, which the
+                // sampling would not tell from zero.
                 let jerk = self.force * self.frequency * (self.frequency * left).sin();
                 let instant = 1e-4;
                 (time, state) = (left + instant, self.fly(left + instant, left, [0.0, 0.0]));

@@ -1,4 +1,5 @@
-//! Impacts without restitution on a rigid stop that holds the structure from then on, at a speed at which other forces jump: a contact with losses ends or begins to press, a stop that is held is thrown off.
+//! Impacts without restitution on a rigid stop that holds the structure from then on, at a speed at which
+//! other forces jump: a contact with losses ends or begins to press, a stop that is held is thrown off.
 //!
 //! The flows of both integrators against differences of their own motions.
 #![allow(clippy::unwrap_used, reason = "tests")]
@@ -17,7 +18,8 @@ use hammerbeam_motion::{
 /// Level of the rigid stop [m].
 const LEVEL: f64 = 0.01;
 
-/// Three modes that a load presses on a rigid stop without restitution along the first of them, with further elements.
+/// Three modes that a load presses on a rigid stop without restitution along the first of them, with further
+/// elements.
 fn pressed(further: Vec<LocalElement>, along_second: f64) -> System {
     let load = Load {
         support: vec![],

@@ -11,13 +11,16 @@ const W: f64 = 20.0;
 const FORCE: f64 = 3.0;
 const GAP: f64 = 5e-3;
 
-/// Duration of an elastic Hertz contact of a unit mass: `2.9432 d/v` with the depth `d = (5 v^2/(4 k))^(2/5)`.
+/// Duration of an elastic Hertz contact of a unit mass: `2.9432 d/v` with the depth `d = (5 v^2/(4
+/// k))^(2/5)`.
 fn contact_time(stiffness: f64, speed: f64) -> f64 {
     2.943_275 * (1.25 * speed * speed / stiffness).powf(0.4) / speed
 }
 
-/// Without damping `E = v^2/2 + w^2 q^2/2 - F q` is the same before and after an elastic contact, and so are its derivatives by the state at the start. What the impact leaves of them is of the order of one,
-/// what passes within the contact is `w_c/w` times as large, and rounding of the displacement leaves `eps r w_c^2` of it (`contact_phase.rs`).
+/// Without damping `E = v^2/2 + w^2 q^2/2 - F q` is the same before and after an elastic contact, and so are
+/// its derivatives by the state at the start. What the impact leaves of them is of the order of one, what
+/// passes within the contact is `w_c/w` times as large, and rounding of the displacement leaves `eps r w_c^2`
+/// of it (`contact_phase.rs`).
 #[test]
 fn sensitivities_of_stiff_contacts_keep_the_energy_up_to_rounding_of_the_displacement() {
     for exponent in [9, 12, 15, 18, 21, 24] {

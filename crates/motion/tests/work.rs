@@ -1,4 +1,5 @@
-//! Work counts of fixed motions, so that a slow-down that no clock shows still fails. Budgets lie a little above what was measured.
+//! Work counts of fixed motions, so that a slow-down that no clock shows still fails. Budgets lie a little
+//! above what was measured.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{integrator, paper_beam, settled, uniform_beam};
@@ -47,8 +48,10 @@ fn states_alone_need_fewer_steps() {
     }
 }
 
-/// Sixteen times the modes take under ten times the steps for three contacts, at nearly the same work per step and mode. The looks for touches are the same. Where modes turn by many radians in a step their power series prove nothing any more
-/// (`enclosure.rs`), and it takes up to one more look a step to prove that the contact stays closed: 65 and 142 looks with 48 and 96 modes.
+/// Sixteen times the modes take under ten times the steps for three contacts, at nearly the same work per
+/// step and mode. The looks for touches are the same. Where modes turn by many radians in a step their power
+/// series prove nothing any more (`enclosure.rs`), and it takes up to one more look a step to prove that the
+/// contact stays closed: 65 and 142 looks with 48 and 96 modes.
 #[test]
 fn steps_grow_slower_than_the_modes() {
     for (modes, budget) in [

@@ -1,7 +1,9 @@
 //! How fast the harmonic branch of the paper's beam is computed, multipliers and maxima included.
 //!
-//! * one evaluation of the shooting equations (flow over a period with sensitivities) against the general integrator at the same accuracy;
-//! * solutions per second along the branch, at the default steps and at 0.001 Hz, in the smooth part and in the thickets of folds.
+//! * one evaluation of the shooting equations (flow over a period with sensitivities) against the general
+//!   integrator at the same accuracy;
+//! * solutions per second along the branch, at the default steps and at 0.001 Hz, in the smooth part and in
+//!   the thickets of folds.
 //!
 //! With `-- --test` each case runs once, on short ranges.
 #![allow(clippy::unwrap_used, reason = "a benchmark ends where its system is wrong")]

@@ -1,5 +1,6 @@
-//! States at which a motion can begin, beside those at which none can: a law that needs the speed of its impact is not told it by a state within the contact, and there is none where the
-//! structure is pressed against the stop on which it rests.
+//! States at which a motion can begin, beside those at which none can: a law that needs the speed of its
+//! impact is not told it by a state within the contact, and there is none where the structure is pressed
+//! against the stop on which it rests.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -18,7 +19,8 @@ fn begins(integrator: &mut ExactIntegrator, frequency_hz: f64, state: &[f64]) ->
     !matches!(begun, Err(MotionError::StartsInContact { .. } | MotionError::PressedWithoutImpact { .. }))
 }
 
-/// A state at phase 0 at which a motion can begin: the given one, or one in front of the contacts, or the one half-way to `other`. The given one, too, if there is no motion from any.
+/// A state at phase 0 at which a motion can begin: the given one, or one in front of the contacts, or the one
+/// half-way to `other`. The given one, too, if there is no motion from any.
 pub(crate) fn beginning_near(
     integrator: &mut ExactIntegrator,
     frequency_hz: f64,
@@ -33,8 +35,9 @@ pub(crate) fn beginning_near(
     candidates.into_iter().find(|candidate| begins(integrator, frequency_hz, candidate)).unwrap_or(state)
 }
 
-/// Of a state at phase 0 within a contact whose law remembers its impact: its mirror image about the place of rest, or, where that lies in such a contact too, as where a constant load presses
-/// the structure against its stop, its reflection at the stop. The state itself if it is in none, or if none is found outside.
+/// Of a state at phase 0 within a contact whose law remembers its impact: its mirror image about the place of
+/// rest, or, where that lies in such a contact too, as where a constant load presses the structure against
+/// its stop, its reflection at the stop. The state itself if it is in none, or if none is found outside.
 pub(crate) fn in_front(system: &System, frequency_hz: f64, state: &[f64]) -> Vec<f64> {
     let within = |state: &[f64]| system.is_in_remembered_contact(frequency_hz, 0.0, state);
     if !within(state) {

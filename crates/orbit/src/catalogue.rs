@@ -1,7 +1,8 @@
 //! The orbits known at one frequency, each of them once, and Newton's method that adds to them.
 //!
-//! An orbit of N excitation periods has N states at phase 0 and is known if one of them is. Newton's method for N periods also ends at orbits whose
-//! period is a part of N; they are kept as what they are, so that they are recognised at once when they come again.
+//! An orbit of N excitation periods has N states at phase 0 and is known if one of them is. Newton's method
+//! for N periods also ends at orbits whose period is a part of N; they are kept as what they are, so that
+//! they are recognised at once when they come again.
 
 use hammerbeam_motion::{System, exact::ExactIntegrator};
 
@@ -91,9 +92,11 @@ impl<'a> Catalogue<'a> {
         Ok(scale_from(self.integrator(), state, frequency_hz)?)
     }
 
-    /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at equal phases, the first at `phase`.
+    /// Newton's method for an orbit of `period_multiple` excitation periods or a part of them from nodes at
+    /// equal phases, the first at `phase`.
     ///
-    /// `None` if it leads nowhere: where no motion can be computed either, that is no more than a guess that was not good enough.
+    /// `None` if it leads nowhere: where no motion can be computed either, that is no more than a guess that
+    /// was not good enough.
     pub fn probe(
         &mut self,
         (phase, nodes): (f64, &[Vec<f64>]),

@@ -1,8 +1,8 @@
 //! Storing a walk between two steps, and taking it up again with the same bits.
 //!
-//! A walk is stored in two parts: the *checkpoint*, all that the follower knows (a few kilobytes, replaced every time), and the *journal*, the
-//! accepted points by which the follower recognises a stretch that it has walked before (appended to). All numbers are
-//! little-endian, floats by their bits.
+//! A walk is stored in two parts: the *checkpoint*, all that the follower knows (a few kilobytes, replaced
+//! every time), and the *journal*, the accepted points by which the follower recognises a stretch that it has
+//! walked before (appended to). All numbers are little-endian, floats by their bits.
 
 mod bytes;
 
@@ -89,7 +89,8 @@ impl BranchWalk {
         out.bytes
     }
 
-    /// The points accepted since the journal was taken last, the start first. A point without unknowns tells that those before it are to be forgotten.
+    /// The points accepted since the journal was taken last, the start first. A point without unknowns tells
+    /// that those before it are to be forgotten.
     #[must_use]
     pub fn take_journal(&mut self) -> Vec<u8> {
         let mut out = Writer::default();
@@ -100,7 +101,8 @@ impl BranchWalk {
     /// Takes up a walk from its checkpoint and the whole of its journal.
     ///
     /// # Errors
-    /// [`OrbitError::Checkpoint`] if the bytes do not belong to a walk of this system; [`OrbitError::Path`] for an empty range.
+    /// [`OrbitError::Checkpoint`] if the bytes do not belong to a walk of this system; [`OrbitError::Path`]
+    /// for an empty range.
     pub fn resume(
         system: &System,
         response: &Response,
@@ -247,8 +249,8 @@ fn read_follower(reader: &mut Reader<'_>, point_length: usize) -> Option<Checkpo
     })
 }
 
-/// The period and what varies: a word with the period below and the kind of parameter and the number of its element or part above, and the fixed frequency, if there is
-/// one.
+/// The period and what varies: a word with the period below and the kind of parameter and the number of its
+/// element or part above, and the fixed frequency, if there is one.
 fn write_varied(out: &mut Writer, period_multiple: u32, varied: ContinuationParameter) {
     let (kind, element) = match varied.parameter() {
         None => (0, 0),
@@ -293,7 +295,8 @@ struct Beside {
     effort: Effort,
 }
 
-/// What a walk knows beside its follower, the start as an orbit of one segment, of that length; `None` if the bytes do not fit or are too many.
+/// What a walk knows beside its follower, the start as an orbit of one segment, of that length; `None` if the
+/// bytes do not fit or are too many.
 fn read_walk(reader: &mut Reader<'_>, length: usize) -> Option<Beside> {
     let touches = (0..reader.word()?).map(|_| u32::try_from(reader.word()?).ok()).collect::<Option<_>>()?;
     let outside = numbers_of(reader.word()?);

@@ -1,8 +1,9 @@
 //! Where branches cross a frequency.
 //!
-//! A branch is followed to both sides with steps that are as coarse as corrector and contacts allow. Where it passes the frequency, Newton's method
-//! begins between the two solutions. On a branch whose doubled period is wanted the flips are located, and the branch that leaves there is followed as
-//! well: to one side only, since the other one holds the same orbits half a period later.
+//! A branch is followed to both sides with steps that are as coarse as corrector and contacts allow. Where it
+//! passes the frequency, Newton's method begins between the two solutions. On a branch whose doubled period
+//! is wanted the flips are located, and the branch that leaves there is followed as well: to one side only,
+//! since the other one holds the same orbits half a period later.
 
 use std::collections::VecDeque;
 
@@ -11,7 +12,8 @@ use crate::{
     catalogue::Catalogue, walk::Walked,
 };
 
-/// Steps of the branches followed are this many times longer than those of a run; corrector and contacts shorten them where needed.
+/// Steps of the branches followed are this many times longer than those of a run; corrector and contacts
+/// shorten them where needed.
 const COARSER: f64 = 20.0;
 /// Solutions on one side of a branch, at most
 const MOST_ON_A_SIDE: usize = 5000;
@@ -47,7 +49,8 @@ impl Branches {
         }
     }
 
-    /// Follows the branches of all orbits of this period, of those found on the way too, and leaves the flips at which it is reached.
+    /// Follows the branches of all orbits of this period, of those found on the way too, and leaves the flips
+    /// at which it is reached.
     pub fn follow_all(
         &mut self,
         catalogue: &mut Catalogue<'_>,
@@ -205,7 +208,8 @@ impl Branches {
     }
 }
 
-/// Corrects the orbit at a share of the way between two solutions; its branch then counts as followed if it is near them.
+/// Corrects the orbit at a share of the way between two solutions; its branch then counts as followed if it
+/// is near them.
 fn cross(
     catalogue: &mut Catalogue<'_>,
     (before, after): (&Walked, &Walked),

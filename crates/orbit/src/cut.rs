@@ -1,9 +1,13 @@
-//! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began, and off the impacts on rigid stops, at which the state jumps.
+//! Where an orbit may begin: at a phase at which no contact is closed whose law remembers how it began, and
+//! off the impacts on rigid stops, at which the state jumps.
 //!
-//! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. Each lasts until its penetration has ended: no motion can begin in what is left of it
-//! when the force has vanished. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of
-//! it, in the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, in short flights of `1/FINE_GRID`, so that whole cycles can be added to them without
-//! rounding: a motion that is followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid stop may hold the structure at the begin, and all the time.
+//! Contacts are read off a [`trace`](hammerbeam_motion::exact::ExactIntegrator::trace) of the motion. Each
+//! lasts until its penetration has ended: no motion can begin in what is left of it when the force has
+//! vanished. An orbit begins at phase 0, or, where a contact is closed there or within [`MARGIN`] of it, in
+//! the middle of the longest time without contact. Phases are multiples of `1/GRID` of a cycle, in short
+//! flights of `1/FINE_GRID`, so that whole cycles can be added to them without rounding: a motion that is
+//! followed cycle by cycle then goes on within its contacts. Without such laws the phase is 0. A rigid stop
+//! may hold the structure at the begin, and all the time.
 
 use hammerbeam_motion::{
     Law, Stretch, System,
@@ -72,8 +76,10 @@ fn jumps(law: &Law) -> bool {
     keeps_away(law) || law.onset_damping() > 0.0
 }
 
-/// How much later the segments of an orbit of `cycles` should begin, which are `length` cycles long and of which the first one begins at `phase` with `state`, to keep their ends away from contacts at which fundamental
-/// matrices jump; `None` where they are clear of them, or cannot be. Contacts that only jump at their ends may be closed there.
+/// How much later the segments of an orbit of `cycles` should begin, which are `length` cycles long and of
+/// which the first one begins at `phase` with `state`, to keep their ends away from contacts at which
+/// fundamental matrices jump; `None` where they are clear of them, or cannot be. Contacts that only jump at
+/// their ends may be closed there.
 ///
 /// # Errors
 /// [`MotionError`] where the orbit cannot be followed.
@@ -106,7 +112,8 @@ pub(crate) fn offset_to_clear(
     Ok((gap.asks_to_move(nearest) && offset > 0.0).then_some(offset))
 }
 
-/// Times since the begin of the segment in which they begin, in their order; what goes on beyond its end is that of the next one, too.
+/// Times since the begin of the segment in which they begin, in their order; what goes on beyond its end is
+/// that of the next one, too.
 pub(crate) fn folded(times: &[Gap], length: f64) -> Vec<Gap> {
     let mut folded = Vec::new();
     for time in times {
@@ -126,7 +133,8 @@ pub(crate) fn begins_with_care(system: &System) -> bool {
     system.elements().iter().any(|element| keeps_away(&element.law))
 }
 
-/// Times of contacts from which an orbit has to begin away, in cycles since the phase `start`, in their order, over `cycles` of the motion.
+/// Times of contacts from which an orbit has to begin away, in cycles since the phase `start`, in their
+/// order, over `cycles` of the motion.
 pub(crate) fn contacts(
     integrator: &mut ExactIntegrator,
     (start, cycles): (f64, f64),
@@ -175,8 +183,9 @@ fn longest_gap(contacts: &[Gap], (from, to): (f64, f64)) -> Gap {
     longest
 }
 
-/// The longest time without contact of an orbit of that many cycles that begins in flight; it may go on beyond the end of the orbit. The second number is the time from the begin to the
-/// nearest contact, before or behind.
+/// The longest time without contact of an orbit of that many cycles that begins in flight; it may go on
+/// beyond the end of the orbit. The second number is the time from the begin to the nearest contact, before
+/// or behind.
 ///
 /// * `avoids_begin`: the begin counts as a contact.
 pub(crate) fn longest_of_orbit(contacts: &[Gap], cycles: f64, avoids_begin: bool) -> Option<(Gap, f64)> {
@@ -189,8 +198,9 @@ pub(crate) fn longest_of_orbit(contacts: &[Gap], cycles: f64, avoids_begin: bool
     Some((longest_gap(contacts, (first, cycles + first)), nearest))
 }
 
-/// Where an orbit of some periods may begin near the motion from `state` at phase 0, which the integrator has followed up to there; and, where the motion was looked at, the state at a later
-/// phase 0, from which it can be followed on.
+/// Where an orbit of some periods may begin near the motion from `state` at phase 0, which the integrator has
+/// followed up to there; and, where the motion was looked at, the state at a later phase 0, from which it can
+/// be followed on.
 ///
 /// # Errors
 /// [`OrbitError::NeverOpens`], [`OrbitError::Motion`].
@@ -208,7 +218,8 @@ pub(crate) fn search_cut(
     let stretch = Stretch { frequency_hz, start: 0.0, end: cycles };
     let trace = integrator.trace(&stretch, state, &phases)?;
     let mut contacts = closed_times(integrator, &trace.contacts, (frequency_hz, cycles));
-    // Of a contact that has parted before, and is still penetrated, the trace has no piece: up to the next one of its element nothing is known to be flight.
+    // Of a contact that has parted before, and is still penetrated, the trace has no piece: up to the next
+    // one of its element nothing is known to be flight.
     for element in integrator.system().remembered_contacts(frequency_hz, 0.0, state) {
         let next = trace.contacts.iter().find(|contact| contact.element == element);
         let end = next.map_or(cycles, |next| next.since() * frequency_hz);
@@ -292,7 +303,8 @@ mod tests {
         assert_eq!(folded(&times, 0.5), expected);
     }
 
-    /// In a flight shorter than a step of the coarse grid, too, at a phase to which cycles can be added without rounding.
+    /// In a flight shorter than a step of the coarse grid, too, at a phase to which cycles can be added
+    /// without rounding.
     #[test]
     fn the_middle_of_a_short_gap_is_in_the_gap() {
         let gap = Gap { begin: 0.300_010, end: 0.300_012 };

@@ -1,19 +1,23 @@
 //! Rows dense enough to be joined by straight lines.
 //!
-//! A reader of a branch interpolates the maximum displacement `y` linearly over the frequency `f`. Both are functions of the arc length `s`,
-//! smooth ones at a fold as well, where `y(f)` is like a square root. Over the interval from row `a` to row `b`, `u` the share of its length h,
+//! A reader of a branch interpolates the maximum displacement `y` linearly over the frequency `f`. Both are
+//! functions of the arc length `s`, smooth ones at a fold as well, where `y(f)` is like a square root. Over
+//! the interval from row `a` to row `b`, `u` the share of its length h,
 //!
 //! `e(u) = y(u) - y_a - (y_b - y_a) (f(u) - f_a)/(f_b - f_a)`
 //!
-//! is the error. For `f(u)` the cubic Hermite polynomial is taken, whose slopes are the frequency components of the tangents, and
-//! `y(u) = y_a + (y_b - y_a) u - D h^2 u (1 - u)` with the second divided differences `D` of `y` here and one row earlier. The maximum over an orbit
-//! has kinks where another place of the orbit takes over: a kink at the share `u` shows as a change `c` of the chord's slope that
-//! was not to be expected, and makes an error of `u h c` at most.
+//! is the error. For `f(u)` the cubic Hermite polynomial is taken, whose slopes are the frequency components
+//! of the tangents, and `y(u) = y_a + (y_b - y_a) u - D h^2 u (1 - u)` with the second divided differences
+//! `D` of `y` here and one row earlier. The maximum over an orbit has kinks where another place of the orbit
+//! takes over: a kink at the share `u` shows as a change `c` of the chord's slope that was not to be
+//! expected, and makes an error of `u h c` at most.
 //!
-//! Where the sum may exceed [`ESTIMATED`], the orbit at the middle is solved and becomes a row. It tells the true error there, which for one kink is at least half the largest
-//! one; above [`MEASURED`] both halves are cut again.
+//! Where the sum may exceed [`ESTIMATED`], the orbit at the middle is solved and becomes a row. It tells the
+//! true error there, which for one kink is at least half the largest one; above [`MEASURED`] both halves are
+//! cut again.
 //!
-//! The estimate rests on rows of the past alone, so rows come in order and a walk that is taken up again inserts the same ones.
+//! The estimate rests on rows of the past alone, so rows come in order and a walk that is taken up again
+//! inserts the same ones.
 
 use hammerbeam_path::{ContinuationPoint, solve_between};
 
@@ -30,7 +34,8 @@ const MEASURED: f64 = 4e-4;
 const MOST_HALVINGS: u32 = 10;
 /// Rows before the interval that the estimate uses, the beginning of the interval included.
 const KEPT: usize = 3;
-/// Rows closer than this share of the next interval are left out of the estimate: rounding of `y` shows in their chords.
+/// Rows closer than this share of the next interval are left out of the estimate: rounding of `y` shows in
+/// their chords.
 const TOO_CLOSE: f64 = 1e-3;
 
 /// A row as the estimate sees it.
@@ -79,7 +84,8 @@ impl LastRows {
         chain
     }
 
-    /// Estimated error of linear interpolation from the newest row to `end`, relative to the smaller displacement.
+    /// Estimated error of linear interpolation from the newest row to `end`, relative to the smaller
+    /// displacement.
     ///
     /// * `slopes`: `df/ds` at both.
     fn estimate(&self, end: Place, slopes: [f64; 2]) -> f64 {
@@ -117,7 +123,8 @@ fn bend(begin: Place, end: Place, slopes: [f64; 2]) -> impl Fn(f64) -> f64 {
 }
 
 impl BranchWalk {
-    /// Appends the rows that belong between the row before, at `from`, and `row`, the present one, and then `row` itself.
+    /// Appends the rows that belong between the row before, at `from`, and `row`, the present one, and then
+    /// `row` itself.
     pub(crate) fn append_densely(
         &mut self,
         from: &ContinuationPoint,
@@ -153,7 +160,8 @@ impl BranchWalk {
         rows.extend([at_corner, row]);
     }
 
-    /// Appends the middle of the interval, and what belongs into its halves; nothing if there is no orbit of the same arc.
+    /// Appends the middle of the interval, and what belongs into its halves; nothing if there is no orbit of
+    /// the same arc.
     fn halve(
         &mut self,
         [from, to]: [&ContinuationPoint; 2],
@@ -196,7 +204,8 @@ fn missed(begin: Place, middle: Place, end: Place) -> bool {
 mod tests {
     use super::*;
 
-    /// Estimate of the interval from `s = 0` to `h`, after rows at `-2h` and `-h`, for `f(s)` with its slope and `y(s)`.
+    /// Estimate of the interval from `s = 0` to `h`, after rows at `-2h` and `-h`, for `f(s)` with its slope
+    /// and `y(s)`.
     fn estimate(h: f64, f: fn(f64) -> (f64, f64), y: fn(f64) -> f64) -> f64 {
         let place = |s: f64| Place { arc_length: s, frequency_hz: f(s).0, displacement: y(s) };
         let mut rows = LastRows::default();
@@ -204,7 +213,8 @@ mod tests {
         rows.estimate(place(h), [f(0.0).1, f(h).1])
     }
 
-    /// `f = s^2`, `y = 1 + s`: over the frequency a square root, which misses its chord by a quarter of the rise.
+    /// `f = s^2`, `y = 1 + s`: over the frequency a square root, which misses its chord by a quarter of the
+    /// rise.
     #[test]
     fn beside_a_fold_the_error_is_a_quarter_of_the_rise() {
         let found = estimate(1e-2, |s| (s * s, 2.0 * s), |s| 1.0 + s);

@@ -1,11 +1,12 @@
 //! Eigenvalues of a small real matrix: balancing, Hessenberg form, Francis' double-shift QR.
 //!
-//! A monodromy matrix is needed once per solution and is small (12 x 12 for the paper's beam), where the general library spends most
-//! of its time on set-up: 7.8 us here against 18.4 us there, in one run. The tests hold every result against the library.
+//! A monodromy matrix is needed once per solution and is small (12 x 12 for the paper's beam), where the
+//! general library spends most of its time on set-up: 7.8 us here against 18.4 us there, in one run. The
+//! tests hold every result against the library.
 //!
 //! # Source
-//! Golub and Van Loan, *Matrix Computations* (2013), sections 7.4 and 7.5; balancing after Parlett and Reinsch, Numer. Math. 13
-//! (1969), 293-304.
+//! Golub and Van Loan, *Matrix Computations* (2013), sections 7.4 and 7.5; balancing after Parlett and
+//! Reinsch, Numer. Math. 13 (1969), 293-304.
 
 /// The QR iteration did not converge, or the matrix is not finite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -31,7 +32,8 @@ impl Square {
     }
 }
 
-/// Eigenvalues `[re, im]` of the matrix given by rows, largest modulus first, the positive imaginary part first in a pair.
+/// Eigenvalues `[re, im]` of the matrix given by rows, largest modulus first, the positive imaginary part
+/// first in a pair.
 ///
 /// # Errors
 /// [`NoEigenvalues`] if the matrix is not finite or the iteration does not converge.

@@ -48,7 +48,8 @@ pub enum OrbitError {
     /// A search has used up the solutions it may spend on following branches; there may be more orbits.
     #[error("the search at {frequency_hz} Hz ended after following branches over {solutions} solutions")]
     SearchBudget { frequency_hz: f64, solutions: usize },
-    /// A search has used up its trials while they still found orbits that were met only once; there may be more.
+    /// A search has used up its trials while they still found orbits that were met only once; there may be
+    /// more.
     #[error("the search at {frequency_hz} Hz has used up its trials, and there may be more solutions")]
     SearchTrials { frequency_hz: f64 },
     /// The caller asked to stop.

@@ -1,13 +1,15 @@
 //! All orbits that can be found at one frequency.
 //!
-//! Four sources, none of which needs a guess, the cheap ones first: motion that has settled, from several starts; near-returns of motion that has not settled;
-//! Newton's method from many states that motions have passed through (`sampling.rs`); and the crossings of that frequency by the branches of all orbits found,
-//! within the range (`crossings.rs`). Where the period is even, orbits of half the period are sought first, and the branches that leave theirs at flips are
-//! followed too.
-//! If nothing is found at the frequency itself, motions are followed there for longer, then branches are begun elsewhere in the range.
+//! Four sources, none of which needs a guess, the cheap ones first: motion that has settled, from several
+//! starts; near-returns of motion that has not settled; Newton's method from many states that motions have
+//! passed through (`sampling.rs`); and the crossings of that frequency by the branches of all orbits found,
+//! within the range (`crossings.rs`). Where the period is even, orbits of half the period are sought first,
+//! and the branches that leave theirs at flips are followed too. If nothing is found at the frequency itself,
+//! motions are followed there for longer, then branches are begun elsewhere in the range.
 //!
-//! The work is bounded: motion ends where it has settled, trials of Newton's method end when nothing new has come for long, and the branches may take
-//! [`MOST_SOLUTIONS`] together. A search that was bounded by that, or by motion that could not be computed, says so.
+//! The work is bounded: motion ends where it has settled, trials of Newton's method end when nothing new has
+//! come for long, and the branches may take [`MOST_SOLUTIONS`] together. A search that was bounded by that,
+//! or by motion that could not be computed, says so.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -54,18 +56,20 @@ const ELSEWHERE_EFFORT: Effort = Effort { starts: 3, attempts: 3 };
 pub struct FoundOrbits {
     /// The orbits, in the order that the search promises.
     pub orbits: Vec<PeriodicSolution>,
-    /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its bound, or an interruption.
+    /// What kept the search from looking everywhere it meant to look: motion that could not be computed, its
+    /// bound, or an interruption.
     pub incomplete: Option<OrbitError>,
 }
 
-/// Finds the orbits of minimal period `period_multiple` at `frequency_hz`: stable before unstable, then largest displacement first.
+/// Finds the orbits of minimal period `period_multiple` at `frequency_hz`: stable before unstable, then
+/// largest displacement first.
 ///
 /// * `range_hz`: the frequencies within which branches are followed.
 /// * `interrupted`: asked now and then; once it says true the search ends with what it has found.
 ///
 /// # Errors
-/// [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64; [`OrbitError::Motion`] if not even the integrator can be made.
-/// Finding nothing is an empty list.
+/// [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64; [`OrbitError::Motion`] if not even the
+/// integrator can be made. Finding nothing is an empty list.
 pub fn find_orbits(
     system: &System,
     response: &Response,
@@ -119,8 +123,9 @@ impl Search<'_> {
         if (self.interrupted)() { Err(OrbitError::Interrupted) } else { Ok(()) }
     }
 
-    /// Motions from rest and from states about it, as far away as the motion from rest goes: the linear response may be far from where the system
-    /// moves, as that of a ball that falls freely is. Where no motion can begin, it begins beside: for rest between it and the linear response.
+    /// Motions from rest and from states about it, as far away as the motion from rest goes: the linear
+    /// response may be far from where the system moves, as that of a ball that falls freely is. Where no
+    /// motion can begin, it begins beside: for rest between it and the linear response.
     fn search_about_rest(&mut self, linear: &[f64]) -> Result<(), OrbitError> {
         let dof = self.catalogue.system.dof();
         self.search_motion_near(vec![0.0; 2 * dof], linear)?;
@@ -165,7 +170,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Newton's method from the state with which the last motion has ended, at a phase without contact where a law asks for that.
+    /// Newton's method from the state with which the last motion has ended, at a phase without contact where
+    /// a law asks for that.
     fn search_settled(&mut self, last: &[f64]) -> Result<(), OrbitError> {
         let orbit = (self.catalogue.frequency_hz, self.period_multiple);
         match search_cut(self.catalogue.integrator(), last, orbit) {
@@ -205,7 +211,8 @@ impl Search<'_> {
         let scale = self.catalogue.scale_of_motion(&states[0])?;
         for nodes in nearest_returns(states, &scale, multiple as usize, TRIED) {
             self.check_interrupted()?;
-            // Newton's method from all states and from the first one alone go different ways; either may arrive.
+            // Newton's method from all states and from the first one alone go different ways; either may
+            // arrive.
             self.catalogue.probe((0.0, nodes), multiple)?;
             if multiple > 1 {
                 self.catalogue.probe((0.0, &nodes[..1]), multiple)?;

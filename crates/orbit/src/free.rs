@@ -1,8 +1,8 @@
 //! Free periodic motion of an undamped system: amplitude given, frequency unknown.
 //!
-//! The flow `Z(z, f)` over one cycle of the unknown frequency f must close, `Z(z, f) = z`, with the response point at rest at its
-//! amplitude a: `y(z) = a`, `y'(z) = 0`. These are 2n + 2 equations for 2n + 1 unknowns, one of them redundant since the energy is conserved;
-//! they are solved by Gauss-Newton.
+//! The flow `Z(z, f)` over one cycle of the unknown frequency f must close, `Z(z, f) = z`, with the response
+//! point at rest at its amplitude a: `y(z) = a`, `y'(z) = 0`. These are 2n + 2 equations for 2n + 1 unknowns,
+//! one of them redundant since the energy is conserved; they are solved by Gauss-Newton.
 
 use faer::{Mat, linalg::solvers::SolveLstsq};
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
@@ -27,10 +27,12 @@ const MAX_ITERATIONS: u32 = 30;
 /// Steps per period of the lowest mode when the first guess of the period is looked for.
 const STEPS: f64 = 256.0;
 
-/// Free motion in which the response point reaches `amplitude` [m], in the neighbourhood of the lowest elastic mode.
+/// Free motion in which the response point reaches `amplitude` [m], in the neighbourhood of the lowest
+/// elastic mode.
 ///
 /// # Errors
-/// [`OrbitError::NotConverged`] if there is no such motion (the system is damped or loaded, or the mode does not move the point).
+/// [`OrbitError::NotConverged`] if there is no such motion (the system is damped or loaded, or the mode does
+/// not move the point).
 pub fn free_orbit(
     system: &System,
     response: &Response,
@@ -156,7 +158,8 @@ mod tests {
         assert!((orbit.frequency_hz / exact - 1.0).abs() < 1e-10, "{} {exact}", orbit.frequency_hz);
     }
 
-    /// `x'' + x + x^3 = 0`: `T = 4 K(m)/sqrt(1 + a^2)`, `m = a^2/(2 (1 + a^2))`, with `K` by the arithmetic-geometric mean.
+    /// `x'' + x + x^3 = 0`: `T = 4 K(m)/sqrt(1 + a^2)`, `m = a^2/(2 (1 + a^2))`, with `K` by the
+    /// arithmetic-geometric mean.
     #[test]
     fn frequency_of_the_undamped_duffing_oscillator_is_the_elliptic_integral() {
         let (system, response) = oscillator(Law::Power(PowerSpring::cubic(1.0).unwrap()));

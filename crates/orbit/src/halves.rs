@@ -1,10 +1,13 @@
 //! Orbits whose ends have to keep clear of impacts, cut into two segments and made one again.
 //!
-//! A symmetric orbit comes to graze two opposite rigid stops at once. Over one segment the speed `v` of the first touch, which goes like the root of its depth, moves the second one, whose speed then goes
-//! like the root of `v`: the corner there is none of those that the path crate turns. Cut in two, each touch lies in a segment of its own, and depends on the state before it alone. The
-//! multipliers grow like the product of `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
+//! A symmetric orbit comes to graze two opposite rigid stops at once. Over one segment the speed `v` of the
+//! first touch, which goes like the root of its depth, moves the second one, whose speed then goes like the
+//! root of `v`: the corner there is none of those that the path crate turns. Cut in two, each touch lies in a
+//! segment of its own, and depends on the state before it alone. The multipliers grow like the product of
+//! `1/v` of all touches, so an orbit of several slow impacts is better cut, too.
 //!
-//! The phases at which a cut orbit begins and is cut must both be clear of impacts. Where an impact comes near one of them the orbit is made one segment again, whose begin may move.
+//! The phases at which a cut orbit begins and is cut must both be clear of impacts. Where an impact comes
+//! near one of them the orbit is made one segment again, whose begin may move.
 
 use hammerbeam_path::{ContinuationPoint, Node};
 
@@ -16,7 +19,8 @@ use crate::{
 };
 
 impl BranchWalk {
-    /// Goes on with orbits of two segments; false if the walk stays as it was: an orbit of one impact needs no second segment, and there may be no room for it.
+    /// Goes on with orbits of two segments; false if the walk stays as it was: an orbit of one impact needs
+    /// no second segment, and there may be no room for it.
     pub(crate) fn cut_in_halves(&mut self) -> bool {
         let of_rigid_stops = self.problem.system().has_rigid_stops();
         if self.problem.segments() != 1 || !of_rigid_stops || self.halves_are_clear() != Some(true) {
@@ -30,7 +34,8 @@ impl BranchWalk {
         self.go_on_with(2, &current, start.as_ref())
     }
 
-    /// Makes orbits of two segments one again where an impact comes near their ends, or the start of the walk is to be found again.
+    /// Makes orbits of two segments one again where an impact comes near their ends, or the start of the walk
+    /// is to be found again.
     pub(crate) fn join_halves_at_contacts(&mut self) {
         if self.halves_are_clear() == Some(true) && !self.is_near_lost_start() {
             return;
@@ -41,7 +46,8 @@ impl BranchWalk {
         self.go_on_with(1, &current, start.as_ref());
     }
 
-    /// Whether the begin and the middle of the present orbit are clear of impacts; none where it has a single one, for which halves are of no use, or cannot be followed.
+    /// Whether the begin and the middle of the present orbit are clear of impacts; none where it has a single
+    /// one, for which halves are of no use, or cannot be followed.
     fn halves_are_clear(&mut self) -> Option<bool> {
         let point = self.follower.current().point.clone();
         self.problem.move_to(&point).ok()?;

@@ -1,9 +1,11 @@
 //! Periodic orbits by multiple shooting, their Floquet multipliers and their branches.
 //!
-//! An orbit of N excitation periods is a fixed point of the flow over N cycles. [`find_start`] and [`find_orbits`] find orbits without a guess:
-//! from motion that settles, from near-returns of motion that does not, and along branches. A [`BranchWalk`] follows a branch, one
-//! [`BranchRow`] at a time: the solution, its multipliers, its maxima on the continuous motion, and what happens there. It is driven from
-//! outside, so whoever drives it can show progress, stop, store it between two steps and take it up again with the same bits.
+//! An orbit of N excitation periods is a fixed point of the flow over N cycles. [`find_start`] and
+//! [`find_orbits`] find orbits without a guess: from motion that settles, from near-returns of motion that
+//! does not, and along branches. A [`BranchWalk`] follows a branch, one [`BranchRow`] at a time: the
+//! solution, its multipliers, its maxima on the continuous motion, and what happens there. It is driven from
+//! outside, so whoever drives it can show progress, stop, store it between two steps and take it up again
+//! with the same bits.
 //!
 //! | file | idea |
 //! |---|---|
@@ -31,23 +33,28 @@
 //! | `settings.rs`, `solution.rs`, `error.rs` | what goes in and what comes out |
 //!
 //! # Stability
-//! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of the segments, so they do not depend
-//! on how the orbit is cut. An orbit is stable if all of them lie inside the unit circle, unstable if one lies outside, and marginal if neither is known ([`Stability`]). Folds, branch points, flips, Neimark-Sacker points
-//! and grazing are located as rows of their own.
+//! The multipliers are the eigenvalues of the monodromy matrix, the product of the fundamental matrices of
+//! the segments, so they do not depend on how the orbit is cut. An orbit is stable if all of them lie inside
+//! the unit circle, unstable if one lies outside, and marginal if neither is known ([`Stability`]). Folds,
+//! branch points, flips, Neimark-Sacker points and grazing are located as rows of their own.
 //!
 //! # Contacts that lose energy
-//! The same equations serve. Laws that remember the speed of their impact need every node in free flight. Their orbits are cut once, unless
-//! [`Segments::Fixed`] says otherwise, and begin at a [`phase`](PeriodicSolution::phase) at which no contact is closed: 0, or the middle of the longest time without
-//! contact. A walk moves the phase when a contact comes near it; one of several segments does not, and stops with
-//! [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose contact never opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states
-//! of an orbit at any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is simulated over any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a corner there, which is walked round like any other.
-//! So has it where an impact on a rigid stop comes or goes, with derivatives that grow without bound on the
-//! side of the impact: that corner is computed from the orbit cut at its touch, where the
-//! speed of the impact is a smooth coordinate (`corner/`; see
+//! The same equations serve. Laws that remember the speed of their impact need every node in free flight.
+//! Their orbits are cut once, unless [`Segments::Fixed`] says otherwise, and begin at a
+//! [`phase`](PeriodicSolution::phase) at which no contact is closed: 0, or the middle of the longest time
+//! without contact. A walk moves the phase when a contact comes near it; one of several segments does not,
+//! and stops with [`StartsInContact`](hammerbeam_motion::exact::MotionError::StartsInContact). An orbit whose
+//! contact never opens has no such phase ([`OrbitError::NeverOpens`]). [`states_at_phase`] gives the states
+//! of an orbit at any phase, such as 0. Curves in two parameters keep the phase of their start. Motion is
+//! simulated over any phases. Where a force begins with a jump, multipliers jump at grazing; the path has a
+//! corner there, which is walked round like any other. So has it where an impact on a rigid stop comes or
+//! goes, with derivatives that grow without bound on the side of the impact: that corner is computed from the
+//! orbit cut at its touch, where the speed of the impact is a smooth coordinate (`corner/`; see
 //! [`root_corner`](hammerbeam_path::PathProblem::root_corner)).
 //!
 //! # Example
-//! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers have the modulus `exp(-c T/(2 m))`.
+//! A mass on a spring, driven at its undamped frequency: the amplitude is `F/(c w)`, and both multipliers
+//! have the modulus `exp(-c T/(2 m))`.
 //! ```
 //! use hammerbeam_motion::{Harmonic, HarmonicForce, Load, System};
 //! use hammerbeam_orbit::{OrbitSettings, Response, find_start};

@@ -1,18 +1,24 @@
-//! What is known of an event: how closely it was located, which multiplier it belongs to, and in which direction the motion changes there.
+//! What is known of an event: how closely it was located, which multiplier it belongs to, and in which
+//! direction the motion changes there.
 //!
-//! With the uncertainty `s` of the place along the path, the tangent's frequency component `t_f` and its change `k` per length, the
-//! frequency is uncertain by `s |t_f| + k s^2 / 2`, and by no less than its last digit.
+//! With the uncertainty `s` of the place along the path, the tangent's frequency component `t_f` and its
+//! change `k` per length, the frequency is uncertain by `s |t_f| + k s^2 / 2`, and by no less than its last
+//! digit.
 //!
-//! A grazing is where the least clearance, penetration or touch speed of the motion vanishes, and that is known no better than the motion, however narrow a bracket of the change of contacts is. So its `s` is no less than `e/|g'|`: g is that
-//! quantity relative to what the orbit's scale gives the element, e what is not known of it. With the tolerance of the steps, ten of which a period is given, e is ten tolerances and the
-//! response of the orbit to as much of a closure error, with the correction that was still due; `g' = g_1/c` with its value `g_1` at the point before, the chord c away.
+//! A grazing is where the least clearance, penetration or touch speed of the motion vanishes, and that is
+//! known no better than the motion, however narrow a bracket of the change of contacts is. So its `s` is no
+//! less than `e/|g'|`: g is that quantity relative to what the orbit's scale gives the element, e what is not
+//! known of it. With the tolerance of the steps, ten of which a period is given, e is ten tolerances and the
+//! response of the orbit to as much of a closure error, with the correction that was still due; `g' = g_1/c`
+//! with its value `g_1` at the point before, the chord c away.
 //!
 //! A grazing of a rigid stop that was computed as a corner (`corner/`) brings its uncertainty along.
 //!
-//! The direction is the null vector of `A - mu I` (`A` the monodromy matrix, `mu` the multiplier at +1, -1 or on the unit circle), found by
-//! inverse iteration. At a branch point it is the tangent of the crossing branch: the vector that `[R_x R_f]` maps to zero besides the
-//! tangent `t` of the present branch. There the bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to
-//! anything points into that direction.
+//! The direction is the null vector of `A - mu I` (`A` the monodromy matrix, `mu` the multiplier at +1, -1 or
+//! on the unit circle), found by inverse iteration. At a branch point it is the tangent of the crossing
+//! branch: the vector that `[R_x R_f]` maps to zero besides the tangent `t` of the present branch. There the
+//! bordered matrix `[R_x R_f; (W t)^T]` is nearly singular, and its inverse applied to anything points into
+//! that direction.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, DenseLu, PathProblem};
@@ -21,9 +27,11 @@ use crate::shooting::ShootingProblem;
 
 /// Relative frequency to which an event counts as located.
 const SHARP_FREQUENCY: f64 = 1e-8;
-/// Distance of the critical multiplier from its place that a located fold, flip or Neimark-Sacker point may have.
+/// Distance of the critical multiplier from its place that a located fold, flip or Neimark-Sacker point may
+/// have.
 const SHARP_MULTIPLIER: f64 = 1e-5;
-/// An orbit this close to its mirror image, relative to the orbit, is that: along the direction in which a branch crosses, an orbit is known to the root of the tolerance only.
+/// An orbit this close to its mirror image, relative to the orbit, is that: along the direction in which a
+/// branch crosses, an orbit is known to the root of the tolerance only.
 const MIRRORED: f64 = 1e-3;
 /// Error of the motion over a period, in tolerances of its steps.
 const MOTION: f64 = 10.0;
@@ -35,7 +43,8 @@ const MOST_SHIFTS: u32 = 8;
 pub enum EventStatus {
     /// To 1e-8 in frequency, relative, with the multiplier in its place.
     Located,
-    /// Only within [`LocatedEvent::uncertainty`], or with a multiplier that jumps over its place (at a corner of the branch).
+    /// Only within [`LocatedEvent::uncertainty`], or with a multiplier that jumps over its place (at a corner
+    /// of the branch).
     Bracketed,
 }
 
@@ -53,16 +62,19 @@ pub struct ContactChange {
 pub struct LocatedEvent {
     /// How well it was located.
     pub status: EventStatus,
-    /// Interval of the frequency within which it lies [Hz]; of the parameter that varies, in its unit, where that is not the frequency.
+    /// Interval of the frequency within which it lies [Hz]; of the parameter that varies, in its unit, where
+    /// that is not the frequency.
     pub uncertainty: f64,
-    /// The multiplier that is critical, `[re, im]`, the one with positive imaginary part of a pair; none at mere grazing.
+    /// The multiplier that is critical, `[re, im]`, the one with positive imaginary part of a pair; none at
+    /// mere grazing.
     pub multiplier: Option<[f64; 2]>,
-    /// Critical direction of the first node, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one relative to the orbit; at a
-    /// Neimark-Sacker point its real part. Empty where there is none.
+    /// Critical direction of the first node, `[q; q']` and the frequency [Hz], length 2n + 1, of norm one
+    /// relative to the orbit; at a Neimark-Sacker point its real part. Empty where there is none.
     pub direction: Vec<f64>,
     /// The contacts that change at grazing: of a symmetric orbit two at once.
     pub contacts: Vec<ContactChange>,
-    /// Whether an orbit that is its own mirror image after half its period, `z(t + NT/2) = -z(t)`, loses that on the crossing branch.
+    /// Whether an orbit that is its own mirror image after half its period, `z(t + NT/2) = -z(t)`, loses that
+    /// on the crossing branch.
     pub breaks_symmetry: bool,
 }
 
@@ -106,7 +118,8 @@ pub(crate) struct NearChange {
     pub unit: f64,
 }
 
-/// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened there. A corner of the path alone is none: the equations have a kink there, the motion has nothing.
+/// Describes the event at the point at which the problem was evaluated last; `None` if nothing happened
+/// there. A corner of the path alone is none: the equations have a kink there, the motion has nothing.
 pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Option<LocatedEvent> {
     let events = hammerbeam_path::Events { corner: false, ..place.point.events };
     if !events.any() {
@@ -137,7 +150,8 @@ pub(crate) fn describe(problem: &mut ShootingProblem, place: Place<'_>) -> Optio
     })
 }
 
-/// The multiplier that makes an event, and its distance from its place, squared at a mere branch point; none at mere grazing.
+/// The multiplier that makes an event, and its distance from its place, squared at a mere branch point; none
+/// at mere grazing.
 fn critical(events: hammerbeam_path::Events, multipliers: &[[f64; 2]]) -> (Option<[f64; 2]>, f64) {
     let distance: fn(&[f64; 2]) -> f64 = if events.zeros & 1 != 0 {
         |[re, im]| (1.0 + re).hypot(*im)
@@ -164,7 +178,8 @@ fn uncertainty(place: &Place<'_>, size: f64, (jumps, of_motion): (bool, f64)) ->
     (along * slope + 0.5 * place.bend * along * along).max(f64::EPSILON * size)
 }
 
-/// Arc length within which a grazing lies as the motion is known, see the head of the file; 0 where nothing is known of the point before.
+/// Arc length within which a grazing lies as the motion is known, see the head of the file; 0 where nothing
+/// is known of the point before.
 fn of_motion(problem: &mut ShootingProblem, place: &Place<'_>) -> f64 {
     let Some(before) = place.before else { return 0.0 };
     let [displacement, speed] = contact_scale(problem);
@@ -208,7 +223,8 @@ fn response_to_closure(problem: &mut ShootingProblem, point: &ContinuationPoint)
     Some(response(1.0).max(response(-1.0)))
 }
 
-/// Whether an orbit of an odd number of periods is its own mirror image: after half of them the excitation has changed its sign, and the state has.
+/// Whether an orbit of an odd number of periods is its own mirror image: after half of them the excitation
+/// has changed its sign, and the state has.
 fn is_symmetric(problem: &mut ShootingProblem, point: &ContinuationPoint) -> bool {
     if problem.period_multiple().is_multiple_of(2) {
         return false;
@@ -254,7 +270,8 @@ fn null_direction(problem: &ShootingProblem, [re, im]: [f64; 2]) -> Option<Vec<f
     direction.iter().all(|value| value.is_finite()).then_some(direction)
 }
 
-/// Null vector of a matrix that is singular to rounding, by inverse iteration, of length one; `None` if the matrix is not finite.
+/// Null vector of a matrix that is singular to rounding, by inverse iteration, of length one; `None` if the
+/// matrix is not finite.
 fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
     let largest = matrix.iter().fold(1.0_f64, |largest, entry| largest.max(entry.abs()));
     let mut lu = DenseLu::new();
@@ -263,7 +280,8 @@ fn null_vector(width: usize, mut matrix: Vec<f64>) -> Option<Vec<f64>> {
         if shifts == MOST_SHIFTS {
             return None;
         }
-        // Singular to the last bit: an inverse needs it a little off, by what the largest entries do not round away.
+        // Singular to the last bit: an inverse needs it a little off, by what the largest entries do not
+        // round away.
         (0..width).for_each(|i| matrix[i * width + i] += 1e-14 * largest);
         shifts += 1;
     }
@@ -298,7 +316,8 @@ fn crossing_direction(problem: &mut ShootingProblem, point: &ContinuationPoint) 
 mod tests {
     use super::*;
 
-    /// `[3 s, s; 6 s, 2 s]` has the null vector `(1, -3)`; for a large s a shift by 1e-14 would be rounded away.
+    /// `[3 s, s; 6 s, 2 s]` has the null vector `(1, -3)`; for a large s a shift by 1e-14 would be rounded
+    /// away.
     #[test]
     fn null_vector_of_an_exactly_singular_matrix_of_large_entries_is_found() {
         for size in [1e-3, 1.0, 4096.0, 1e9] {

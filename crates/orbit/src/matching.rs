@@ -1,7 +1,8 @@
 //! Whether two orbits are the same, perhaps begun at different excitation periods.
 //!
-//! An orbit of N excitation periods has N states at any phase, such as 0, any of which may have been stored. Two orbits are the same if a state of one is
-//! any of the states of the other; distances are in the energy norm relative to the orbit.
+//! An orbit of N excitation periods has N states at any phase, such as 0, any of which may have been stored.
+//! Two orbits are the same if a state of one is any of the states of the other; distances are in the energy
+//! norm relative to the orbit.
 
 use hammerbeam_motion::{
     Stretch, System,
@@ -15,7 +16,8 @@ use crate::{
     state_scale::StateScale,
 };
 
-/// States of an orbit at a phase (from 0 to 1) of each of its excitation periods, wherever the orbit begins: within contacts, too.
+/// States of an orbit at a phase (from 0 to 1) of each of its excitation periods, wherever the orbit begins:
+/// within contacts, too.
 ///
 /// * `integrator`: of its system.
 ///
@@ -90,7 +92,8 @@ impl<'a> Matcher<'a> {
         Ok(Self { system, response, settings, orbit, scale, phases })
     }
 
-    /// Distance of a state at a phase from the orbit, relative to it; infinite where the motion of the orbit cannot be computed.
+    /// Distance of a state at a phase from the orbit, relative to it; infinite where the motion of the orbit
+    /// cannot be computed.
     #[must_use]
     pub fn distance(&self, (phase, state): (f64, &[f64])) -> f64 {
         if phase == self.orbit.phase {
@@ -101,7 +104,8 @@ impl<'a> Matcher<'a> {
         states.map_or(f64::INFINITY, |states| distance_in_phase(&self.scale, &states, state))
     }
 
-    /// Whether the periodic orbit near a guess, a state at a phase, at the same frequency and with the same number of periods, is this one.
+    /// Whether the periodic orbit near a guess, a state at a phase, at the same frequency and with the same
+    /// number of periods, is this one.
     #[must_use]
     pub fn is_near(&self, guess: (f64, &[f64])) -> bool {
         let distance = self.distance(guess);

@@ -4,9 +4,11 @@ use hammerbeam_motion::System;
 
 use crate::{OrbitError, OrbitSettings, PeriodicSolution, Response, start::attempt_nodes};
 
-/// The orbit of `system` by Newton's method from an orbit of another system, at its frequency and with its segments.
+/// The orbit of `system` by Newton's method from an orbit of another system, at its frequency and with its
+/// segments.
 ///
-/// `None` if the method fails, ends at an orbit of shorter period, or if the systems have different numbers of modes.
+/// `None` if the method fails, ends at an orbit of shorter period, or if the systems have different numbers
+/// of modes.
 ///
 /// # Errors
 /// [`OrbitError::Motion`] if the motion of the system cannot be computed at all.

@@ -2,9 +2,9 @@
 //! for looking at many frequencies.
 //!
 //! Motions begin from the linear response, from states about it and from those of large amplitude that a
-//! backbone suggests. A motion ends where it has come to a stable orbit that is known by then, or has repeated.
-//! Where there is little damping it has done neither at last: then Newton's method begins where it has come back
-//! most closely after each of the multiples. What that finds is kept if it is stable.
+//! backbone suggests. A motion ends where it has come to a stable orbit that is known by then, or has
+//! repeated. Where there is little damping it has done neither at last: then Newton's method begins where it
+//! has come back most closely after each of the multiples. What that finds is kept if it is stable.
 
 use hammerbeam_motion::{Stretch, System};
 

@@ -12,11 +12,12 @@ const ELSEWHERE: [f64; 8] = [0.75, 0.5, 0.35, 0.25, 0.18, 1.3, 1.7, 2.5];
 /// Most solutions on the way.
 const MOST_ON_A_SIDE: usize = 5000;
 
-/// Finds an orbit at a frequency where no motion settles on one: from an orbit at another frequency, along its branch.
+/// Finds an orbit at a frequency where no motion settles on one: from an orbit at another frequency, along
+/// its branch.
 ///
 /// # Errors
-/// [`OrbitError::NoOrbit`] if no branch that was tried leads there, [`OrbitError::Motion`] if none does and some motion could not be computed,
-/// [`OrbitError::Interrupted`].
+/// [`OrbitError::NoOrbit`] if no branch that was tried leads there, [`OrbitError::Motion`] if none does and
+/// some motion could not be computed, [`OrbitError::Interrupted`].
 pub fn reach_orbit(
     system: &System,
     response: &Response,

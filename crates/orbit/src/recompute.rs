@@ -1,12 +1,12 @@
 //! The same point of a branch, computed with other segments or tolerances.
 //!
-//! At a fold the frequency does not tell where on its branch an orbit is, and beside it badly: `dz/df` is unbounded. The orbit
-//! is therefore held in the plane through its first node `z_0` and frequency `f` that is normal to the branch there,
-//! `t_z (z - z_0) + t_f (f - f_0) = 0`, with the tangent `[t_z; t_f]` of the first node in the units of the shooting equations. The plane is the same however the
-//! orbit is cut.
+//! At a fold the frequency does not tell where on its branch an orbit is, and beside it badly: `dz/df` is
+//! unbounded. The orbit is therefore held in the plane through its first node `z_0` and frequency `f` that is
+//! normal to the branch there, `t_z (z - z_0) + t_f (f - f_0) = 0`, with the tangent `[t_z; t_f]` of the
+//! first node in the units of the shooting equations. The plane is the same however the orbit is cut.
 //!
-//! Beside grazing, multipliers change by up to 1e7 per relative change of the orbit, so what Newton's method leaves within its tolerance shows in them. Here
-//! it goes on until its corrections no longer shrink.
+//! Beside grazing, multipliers change by up to 1e7 per relative change of the orbit, so what Newton's method
+//! leaves within its tolerance shows in them. Here it goes on until its corrections no longer shrink.
 
 use hammerbeam_motion::System;
 use hammerbeam_path::PathProblem;
@@ -21,10 +21,12 @@ use crate::{
 /// So many more corrections of an accepted orbit at most; they end where rounding keeps them from shrinking.
 const MOST_POLISHES: u32 = 3;
 
-/// Recomputes a solution with these settings, as closely as rounding allows, held in the plane normal to its branch; [`Segments::Automatic`] keeps its segments.
+/// Recomputes a solution with these settings, as closely as rounding allows, held in the plane normal to its
+/// branch; [`Segments::Automatic`] keeps its segments.
 ///
 /// # Errors
-/// [`OrbitError::NotConverged`] if the solution given is not near an orbit, [`OrbitError::Motion`], [`OrbitError::Eigenvalues`].
+/// [`OrbitError::NotConverged`] if the solution given is not near an orbit, [`OrbitError::Motion`],
+/// [`OrbitError::Eigenvalues`].
 pub fn recompute(
     system: &System,
     response: &Response,

@@ -1,14 +1,20 @@
-//! Moving the phase at which the orbits of a walk begin, before a contact comes to lie over it whose law remembers how it began, or an impact on a rigid stop, where the state
-//! jumps.
+//! Moving the phase at which the orbits of a walk begin, before a contact comes to lie over it whose law
+//! remembers how it began, or an impact on a rigid stop, where the state jumps.
 //!
-//! Before each step the contacts of the present orbit are looked at (`cut.rs`). If one is near the phase, the orbit is cut anew in the middle of its longest time without contact: the state and
-//! its tangent are carried there by the flow, `t' = dZ/dz t + dZ/df t_f`. Where a step fails all the same, as at a contact that appears by grazing just at the phase, the present phase counts as a
-//! contact. Multipliers and the orientation of the path do not depend on the phase: `A' - I = P (A - I) P^-1` with the fundamental matrix `P` in between.
+//! Before each step the contacts of the present orbit are looked at (`cut.rs`). If one is near the phase, the
+//! orbit is cut anew in the middle of its longest time without contact: the state and its tangent are carried
+//! there by the flow, `t' = dZ/dz t + dZ/df t_f`. Where a step fails all the same, as at a contact that
+//! appears by grazing just at the phase, the present phase counts as a contact. Multipliers and the
+//! orientation of the path do not depend on the phase: `A' - I = P (A - I) P^-1` with the fundamental matrix
+//! `P` in between.
 //!
-//! The start of the walk is cut at the new phase, too, so that a loop still closes. Where it is in contact there, it is out of reach until the path comes back to its frequency.
+//! The start of the walk is cut at the new phase, too, so that a loop still closes. Where it is in contact
+//! there, it is out of reach until the path comes back to its frequency.
 //!
-//! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew, so a stretch that was walked before the phase moved is not recognised if the
-//! path should run back into it. Orbits that are cut in two (`halves.rs`) are made one segment again first; where the study gives the number of segments the phase does not move.
+//! What is lost: the memory of the path holds first nodes, which at another phase are others. It begins anew,
+//! so a stretch that was walked before the phase moved is not recognised if the path should run back into it.
+//! Orbits that are cut in two (`halves.rs`) are made one segment again first; where the study gives the
+//! number of segments the phase does not move.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};

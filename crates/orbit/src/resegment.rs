@@ -1,8 +1,10 @@
-//! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones. Where nodes have to keep clear of contacts (`cut.rs`) there are two at most (`halves.rs`).
+//! Cutting the orbit of a walk into more segments, where its multipliers have outgrown the present ones.
+//! Where nodes have to keep clear of contacts (`cut.rs`) there are two at most (`halves.rs`).
 //!
-//! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k + dZ/df t_f`. The present point and
-//! the start of the walk are cut anew, and the follower goes on in the new unknowns with all that it knows: a loop still closes
-//! at its start. Neither the orientation of the path nor its memory, which holds first nodes alone, depends on the number of segments.
+//! New nodes lie on the motion from the old ones; their tangents follow from the flow, `t_j = dZ/dz t_k +
+//! dZ/df t_f`. The present point and the start of the walk are cut anew, and the follower goes on in the new
+//! unknowns with all that it knows: a loop still closes at its start. Neither the orientation of the path nor
+//! its memory, which holds first nodes alone, depends on the number of segments.
 
 use hammerbeam_motion::Stretch;
 use hammerbeam_path::{ContinuationPoint, Node};
@@ -15,7 +17,8 @@ const FACTOR: usize = 4;
 const MOST: usize = 64;
 
 impl BranchWalk {
-    /// Goes on from the present point with more segments; false if there are enough already, or if neither point is found with more.
+    /// Goes on from the present point with more segments; false if there are enough already, or if neither
+    /// point is found with more.
     pub(crate) fn resegment(&mut self) -> Result<bool, OrbitError> {
         let segments = self.problem.segments();
         if begins_with_care(self.problem.system()) {
@@ -83,12 +86,14 @@ mod tests {
 
     const RANGE: (f64, f64) = (0.3, 1.2);
 
-    /// `x'' + 0.06 x' + x + x^3 = 3 cos(2 pi f t)`: its 1/3 subharmonic orbits make a closed loop from 0.52 to 1.09 Hz.
+    /// `x'' + 0.06 x' + x + x^3 = 3 cos(2 pi f t)`: its 1/3 subharmonic orbits make a closed loop from 0.52
+    /// to 1.09 Hz.
     fn duffing() -> (System, Response) {
         oscillator(0.06, 3.0, Law::Power(PowerSpring::cubic(1.0).unwrap()))
     }
 
-    /// The loop from its start, cut into more segments after as many steps as `cuts` says, stored and taken up again after `stored` steps.
+    /// The loop from its start, cut into more segments after as many steps as `cuts` says, stored and taken
+    /// up again after `stored` steps.
     fn walk(cuts: &[usize], stored: usize) -> (Vec<BranchRow>, StopReason, usize) {
         let (system, response) = duffing();
         let settings = OrbitSettings { max_step_hz: 0.005, ..OrbitSettings::default() };

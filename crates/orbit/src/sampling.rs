@@ -1,15 +1,18 @@
 //! Newton's method from many states, until nothing new comes.
 //!
-//! The states are those that motions have passed through, transients included: they lie where the system moves, and near its unstable orbits,
-//! which a motion may pass but not settle on. Each trial begins in one of four ways, since each of them arrives where others do not:
+//! The states are those that motions have passed through, transients included: they lie where the system
+//! moves, and near its unstable orbits, which a motion may pass but not settle on. Each trial begins in one
+//! of four ways, since each of them arrives where others do not:
 //!
 //! - from the states of one motion at all excitation periods, or from its first one alone;
-//! - from states of different motions, one for each excitation period: in chaotic motion an orbit exists for nearly every such order of
-//!   events, and the corrections are shared between the periods;
+//! - from states of different motions, one for each excitation period: in chaotic motion an orbit exists for
+//!   nearly every such order of events, and the corrections are shared between the periods;
 //! - from a state at a random distance from one that was passed.
 //!
-//! Nothing new for long is not enough to end: as many orbits are still to be expected as were arrived at once only (Good, Biometrika 40 (1953), 237-264: the share of trials that would
-//! arrive at something unseen is that of the trials that arrived where no other did). So trials can be asked to go on until each orbit that they found was arrived at twice.
+//! Nothing new for long is not enough to end: as many orbits are still to be expected as were arrived at once
+//! only (Good, Biometrika 40 (1953), 237-264: the share of trials that would arrive at something unseen is
+//! that of the trials that arrived where no other did). So trials can be asked to go on until each orbit that
+//! they found was arrived at twice.
 //!
 //! They are states at phase 0; one within a contact whose law remembers its impact is no guess that counts.
 
@@ -22,8 +25,9 @@ use crate::{
     solve::nodes_from,
 };
 
-/// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where contacts are many. Where modes are many, matrices do: a trial counts like the third power of
-/// the entries over [`DENSE`].
+/// Force steps of all trials, times the entries of a state and two: they tell what a trial costs where
+/// contacts are many. Where modes are many, matrices do: a trial counts like the third power of the entries
+/// over [`DENSE`].
 const MOST_WORK: u64 = 2_000_000;
 
 /// Multiplications of matrices that cost like the rest for an entry, for the ten evaluations of a trial.
@@ -38,8 +42,8 @@ pub(crate) struct Passed {
 impl Passed {
     fn any<'s>(&'s self, noise: &mut Noise) -> &'s [f64] {
         let motion = &self.motions[noise.below(self.motions.len())];
-        // Motion that gains or loses energy over many periods passes the orbits near its start in a few: every other state is from a period that is
-        // uniform in its logarithm.
+        // Motion that gains or loses energy over many periods passes the orbits near its start in a few:
+        // every other state is from a period that is uniform in its logarithm.
         let place = if noise.share() < 0.5 {
             noise.below(motion.len())
         } else {

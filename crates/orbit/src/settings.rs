@@ -12,15 +12,17 @@ pub enum Segments {
 
 /// Settings of orbits and branches.
 ///
-/// Lengths of a path are measured in `ds^2 = df^2 + (F |dz|)^2`, f in hertz, `|dz|` the change of the orbit's state in the energy
-/// norm `sqrt(sum w_i^2 q_i^2 + q_i'^2)` relative to that of the orbit, and F a hundredth of the frequency range: a change as large as
-/// the motion counts like a hundredth of the range. Relative means in units that fit the start, and that follow the orbit in powers of two when it outgrows them
-/// by a factor of four either way.
+/// Lengths of a path are measured in `ds^2 = df^2 + (F |dz|)^2`, f in hertz, `|dz|` the change of the orbit's
+/// state in the energy norm `sqrt(sum w_i^2 q_i^2 + q_i'^2)` relative to that of the orbit, and F a hundredth
+/// of the frequency range: a change as large as the motion counts like a hundredth of the range. Relative
+/// means in units that fit the start, and that follow the orbit in powers of two when it outgrows them by a
+/// factor of four either way.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrbitSettings {
     /// Largest change of frequency from one solution to the next [Hz].
     pub max_step_hz: f64,
-    /// An orbit is accepted when Newton's correction that is still due is at most this, in the relative energy norm.
+    /// An orbit is accepted when Newton's correction that is still due is at most this, in the relative
+    /// energy norm.
     pub tolerance: f64,
     /// Tolerance of the contact steps, see [`hammerbeam_motion::exact::ExactSettings`].
     pub motion_tolerance: f64,

@@ -1,24 +1,29 @@
 //! Multiple shooting: the periodic orbit as a problem for the path crate.
 //!
-//! An orbit of N excitation periods is cut at m equal phases, the first of them the phase at which it begins (0 unless a law needs another one). The unknowns are the states `z_k` there, scaled: displacements with
-//! `V/w_i`, velocities with `V`, so that the Euclidean norm of a node is its energy norm relative to `V`. With the flow `Z_k`
-//! of segment k the equations are
+//! An orbit of N excitation periods is cut at m equal phases, the first of them the phase at which it begins
+//! (0 unless a law needs another one). The unknowns are the states `z_k` there, scaled: displacements with
+//! `V/w_i`, velocities with `V`, so that the Euclidean norm of a node is its energy norm relative to `V`.
+//! With the flow `Z_k` of segment k the equations are
 //!
 //! `R_k = Z_k(z_k, f) - z_{k+1} = 0`, `k = 0..m`, `z_m = z_0`.
 //!
-//! The last unknown `f` is the excitation frequency, or another [`ContinuationParameter`] while the frequency is fixed.
-//! With `G_k = dZ_k/dz_k`, `g_k = dZ_k/df` a bordered system with right-hand sides `b_k`, and `b` for the border row, is condensed to the first node:
-//! `d_{k+1} = A_{k+1} d_0 + a_{k+1} df - s_{k+1}`, where `A_{k+1} = G_k A_k`, `a_{k+1} = G_k a_k + g_k`,
-//! `s_{k+1} = G_k s_k + b_k`. Then `(A_m - I) d_0 + a_m df = s_m` and the border row, summed over the nodes. `A_m` is the monodromy
-//! matrix. Eliminating the other nodes divides by determinants of `-I` only, so the determinant of the condensed
-//! matrix orients the path, and the orientation does not depend on m.
+//! The last unknown `f` is the excitation frequency, or another [`ContinuationParameter`] while the frequency
+//! is fixed. With `G_k = dZ_k/dz_k`, `g_k = dZ_k/df` a bordered system with right-hand sides `b_k`, and `b`
+//! for the border row, is condensed to the first node: `d_{k+1} = A_{k+1} d_0 + a_{k+1} df - s_{k+1}`, where
+//! `A_{k+1} = G_k A_k`, `a_{k+1} = G_k a_k + g_k`, `s_{k+1} = G_k s_k + b_k`. Then `(A_m - I) d_0 + a_m df =
+//! s_m` and the border row, summed over the nodes. `A_m` is the monodromy matrix. Eliminating the other nodes
+//! divides by determinants of `-I` only, so the determinant of the condensed matrix orients the path, and the
+//! orientation does not depend on m.
 //!
 //! # Limits
-//! The products grow like the multipliers, so condensing leaves a relative error of about `1e-16 |mu_1|` in corrections and tangents, however many the
-//! segments. Newton's method mends its own corrections: orbits with `|mu_1|` up to 1e12 are found, their largest multiplier to 1e-8. A tangent is
-//! not mended: up to `|mu_1|` of 1e6 to 1e7 its error is below the tolerances of the path, beyond 1e9 folds are no longer located to
-//! theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination by orthogonal transformations over the segments
-//! would keep the tangent, at several times the cost, and is not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the end there.
+//! The products grow like the multipliers, so condensing leaves a relative error of about `1e-16 |mu_1|` in
+//! corrections and tangents, however many the segments. Newton's method mends its own corrections: orbits
+//! with `|mu_1|` up to 1e12 are found, their largest multiplier to 1e-8. A tangent is not mended: up to
+//! `|mu_1|` of 1e6 to 1e7 its error is below the tolerances of the path, beyond 1e9 folds are no longer
+//! located to theirs. Multipliers are those of a product: small ones are known to `1e-16 |mu_1|`. Elimination
+//! by orthogonal transformations over the segments would keep the tangent, at several times the cost, and is
+//! not done. With one segment the guess parts from the orbit by `|mu_1|` within a period: about 1e5 is the
+//! end there.
 //!
 //! # Fast excitation
 //! Where the period is short beside those of the modes, `A_m - I` is small and rounding of `Z_k - z_{k+1}` is
@@ -29,11 +34,15 @@
 //! taken like that.
 //!
 //! # Orbits that are cut at a touch
-//! Of states that agree to the tolerance one may lie before the touch and the other behind it: then the flows on both sides have the touch at both of their ends or at neither. Their touches are counted once.
-//! Where the force sets in with a jump, the product of their matrices has its factor (the saltation matrix) twice or not at all, and its eigenvalues are not the multipliers: those are taken from the same orbit cut elsewhere. For
-//! corrections and tangents the matrices stay as they are, derivatives of the equations on the side on which the nodes lie.
+//! Of states that agree to the tolerance one may lie before the touch and the other behind it: then the flows
+//! on both sides have the touch at both of their ends or at neither. Their touches are counted once. Where
+//! the force sets in with a jump, the product of their matrices has its factor (the saltation matrix) twice
+//! or not at all, and its eigenvalues are not the multipliers: those are taken from the same orbit cut
+//! elsewhere. For corrections and tangents the matrices stay as they are, derivatives of the equations on the
+//! side on which the nodes lie.
 //!
-//! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in `shooting/equations.rs`.
+//! What the equations are made of at a point is in `shooting/flows.rs`, what the path crate asks of them in
+//! `shooting/equations.rs`.
 //!
 //! # Source
 //! Ascher, Mattheij and Russell, *Numerical Solution of Boundary Value Problems* (1988), chapter 4.
@@ -80,7 +89,8 @@ pub(crate) struct ShootingProblem {
     at_ends: [Vec<AtEnd>; 2],
     /// See [`ShootingProblem::touches_lacking`].
     touches_lacking: Vec<i32>,
-    /// Whether a segment ends at a touch at which a force sets in with a jump, and the flows have it at both of their ends or at neither.
+    /// Whether a segment ends at a touch at which a force sets in with a jump, and the flows have it at both
+    /// of their ends or at neither.
     jumps_at_cut: bool,
     failure: Option<MotionError>,
     /// Multipliers at the point evaluated last, once they were asked for.
@@ -191,7 +201,8 @@ impl ShootingProblem {
     /// Size that the last unknown has at a point, for relative accuracies.
     pub fn parameter_size(&self, point: &[f64]) -> f64 {
         let value = point[point.len() - 1].abs();
-        // A parameter may pass zero: then its range, of which a hundredth counts like the orbit, tells its size.
+        // A parameter may pass zero: then its range, of which a hundredth counts like the orbit, tells its
+        // size.
         if self.varied.parameter().is_some() { value.max(100.0 * self.hertz_per_norm) } else { value }
     }
 
@@ -301,7 +312,9 @@ impl ShootingProblem {
         self.watches_stability = true;
     }
 
-    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is cut at a touch: [`touches_lacking`](hammerbeam_motion::exact::touches_lacking) of each contact over all cuts.
+    /// By how much the touches of the segments were put right at the last evaluated point, where the orbit is
+    /// cut at a touch: [`touches_lacking`](hammerbeam_motion::exact::touches_lacking) of each contact over
+    /// all cuts.
     pub fn touches_lacking(&self) -> &[i32] {
         &self.touches_lacking
     }

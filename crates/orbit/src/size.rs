@@ -1,10 +1,12 @@
 //! The size of an orbit: by its motion, not by the state with which it happens to begin.
 //!
-//! With `s_j` the states at equally spaced phases of the whole orbit, [`PER_PERIOD`] of them or a few more in each excitation period, nodes included, the size is the
-//! root of the mean of `|s_j|^2` in the energy norm (`state_scale.rs`). A structure that rests on its stop at phase 0 has a state there that is thousands of
-//! times smaller than its orbit; in units of that state every tolerance would be thousands of times too strict.
-//! For a motion of harmonics up to the third the mean is that of the whole motion, so that the size does not depend on the phase at which the orbit begins; else it
-//! does by as much as the higher harmonics hold.
+//! With `s_j` the states at equally spaced phases of the whole orbit, [`PER_PERIOD`] of them or a few more in
+//! each excitation period, nodes included, the size is the root of the mean of `|s_j|^2` in the energy norm
+//! (`state_scale.rs`). A structure that rests on its stop at phase 0 has a state there that is thousands of
+//! times smaller than its orbit; in units of that state every tolerance would be thousands of times too
+//! strict. For a motion of harmonics up to the third the mean is that of the whole motion, so that the size
+//! does not depend on the phase at which the orbit begins; else it does by as much as the higher harmonics
+//! hold.
 //!
 //! The motion is gone through once, without sensitivities, from each node to the next.
 
@@ -96,8 +98,9 @@ impl<'a> Cut<'a> {
         Ok(scale)
     }
 
-    /// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to the orbit, as the root of the mean of squares over the states of its
-    /// first excitation period; infinite for an orbit of one excitation period.
+    /// Smallest distance of an orbit from itself a part of its periods later that divides them, relative to
+    /// the orbit, as the root of the mean of squares over the states of its first excitation period; infinite
+    /// for an orbit of one excitation period.
     ///
     /// At a single phase the orbits of a structure that rests there on its stop are all alike.
     ///
@@ -127,8 +130,9 @@ impl<'a> Cut<'a> {
     }
 }
 
-/// The units in which the motion over the excitation period that begins with a state at phase 0 has the size one; those of the state alone where laws remember their impacts: the integrator
-/// knows what it has remembered for one motion only, which has yet to go on.
+/// The units in which the motion over the excitation period that begins with a state at phase 0 has the size
+/// one; those of the state alone where laws remember their impacts: the integrator knows what it has
+/// remembered for one motion only, which has yet to go on.
 ///
 /// # Errors
 /// [`MotionError`] if the motion cannot be computed.

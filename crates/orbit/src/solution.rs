@@ -13,11 +13,14 @@ pub struct PeriodicSolution {
     pub frequency_hz: f64,
     /// Orbit period over excitation period.
     pub period_multiple: u32,
-    /// Phase of the excitation at which the orbit begins, that of the first node [cycles], from 0 to 1; always 0 without laws that remember an impact.
+    /// Phase of the excitation at which the orbit begins, that of the first node [cycles], from 0 to 1;
+    /// always 0 without laws that remember an impact.
     pub phase: f64,
-    /// Shooting nodes: one state per segment, the first at [`phase`](Self::phase), the others at equal distances.
+    /// Shooting nodes: one state per segment, the first at [`phase`](Self::phase), the others at equal
+    /// distances.
     pub nodes: Vec<Vec<f64>>,
-    /// Floquet multipliers `[re, im]` of one orbit period, largest modulus first, positive imaginary part first in a pair.
+    /// Floquet multipliers `[re, im]` of one orbit period, largest modulus first, positive imaginary part
+    /// first in a pair.
     pub floquet_multipliers: Vec<[f64; 2]>,
     /// Which of them are on the unit circle as well as they are known (mathematics in `spectrum.rs`).
     pub on_circle: Vec<bool>,

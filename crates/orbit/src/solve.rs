@@ -36,7 +36,8 @@ pub(crate) fn unit_scale(system: &System, frequency_hz: f64) -> StateScale {
     StateScale::new(&system.model().natural_frequencies, reference, 1.0).about(state_of_rest(system))
 }
 
-/// Scale of one state of which no more is known: how far about it starts are spread. Orbits, and guesses of them, are measured by their motion (`size.rs`).
+/// Scale of one state of which no more is known: how far about it starts are spread. Orbits, and guesses of
+/// them, are measured by their motion (`size.rs`).
 pub(crate) fn state_scale(system: &System, state: &[f64], frequency_hz: f64) -> StateScale {
     let mut scale = unit_scale(system, frequency_hz);
     let size = scale.size(state);
@@ -60,7 +61,8 @@ pub(crate) fn state_of_rest(system: &System) -> Vec<f64> {
     rest
 }
 
-/// Newton's method at a fixed frequency from `point`, which ends at the orbit; returns the correction that is still due.
+/// Newton's method at a fixed frequency from `point`, which ends at the orbit; returns the correction that is
+/// still due.
 pub(crate) fn correct(
     problem: &mut ShootingProblem,
     point: &mut [f64],
@@ -72,8 +74,8 @@ pub(crate) fn correct(
     correct_in_plane(problem, point, &row, settings)
 }
 
-/// Newton's method at a fixed frequency from a guess, whose scale the problem has; the point of the orbit and the correction that is still due, relative
-/// to the orbit.
+/// Newton's method at a fixed frequency from a guess, whose scale the problem has; the point of the orbit and
+/// the correction that is still due, relative to the orbit.
 pub(crate) fn approach(
     problem: &mut ShootingProblem,
     nodes: &[Vec<f64>],
@@ -101,7 +103,8 @@ pub(crate) fn approach(
     Ok((point, correction))
 }
 
-/// Newton's method in the plane with this border through `point`, which ends at the orbit; returns the correction that is still due.
+/// Newton's method in the plane with this border through `point`, which ends at the orbit; returns the
+/// correction that is still due.
 pub(crate) fn correct_in_plane(
     problem: &mut ShootingProblem,
     point: &mut [f64],
@@ -127,7 +130,8 @@ pub(crate) fn correct_in_plane(
     Err(OrbitError::NotConverged { frequency_hz, correction, iterations: MAX_ITERATIONS })
 }
 
-/// Newton's correction at a point in the plane with this border, and its norm; the problem was then evaluated last there.
+/// Newton's correction at a point in the plane with this border, and its norm; the problem was then evaluated
+/// last there.
 pub(crate) fn newton_update(
     problem: &mut ShootingProblem,
     point: &[f64],

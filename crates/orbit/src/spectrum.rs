@@ -1,16 +1,22 @@
 //! Floquet multipliers, and which of them lie on the unit circle as well as they are known.
 //!
-//! The computed monodromy matrix `A` is that of the orbit up to an error `E`, `|E| <= e`. A number z is an eigenvalue of one of the matrices `A + E` if and only if
+//! The computed monodromy matrix `A` is that of the orbit up to an error `E`, `|E| <= e`. A number z is an
+//! eigenvalue of one of the matrices `A + E` if and only if
 //!
 //! `s(z) = min |(A - z I) v| / |v| <= e`,
 //!
-//! the smallest singular value of `A - z I`: these z are the *pseudospectrum* of A. So a multiplier `mu` is known to lie inside or outside the circle only if the point of the circle
-//! beside it, `z = mu/|mu|`, does not belong to it. That is exact for multipliers of any condition, and for pairs that meet at +1 or -1, where the matrix is defective and an error of e moves them by the root of e.
-//! `1/s` is the norm of the inverse of `A - z I`, for which the root of the sum of its squared entries is taken, at most `sqrt(2n)` times as large.
+//! the smallest singular value of `A - z I`: these z are the *pseudospectrum* of A. So a multiplier `mu` is
+//! known to lie inside or outside the circle only if the point of the circle beside it, `z = mu/|mu|`, does
+//! not belong to it. That is exact for multipliers of any condition, and for pairs that meet at +1 or -1,
+//! where the matrix is defective and an error of e moves them by the root of e. `1/s` is the norm of the
+//! inverse of `A - z I`, for which the root of the sum of its squared entries is taken, at most `sqrt(2n)`
+//! times as large.
 //!
 //! # The error of a monodromy matrix
-//! `e = (8 t + 4 n eps + r) max_k |A_k|`, with the tolerance t of the motion, the rounding `eps` of a number, the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the
-//! fundamental matrices up to each node, in states measured by their energy. Measured on undamped systems, whose multipliers lie on the circle exactly: see the tests of the verification crate.
+//! `e = (8 t + 4 n eps + r) max_k |A_k|`, with the tolerance t of the motion, the rounding `eps` of a number,
+//! the mismatch r of the shooting equations, relative to the orbit, and the products `A_k` of the fundamental
+//! matrices up to each node, in states measured by their energy. Measured on undamped systems, whose
+//! multipliers lie on the circle exactly: see the tests of the verification crate.
 //!
 //! # Source
 //! Trefethen and Embree, *Spectra and Pseudospectra* (2005), chapter 2.
@@ -19,7 +25,8 @@ use hammerbeam_path::DenseLu;
 
 use crate::{NoEigenvalues, eigenvalues::eigenvalues};
 
-/// Steps of the tolerance of the motion in the error of a monodromy matrix: those of an orbit, whose errors add.
+/// Steps of the tolerance of the motion in the error of a monodromy matrix: those of an orbit, whose errors
+/// add.
 const STEPS: f64 = 8.0;
 
 /// What is known of the stability of a periodic solution.
@@ -27,7 +34,8 @@ const STEPS: f64 = 8.0;
 pub enum Stability {
     /// All multipliers lie inside the unit circle.
     Stable,
-    /// None is known to lie outside, but at least one is on the circle as well as it is known: at a bifurcation, or all along a branch where a mode has no damping.
+    /// None is known to lie outside, but at least one is on the circle as well as it is known: at a
+    /// bifurcation, or all along a branch where a mode has no damping.
     Marginal,
     /// At least one lies outside.
     Unstable,
@@ -121,7 +129,8 @@ pub(crate) fn norm(matrix: &[f64]) -> f64 {
 
 /// The error of a monodromy matrix: see the module.
 ///
-/// * `products`: the products of the fundamental matrices up to each node, from the identity to the monodromy matrix.
+/// * `products`: the products of the fundamental matrices up to each node, from the identity to the monodromy
+///   matrix.
 pub(crate) fn monodromy_error<'a>(
     products: impl IntoIterator<Item = &'a [f64]>,
     size: usize,
@@ -131,7 +140,8 @@ pub(crate) fn monodromy_error<'a>(
     (STEPS * motion_tolerance + 2.0 * size as f64 * f64::EPSILON + residual) * largest
 }
 
-/// Estimate of the least singular value of `A - z I`, from below, within `sqrt(2n)` of it: `1 / |(A - z I)^-1|`.
+/// Estimate of the least singular value of `A - z I`, from below, within `sqrt(2n)` of it: `1 / |(A - z
+/// I)^-1|`.
 fn least_singular_value(size: usize, by_rows: &[f64], [re, im]: [f64; 2]) -> f64 {
     // `[A - a, b; -b, A - a]` acts on real and imaginary parts.
     let blocks = if im == 0.0 { 1 } else { 2 };

@@ -1,38 +1,53 @@
 //! Contacts that are about to open and to be pressed on again at once.
 //!
-//! A law that remembers how a contact began loses `C r'/v` of its force, with the speed v of that impact. Where the penetration of a contact has a minimum of zero, the orbits
-//! on one side keep the old v; on the other side the contact opens for an instant and begins anew, with a v next to zero. Then it can hardly be pressed in, since the force grows like one over v:
-//! it acts like a rigid stop without rebound. The motion jumps from one side to the other, so a branch that comes there ends, from either side:
+//! A law that remembers how a contact began loses `C r'/v` of its force, with the speed v of that impact.
+//! Where the penetration of a contact has a minimum of zero, the orbits on one side keep the old v; on the
+//! other side the contact opens for an instant and begins anew, with a v next to zero. Then it can hardly be
+//! pressed in, since the force grows like one over v: it acts like a rigid stop without rebound. The motion
+//! jumps from one side to the other, so a branch that comes there ends, from either side:
 //!
-//! - a contact has a minimum of its penetration below [`NEARLY_OPEN`] of its maximum, and comes to more than [`IS_DEEP`] of that behind it;
-//! - a contact begins with less than [`HARDLY_STRIKES`] of the largest speed of an impact, and yet its force comes to more than [`PRESSES`] of the largest. (One that just grazes has
-//!   next to no force.)
+//! - a contact has a minimum of its penetration below [`NEARLY_OPEN`] of its maximum, and comes to more than
+//!   [`IS_DEEP`] of that behind it;
+//! - a contact begins with less than [`HARDLY_STRIKES`] of the largest speed of an impact, and yet its force
+//!   comes to more than [`PRESSES`] of the largest. (One that just grazes has next to no force.)
 //!
-//! **How the branch gets there from the side where the contact has opened.** A contact that begins with a small v and is pressed on with the force P has `k p^1.5 (1 + C p'/v) = P`, inertia apart, so
-//! `p^2.5 = 5/2 P v t/(k C)` after the time t. The speed is that of a flight of the height h, `v = sqrt(2 a h)`. So p, and with it all that follows, goes like `h^(1/5)`: the map over a period has a part
-//! `u h^(1/5)`, and the periodic orbits obey `h = b (f - f*) + c h^(1/5)` near the border. There `h^(1/5)` is large beside h: **h goes like `(f - f*)^5`, and the largest multiplier like `h^(-4/5)`, which is
-//! `(f - f*)^-4`**. The branch ends at a finite frequency `f*` in an orbit that presses without penetration, with a multiplier that has no bound. It cannot be computed up to there: a state is rounded by
-//! `eps`, so its image is by `eps` times the multiplier, and where that is more than the tolerance of the shooting, steps shrink to nothing although `f*` is not reached. A walk whose last
-//! [`SHORT_STEPS`] steps were short is therefore asked whether a contact of its orbit splits, and ends if one does.
+//! **How the branch gets there from the side where the contact has opened.** A contact that begins with a
+//! small v and is pressed on with the force P has `k p^1.5 (1 + C p'/v) = P`, inertia apart, so `p^2.5 = 5/2
+//! P v t/(k C)` after the time t. The speed is that of a flight of the height h, `v = sqrt(2 a h)`. So p, and
+//! with it all that follows, goes like `h^(1/5)`: the map over a period has a part `u h^(1/5)`, and the
+//! periodic orbits obey `h = b (f - f*) + c h^(1/5)` near the border. There `h^(1/5)` is large beside h: **h
+//! goes like `(f - f*)^5`, and the largest multiplier like `h^(-4/5)`, which is `(f - f*)^-4`**. The branch
+//! ends at a finite frequency `f*` in an orbit that presses without penetration, with a multiplier that has
+//! no bound. It cannot be computed up to there: a state is rounded by `eps`, so its image is by `eps` times
+//! the multiplier, and where that is more than the tolerance of the shooting, steps shrink to nothing
+//! although `f*` is not reached. A walk whose last [`SHORT_STEPS`] steps were short is therefore asked
+//! whether a contact of its orbit splits, and ends if one does.
 //!
-//! Before steps are that short they may crawl, and it cannot be told any more on which side of the border a row is: the general integrator finds another motion. So an orbit whose largest multiplier is beyond [`UNRESOLVED`] and whose contact begins with next to no speed is the end, too.
+//! Before steps are that short they may crawl, and it cannot be told any more on which side of the border a
+//! row is: the general integrator finds another motion. So an orbit whose largest multiplier is beyond
+//! [`UNRESOLVED`] and whose contact begins with next to no speed is the end, too.
 //!
-//! Steps of the path need not be short there, while those of the motion are: the sensitivities of a force that goes like `1/v` round by so much that no step of the motion within the contact seems
-//! good enough, and an evaluation takes thousands of them instead of some. Where a point took more than [`LABORIOUS`] of them for each touch, a contact that begins with next to no speed is the end as well. There
-//! the work tells that it presses, so it need not come to [`PRESSES`], only to [`JUST_PRESSES`] of the largest force.
+//! Steps of the path need not be short there, while those of the motion are: the sensitivities of a force
+//! that goes like `1/v` round by so much that no step of the motion within the contact seems good enough, and
+//! an evaluation takes thousands of them instead of some. Where a point took more than [`LABORIOUS`] of them
+//! for each touch, a contact that begins with next to no speed is the end as well. There the work tells that
+//! it presses, so it need not come to [`PRESSES`], only to [`JUST_PRESSES`] of the largest force.
 
 use hammerbeam_motion::{
     Stretch, System,
     exact::{ContactPiece, ExactIntegrator, MotionError},
 };
 
-/// So many short steps in a row raise the question, and as many more raise it again: a fold is passed with a few, a splitting is approached with no other.
+/// So many short steps in a row raise the question, and as many more raise it again: a fold is passed with a
+/// few, a splitting is approached with no other.
 pub(crate) const SHORT_STEPS: u64 = 50;
 
-/// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path and in that of the orbit itself; some ten are usual.
+/// Steps of the motion for each touch of an orbit, on the average of the evaluations of a step of the path
+/// and in that of the orbit itself; some ten are usual.
 pub(crate) const LABORIOUS: u64 = 500;
 
-/// Largest multiplier up to which an orbit beside a splitting is told from the one on its other side. In three systems the general integrator took the motion on the other side from 7e7, 1.1e8 and 7e8 on.
+/// Largest multiplier up to which an orbit beside a splitting is told from the one on its other side. In
+/// three systems the general integrator took the motion on the other side from 7e7, 1.1e8 and 7e8 on.
 pub(crate) const UNRESOLVED: f64 = 2e7;
 
 /// Least penetration within a contact, over its largest.
@@ -41,18 +56,22 @@ const NEARLY_OPEN: f64 = 1e-3;
 const HARDLY_STRIKES: f64 = 1e-3;
 /// Force of a contact, over the largest.
 const PRESSES: f64 = 1e-2;
-/// The same where the motion tells besides that the contact presses. One that grazes with [`HARDLY_STRIKES`] of the largest speed comes to that to the power of 6/5, 2.5e-4.
+/// The same where the motion tells besides that the contact presses. One that grazes with [`HARDLY_STRIKES`]
+/// of the largest speed comes to that to the power of 6/5, 2.5e-4.
 const JUST_PRESSES: f64 = 1e-3;
-/// Penetration behind the place at which a contact splits, over the largest: that of [`PRESSES`] of the largest force, `0.01^(2/3)`. What comes less deep hardly presses, whether a new contact begins or not.
+/// Penetration behind the place at which a contact splits, over the largest: that of [`PRESSES`] of the
+/// largest force, `0.01^(2/3)`. What comes less deep hardly presses, whether a new contact begins or not.
 const IS_DEEP: f64 = 0.0464;
-/// Penetration, over the displacements of the modes at the beginning of the contact, whose minima are rounding.
+/// Penetration, over the displacements of the modes at the beginning of the contact, whose minima are
+/// rounding.
 const SHALLOW: f64 = 1e-9;
 /// Places at which the penetration is read in a contact, and again around its least value.
 const READINGS: usize = 256;
 /// Closer looks, each by the factor `READINGS/2`.
 const LOOKS: usize = 3;
 
-/// Names of the elements whose laws remember impacts and whose contacts are not touched as often as they were.
+/// Names of the elements whose laws remember impacts and whose contacts are not touched as often as they
+/// were.
 ///
 /// * `before`, `now`: touches of each contact, in the order of elements and their contacts.
 pub(crate) fn elements_with_other_touches(system: &System, before: &[u32], now: &[u32]) -> Vec<String> {
@@ -216,7 +235,8 @@ mod tests {
 
     use super::*;
 
-    /// The stop is so soft that the support alone moves the contact: `r = - cos 2 pi x - cos(4 pi x)/2`, which has maxima of 3/4 around a minimum of 1/2 at the phase 1/2.
+    /// The stop is so soft that the support alone moves the contact: `r = - cos 2 pi x - cos(4 pi x)/2`,
+    /// which has maxima of 3/4 around a minimum of 1/2 at the phase 1/2.
     fn phase_of_splitting(gap: f64) -> Option<f64> {
         let model = ReducedModel {
             natural_frequencies: vec![1.0],

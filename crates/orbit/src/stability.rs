@@ -1,14 +1,18 @@
 //! Test functions of the stability of an orbit, from its Floquet multipliers `mu_i`.
 //!
-//! Along a smooth arc the multipliers are continuous, and they leave the unit circle in three ways: at +1 (a fold or branch point, which
-//! the path itself tells), at -1 (*flip*), and as a complex pair (*Neimark-Sacker*).
+//! Along a smooth arc the multipliers are continuous, and they leave the unit circle in three ways: at +1 (a
+//! fold or branch point, which the path itself tells), at -1 (*flip*), and as a complex pair
+//! (*Neimark-Sacker*).
 //!
-//! - Flip: `prod (1 + mu_i)`, which is smooth even where multipliers meet; its sign is that of `(-1)^k`, `k` the number of real `mu_i < -1`.
+//! - Flip: `prod (1 + mu_i)`, which is smooth even where multipliers meet; its sign is that of `(-1)^k`, `k`
+//!   the number of real `mu_i < -1`.
 //! - Fold: the same with `1 - mu_i`, for curves in two parameters.
-//! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of pairs outside. Where a pair
-//!   outside the circle splits into two real multipliers the sign jumps without a zero, which is no event.
+//! - Neimark-Sacker: `min |1 - |mu|^2|` over the complex pairs, with the sign of `(-1)^k`, `k` the number of
+//!   pairs outside. Where a pair outside the circle splits into two real multipliers the sign jumps without a
+//!   zero, which is no event.
 //!
-//! A pair that leaves the circle and turns real between two points escapes all three; the path keeps books of how many lie outside ([`outside`]).
+//! A pair that leaves the circle and turns real between two points escapes all three; the path keeps books of
+//! how many lie outside ([`outside`]).
 //!
 //! # Source
 //! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), chapters 4 and 10.
@@ -17,11 +21,12 @@ use hammerbeam_path::{Events, Outside, TestValue};
 
 use crate::spectrum::Spectrum;
 
-/// Distance from the unit circle, relative to the largest multiplier where that is beyond 1e6, within which rounding and the tolerance of the motion
-/// leave the side open.
+/// Distance from the unit circle, relative to the largest multiplier where that is beyond 1e6, within which
+/// rounding and the tolerance of the motion leave the side open.
 const ON_CIRCLE: f64 = 1e-7;
 
-/// How far within the circle the line between two places outside has to come: a pair that keeps beside the circle is not followed in steps below 0.09 rad for that.
+/// How far within the circle the line between two places outside has to come: a pair that keeps beside the
+/// circle is not followed in steps below 0.09 rad for that.
 const WITHIN: f64 = 1e-3;
 
 /// Vanishes where a multiplier is -1.
@@ -92,7 +97,8 @@ fn on_circle(multipliers: &[[f64; 2]]) -> f64 {
     ON_CIRCLE * (1e-6 * largest).max(1.0)
 }
 
-/// The complex pairs by the one in the upper half-plane, but for those that are on the unit circle to rounding.
+/// The complex pairs by the one in the upper half-plane, but for those that are on the unit circle to
+/// rounding.
 pub(crate) fn pairs_off_circle(spectrum: &Spectrum) -> impl Iterator<Item = &[f64; 2]> {
     let margin = on_circle(&spectrum.multipliers);
     let marked = spectrum.multipliers.iter().zip(&spectrum.on_circle);
@@ -100,8 +106,10 @@ pub(crate) fn pairs_off_circle(spectrum: &Spectrum) -> impl Iterator<Item = &[f6
     off.map(|(multiplier, _)| multiplier)
 }
 
-/// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points, given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and another one enters, or
-/// one that is outside at both points is inside half-way, which the line between them tells. Which is which is told by their distances, the nearest two first.
+/// Whether complex pairs of multipliers cross the unit circle both ways between two neighbouring points,
+/// given by those in the upper half-plane, so that as many lie outside behind as before: one leaves and
+/// another one enters, or one that is outside at both points is inside half-way, which the line between them
+/// tells. Which is which is told by their distances, the nearest two first.
 pub(crate) fn pairs_cross_both_ways(before: &[[f64; 2]], behind: &[[f64; 2]]) -> bool {
     let (mut left, mut right) = (before.to_vec(), behind.to_vec());
     let beyond = |[re, im]: [f64; 2]| re.hypot(im) - 1.0;
@@ -136,7 +144,8 @@ fn nearest_two(left: &[[f64; 2]], right: &[[f64; 2]]) -> Option<(usize, usize)> 
     places.min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
-/// Whether the complex pair nearest to the unit circle is nearer to the real axis: [`neimark_sacker`] jumps there, since the pair becomes two real multipliers, and does not vanish.
+/// Whether the complex pair nearest to the unit circle is nearer to the real axis: [`neimark_sacker`] jumps
+/// there, since the pair becomes two real multipliers, and does not vanish.
 pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
     let off_circle = |[re, im]: &[f64; 2]| (1.0 - re.hypot(*im)).abs();
     let pairs = multipliers.iter().filter(|[_, im]| *im > 0.0);
@@ -144,15 +153,16 @@ pub(crate) fn pair_turns_real(multipliers: &[[f64; 2]]) -> bool {
     nearest.is_some_and(|pair| pair[1] < off_circle(pair))
 }
 
-/// Whether the multiplier nearest to +1 is one of a complex pair. That of a branch point is real: beside one this is the pair that becomes real there, as well as it is known, and crosses the circle nowhere else.
+/// Whether the multiplier nearest to +1 is one of a complex pair. That of a branch point is real: beside one
+/// this is the pair that becomes real there, as well as it is known, and crosses the circle nowhere else.
 pub(crate) fn pair_is_nearest_to_one(multipliers: &[[f64; 2]]) -> bool {
     let from_one = |[re, im]: &[f64; 2]| (1.0 - re).hypot(*im);
     let nearest = multipliers.iter().min_by(|a, b| from_one(a).total_cmp(&from_one(b)));
     nearest.is_some_and(|[_, im]| *im != 0.0)
 }
 
-/// How many multipliers lie outside the circle, without those that are critical at these events of a path with the test functions [`flip`] and
-/// [`neimark_sacker`] in this order.
+/// How many multipliers lie outside the circle, without those that are critical at these events of a path
+/// with the test functions [`flip`] and [`neimark_sacker`] in this order.
 pub(crate) fn outside(spectrum: &Spectrum, events: Events) -> Outside {
     let multipliers = &spectrum.multipliers;
     let margin = on_circle(multipliers);

@@ -18,8 +18,8 @@ const ATTEMPTS: usize = 12;
 /// Starts besides the linear response.
 pub(crate) const STARTS: usize = 6;
 
-/// Distance over an orbit period, relative to the motion, below which it has settled: what Newton's method does not find there, it
-/// will not find later.
+/// Distance over an orbit period, relative to the motion, below which it has settled: what Newton's method
+/// does not find there, it will not find later.
 pub(crate) const SETTLED: f64 = 1e-8;
 /// Longest period that is looked for, in excitation periods.
 const MOST_PERIODS: u32 = 64;
@@ -43,11 +43,12 @@ pub type Interruption<'a> = &'a mut dyn FnMut() -> bool;
 
 /// Finds one orbit whose minimal period is `period_multiple` excitation periods.
 ///
-/// The motion is simulated from the linear response and from several states about it; now and then Newton's method is tried.
+/// The motion is simulated from the linear response and from several states about it; now and then Newton's
+/// method is tried.
 ///
 /// # Errors
-/// [`OrbitError::NoOrbit`] if no start leads to such an orbit; [`OrbitError::Motion`] if none does and some motion could not be computed;
-/// [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64.
+/// [`OrbitError::NoOrbit`] if no start leads to such an orbit; [`OrbitError::Motion`] if none does and some
+/// motion could not be computed; [`OrbitError::PeriodMultiple`] unless the multiple is from 1 to 64.
 pub fn find_start(
     system: &System,
     response: &Response,
@@ -102,8 +103,8 @@ pub(crate) fn check_multiple(found: u32) -> Result<(), OrbitError> {
     if (1..=most).contains(&found) { Ok(()) } else { Err(OrbitError::PeriodMultiple { found, most }) }
 }
 
-/// The linear response, and states in its neighbourhood and well beyond it, always the same ones. A state within a contact that must not be begun in
-/// is moved in front of it.
+/// The linear response, and states in its neighbourhood and well beyond it, always the same ones. A state
+/// within a contact that must not be begun in is moved in front of it.
 pub(crate) fn starting_states(
     system: &System,
     response: &Response,
@@ -152,7 +153,8 @@ pub fn settled_orbit(
     attempt(system, response, begin.at(), orbit, settings)
 }
 
-/// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has settled on one of another period.
+/// Simulates from `state` and tries Newton's method now and then, until an orbit is found or the motion has
+/// settled on one of another period.
 fn settle(
     system: &System,
     response: &Response,
@@ -172,7 +174,8 @@ fn settle(
         simulate(&mut simulation, &mut state, settling, &mut *interrupted)?;
         let before = state.clone();
         simulate(&mut simulation, &mut state, (frequency_hz, lag.min(PERIODS)), &mut *interrupted)?;
-        // Where a law remembers its impact, the orbit may begin at another phase, and the motion goes on behind it.
+        // Where a law remembers its impact, the orbit may begin at another phase, and the motion goes on
+        // behind it.
         let (begin, end) = search_cut(&mut simulation, &state, orbit)?;
         let found = attempt(system, response, begin.at(), orbit, settings)?;
         if found.is_some() {
@@ -223,7 +226,8 @@ pub(crate) fn attempt(
 
 /// Newton's method from nodes, one per segment, the first at that phase; `None` as in [`attempt`].
 ///
-/// Far from an orbit Newton's iterates may go where no motion can be computed: that is no more than a guess that was not good enough.
+/// Far from an orbit Newton's iterates may go where no motion can be computed: that is no more than a guess
+/// that was not good enough.
 pub(crate) fn attempt_nodes(
     system: &System,
     response: &Response,

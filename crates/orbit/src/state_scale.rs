@@ -1,8 +1,10 @@
 //! In which units states are measured: displacements and velocities differ by orders of magnitude.
 //!
-//! The size of an orbit is that of its motion, not that of a sag: under a weight a state is `z_0 + z` with the place of rest `z_0`, and tolerances
-//! and steps relative to `z_0` would be far too coarse for a small `z`. Where stops carry the weight, `z_0`, which knows nothing of stops, may be further from the orbit
-//! than the origin is; then the origin counts. Rounding is relative to the whole state, so a motion below a thousandth of it is measured by that.
+//! The size of an orbit is that of its motion, not that of a sag: under a weight a state is `z_0 + z` with
+//! the place of rest `z_0`, and tolerances and steps relative to `z_0` would be far too coarse for a small
+//! `z`. Where stops carry the weight, `z_0`, which knows nothing of stops, may be further from the orbit than
+//! the origin is; then the origin counts. Rounding is relative to the whole state, so a motion below a
+//! thousandth of it is measured by that.
 
 /// Least size of a motion, relative to its state.
 const LEAST_MOTION: f64 = 1e-3;
@@ -50,13 +52,15 @@ impl StateScale {
         a.iter().zip(b).zip(&self.scales).map(|((a, b), s)| ((a - b) / s).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Size of a motion relative to the scale: the norm of a state about the state of rest or about the origin, whichever is less.
+    /// Size of a motion relative to the scale: the norm of a state about the state of rest or about the
+    /// origin, whichever is less.
     pub fn size(&self, state: &[f64]) -> f64 {
         let scaled = state.iter().zip(&self.scales).map(|(z, s)| z / s);
         self.size_of_scaled(scaled, 1)
     }
 
-    /// [`StateScale::size`] of the root of the mean square over nodes, given one after the other in scaled states.
+    /// [`StateScale::size`] of the root of the mean square over nodes, given one after the other in scaled
+    /// states.
     pub fn size_of_scaled(&self, scaled: impl Iterator<Item = f64>, nodes: usize) -> f64 {
         let rest = self.rest.iter().zip(&self.scales).map(|(z, s)| z / s).cycle();
         let squares = scaled.zip(rest).map(|(x, rest)| [x * x, (x - rest).powi(2)]);

@@ -14,8 +14,8 @@ pub enum StopReason {
     },
     /// The branch came back to its start.
     Closed,
-    /// The branch came to the flip of a branch of shorter period, beyond which it returns as its own copy, shifted by excitation
-    /// periods; or to a grazing beyond which it is one of shorter period.
+    /// The branch came to the flip of a branch of shorter period, beyond which it returns as its own copy,
+    /// shifted by excitation periods; or to a grazing beyond which it is one of shorter period.
     ShorterPeriod {
         /// Where [Hz].
         frequency_hz: f64,
@@ -45,7 +45,8 @@ pub enum StopReason {
         /// Arc length of the stretch that was met.
         met_arc_length: f64,
     },
-    /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a contact began, its force jumps there, and so does the motion: the branch ends.
+    /// Beyond this place a contact opens and is pressed on again at once. With a law that remembers how a
+    /// contact began, its force jumps there, and so does the motion: the branch ends.
     ContactSplits {
         /// Where [Hz].
         frequency_hz: f64,
@@ -60,10 +61,12 @@ pub enum StopReason {
         frequency_hz: f64,
         /// So many steps.
         solutions: u64,
-        /// Largest magnitude of a multiplier: where it is huge, next to no change of the frequency turns the whole orbit.
+        /// Largest magnitude of a multiplier: where it is huge, next to no change of the frequency turns the
+        /// whole orbit.
         largest_multiplier: f64,
     },
-    /// The amplitude grows without bound while the parameter stands still: the branch goes to infinity, and what lies beyond is another one.
+    /// The amplitude grows without bound while the parameter stands still: the branch goes to infinity, and
+    /// what lies beyond is another one.
     Unbounded {
         /// Where [Hz].
         frequency_hz: f64,

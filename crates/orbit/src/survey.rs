@@ -1,8 +1,10 @@
 //! All periodic motions that simulation leads to at one frequency, of several period multiples at once.
 //!
-//! From each of many starts the motion is simulated until it has had time to settle, and then observed over more excitation periods. If it
-//! repeats after N periods it is an attractor of period N. If not, it is chaotic or still settling, and the states that come back closest after N
-//! periods are near unstable orbits of that period (Auerbach and others, Phys. Rev. Lett. 58 (1987), 2387), to which Newton's method takes them.
+//! From each of many starts the motion is simulated until it has had time to settle, and then observed over
+//! more excitation periods. If it repeats after N periods it is an attractor of period N. If not, it is
+//! chaotic or still settling, and the states that come back closest after N periods are near unstable orbits
+//! of that period (Auerbach and others, Phys. Rev. Lett. 58 (1987), 2387), to which Newton's method takes
+//! them.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -41,8 +43,8 @@ const REPEATED: f64 = 1e-6;
 /// Two orbits this close, relative to the orbit, are the same.
 const SAME: f64 = 1e-6;
 
-/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the order in which they were met. A start from which no motion can be computed makes
-/// the search incomplete.
+/// Finds periodic orbits at a frequency whose minimal periods are among `multiples`, by multiple, in the
+/// order in which they were met. A start from which no motion can be computed makes the search incomplete.
 ///
 /// * `interrupted`: asked at each excitation period of a motion.
 ///
@@ -140,7 +142,8 @@ impl Survey<'_> {
                 if interrupted() {
                     return Err(OrbitError::Interrupted);
                 }
-                // Newton's method from all states and from the first one alone go different ways; either may arrive.
+                // Newton's method from all states and from the first one alone go different ways; either may
+                // arrive.
                 let orbit = (self.frequency_hz, multiple);
                 orbits.extend(attempt_nodes(self.system, self.response, (0.0, nodes), orbit, self.settings)?);
                 if multiple > 1 {

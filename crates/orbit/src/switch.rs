@@ -1,11 +1,14 @@
-//! Leaving a branch where another one crosses it: at a flip onto the branch of doubled period, at a branch point onto the crossing one.
+//! Leaving a branch where another one crosses it: at a flip onto the branch of doubled period, at a branch
+//! point onto the crossing one.
 //!
-//! At a flip with multiplier -1 and direction `v` the orbit of doubled period is `z + a v + O(a^2)`; at a branch point the crossing branch
-//! leaves along its tangent `v`. The first orbit is sought in the plane `<v, z - z_0> = a`, normal to `v` at a small amplitude `a`: the
-//! present branch does not lie in that plane, so Newton's method cannot fall back to it. `v` is carried along the orbit by the flow, so that it
-//! serves any number of segments; over the second half of a doubled orbit it comes with the other sign by itself. From `z_0 + a v` the orbit
-//! found differs by `O(a^2)` in its states and in its frequency; if either differs by more than `a`, relatively, another amplitude is tried. So it is where a contact more or
-//! less shows that a grazing lies between the crossing and the orbit found.
+//! At a flip with multiplier -1 and direction `v` the orbit of doubled period is `z + a v + O(a^2)`; at a
+//! branch point the crossing branch leaves along its tangent `v`. The first orbit is sought in the plane `<v,
+//! z - z_0> = a`, normal to `v` at a small amplitude `a`: the present branch does not lie in that plane, so
+//! Newton's method cannot fall back to it. `v` is carried along the orbit by the flow, so that it serves any
+//! number of segments; over the second half of a doubled orbit it comes with the other sign by itself. From
+//! `z_0 + a v` the orbit found differs by `O(a^2)` in its states and in its frequency; if either differs by
+//! more than `a`, relatively, another amplitude is tried. So it is where a contact more or less shows that a
+//! grazing lies between the crossing and the orbit found.
 
 use hammerbeam_motion::{Stretch, System, exact::ExactIntegrator};
 use hammerbeam_path::{Direction, Follower, ParameterRange};
@@ -33,7 +36,8 @@ pub struct Crossing {
 }
 
 impl BranchWalk {
-    /// Begins on the branch that leaves a crossing, and walks away from it: along the direction ([`Side::Up`]) or against it.
+    /// Begins on the branch that leaves a crossing, and walks away from it: along the direction
+    /// ([`Side::Up`]) or against it.
     ///
     /// # Errors
     /// [`OrbitError::NoCrossing`] if no orbit of another branch is found beside the crossing.
@@ -97,7 +101,8 @@ impl Crossing {
     }
 }
 
-/// A walk from the orbit of this amplitude beside the crossing, and whether that orbit has the contacts of the crossing, so that none was stepped over; `None` if Newton's method does not find it nearby.
+/// A walk from the orbit of this amplitude beside the crossing, and whether that orbit has the contacts of
+/// the crossing, so that none was stepped over; `None` if Newton's method does not find it nearby.
 fn leave(
     system: &System,
     response: &Response,

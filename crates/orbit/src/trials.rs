@@ -1,7 +1,9 @@
-//! Orbits of one excitation period at a frequency, by Newton's method from few states: for looking at many frequencies.
+//! Orbits of one excitation period at a frequency, by Newton's method from few states: for looking at many
+//! frequencies.
 //!
-//! A closed branch without a stable part is on no motion's way. But its orbits have a basin of Newton's method, and a trial costs some ten
-//! periods of motion with sensitivities, where a motion that is to settle takes hundreds.
+//! A closed branch without a stable part is on no motion's way. But its orbits have a basin of Newton's
+//! method, and a trial costs some ten periods of motion with sensitivities, where a motion that is to settle
+//! takes hundreds.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -19,7 +21,8 @@ const PASSING: usize = 1;
 /// Further trials for each orbit that is known.
 const FOR_EACH: usize = 2;
 
-/// Finds orbits of one excitation period at a frequency, in the order in which they were met. A start from which no motion can be computed makes the search incomplete.
+/// Finds orbits of one excitation period at a frequency, in the order in which they were met. A start from
+/// which no motion can be computed makes the search incomplete.
 ///
 /// * `trials`: trials of Newton's method without a new orbit after which it ends.
 /// * `interrupted`: asked before each trial.

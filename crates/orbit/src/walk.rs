@@ -33,8 +33,9 @@ pub(crate) use settings::{hertz_per_norm, path_settings};
 
 /// One side of a branch, followed from its start.
 ///
-/// Drive it with [`BranchWalk::step`] until it gives a [`StopReason`]. Between two steps it can be stored with
-/// [`BranchWalk::checkpoint`] and taken up again with [`BranchWalk::resume`]: what follows has the same bits.
+/// Drive it with [`BranchWalk::step`] until it gives a [`StopReason`]. Between two steps it can be stored
+/// with [`BranchWalk::checkpoint`] and taken up again with [`BranchWalk::resume`]: what follows has the same
+/// bits.
 #[derive(Debug)]
 pub struct BranchWalk {
     pub(crate) problem: ShootingProblem,
@@ -93,13 +94,15 @@ impl BranchWalk {
         Self::varying(system, response, start, (varied, side, range_hz), settings)
     }
 
-    /// Begins at `start`, an orbit of `system` as it is, and walks in another parameter than the frequency within its range.
+    /// Begins at `start`, an orbit of `system` as it is, and walks in another parameter than the frequency
+    /// within its range.
     ///
-    /// * `(varied, side, range)`: what varies, whether it increases or decreases at first, and its range, in its own unit. Where settings, stop reasons
-    ///   and events speak of hertz, they mean that unit.
+    /// * `(varied, side, range)`: what varies, whether it increases or decreases at first, and its range, in
+    ///   its own unit. Where settings, stop reasons and events speak of hertz, they mean that unit.
     ///
     /// # Errors
-    /// [`OrbitError::Path`] if the start is outside the range or does not converge, [`OrbitError::Motion`] if the system has no such parameter.
+    /// [`OrbitError::Path`] if the start is outside the range or does not converge, [`OrbitError::Motion`] if
+    /// the system has no such parameter.
     pub fn varying(
         system: &System,
         response: &Response,

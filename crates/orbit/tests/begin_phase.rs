@@ -1,7 +1,8 @@
 //! Orbits of laws that remember their impact, on whose branches a contact comes to lie over phase 0.
 //!
-//! The oracle is the same motion told from another phase of the load: where the force is `cos(2 pi x + phi)`, every orbit is that of `phi = 0` begun `phi / 2 pi` cycles later. With `phi = PLAIN` no contact
-//! comes near phase 0, so nothing moves.
+//! The oracle is the same motion told from another phase of the load: where the force is `cos(2 pi x + phi)`,
+//! every orbit is that of `phi = 0` begun `phi / 2 pi` cycles later. With `phi = PLAIN` no contact comes near
+//! phase 0, so nothing moves.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::PI;
@@ -20,7 +21,8 @@ use hammerbeam_orbit::{
 const RANGE: (f64, f64) = (0.1, 0.4);
 const PLAIN: f64 = -2.2;
 
-/// Unit mass on a spring, `w = 1`, damping ratio 0.02, with a stop after Lankarani and Nikravesh at a gap, driven by a force with a phase.
+/// Unit mass on a spring, `w = 1`, damping ratio 0.02, with a stop after Lankarani and Nikravesh at a gap,
+/// driven by a force with a phase.
 fn oscillator(phase: f64) -> (System, Response) {
     pressed(phase, 0.0)
 }
@@ -85,7 +87,8 @@ fn events(rows: &[BranchRow]) -> Vec<(String, f64, f64)> {
         .collect()
 }
 
-/// Events of a branch do not depend on where its motion is begun to be counted, nor does the walk stop where a contact comes to lie over phase 0.
+/// Events of a branch do not depend on where its motion is begun to be counted, nor does the walk stop where
+/// a contact comes to lie over phase 0.
 #[test]
 fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
     let (plain, reason) = walk(&oscillator(PLAIN), usize::MAX);
@@ -101,7 +104,8 @@ fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
         assert_eq!(found.len(), expected.len(), "{load}: {found:?}, {expected:?}");
         for (found, expected) in found.iter().zip(&expected) {
             assert_eq!(found.0, expected.0);
-            // A fold is located to 1e-8 in frequency; grazing, whose place the corner of the branch tells, less well.
+            // A fold is located to 1e-8 in frequency; grazing, whose place the corner of the branch tells,
+            // less well.
             assert_near(found.1, expected.1, 1e-7);
             assert_near(found.2, expected.2, 1e-6);
         }
@@ -110,7 +114,8 @@ fn a_branch_is_the_same_whatever_the_phase_of_the_load() {
     assert!(moved.iter().all(|count| *count > 1), "a contact passes phase 0: {moved:?}");
 }
 
-/// The same orbit begun at several phases: frequency response, multipliers and maxima are those of the orbit, the nodes lie on its motion.
+/// The same orbit begun at several phases: frequency response, multipliers and maxima are those of the orbit,
+/// the nodes lie on its motion.
 #[test]
 fn an_orbit_does_not_depend_on_where_it_begins() {
     let (system, response) = oscillator(0.5 * PI);
@@ -131,7 +136,8 @@ fn an_orbit_does_not_depend_on_where_it_begins() {
             compared += 1;
             assert_eq!(other.phase, phase);
             let (a, b) = (&orbit.maxima, &other.maxima);
-            // The plane in which an orbit is held is the plane at its own first node, so the frequency may differ by what the first orbit was wrong.
+            // The plane in which an orbit is held is the plane at its own first node, so the frequency may
+            // differ by what the first orbit was wrong.
             assert_near(orbit.frequency_hz, other.frequency_hz, 1e-9);
             for (a, b) in [
                 (a.displacement, b.displacement),

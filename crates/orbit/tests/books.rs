@@ -1,7 +1,9 @@
-//! How many multipliers lie outside the unit circle changes by what the events of a branch say, and by nothing else.
+//! How many multipliers lie outside the unit circle changes by what the events of a branch say, and by
+//! nothing else.
 //!
-//! A chain of five masses with a linear stop and a Hertz contact between two of them, shaken in two harmonics: beside a fold of its harmonic branch a pair
-//! leaves the unit circle, turns real and comes back at +1 within 3e-5 Hz.
+//! A chain of five masses with a linear stop and a Hertz contact between two of them, shaken in two
+//! harmonics: beside a fold of its harmonic branch a pair leaves the unit circle, turns real and comes back
+//! at +1 within 3e-5 Hz.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::events::{Subject, general_multipliers, step_of, whole};
@@ -54,7 +56,8 @@ fn outside(row: &BranchRow) -> [usize; 2] {
     })
 }
 
-/// The fold near 3.57637 Hz, reached from these starts upwards: beside it a Neimark-Sacker point, the pair of which is on the circle by other means too.
+/// The fold near 3.57637 Hz, reached from these starts upwards: beside it a Neimark-Sacker point, the pair of
+/// which is on the circle by other means too.
 #[test]
 fn a_pair_that_crosses_and_comes_back_real_beside_a_fold_is_found() {
     let subject = chain();

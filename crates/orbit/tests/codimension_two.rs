@@ -1,8 +1,11 @@
-//! Points of codimension two on curves of bifurcations, found again by other means: fold-flips and a resonance 1:2.
+//! Points of codimension two on curves of bifurcations, found again by other means: fold-flips and a
+//! resonance 1:2.
 //!
-//! Two oscillators that do not touch each other, driven by the same force: a hardening Duffing oscillator, whose folds move with the force, and a bilinear one without
-//! gap, whose flips do not (its motion is proportional to the force; `flips_bilinear.rs` has their closed form). Together they are one system of two modes, of which the curves know no
-//! better. Its multipliers are those of both, so a fold-flip is where a fold of the one has the frequency of a flip of the other.
+//! Two oscillators that do not touch each other, driven by the same force: a hardening Duffing oscillator,
+//! whose folds move with the force, and a bilinear one without gap, whose flips do not (its motion is
+//! proportional to the force; `flips_bilinear.rs` has their closed form). Together they are one system of two
+//! modes, of which the curves know no better. Its multipliers are those of both, so a fold-flip is where a
+//! fold of the one has the frequency of a flip of the other.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -21,7 +24,8 @@ type Case = (System, Response);
 const RANGE_HZ: (f64, f64) = (0.15, 0.4);
 const START_HZ: f64 = 0.16;
 const SCALES: (f64, f64) = (0.3, 2.5);
-/// Frequency, damping and added stiffness of the bilinear oscillator, and its force: those of `flips_bilinear.rs`, slower by this factor.
+/// Frequency, damping and added stiffness of the bilinear oscillator, and its force: those of
+/// `flips_bilinear.rs`, slower by this factor.
 const SLOWER: f64 = 0.6;
 
 fn cubic() -> Law {
@@ -105,8 +109,9 @@ fn off(system: &System, row: &CurveRow, from: f64) -> f64 {
     multipliers.iter().map(|[re, im]| (re - from).hypot(*im)).fold(f64::INFINITY, f64::min)
 }
 
-/// The fold curves of both cross the frequency at which the bilinear oscillator flips by itself, once on the upper and once on the lower fold. At the force that is found
-/// the Duffing oscillator by itself has its fold at that frequency.
+/// The fold curves of both cross the frequency at which the bilinear oscillator flips by itself, once on the
+/// upper and once on the lower fold. At the force that is found the Duffing oscillator by itself has its fold
+/// at that frequency.
 #[test]
 fn fold_flips_of_independent_oscillators_are_where_each_bifurcates_by_itself() {
     let flips = frequencies(&events(&alone(SLOWER, 0.1 * SLOWER, stop()), |e| e.flip));
@@ -130,7 +135,8 @@ fn fold_flips_of_independent_oscillators_are_where_each_bifurcates_by_itself() {
         assert!(off(&case.0, row, -1.0) < 1e-8 && off(&case.0, row, 1.0) < 1e-5);
         forces.push(row.parameter);
     }
-    // The other way: along the flip the frequency stays (rows are accepted with a correction of up to 1e-10 still due), and both places are met again, where the curve turns.
+    // The other way: along the flip the frequency stays (rows are accepted with a correction of up to 1e-10
+    // still due), and both places are met again, where the curve turns.
     let flip = &events(&case, |e| e.flip)[0];
     let rows = curve(&case, flip, CurveKind::Flip);
     assert!(rows.len() > 100);
@@ -150,8 +156,9 @@ fn fold_flips_of_independent_oscillators_are_where_each_bifurcates_by_itself() {
 
 const STIFF: f64 = 20.0;
 
-/// Two equal modes, damped so that `v = (q_1 - q_2)/2^(1/2)` has the damper `0.1 + 2 z` (and the other combination, which rests, 0.9 + 2 z): a bilinear oscillator of
-/// stiffness 1 and 20 in v, whose damper passes zero at the added ratio -1/20 while the diagonal of the damping matrix stays positive.
+/// Two equal modes, damped so that `v = (q_1 - q_2)/2^(1/2)` has the damper `0.1 + 2 z` (and the other
+/// combination, which rests, 0.9 + 2 z): a bilinear oscillator of stiffness 1 and 20 in v, whose damper
+/// passes zero at the added ratio -1/20 while the diagonal of the damping matrix stays positive.
 fn undamped_within() -> Case {
     let half = 0.5_f64.sqrt();
     let model = ReducedModel {
@@ -169,8 +176,9 @@ fn undamped_within() -> Case {
     (System::new(model, &load, vec![stop]).unwrap(), Response { shape, support_ratio: 0.0 })
 }
 
-/// What vanishes at a flip of the undamped bilinear oscillator for a circular frequency and a duration s of its contact, about whose middle the motion is symmetric:
-/// `a cos(K^1/2 t) + G cos(W t)` in contact and `b cos(k^1/2 (t - T/2)) + g cos(W t)` outside, zero at `t = s/2` and of one slope there; and `tr M + 2`.
+/// What vanishes at a flip of the undamped bilinear oscillator for a circular frequency and a duration s of
+/// its contact, about whose middle the motion is symmetric: `a cos(K^1/2 t) + G cos(W t)` in contact and `b
+/// cos(k^1/2 (t - T/2)) + g cos(W t)` outside, zero at `t = s/2` and of one slope there; and `tr M + 2`.
 fn undamped_flip([omega, duration]: [f64; 2]) -> [f64; 2] {
     let (root, flight) = (STIFF.sqrt(), TAU / omega - duration);
     let (inside, outside) = (1.0 / (STIFF - omega * omega), 1.0 / (1.0 - omega * omega));
@@ -203,7 +211,8 @@ fn solved(mut unknowns: [f64; 2]) -> [f64; 2] {
     unknowns
 }
 
-/// Where the damper passes zero the determinant of the monodromy matrix is one, so a second multiplier meets the one at -1.
+/// Where the damper passes zero the determinant of the monodromy matrix is one, so a second multiplier meets
+/// the one at -1.
 #[test]
 fn a_flip_curve_has_its_1_2_resonance_where_the_damper_passes_zero() {
     let case = undamped_within();

@@ -1,7 +1,11 @@
-//! Points of codimension two at which a further complex pair of multipliers comes to the unit circle, or one multiplier beside a complex pair that is there, found again by what each oscillator of a system does by itself.
+//! Points of codimension two at which a further complex pair of multipliers comes to the unit circle, or one
+//! multiplier beside a complex pair that is there, found again by what each oscillator of a system does by
+//! itself.
 //!
-//! Oscillators that do not touch each other have the multipliers of all of them. One that rests has its pair on the unit circle at a damping in closed form; a Duffing oscillator has its folds, a bilinear one its flip and two coupled modes their Neimark-Sacker points
-//! on branches of their own, which are followed without the others.
+//! Oscillators that do not touch each other have the multipliers of all of them. One that rests has its pair
+//! on the unit circle at a damping in closed form; a Duffing oscillator has its folds, a bilinear one its
+//! flip and two coupled modes their Neimark-Sacker points on branches of their own, which are followed
+//! without the others.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -48,7 +52,8 @@ fn off(multipliers: &[[f64; 2]], from: f64) -> f64 {
 
 type Kind = (CurveKind, fn(&Events) -> bool, &'static str);
 
-/// Beside an oscillator that bifurcates a pair at rest crosses the circle at its own damping, whatever the frequency, and the oscillator by itself bifurcates there at the same frequency.
+/// Beside an oscillator that bifurcates a pair at rest crosses the circle at its own damping, whatever the
+/// frequency, and the oscillator by itself bifurcates there at the same frequency.
 fn meets_the_resting_pair(part: &Part, (kind, wanted, name): Kind, range_hz: (f64, f64), real: Option<f64>) {
     let case = together(&[part.clone(), resting_pair(RESTS[0], RESTS[1])]);
     let starts = events(&case, range_hz, wanted);
@@ -109,7 +114,8 @@ fn grazing_neimark_sacker_points_are_where_a_pair_at_rest_loses_its_damping() {
     }
 }
 
-/// Of two linear oscillators of one force each reaches its stop where its amplitude equals its gap: both at once where `g_1 |1 - w^2 + i c w| = g_2 |s^2 - w^2 + i c s w|`.
+/// Of two linear oscillators of one force each reaches its stop where its amplitude equals its gap: both at
+/// once where `g_1 |1 - w^2 + i c w| = g_2 |s^2 - w^2 + i c s w|`.
 #[test]
 fn double_grazings_are_where_two_linear_oscillators_reach_their_stops_at_one_force() {
     let (gaps, slower) = ([2.0, 2.5], 0.9);
@@ -138,7 +144,8 @@ fn impedance(hz: f64, frequency: f64, damping: f64) -> f64 {
     (frequency * frequency - w * w).hypot(damping * w)
 }
 
-/// Where two coupled modes have their Neimark-Sacker points and another oscillator bifurcates at one force: found on both curves, and by each of the two by itself.
+/// Where two coupled modes have their Neimark-Sacker points and another oscillator bifurcates at one force:
+/// found on both curves, and by each of the two by itself.
 fn meets_two_modes(part: &Part, (kind, wanted, name): Kind, start_hz: f64, pairs_hz: &[f64]) {
     let (range, range_hz) = ((0.8, 1.6), (0.1, 0.157));
     let is_pair: fn(&Events) -> bool = |events| events.neimark_sacker;

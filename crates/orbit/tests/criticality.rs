@@ -1,4 +1,5 @@
-//! Flips and Neimark-Sacker points that change their criticality, found again by what branches off there and by the motion beside the orbit, which know nothing of normal forms.
+//! Flips and Neimark-Sacker points that change their criticality, found again by what branches off there and
+//! by the motion beside the orbit, which know nothing of normal forms.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::PI;
@@ -25,7 +26,8 @@ const FORCE: Parameter = Parameter::ExcitationScale;
 const DAMPING: Parameter = Parameter::ADDED_DAMPING_RATIO;
 const RANGE_HZ: (f64, f64) = (0.3, 0.4);
 
-/// `x'' + 0.1 x' + x + x^3 = 2 + 8 cos(2 pi f t)`: the constant load makes its spring asymmetric, so that the force shakes its stiffness.
+/// `x'' + 0.1 x' + x + x^3 = 2 + 8 cos(2 pi f t)`: the constant load makes its spring asymmetric, so that the
+/// force shakes its stiffness.
 fn biased() -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
@@ -59,7 +61,8 @@ fn zero(x: &[f64], y: &[f64]) -> f64 {
     (0..x.len()).map(|i| weight(i) * x[i]).sum()
 }
 
-/// By how much the frequency of doubled orbits grows from the upper flip on, over the square of how far their periods differ: `f = k a^2 + l a^4` through two of them. And whether these orbits are stable.
+/// By how much the frequency of doubled orbits grows from the upper flip on, over the square of how far their
+/// periods differ: `f = k a^2 + l a^4` through two of them. And whether these orbits are stable.
 fn bend(case: &Case) -> (f64, bool) {
     let settings = OrbitSettings::for_range(RANGE_HZ);
     let flip = &flips(case)[1];
@@ -73,7 +76,8 @@ fn bend(case: &Case) -> (f64, bool) {
     ((f * b / a - g * a / b) / (b - a), largest < 1.0)
 }
 
-/// On one side of the point doubled orbits branch off to one side of the flip and are stable, on the other side they do neither; how their frequency bends is zero there.
+/// On one side of the point doubled orbits branch off to one side of the flip and are stable, on the other
+/// side they do neither; how their frequency bends is zero there.
 #[test]
 fn degenerate_flips_are_where_doubled_orbits_change_the_side_of_the_flip() {
     let case = biased();
@@ -94,7 +98,8 @@ fn degenerate_flips_are_where_doubled_orbits_change_the_side_of_the_flip() {
     assert!((place - found[0]).abs() < 2e-7, "{place} and {found:?}");
 }
 
-/// The branch of doubled orbits at a row of a flip curve, along the eigenvector of the general integrator: how its frequency bends over the square of how far its periods differ, `f = k a^2 + l a^4 + m a^6`.
+/// The branch of doubled orbits at a row of a flip curve, along the eigenvector of the general integrator:
+/// how its frequency bends over the square of how far its periods differ, `f = k a^2 + l a^4 + m a^6`.
 fn bend_at(case: &Case, row: &CurveRow, range_hz: (f64, f64)) -> f64 {
     let (system, response) = with_parameter(case, FORCE, row.parameter);
     let orbit = row.solution.clone();
@@ -146,7 +151,8 @@ fn degenerate_flips_beside_a_contact_are_where_doubled_orbits_change_the_side_of
     assert!((place / force - 1.0).abs() < 1e-5, "{place} and {force}");
 }
 
-/// A linear oscillator at a linear stop knows its gap and its force by their ratio only: its flips change their criticality at the same frequencies, at a gap and at the force that is one over it.
+/// A linear oscillator at a linear stop knows its gap and its force by their ratio only: its flips change
+/// their criticality at the same frequencies, at a gap and at the force that is one over it.
 #[test]
 fn degenerate_flips_over_the_gap_and_over_the_force_are_the_same() {
     let range_hz = (0.05, 0.4);
@@ -172,7 +178,8 @@ fn monodromy(system: &System, orbit: &PeriodicSolution) -> Mat<f64> {
     advance(system, &stretch, &orbit.nodes[0], &GeneralSettings::with_tolerance(1e-12)).unwrap().flow.by_state
 }
 
-/// By how much the logarithm of the amplitude of the motion beside a Neimark-Sacker orbit grows in a period, over the square of the amplitude: the general integrator for some hundred periods.
+/// By how much the logarithm of the amplitude of the motion beside a Neimark-Sacker orbit grows in a period,
+/// over the square of the amplitude: the general integrator for some hundred periods.
 fn growth(case: &Case, row: &CurveRow, amplitude: f64) -> f64 {
     let (system, _) = with_parameter(case, FORCE, row.parameter);
     let orbit = &row.solution;
@@ -218,7 +225,8 @@ fn off_circle(value: c64) -> f64 {
     if value.im > 0.0 { (value.norm() - 1.0).abs() } else { f64::INFINITY }
 }
 
-/// On one side the motion beside the orbit at its Neimark-Sacker point dies away, on the other it grows, both more and more slowly towards the point.
+/// On one side the motion beside the orbit at its Neimark-Sacker point dies away, on the other it grows, both
+/// more and more slowly towards the point.
 #[test]
 fn degenerate_neimark_sacker_points_are_where_motion_beside_the_orbit_neither_grows_nor_dies_away() {
     let case = together(&[two_modes()]);

@@ -1,4 +1,5 @@
-//! Curves of bifurcations in two parameters: against closed forms, and against branches in the frequency at fixed values of the second parameter.
+//! Curves of bifurcations in two parameters: against closed forms, and against branches in the frequency at
+//! fixed values of the second parameter.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{beam, duffing};
@@ -12,7 +13,8 @@ use hammerbeam_structure::{PointOutput, ReducedModel};
 
 type Case = (System, Response);
 
-/// One degree of freedom: `x'' + c x' + x + f = F cos(2 pi f t)` with local laws of `x` or, of the shape -1, of `-x`.
+/// One degree of freedom: `x'' + c x' + x + f = F cos(2 pi f t)` with local laws of `x` or, of the shape -1,
+/// of `-x`.
 fn oscillator(damping: f64, force: f64, laws: &[(f64, Law)]) -> Case {
     let model = ReducedModel {
         natural_frequencies: vec![1.0],
@@ -118,8 +120,8 @@ fn fold_curves_of_the_duffing_oscillator_meet_its_branches() {
     }
 }
 
-/// Of one harmonic, with `c = d W`: `W^2 = 1 + 3^1/2 c` and `F^2 = 32 c^3 / (9 3^1/2 a)`; what it leaves out, the third harmonic, is of relative order
-/// `a x^2`, thus proportional to the damping d.
+/// Of one harmonic, with `c = d W`: `W^2 = 1 + 3^1/2 c` and `F^2 = 32 c^3 / (9 3^1/2 a)`; what it leaves out,
+/// the third harmonic, is of relative order `a x^2`, thus proportional to the damping d.
 #[test]
 fn the_cusp_of_the_duffing_oscillator_is_that_of_harmonic_balance() {
     let errors: Vec<[f64; 2]> = [0.1, 0.05]
@@ -175,8 +177,9 @@ fn flip_curves_of_the_beam_meet_its_branches() {
     }
 }
 
-/// Grazing of the linear oscillator: the linear amplitude equals the gap, `a F / |1 - w^2 + i c w| = g`, whatever the contact does once it is reached; the multipliers are those of the linear oscillator, of the modulus
-/// `exp(-c/(2 f))`.
+/// Grazing of the linear oscillator: the linear amplitude equals the gap, `a F / |1 - w^2 + i c w| = g`,
+/// whatever the contact does once it is reached; the multipliers are those of the linear oscillator, of the
+/// modulus `exp(-c/(2 f))`.
 #[test]
 fn grazing_curves_of_the_linear_oscillator_meet_the_closed_form() {
     let amplitude = |hz: f64| {
@@ -318,7 +321,8 @@ fn neimark_sacker_curves_meet_branches() {
     }
 }
 
-/// Where a pair crosses a resonance it is `exp(+-i angle)` of that resonance, and two ways round one curve find the same places.
+/// Where a pair crosses a resonance it is `exp(+-i angle)` of that resonance, and two ways round one curve
+/// find the same places.
 #[test]
 fn neimark_sacker_curves_pass_resonances() {
     let case = two_modes(1.5, 1.5);
@@ -361,7 +365,8 @@ fn a_neimark_sacker_curve_ends_at_the_strong_resonance() {
     assert_eq!(rows.last().unwrap().events.resonance, Some(1));
 }
 
-/// `(1 - w^2)^2 + c^2 w^2 = F^2/g^2`, with impacts on both stops beside it. A start that is some 1e-6 off both, as a corner is known in a wide range of the frequency, belongs to both as well.
+/// `(1 - w^2)^2 + c^2 w^2 = F^2/g^2`, with impacts on both stops beside it. A start that is some 1e-6 off
+/// both, as a corner is known in a wide range of the frequency, belongs to both as well.
 #[test]
 fn grazing_curves_at_two_rigid_stops_begin_beside_the_grazing() {
     const DAMPING: f64 = 0.04;

@@ -1,6 +1,8 @@
-//! Rows are dense enough: linear interpolation of the maximum displacement over the frequency is good to 1e-3 between neighbouring rows.
+//! Rows are dense enough: linear interpolation of the maximum displacement over the frequency is good to 1e-3
+//! between neighbouring rows.
 //!
-//! The orbit between two rows is solved on its own, at the frequency in the middle, by Newton's method from the mean of both.
+//! The orbit between two rows is solved on its own, at the frequency in the middle, by Newton's method from
+//! the mean of both.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::{beam, duffing};
@@ -9,7 +11,8 @@ use hammerbeam_orbit::{BranchRow, BranchWalk, OrbitSettings, PeriodicSolution, R
 
 const PROMISED: f64 = 1e-3;
 
-/// The orbit midway in frequency between two rows, `None` if Newton's method does not come to one that is between.
+/// The orbit midway in frequency between two rows, `None` if Newton's method does not come to one that is
+/// between.
 fn midway((system, response): &(System, Response), [a, b]: [&BranchRow; 2]) -> Option<PeriodicSolution> {
     let [a, b] = [&a.solution, &b.solution];
     let frequency_hz = 0.5 * (a.frequency_hz + b.frequency_hz);
@@ -20,13 +23,15 @@ fn midway((system, response): &(System, Response), [a, b]: [&BranchRow; 2]) -> O
     let mut walk =
         BranchWalk::new(system, response, &guess, Side::Up, range, &OrbitSettings::default()).ok()?;
     let found = walk.start_row().ok()?.solution;
-    // The corrector may land on another sheet: between two rows the largest force is between theirs, with some room.
+    // The corrector may land on another sheet: between two rows the largest force is between theirs, with
+    // some room.
     let (low, high) = (a.maxima.impulse.min(b.maxima.impulse), a.maxima.impulse.max(b.maxima.impulse));
     let room = (high - low) + 1e-4 * high;
     (low - room..=high + room).contains(&found.maxima.impulse).then_some(found)
 }
 
-/// Compares every `every`-th interval longer than 1e-5 Hz; returns how many were compared, and the worst error with its place.
+/// Compares every `every`-th interval longer than 1e-5 Hz; returns how many were compared, and the worst
+/// error with its place.
 fn worst(rig: &(System, Response), rows: &[BranchRow], every: usize) -> (usize, f64, f64) {
     let mut compared = 0;
     let mut worst = (0.0, 0.0);
@@ -52,7 +57,8 @@ fn assert_dense(rig: &(System, Response), rows: &[BranchRow], every: usize) {
     assert!(error <= PROMISED, "{error:.1e} at {frequency_hz} Hz");
 }
 
-/// Rows from an orbit on until the frequency passes `until_hz` on the way to `side`, within the range of the study.
+/// Rows from an orbit on until the frequency passes `until_hz` on the way to `side`, within the range of the
+/// study.
 fn stretch(
     (system, response): &(System, Response),
     (from_hz, period_multiple): (f64, u32),

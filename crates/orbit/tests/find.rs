@@ -1,4 +1,5 @@
-//! All orbits at one frequency, against Newton's method from a thousand random states of a single-mass system.
+//! All orbits at one frequency, against Newton's method from a thousand random states of a single-mass
+//! system.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::cmp::Reverse;
@@ -12,7 +13,8 @@ use hammerbeam_motion::{
 use hammerbeam_orbit::{FoundOrbits, OrbitSettings, PeriodicSolution, Response, find_orbits};
 use hammerbeam_structure::{Connection, Damping, GROUND, Lumped, LumpedMass, Reduction};
 
-/// A ball of 0.1 kg that falls on a vibrating table: no spring, so the linear response says nothing of where it moves.
+/// A ball of 0.1 kg that falls on a vibrating table: no spring, so the linear response says nothing of where
+/// it moves.
 fn bouncing_ball() -> (System, Response) {
     let damper = Connection { between: ["ball".into(), GROUND.into()], constant: 0.02 };
     let ball = LumpedMass { name: "ball".into(), mass: 0.1 };
@@ -41,8 +43,8 @@ fn noise(seed: &mut u64) -> f64 {
     (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
 
-/// States of the orbits of minimal period `multiple`, one each: Newton's method for `Z(z) = z` of the flow over all periods
-/// from random states in a box.
+/// States of the orbits of minimal period `multiple`, one each: Newton's method for `Z(z) = z` of the flow
+/// over all periods from random states in a box.
 fn by_brute_force(
     system: &System,
     (frequency_hz, multiple): (f64, u32),

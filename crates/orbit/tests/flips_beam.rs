@@ -1,5 +1,5 @@
-//! Flips of the paper's beam, whose Hertz stop makes multipliers that change steeply: on the harmonic branch from 36 to 42 Hz and on the branch
-//! of doubled period that leaves there.
+//! Flips of the paper's beam, whose Hertz stop makes multipliers that change steeply: on the harmonic branch
+//! from 36 to 42 Hz and on the branch of doubled period that leaves there.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::{

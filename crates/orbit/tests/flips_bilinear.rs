@@ -1,12 +1,15 @@
 //! Flips of a bilinear oscillator, against its closed form.
 //!
-//! `x'' + c x' + k x = F cos W t` for `x < 0`, with `K > k` instead of `k` for `x > 0`. An orbit with one contact a period enters it at the
-//! time `t_1` with the velocity `v`, leaves it `s` later and comes back after the period. In either region the motion is a steady part
-//! `Re X exp(i W t)` and a decaying part that `E(t)`, the exponential of the region, carries on. The four unknowns `t_1, v, s, W` obey
+//! `x'' + c x' + k x = F cos W t` for `x < 0`, with `K > k` instead of `k` for `x > 0`. An orbit with one
+//! contact a period enters it at the time `t_1` with the velocity `v`, leaves it `s` later and comes back
+//! after the period. In either region the motion is a steady part `Re X exp(i W t)` and a decaying part that
+//! `E(t)`, the exponential of the region, carries on. The four unknowns `t_1, v, s, W` obey
 //!
-//! `x(t_1 + s) = 0`, `x(t_1 + T) = 0`, `x'(t_1 + T) = v`, `det(M + 1) = 1 + tr M + det M = 0`, `M = E_k(T - s) E_K(s)`:
+//! `x(t_1 + s) = 0`, `x(t_1 + T) = 0`, `x'(t_1 + T) = v`, `det(M + 1) = 1 + tr M + det M = 0`, `M = E_k(T -
+//! s) E_K(s)`:
 //!
-//! the force has no jump, so the fundamental matrix is the product of the exponentials. Newton's method with differences solves them.
+//! the force has no jump, so the fundamental matrix is the product of the exponentials. Newton's method with
+//! differences solves them.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;
@@ -118,7 +121,8 @@ fn eliminate(mut m: [[f64; 5]; 4]) -> [f64; 4] {
     [0, 1, 2, 3].map(|i| m[i][4] / m[i][i])
 }
 
-/// Entry and duration of the only contact of an orbit, roughly, by steps of the closed form from a state in flight.
+/// Entry and duration of the only contact of an orbit, roughly, by steps of the closed form from a state in
+/// flight.
 fn contact_of(row: &BranchRow) -> [f64; 4] {
     let omega = TAU * row.solution.frequency_hz;
     let (steps, mut state) = (20_000, [row.solution.nodes[0][0], row.solution.nodes[0][1]]);
@@ -180,7 +184,8 @@ fn flips_do_not_depend_on_step_start_or_segments() {
     }
 }
 
-/// Near the flip the states an excitation period apart differ by the root of the distance: supercritical or subcritical.
+/// Near the flip the states an excitation period apart differ by the root of the distance: supercritical or
+/// subcritical.
 #[test]
 fn orbit_of_doubled_period_grows_with_the_root_of_the_distance() {
     let subject = subject();
@@ -213,7 +218,8 @@ fn branch_of_doubled_period_is_met_again_from_its_other_side() {
     }
 }
 
-/// On one side of a supercritical flip motion settles to period 1, on the other to period 2, without any shooting.
+/// On one side of a supercritical flip motion settles to period 1, on the other to period 2, without any
+/// shooting.
 #[test]
 fn simulation_on_both_sides_settles_to_period_one_and_two() {
     let subject = subject();

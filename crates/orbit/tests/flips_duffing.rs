@@ -1,5 +1,6 @@
-//! Flips of `x'' + 0.1 x' + x^3 = 10 cos(2 pi f t)`, Ueda's oscillator with a larger force (Ueda, J. Stat. Phys. 20 (1979), 181-196), on the
-//! asymmetric pair that leaves the symmetric orbits. A spring of 1e-6 N/m gives states their scale and changes nothing else.
+//! Flips of `x'' + 0.1 x' + x^3 = 10 cos(2 pi f t)`, Ueda's oscillator with a larger force (Ueda, J. Stat.
+//! Phys. 20 (1979), 181-196), on the asymmetric pair that leaves the symmetric orbits. A spring of 1e-6 N/m
+//! gives states their scale and changes nothing else.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::events::{

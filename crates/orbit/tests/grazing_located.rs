@@ -1,10 +1,14 @@
-//! Where a contact begins to open for an instant: a grazing that is located while the contact presses, against a closed form that knows no scale.
+//! Where a contact begins to open for an instant: a grazing that is located while the contact presses,
+//! against a closed form that knows no scale.
 //!
-//! `x'' + c x' + x + max(x, 0) = F cos W t`: the motion is proportional to F, and the grazing lies at the same frequency for all F. With one contact a period, that begins at the time `t_1` with the velocity v and lasts s,
+//! `x'' + c x' + x + max(x, 0) = F cos W t`: the motion is proportional to F, and the grazing lies at the
+//! same frequency for all F. With one contact a period, that begins at the time `t_1` with the velocity v and
+//! lasts s,
 //!
 //! `x(t_1 + s) = 0`, `x(t_1 + T) = 0`, `x'(t_1 + T) = v`, `x(t_2) = x'(t_2) = 0`
 //!
-//! with `t_2` in the contact determine `t_1, v, s, t_2` and the frequency. Newton's method with differences, in a program of its own, gives 0.062104177790375 Hz.
+//! with `t_2` in the contact determine `t_1, v, s, t_2` and the frequency. Newton's method with differences,
+//! in a program of its own, gives 0.062104177790375 Hz.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::events::{oscillator, step_of, whole, with};

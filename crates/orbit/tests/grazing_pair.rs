@@ -1,8 +1,10 @@
 //! Two grazings within one step, with the same contacts on both sides.
 //!
-//! `x'' + c x' + K x = cos(2 pi f t)` has its largest amplitude `1/(c sqrt(K - c^2/4))`, and the amplitude g at `w^2 = K - c^2/2 -+ sqrt((K - c^2/2)^2 - K^2 + 1/g^2)`.
-//! A stop at a distance g a little below the largest amplitude is touched between these two frequencies, with `K = 1`. The other way round, a spring of stiffness k that presses
-//! with the force p on the undeformed oscillator is pressed in by `g = p/(k K)` at rest, `K = 1 + k`; between the frequencies it opens for an instant in every period.
+//! `x'' + c x' + K x = cos(2 pi f t)` has its largest amplitude `1/(c sqrt(K - c^2/4))`, and the amplitude g
+//! at `w^2 = K - c^2/2 -+ sqrt((K - c^2/2)^2 - K^2 + 1/g^2)`. A stop at a distance g a little below the
+//! largest amplitude is touched between these two frequencies, with `K = 1`. The other way round, a spring of
+//! stiffness k that presses with the force p on the undeformed oscillator is pressed in by `g = p/(k K)` at
+//! rest, `K = 1 + k`; between the frequencies it opens for an instant in every period.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;
@@ -18,7 +20,8 @@ const DAMPING: f64 = 0.1;
 /// Stiffness of the spring.
 const STIFFNESS: f64 = 10.0;
 
-/// With a spring that is touched, or left, where the amplitude exceeds its largest one less this share of it; and the two frequencies at which it does [Hz].
+/// With a spring that is touched, or left, where the amplitude exceeds its largest one less this share of it;
+/// and the two frequencies at which it does [Hz].
 fn oscillator(share: f64, is_pressed_at_rest: bool) -> (System, [f64; 2]) {
     let stiffness = if is_pressed_at_rest { 1.0 + STIFFNESS } else { 1.0 };
     let least = (1.0 - share) / (DAMPING * (stiffness - 0.25 * DAMPING * DAMPING).sqrt());

@@ -1,8 +1,9 @@
 //! Grazing of a linear oscillator against its stop, in closed form.
 //!
-//! Without contact `x'' + c x' + k x = F cos W t` has the amplitude `F / sqrt((k - W^2)^2 + (c W)^2)`, which is the gap `g` where
-//! `W^4 + (c^2 - 2 k) W^2 + k^2 - (F/g)^2 = 0`: contact sets in below the resonance at the smaller root and ceases above it at the larger one,
-//! unless the orbit that touches has turned back before.
+//! Without contact `x'' + c x' + k x = F cos W t` has the amplitude `F / sqrt((k - W^2)^2 + (c W)^2)`, which
+//! is the gap `g` where `W^4 + (c^2 - 2 k) W^2 + k^2 - (F/g)^2 = 0`: contact sets in below the resonance at
+//! the smaller root and ceases above it at the larger one, unless the orbit that touches has turned back
+//! before.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;
@@ -73,7 +74,8 @@ fn a_contact_that_appears_upwards_vanishes_downwards() {
     assert_eq!(appears, [true, false]);
 }
 
-/// Two elements, of which only the second is within reach; and a two-sided stop, whose lower contact is nearer.
+/// Two elements, of which only the second is within reach; and a two-sided stop, whose lower contact is
+/// nearer.
 #[test]
 fn the_contact_is_the_one_that_grazes() {
     let (near, far) = (linear(), Law::Linear(LinearStop::with_gap(5.0, 100.0).unwrap()));

@@ -1,11 +1,14 @@
-//! A branch with a rigid stop on whose way the impact passes phase 0, where the state of the orbit jumps from v to `-e v`.
+//! A branch with a rigid stop on whose way the impact passes phase 0, where the state of the orbit jumps from
+//! v to `-e v`.
 //!
-//! `x'' + x = cos(w t + phi)`, `x <= s`. Orbits with one impact of the speed V in a period `T = 2 pi/w` have, with `g = 1/(1 - w^2)` and `C = cot(T/2)`,
+//! `x'' + x = cos(w t + phi)`, `x <= s`. Orbits with one impact of the speed V in a period `T = 2 pi/w` have,
+//! with `g = 1/(1 - w^2)` and `C = cot(T/2)`,
 //!
 //! `(s + V C (1 + e)/2)^2 + (V (1 - e)/(2 w))^2 = g^2`,
 //!
-//! and multipliers of the product `e^2` (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155). The impact comes at the phase `w t + phi` that has `g cos` and `-g w sin` of the free motion; with
-//! `phi` that of the impact at [`MIDDLE`] it comes at phase 0 there.
+//! and multipliers of the product `e^2` (Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155). The impact comes
+//! at the phase `w t + phi` that has `g cos` and `-g w sin` of the free motion; with `phi` that of the impact
+//! at [`MIDDLE`] it comes at phase 0 there.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;

@@ -1,4 +1,5 @@
-//! Floquet multipliers: unchanged by the number of segments and by the tolerances, and equal to what other means give.
+//! Floquet multipliers: unchanged by the number of segments and by the tolerances, and equal to what other
+//! means give.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::{f64::consts::TAU, sync::OnceLock};
@@ -13,11 +14,12 @@ use hammerbeam_orbit::{OrbitSettings, PeriodicSolution, Response, Segments, find
 
 /// What two computations of a multiplier may differ by, relative to the largest (or to 1 if that is smaller).
 const BOUND: f64 = 1e-8;
-/// Multipliers closer than this are compared by their sum and product: each alone is known to the square root only.
+/// Multipliers closer than this are compared by their sum and product: each alone is known to the square root
+/// only.
 const NEARLY_DOUBLE: f64 = 1e-4;
 
-/// The same closer than [`BESIDE`] to a fold or a grazing point: multipliers change there by up to 1e7 per relative change of the orbit, and
-/// rounding leaves 1e-13 of it open.
+/// The same closer than [`BESIDE`] to a fold or a grazing point: multipliers change there by up to 1e7 per
+/// relative change of the orbit, and rounding leaves 1e-13 of it open.
 const BOUND_BESIDE: f64 = 5e-6;
 /// Distance from a fold or a grazing point [Hz].
 const BESIDE: f64 = 2e-4;
@@ -35,8 +37,8 @@ struct Subject {
     beside: bool,
 }
 
-/// Orbits along the harmonic branch: some forty spread evenly over its rows, the most unstable ones below 25 Hz, and all folds and
-/// grazing points with the rows beside them.
+/// Orbits along the harmonic branch: some forty spread evenly over its rows, the most unstable ones below 25
+/// Hz, and all folds and grazing points with the rows beside them.
 fn subjects() -> &'static [Subject] {
     static SUBJECTS: OnceLock<Vec<Subject>> = OnceLock::new();
     SUBJECTS.get_or_init(|| {
@@ -82,7 +84,8 @@ fn separation([a, b]: Multiplier, [c, d]: Multiplier) -> f64 {
     (a - c).hypot(b - d)
 }
 
-/// The largest difference of two sets of multipliers relative to `max(1, |mu_1|)`; nearly double ones by sum and product.
+/// The largest difference of two sets of multipliers relative to `max(1, |mu_1|)`; nearly double ones by sum
+/// and product.
 fn difference(found: &[Multiplier], expected: &[Multiplier]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let mut rest = found.to_vec();
@@ -111,7 +114,8 @@ fn difference(found: &[Multiplier], expected: &[Multiplier]) -> f64 {
     worst / expected.iter().map(|value| modulus(*value)).fold(1.0, f64::max)
 }
 
-/// The same point of the branch with other settings has the same multipliers, to this bound; returns the difference.
+/// The same point of the branch with other settings has the same multipliers, to this bound; returns the
+/// difference.
 fn assert_unchanged(orbit: &PeriodicSolution, bound: f64, settings: &OrbitSettings, what: &str) -> f64 {
     let (system, response) = subject();
     let reference = recompute(system, response, orbit, &with_segments(1)).unwrap();
@@ -179,7 +183,8 @@ fn multipliers_of_an_orbit_of_many_contacts_do_not_depend_on_the_segments() {
     }
 }
 
-/// Multipliers of the variational equations of the general integrator, by the eigenvalues of the linear algebra library.
+/// Multipliers of the variational equations of the general integrator, by the eigenvalues of the linear
+/// algebra library.
 fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<Multiplier> {
     let n = system.dof();
     let stretch =
@@ -192,8 +197,8 @@ fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<Multipl
     scaled.eigenvalues().unwrap().iter().map(|value| [value.re, value.im]).collect()
 }
 
-/// The general integrator bounds each step by 1e-13 of the largest entry: over the few hundred steps of a period its monodromy is good to
-/// 1e-10 or so of that.
+/// The general integrator bounds each step by 1e-13 of the largest entry: over the few hundred steps of a
+/// period its monodromy is good to 1e-10 or so of that.
 #[test]
 fn multipliers_are_those_of_the_general_integrator() {
     for orbit in subjects().iter().filter(|subject| !subject.beside).map(|subject| &subject.orbit).step_by(4)
@@ -203,7 +208,8 @@ fn multipliers_are_those_of_the_general_integrator() {
     }
 }
 
-/// Liouville: `det M = exp(-T tr C)`, as the stop has no damping. The smallest multipliers are 1e-13 of a matrix of entries up to 1e3.
+/// Liouville: `det M = exp(-T tr C)`, as the stop has no damping. The smallest multipliers are 1e-13 of a
+/// matrix of entries up to 1e3.
 #[test]
 fn product_of_the_multipliers_is_exp_of_minus_t_times_the_trace_of_the_damping() {
     let damping = &subject().0.model().damping;
@@ -225,8 +231,8 @@ fn multipliers_beside_a_stop_out_of_reach_are_those_of_the_linear_system() {
     assert_exponentials(&chain(true));
 }
 
-/// `q'' + C q' + diag(w^2) q = b`: multipliers are `exp(lambda T)` with the eigenvalues of `[0 W; -W -C]`, `W = diag(w)`,
-/// displacements scaled with `W`.
+/// `q'' + C q' + diag(w^2) q = b`: multipliers are `exp(lambda T)` with the eigenvalues of `[0 W; -W -C]`, `W
+/// = diag(w)`, displacements scaled with `W`.
 fn assert_exponentials((system, response): &(System, Response)) {
     let (model, n) = (system.model(), system.dof());
     let w = &model.natural_frequencies;

@@ -1,4 +1,5 @@
-//! Neimark-Sacker points of the paper's beam on its harmonic branch: the pair has modulus one, and motion beside them does what it says.
+//! Neimark-Sacker points of the paper's beam on its harmonic branch: the pair has modulus one, and motion
+//! beside them does what it says.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::{
@@ -56,7 +57,8 @@ fn factor(orbit: &PeriodicSolution, periods: u32) -> f64 {
     apart(&system, &orbit.nodes[0], &ended) / apart(&system, &orbit.nodes[0], &begun)
 }
 
-/// On the side where the pair lies inside, a small disturbance dies away; on the other it grows. Nothing but simulation.
+/// On the side where the pair lies inside, a small disturbance dies away; on the other it grows. Nothing but
+/// simulation.
 #[test]
 fn motion_settles_on_one_side_only() {
     let rows = rows(&step_of(0.02));

@@ -1,4 +1,5 @@
-//! Curves of folds that come to orbits which are their own image: to orbits of half the period, and to symmetric ones.
+//! Curves of folds that come to orbits which are their own image: to orbits of half the period, and to
+//! symmetric ones.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{
@@ -43,7 +44,8 @@ fn flips(case: &Case) -> Vec<BranchRow> {
     with(&rows, |events| events.flip).into_iter().cloned().collect()
 }
 
-/// The degenerate flip of the curve of flips, which `criticality.rs` finds again by the orbits that branch off.
+/// The degenerate flip of the curve of flips, which `criticality.rs` finds again by the orbits that branch
+/// off.
 #[test]
 fn the_folds_of_doubled_orbits_end_at_the_degenerate_flip() {
     let case = biased();
@@ -70,7 +72,8 @@ fn the_folds_of_doubled_orbits_end_at_the_degenerate_flip() {
     assert!(apart.fold(0.0, f64::max) < 1e-10, "{:?}", orbit.nodes);
 }
 
-/// Masses of 0.883 and 1.038 kg on springs of 2.226 N/m to the ground and 2.601 N/m between them, dampers of 0.02 and 0.05 N s/m beside these, a cubic spring of 1.807 N/m^3 and the force at the second.
+/// Masses of 0.883 and 1.038 kg on springs of 2.226 N/m to the ground and 2.601 N/m between them, dampers of
+/// 0.02 and 0.05 N s/m beside these, a cubic spring of 1.807 N/m^3 and the force at the second.
 fn two_masses() -> Case {
     let ([m, n], [k, l], [c, d]) = ([0.883_f64, 1.038_f64], [2.226, 2.601], [0.02, 0.05]);
     // M^-1/2 K M^-1/2 is turned into its axes.
@@ -117,7 +120,8 @@ fn zero(x: &[f64], y: &[f64]) -> f64 {
     (0..x.len()).map(|i| weight(i) * x[i]).sum()
 }
 
-/// The distance from the branch point to the fold is the square of a function of the force, which has its zero there.
+/// The distance from the branch point to the fold is the square of a function of the force, which has its
+/// zero there.
 #[test]
 fn the_folds_of_mirror_images_end_where_these_branch_off_to_the_other_side() {
     let case = two_masses();

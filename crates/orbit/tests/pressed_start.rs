@@ -1,7 +1,9 @@
-//! A constant load that presses the structure against a stop whose law remembers its impact, and a force that throws it off: the linear response and the place of rest lie within the contact, where no
-//! search can begin.
+//! A constant load that presses the structure against a stop whose law remembers its impact, and a force that
+//! throws it off: the linear response and the place of rest lie within the contact, where no search can
+//! begin.
 //!
-//! The oracle is the same equation by the classical Runge-Kutta method with fixed steps, from a state far in front of the stop.
+//! The oracle is the same equation by the classical Runge-Kutta method with fixed steps, from a state far in
+//! front of the stop.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::TAU;
@@ -103,7 +105,8 @@ fn every_search_begins_in_front_of_a_contact_against_which_a_weight_presses() {
     }
 }
 
-/// A rigid stop in front of the other one holds the mass back: no motion comes into the contact, but the linear response does.
+/// A rigid stop in front of the other one holds the mass back: no motion comes into the contact, but the
+/// linear response does.
 #[test]
 fn searches_begin_in_front_of_a_rigid_stop_that_lies_before_the_contact() {
     let rigid = Law::Rigid(RigidStop::with_gap(0.3, 0.0).unwrap());

@@ -1,7 +1,9 @@
-//! What has nothing to do with a doubling changes nothing about it: a weight, which moves the place of rest, or a far larger motion beside it.
+//! What has nothing to do with a doubling changes nothing about it: a weight, which moves the place of rest,
+//! or a far larger motion beside it.
 //!
-//! The bilinear oscillator of `flips_bilinear.rs` with a constant force that moves it by a thousand times its motion, carried by its spring or by a stop;
-//! and beside a linear oscillator, not coupled with it, that moves some thousand times as much. Its branches are those without either.
+//! The bilinear oscillator of `flips_bilinear.rs` with a constant force that moves it by a thousand times its
+//! motion, carried by its spring or by a stop; and beside a linear oscillator, not coupled with it, that
+//! moves some thousand times as much. Its branches are those without either.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::events::{
@@ -24,7 +26,8 @@ fn force(shape: &[f64], order: u32, amplitude: f64) -> HarmonicForce {
     HarmonicForce { shape: shape.to_vec(), harmonic: Harmonic { order, amplitude, phase: 0.0 } }
 }
 
-/// `x'' + 0.1 x' + x = sag + cos W t`, with 19 N/m more beyond `x = sag`; of the spring of 1 N/m this share is a stop that never opens.
+/// `x'' + 0.1 x' + x = sag + cos W t`, with 19 N/m more beyond `x = sag`; of the spring of 1 N/m this share
+/// is a stop that never opens.
 fn subject(sag: f64, by_stop: f64) -> Subject {
     let (light, response) = oscillator(1.0 - by_stop, 0.1, 1.0, stop(19.0, sag));
     let load = Load { support: vec![], forces: vec![force(&[1.0], 0, sag), force(&[1.0], 1, 1.0)] };
@@ -39,7 +42,8 @@ fn subject(sag: f64, by_stop: f64) -> Subject {
     (System::new(light.model().clone(), &load, elements).unwrap(), response)
 }
 
-/// The oscillator without a weight beside `y'' + 0.1 y' + 4 y = size cos W t`; of the orbit the doubling is a `1/size`.
+/// The oscillator without a weight beside `y'' + 0.1 y' + 4 y = size cos W t`; of the orbit the doubling is a
+/// `1/size`.
 fn beside_a_large_motion(size: f64) -> Subject {
     let (alone, _) = oscillator(1.0, 0.1, 1.0, stop(19.0, 0.0));
     let model = ReducedModel {
@@ -56,8 +60,8 @@ fn beside_a_large_motion(size: f64) -> Subject {
     (System::new(model, &load, vec![element]).unwrap(), response)
 }
 
-/// Where the harmonic branch flips, and for each flip where the branch that leaves there ends; on the way it is nowhere the harmonic branch run
-/// through twice, which alternates by less than a tenth of `least`.
+/// Where the harmonic branch flips, and for each flip where the branch that leaves there ends; on the way it
+/// is nowhere the harmonic branch run through twice, which alternates by less than a tenth of `least`.
 fn flips_and_ends(subject: &Subject, least: f64) -> (Vec<f64>, Vec<f64>) {
     let settings = step_of(0.001);
     let start = find_start(&subject.0, &subject.1, 0.3, 1, &settings).unwrap();
@@ -78,8 +82,9 @@ fn flips_and_ends(subject: &Subject, least: f64) -> (Vec<f64>, Vec<f64>) {
     (sorted(&flips), ends.collect())
 }
 
-/// The flips and ends of a subject are those of the oscillator alone, to a tolerance in proportion to the square of its units: at an end, where the
-/// frequency goes with the square of the doubling, an error of 1e-10 of the units in the states is one of 1e-6 to 1e-5.
+/// The flips and ends of a subject are those of the oscillator alone, to a tolerance in proportion to the
+/// square of its units: at an end, where the frequency goes with the square of the doubling, an error of
+/// 1e-10 of the units in the states is one of 1e-6 to 1e-5.
 #[track_caller]
 fn assert_as_alone(subject: &Subject, least: f64, tolerance: f64) {
     let (flips, ends) = flips_and_ends(&self::subject(0.0, 0.0), 1e-5);

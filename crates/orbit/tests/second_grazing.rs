@@ -37,7 +37,8 @@ fn oscillator(law: Law) -> (System, Response) {
     (System::new(model, &load, vec![stop]).unwrap(), response)
 }
 
-/// The motion without contact at a phase, and its velocity [m/cycle] and acceleration [m/cycle^2]: of a force `F cos (k w t + a)` it is the real part of `F exp i(k w t + a)/(1 - (k w)^2 + i c k w)`.
+/// The motion without contact at a phase, and its velocity [m/cycle] and acceleration [m/cycle^2]: of a force
+/// `F cos (k w t + a)` it is the real part of `F exp i(k w t + a)/(1 - (k w)^2 + i c k w)`.
 fn linear_motion(frequency_hz: f64, phase: f64) -> [f64; 3] {
     let mut sum = [0.0; 3];
     for (order, amplitude, ahead) in [(1.0, 1.0, 0.0), (2.0, SECOND.0, SECOND.1)] {

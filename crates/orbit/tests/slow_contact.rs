@@ -1,7 +1,9 @@
-//! A branch that ends where a contact begins with next to no speed: with a law that loses in proportion to one over that speed, the sensitivities within the contact round by so much there that one
-//! evaluation takes tens of thousands of steps of the motion, while steps of the path are not short.
+//! A branch that ends where a contact begins with next to no speed: with a law that loses in proportion to
+//! one over that speed, the sensitivities within the contact round by so much there that one evaluation takes
+//! tens of thousands of steps of the motion, while steps of the path are not short.
 //!
-//! A mass bounces on a stop, once more with each fall of the frequency, and the last bounce begins ever more slowly.
+//! A mass bounces on a stop, once more with each fall of the frequency, and the last bounce begins ever more
+//! slowly.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::events::{general_multipliers, misses_itself_by, side};
@@ -49,7 +51,8 @@ fn a_contact_that_begins_too_slowly_to_be_computed_ends_the_branch_where_it_spli
     assert!(matches!(&end, Some(StopReason::ContactSplits { element, .. }) if element == "stop"), "{end:?}");
 }
 
-/// Two masses in a row, 1 and 0.478 kg on 1 and 1.498 N/m, the outer one driven and 0.401 m above a stop after Flores.
+/// Two masses in a row, 1 and 0.478 kg on 1 and 1.498 N/m, the outer one driven and 0.401 m above a stop
+/// after Flores.
 fn above_a_stop() -> (System, Response) {
     let mass = |name: &str, mass: f64| LumpedMass { name: name.into(), mass };
     let link = |to: &str, constant: f64| Connection { between: ["a".into(), to.into()], constant };
@@ -69,7 +72,8 @@ fn above_a_stop() -> (System, Response) {
     (system, Response { shape: outer.shape, support_ratio: 0.0 })
 }
 
-/// Multipliers go like the distance from the end to the power of -4, and beyond some 1e8 the general integrator finds a motion without the contact that begins last.
+/// Multipliers go like the distance from the end to the power of -4, and beyond some 1e8 the general
+/// integrator finds a motion without the contact that begins last.
 #[test]
 fn rows_beside_a_splitting_are_those_that_can_be_told_from_the_other_side() {
     let subject = above_a_stop();

@@ -1,8 +1,9 @@
 //! Loss and return of symmetry of `x'' + 0.2 x' + x + x^3 = 15 cos(2 pi f t)`.
 //!
-//! The equation is unchanged by half an excitation period and a change of sign, `S: z(t) -> -z(t + T/2)`, so an orbit is its own image or one
-//! of a pair. Where a multiplier of a symmetric orbit passes +1 without a fold a pair leaves (a pitchfork): its asymmetry `|z(T/2) + z(0)|`
-//! grows with the root of the distance, and the two arms are images of one another.
+//! The equation is unchanged by half an excitation period and a change of sign, `S: z(t) -> -z(t + T/2)`, so
+//! an orbit is its own image or one of a pair. Where a multiplier of a symmetric orbit passes +1 without a
+//! fold a pair leaves (a pitchfork): its asymmetry `|z(T/2) + z(0)|` grows with the root of the distance, and
+//! the two arms are images of one another.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::events::{
@@ -61,7 +62,8 @@ fn a_multiplier_is_plus_one_at_the_branch_points_and_the_orbit_symmetric() {
         assert!(point.located.as_ref().unwrap().breaks_symmetry);
         let multipliers = general_multipliers(&system, &point.solution);
         let nearest = multipliers.iter().map(|[re, im]| (re - 1.0).hypot(*im)).fold(f64::INFINITY, f64::min);
-        // A branch point is known to about the root of the tolerance, and the multiplier passes +1 with slopes of 1e2 per hertz.
+        // A branch point is known to about the root of the tolerance, and the multiplier passes +1 with
+        // slopes of 1e2 per hertz.
         assert!(nearest < 2e-5, "{nearest:.1e} at {} Hz", point.solution.frequency_hz);
         assert!(asymmetry(&point.solution) < 1e-4);
     }
@@ -77,7 +79,8 @@ fn branch_points_do_not_depend_on_step_or_segments() {
     }
 }
 
-/// Both arms leave, each comes back: to the start of its walk, by way of the other branch point and the other arm.
+/// Both arms leave, each comes back: to the start of its walk, by way of the other branch point and the other
+/// arm.
 #[test]
 fn the_pair_is_one_closed_branch() {
     let subject = subject();

@@ -1,7 +1,10 @@
-//! Orbits on whose branches a touch comes to lie on phase 0, of a stop with a damper: its force sets in with a jump, so one touch too many or too few is another count of contacts, a false
-//! grazing, and a product of the multipliers that lacks a factor.
+//! Orbits on whose branches a touch comes to lie on phase 0, of a stop with a damper: its force sets in with
+//! a jump, so one touch too many or too few is another count of contacts, a false grazing, and a product of
+//! the multipliers that lacks a factor.
 //!
-//! The load is given the phase at which the begin or the end of the contact of one orbit lies on phase 0 to rounding, and phases a rounding beside it, so that the states at both ends of the orbit lie on either side of it.
+//! The load is given the phase at which the begin or the end of the contact of one orbit lies on phase 0 to
+//! rounding, and phases a rounding beside it, so that the states at both ends of the orbit lie on either side
+//! of it.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use std::f64::consts::PI;
@@ -20,7 +23,8 @@ const RANGE: (f64, f64) = (0.1505, 0.1519);
 /// A phase in flight: the contact lasts some tenth of a cycle.
 const LATER: f64 = 0.37;
 
-/// `x'' + 0.05 x' + x = 0.4 cos(2 pi (f t + shift)) - F` with `F` the force of a spring of 20 N/m and a damper at a gap of 0.3 m.
+/// `x'' + 0.05 x' + x = 0.4 cos(2 pi (f t + shift)) - F` with `F` the force of a spring of 20 N/m and a
+/// damper at a gap of 0.3 m.
 ///
 /// * `damping`: of the damper [N s/m].
 fn subject(damping: f64, shift: f64) -> Subject {
@@ -36,7 +40,8 @@ fn orbit((system, response): &Subject, frequency_hz: f64) -> PeriodicSolution {
     find_start(system, response, frequency_hz, 1, &settings()).unwrap()
 }
 
-/// Where the contact of the orbit from the phase 0 begins, where its force vanishes, and where its penetration ends [cycles].
+/// Where the contact of the orbit from the phase 0 begins, where its force vanishes, and where its
+/// penetration ends [cycles].
 fn instants(subject: &Subject, frequency_hz: f64) -> [f64; 3] {
     let orbit = orbit(subject, frequency_hz);
     let mut integrator = ExactIntegrator::new(subject.0.clone(), ExactSettings::default()).unwrap();
@@ -56,7 +61,8 @@ fn begun_later(subject: &Subject, orbit: &PeriodicSolution) -> PeriodicSolution 
     PeriodicSolution { phase: LATER, nodes: vec![state], ..orbit.clone() }
 }
 
-/// The branch past the orbit that is cut `beside` roundings off an instant of its contact has one contact everywhere, and the multipliers of the general integrator.
+/// The branch past the orbit that is cut `beside` roundings off an instant of its contact has one contact
+/// everywhere, and the multipliers of the general integrator.
 fn assert_one_contact(instant: f64, beside: i32) {
     let subject = subject(0.8, instant + f64::from(beside) * f64::EPSILON);
     let rows = whole(&subject, &orbit(&subject, TOUCHED_HZ), RANGE, &settings());
@@ -83,7 +89,8 @@ fn what_comes_to_lie_on_phase_0_is_no_grazing() {
     }
 }
 
-/// Without the factor of the touch, or with it twice, these stable orbits have multipliers outside the unit circle.
+/// Without the factor of the touch, or with it twice, these stable orbits have multipliers outside the unit
+/// circle.
 #[test]
 fn an_orbit_that_is_cut_at_its_touch_is_as_stable_as_it_is() {
     for (damping, frequency_hz) in [(1.2, 0.165), (1.8, 0.1512), (1.8, 0.165), (2.5, 0.2)] {
@@ -100,7 +107,8 @@ fn an_orbit_that_is_cut_at_its_touch_is_as_stable_as_it_is() {
     }
 }
 
-/// Without damping motions are the same forwards and backwards, and the mass rests at the deepest point of its contact right at phase 0: by rounding it is closing at one end and opening at the other.
+/// Without damping motions are the same forwards and backwards, and the mass rests at the deepest point of
+/// its contact right at phase 0: by rounding it is closing at one end and opening at the other.
 #[test]
 fn a_contact_that_is_deepest_on_phase_0_is_one() {
     let law = Law::Linear(LinearStop::with_gap(20.0, 0.05).unwrap());

@@ -1,4 +1,5 @@
-//! Branches that go to infinity: undamped resonances, against the amplitude `F/|k - m w^2|` of a linear oscillator.
+//! Branches that go to infinity: undamped resonances, against the amplitude `F/|k - m w^2|` of a linear
+//! oscillator.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use std::f64::consts::TAU;
@@ -31,7 +32,8 @@ fn oscillator(damping: f64, gap: Option<f64>) -> (System, Response) {
     (system, Response { shape: vec![1.0], support_ratio: 0.0 })
 }
 
-/// A whole side of the branch through the linear response, taken up from its checkpoint after so many steps each time.
+/// A whole side of the branch through the linear response, taken up from its checkpoint after so many steps
+/// each time.
 fn walk(
     (system, response): &(System, Response),
     (from_hz, side): (f64, Side),
@@ -63,7 +65,8 @@ fn both_sides_of_an_undamped_resonance_are_the_closed_form_and_end_at_it() {
         for row in &rows {
             let solution = &row.solution;
             let w = TAU * solution.frequency_hz;
-            // A point is within 1e-10 of a hundredth of the range from the path: 2.4e-13 Hz, twice that relative to 0.159 Hz in w^2.
+            // A point is within 1e-10 of a hundredth of the range from the path: 2.4e-13 Hz, twice that
+            // relative to 0.159 Hz in w^2.
             let resolved = 3e-12 / (1.0 - w * w).abs() + 1e-8;
             let error = solution.maxima.displacement * (1.0 - w * w).abs() - 1.0;
             assert!(error.abs() < resolved, "{error:.1e} at {} Hz", solution.frequency_hz);
@@ -92,7 +95,8 @@ fn a_weakly_damped_resonance_is_passed() {
     assert!((largest / 5e4 - 1.0).abs() < 1e-2, "{largest}");
 }
 
-/// The amplitude grows ten thousand times at the linear resonance until it meets the stop; then the frequency grows.
+/// The amplitude grows ten thousand times at the linear resonance until it meets the stop; then the frequency
+/// grows.
 #[test]
 fn a_stop_that_is_still_ahead_turns_an_undamped_resonance() {
     let gap = 1e4;

@@ -1,4 +1,5 @@
-//! Branches in other parameters than the frequency: against closed forms, and against branches in the frequency.
+//! Branches in other parameters than the frequency: against closed forms, and against branches in the
+//! frequency.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 use crate::common::{beam, duffing};

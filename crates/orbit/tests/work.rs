@@ -1,7 +1,8 @@
-//! Work counts along fixed stretches of the harmonic branch: evaluations of the shooting equations per accepted solution.
+//! Work counts along fixed stretches of the harmonic branch: evaluations of the shooting equations per
+//! accepted solution.
 //!
-//! The counts are deterministic; they hold what it takes to locate flips, Neimark-Sacker points and grazing. The bounds lie a few percent above
-//! what was measured, so that a change which costs evaluations is seen.
+//! The counts are deterministic; they hold what it takes to locate flips, Neimark-Sacker points and grazing.
+//! The bounds lie a few percent above what was measured, so that a change which costs evaluations is seen.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use crate::common::{beam, orbit_at, walk};

@@ -13,17 +13,19 @@ use crate::{
 /// Least cosine between the tangents of two points of one smooth arc.
 const ALIGNED: f64 = 0.7;
 
-/// Solves on the arc from one accepted point to the next, at `share` of the way; the problem was then evaluated last at the new point.
+/// Solves on the arc from one accepted point to the next, at `share` of the way; the problem was then
+/// evaluated last at the new point.
 ///
-/// With `σ₁ = ⟨t₀, z₁ − z₀⟩` the point lies in the plane `⟨t₀, z − z₀⟩ = share σ₁` and is predicted by the cubic Hermite polynomial through both
-/// ends. No follower is involved: its counters and its memory stay as they are, and `evaluations` of the point holds the work.
+/// With `σ₁ = ⟨t₀, z₁ − z₀⟩` the point lies in the plane `⟨t₀, z − z₀⟩ = share σ₁` and is predicted by the
+/// cubic Hermite polynomial through both ends. No follower is involved: its counters and its memory stay as
+/// they are, and `evaluations` of the point holds the work.
 ///
 /// * `ends`: two points that follow each other on one smooth arc, in the order of travel.
 /// * `share`: between 0 and 1.
 ///
 /// # Errors
-/// Why what was found is not between the two: it is too far from the prediction, or its tangent, determinant or signature are not those of
-/// the arc.
+/// Why what was found is not between the two: it is too far from the prediction, or its tangent, determinant
+/// or signature are not those of the arc.
 pub fn solve_between(
     problem: &mut (impl PathProblem + ?Sized),
     ends: [&ContinuationPoint; 2],

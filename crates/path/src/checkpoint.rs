@@ -9,8 +9,9 @@ use crate::{
 
 /// State of a [`Follower`](crate::Follower) after an accepted point.
 ///
-/// [`Follower::resume`](crate::Follower::resume) continues from it bit by bit like the run it was taken from, once all
-/// accepted points, the start first, were handed to [`Follower::remember`](crate::Follower::remember).
+/// [`Follower::resume`](crate::Follower::resume) continues from it bit by bit like the run it was taken from,
+/// once all accepted points, the start first, were handed to
+/// [`Follower::remember`](crate::Follower::remember).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {
     /// The point accepted last.
@@ -19,7 +20,8 @@ pub struct Checkpoint {
     pub start: ContinuationPoint,
     /// The last points of the present smooth arc, for the predictor; the first is the base of the next step.
     pub history: History,
-    /// Most earlier points for the predictor of the next step: as many as would have served the last one best.
+    /// Most earlier points for the predictor of the next step: as many as would have served the last one
+    /// best.
     pub most_earlier: usize,
     /// Length of the next step.
     pub step_length: f64,
@@ -27,7 +29,8 @@ pub struct Checkpoint {
     pub orientation: f64,
     /// Sign that `t_λ` has after `current`; it settles the doubt at a fold, where `t_λ` is rounding.
     pub parameter_sign: f64,
-    /// The test functions as they are after `current`; it settles the doubt at a zero, where the sign is rounding.
+    /// The test functions as they are after `current`; it settles the doubt at a zero, where the sign is
+    /// rounding.
     pub tests: Vec<TestValue>,
     /// The test functions at the point before `current`, where the history has it.
     pub tests_before: Vec<TestValue>,
@@ -35,7 +38,8 @@ pub struct Checkpoint {
     pub noted: Vec<f64>,
     /// Bit `k` is set while test function `k` has not left the zero behind which the path goes on.
     pub zeros_near: u32,
-    /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is known of them.
+    /// Least and most number of multipliers outside the unit circle behind `current`; `None` if nothing is
+    /// known of them.
     pub outside: Option<(u32, u32)>,
     /// Units of the unknowns now, in those of the start.
     pub unit: f64,

@@ -1,12 +1,13 @@
 //! The corrector: Newton's method on the bordered system.
 //!
 //! `[R_x R_λ; r] d = −[R; 0]` keeps the point in the plane `r · z = const` through the prediction. The same
-//! factorisation gives `w` with `[R_x R_λ; r] w = e_last`, the direction of the path, and the determinant. With
-//! `r = (W t₀)ᵀ`: `sign det [R_x R_λ; (W w)ᵀ] = sign det [R_x R_λ; r]`, and for the unit vector
-//! `|det [R_x R_λ; (W w)ᵀ/‖w‖]| = |det [R_x R_λ; r]| · ‖w‖`, which does not depend on `r`.
+//! factorisation gives `w` with `[R_x R_λ; r] w = e_last`, the direction of the path, and the determinant.
+//! With `r = (W t₀)ᵀ`: `sign det [R_x R_λ; (W w)ᵀ] = sign det [R_x R_λ; r]`, and for the unit vector `|det
+//! [R_x R_λ; (W w)ᵀ/‖w‖]| = |det [R_x R_λ; r]| · ‖w‖`, which does not depend on `r`.
 //!
 //! Source: Keller, in Rabinowitz (ed.), *Applications of Bifurcation Theory*, 1977, pp. 359-384; the
-//! determinant as orientation: Allgower and Georg, *Introduction to Numerical Continuation Methods*, 2003, chapter 2.
+//! determinant as orientation: Allgower and Georg, *Introduction to Numerical Continuation Methods*, 2003,
+//! chapter 2.
 
 use crate::{
     point::Counters,
@@ -49,8 +50,8 @@ pub(crate) struct Limits {
     pub tolerance: f64,
     /// The same when corrections stop shrinking: rounding.
     pub loose_tolerance: f64,
-    /// The same when besides the residual is down to [`Self::residual_floor`]: beside a branch point, where the matrix is
-    /// nearly singular, rounding of the residual leaves large corrections.
+    /// The same when besides the residual is down to [`Self::residual_floor`]: beside a branch point, where
+    /// the matrix is nearly singular, rounding of the residual leaves large corrections.
     pub singular_tolerance: f64,
     pub residual_floor: f64,
     pub residual_tolerance: f64,
@@ -138,7 +139,8 @@ impl Candidate {
             let at_floor = self.residual_norm <= limits.residual_floor;
             let loose = if at_floor { limits.singular_tolerance } else { limits.loose_tolerance };
             let has_converged = size <= limits.tolerance || (stagnant && size <= loose);
-            // Where the matrix is large, a correction that might stay unapplied may still leave a residual that it takes away.
+            // Where the matrix is large, a correction that might stay unapplied may still leave a residual
+            // that it takes away.
             let corrects_residual =
                 !stagnant && self.residual_norm > limits.residual_wanted.min(limits.residual_tolerance);
             if has_converged && (!corrects_residual || self.iterations >= limits.max_iterations) {

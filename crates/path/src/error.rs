@@ -120,7 +120,8 @@ pub enum Doubt {
     /// A test function seems to be zero twice between the points.
     #[error("a test function is zero twice within the step")]
     HiddenZeros,
-    /// The number of multipliers outside the unit circle changes by another number than the events of the step account for.
+    /// The number of multipliers outside the unit circle changes by another number than the events of the
+    /// step account for.
     #[error(
         "{before} multipliers lie outside the unit circle before the step, {behind} behind it, and no event between accounts for it"
     )]

@@ -1,15 +1,19 @@
 //! The memory of a branch: has this stretch been walked before?
 //!
 //! Every accepted point is kept as a *sketch*, a projection of `√w_i z_i` to eight numbers (all of them when
-//! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average), with its
-//! tangent: 170 bytes a point whatever `n`, and up to a hundred more of cells where steps are as long as they may be. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so points of
-//! the same path in other unknowns compare. Neighbouring points make a segment with its cubic Hermite
-//! interpolant. Segments are found through square cells in the plane of the first two sketch coordinates. Where the unknowns have outgrown the units of the start, steps are long in
-//! these: such a segment is in cells that are larger by a power of four, so that none is in more than some forty, whatever its length.
+//! `n + 1 ≤ 8`, else the parameter and seven sums with fixed random signs, which keep lengths on average),
+//! with its tangent: 170 bytes a point whatever `n`, and up to a hundred more of cells where steps are as
+//! long as they may be. Only the unknowns with [memory weights](crate::PathProblem::memory_weights) count, so
+//! points of the same path in other unknowns compare. Neighbouring points make a segment with its cubic
+//! Hermite interpolant. Segments are found through square cells in the plane of the first two sketch
+//! coordinates. Where the unknowns have outgrown the units of the start, steps are long in these: such a
+//! segment is in cells that are larger by a power of four, so that none is in more than some forty, whatever
+//! its length.
 //!
-//! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the segment's length), runs parallel to it, has its
-//! signature, and its determinant. A stretch walked with the same orientation must be met in the same direction: the
-//! returning sheet of a narrow fold, which runs the other way, is not a retrace.
+//! A point is on a stored stretch if it is within the tolerance of the interpolant (and a tenth of the
+//! segment's length), runs parallel to it, has its signature, and its determinant. A stretch walked with the
+//! same orientation must be met in the same direction: the returning sheet of a narrow fold, which runs the
+//! other way, is not a retrace.
 
 use std::collections::HashMap;
 
@@ -17,9 +21,11 @@ use crate::{corrector::Candidate, point::ContinuationPoint, settings::Settings};
 
 const SKETCH: usize = 8;
 const NONE: u32 = u32::MAX;
-/// Cells along the longest step: in thickets, where steps are short, thousands of segments would lie in a cell as long as that.
+/// Cells along the longest step: in thickets, where steps are short, thousands of segments would lie in a
+/// cell as long as that.
 const CELLS_A_STEP: f64 = 4.0;
-/// Cells of one size along a segment; a longer one is in larger cells. A step that is as long as it may be has half as many.
+/// Cells of one size along a segment; a longer one is in larger cells. A step that is as long as it may be
+/// has half as many.
 const MOST_CELLS: f64 = 16.0;
 /// Size of a cell over that of the next smaller ones.
 const LARGER: f64 = 4.0;
@@ -72,7 +78,8 @@ impl PathMemory {
         }
     }
 
-    /// Adds the next accepted point of the branch, whose unknowns have these units (one for those of the memory).
+    /// Adds the next accepted point of the branch, whose unknowns have these units (one for those of the
+    /// memory).
     pub fn remember(&mut self, point: &ContinuationPoint, unit: f64) {
         let tangent = in_units(&point.tangent, unit);
         let vertex = Vertex {
@@ -227,7 +234,8 @@ fn same_kind(a: &Vertex, b: &Vertex, probe: &Vertex) -> bool {
     signature && probe.log_determinant >= low - room && probe.log_determinant <= high + room
 }
 
-/// Share of the segment, distance and cosine between the tangents at the nearest place of the Hermite interpolant.
+/// Share of the segment, distance and cosine between the tangents at the nearest place of the Hermite
+/// interpolant.
 fn nearest(a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<(f64, f64, f64)> {
     let chord = subtract(&b.place, &a.place);
     let length = length(a, b);
@@ -246,7 +254,8 @@ fn nearest(a: &Vertex, b: &Vertex, probe: &Vertex) -> Option<(f64, f64, f64)> {
     inside.then(|| (share, dot(&offset, &offset).sqrt(), cosine))
 }
 
-/// Offset of `place` from the cubic Hermite interpolant at this share, and the slope of the interpolant by share.
+/// Offset of `place` from the cubic Hermite interpolant at this share, and the slope of the interpolant by
+/// share.
 fn interpolant(a: &Vertex, b: &Vertex, length: f64, share: f64, place: &Sketch) -> (Sketch, Sketch) {
     let (s, r) = (share, 1.0 - share);
     let (mut offset, mut slope) = ([0.0; SKETCH], [0.0; SKETCH]);
@@ -260,7 +269,8 @@ fn interpolant(a: &Vertex, b: &Vertex, length: f64, share: f64, place: &Sketch) 
     (offset, slope)
 }
 
-/// `‖b − a − L (t_a + t_b)/2‖`: a bound in practice for the error of the interpolant, which has one order more.
+/// `‖b − a − L (t_a + t_b)/2‖`: a bound in practice for the error of the interpolant, which has one order
+/// more.
 fn defect(a: &Vertex, b: &Vertex) -> f64 {
     let (chord, length) = (subtract(&b.place, &a.place), length(a, b));
     let square: f64 =

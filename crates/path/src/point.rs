@@ -5,9 +5,11 @@
 pub struct Events {
     /// The parameter is stationary and turns: a fold.
     pub fold: bool,
-    /// Branches cross here: `[R_x R_λ]` loses rank, the sign of the determinant changes, the tangent does not.
+    /// Branches cross here: `[R_x R_λ]` loses rank, the sign of the determinant changes, the tangent does
+    /// not.
     pub branch_point: bool,
-    /// The signature differs from that of the point before; the change lies within `Settings::signature_step`.
+    /// The signature differs from that of the point before; the change lies within
+    /// `Settings::signature_step`.
     pub signature_change: bool,
     /// The tangent turned here within `Settings::min_step`: a corner of the path.
     pub corner: bool,

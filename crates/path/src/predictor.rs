@@ -1,14 +1,17 @@
 //! Predictors: where the path goes on.
 //!
-//! Near `z₀` the path is a graph over its tangent: `z(σ)` with `⟨t₀, z(σ) − z₀⟩ = σ`. A point `z_k` with tangent `t_k`
-//! is the node `σ_k = ⟨t₀, z_k − z₀⟩` with slope `m_k = t_k / ⟨t₀, t_k⟩`; no arc length has to be guessed. One node
-//! gives the tangent predictor, two the cubic and three the quintic Hermite polynomial (errors `h²`, `h⁴`, `h⁶`).
+//! Near `z₀` the path is a graph over its tangent: `z(σ)` with `⟨t₀, z(σ) − z₀⟩ = σ`. A point `z_k` with
+//! tangent `t_k` is the node `σ_k = ⟨t₀, z_k − z₀⟩` with slope `m_k = t_k / ⟨t₀, t_k⟩`; no arc length has to
+//! be guessed. One node gives the tangent predictor, two the cubic and three the quintic Hermite polynomial
+//! (errors `h²`, `h⁴`, `h⁶`).
 //!
-//! Points and tangents have errors of their own, of which the cubic makes ten times and the quintic a hundred times as much. Where steps are short against
-//! these errors the tangent is the best predictor, and the others would keep the steps short. So every point that is reached is also predicted by all
-//! of them, and the next step takes the one that would have served best.
+//! Points and tangents have errors of their own, of which the cubic makes ten times and the quintic a hundred
+//! times as much. Where steps are short against these errors the tangent is the best predictor, and the
+//! others would keep the steps short. So every point that is reached is also predicted by all of them, and
+//! the next step takes the one that would have served best.
 //!
-//! Source: Hermite interpolation as in Stoer and Bulirsch, *Introduction to Numerical Analysis*, section 2.1.5.
+//! Source: Hermite interpolation as in Stoer and Bulirsch, *Introduction to Numerical Analysis*, section
+//! 2.1.5.
 
 use crate::product::{add_scaled, distance, product, progress};
 
@@ -43,7 +46,8 @@ pub(crate) fn order(earlier: usize) -> f64 {
     2.0 * (earlier as f64 + 1.0)
 }
 
-/// Most earlier nodes for a step `growth` times as long as the last, in which the predictors had these errors; up to `harmless` an error costs nothing.
+/// Most earlier nodes for a step `growth` times as long as the last, in which the predictors had these
+/// errors; up to `harmless` an error costs nothing.
 pub(crate) fn best_predictor(errors: &PredictorErrors, growth: f64, harmless: f64) -> usize {
     let expected = |earlier: usize| (errors[earlier] * growth.powf(order(earlier))).max(harmless);
     let known = errors.iter().take_while(|error| error.is_finite()).count();
@@ -83,7 +87,8 @@ impl History {
         earlier
     }
 
-    /// Distances from a point of the path at which the predictors with none, one, two earlier nodes would have put it; infinite where there are not so many.
+    /// Distances from a point of the path at which the predictors with none, one, two earlier nodes would
+    /// have put it; infinite where there are not so many.
     pub(crate) fn errors(&self, weights: &[f64], reached: &[f64], scratch: &mut [f64]) -> PredictorErrors {
         let sigma = progress(weights, &self.base().tangent, reached, &self.base().point);
         let usable = self.usable(weights, sigma);
@@ -96,7 +101,8 @@ impl History {
         })
     }
 
-    /// How many earlier nodes can serve for a step: such whose tangents agree with that of the base, and no farther from it than a quarter of the extrapolation.
+    /// How many earlier nodes can serve for a step: such whose tangents agree with that of the base, and no
+    /// farther from it than a quarter of the extrapolation.
     fn usable(&self, weights: &[f64], step: f64) -> usize {
         let base = self.base();
         let available = self.used.saturating_sub(1);
@@ -119,8 +125,8 @@ impl History {
 
 /// Point at `σ` of the Hermite polynomial through `base` and the others, over the tangent of `base`.
 ///
-/// `z(σ) = z₀ + Σ_k A_k (z_k − z₀) + Σ_k B_k m_k` with `A_k = (1 − 2 L_k'(σ_k)(σ − σ_k)) L_k²`, `B_k = (σ − σ_k) L_k²`
-/// and the Lagrange polynomials `L_k`.
+/// `z(σ) = z₀ + Σ_k A_k (z_k − z₀) + Σ_k B_k m_k` with `A_k = (1 − 2 L_k'(σ_k)(σ − σ_k)) L_k²`, `B_k = (σ −
+/// σ_k) L_k²` and the Lagrange polynomials `L_k`.
 pub(crate) fn hermite<const K: usize>(
     weights: &[f64],
     base: &Node,

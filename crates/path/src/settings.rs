@@ -48,8 +48,8 @@ impl ParameterRange {
 
 /// Step lengths and tolerances of a [`Follower`](crate::Follower).
 ///
-/// Lengths are measured in the problem's weighted norm `‖a‖² = Σ w_i a_i²`; `h` is the step length, `t` the unit
-/// tangent, `d` a Newton correction, `z₀ → z₁` a step, `θ` the angle between its tangents.
+/// Lengths are measured in the problem's weighted norm `‖a‖² = Σ w_i a_i²`; `h` is the step length, `t` the
+/// unit tangent, `d` a Newton correction, `z₀ → z₁` a step, `θ` the angle between its tangents.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// First step length `h`.
@@ -58,10 +58,11 @@ pub struct Settings {
     pub max_parameter_step: f64,
     /// Bound of `h`.
     pub max_step_length: f64,
-    /// Shortest step, some hundred times the `correction_floor`; a turn that is still unresolved at it is taken as a corner, and if that fails too, the
-    /// branch stops.
+    /// Shortest step, some hundred times the `correction_floor`; a turn that is still unresolved at it is
+    /// taken as a corner, and if that fails too, the branch stops.
     pub min_step: f64,
-    /// Steps at most this long do not get anywhere: after [`MOST_SHORT_STEPS`](crate::MOST_SHORT_STEPS) of them in a row the branch stops.
+    /// Steps at most this long do not get anywhere: after [`MOST_SHORT_STEPS`](crate::MOST_SHORT_STEPS) of
+    /// them in a row the branch stops.
     pub crawl_step: f64,
     /// Bound of `θ`, in radians.
     pub max_angle: f64,
@@ -75,13 +76,14 @@ pub struct Settings {
     /// Residual above which a point is corrected further as long as corrections shrink, though the one that
     /// is still due is small: where the matrix is large, that is what takes the residual away.
     pub residual_wanted: f64,
-    /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more (beside a branch
-    /// point), `‖d‖ ≤ h / 100` is enough.
+    /// What rounding leaves of the residual. Where it is reached and corrections do not shrink any more
+    /// (beside a branch point), `‖d‖ ≤ h / 100` is enough.
     pub residual_floor: f64,
     /// Most evaluations of one correction.
     pub max_iterations: u32,
     /// Sheets at least this far apart are told apart: the corrector may move a prediction by
-    /// `min(sheet_distance, h / 10)` (but ten times the `correction_floor`), and `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤ sheet_distance + h θ / 10`.
+    /// `min(sheet_distance, h / 10)` (but ten times the `correction_floor`), and `‖z₁ − z₀ − h (t₀ + t₁)/2‖ ≤
+    /// sheet_distance + h θ / 10`.
     pub sheet_distance: f64,
     /// Longest step over a change of signature. On both sides of the change steps grow at most like the
     /// distance from it, so that pairs of folds beside it are seen whatever the longest step.
@@ -137,7 +139,8 @@ impl Settings {
     }
 
     /// # Errors
-    /// [`PathError::UnusableSetting`] naming the first setting that is not positive (`max_angle`: also not above 1).
+    /// [`PathError::UnusableSetting`] naming the first setting that is not positive (`max_angle`: also not
+    /// above 1).
     pub(crate) fn check(&self) -> Result<(), PathError> {
         let positive = [
             ("initial_step", self.initial_step),

@@ -1,4 +1,5 @@
-//! Folds of a path that lie beside a simpler one, which it has left or comes to: the slope is known badly there, and a change of its sign says nothing until later.
+//! Folds of a path that lie beside a simpler one, which it has left or comes to: the slope is known badly
+//! there, and a change of its sign says nothing until later.
 #![allow(clippy::unwrap_used, reason = "a test ends where its path is wrong")]
 
 use crate::support::{folds, graph, steps_of, up};
@@ -17,7 +18,8 @@ impl<P: PathProblem> PathProblem for Leaving<P> {
 
 const BEND: f64 = 0.05;
 
-/// `λ = -BEND (x - fold)^2`: behind the fold the slope is beyond doubt from `2 BEND (x - fold) x > 1e-6` on, some hundredths later.
+/// `λ = -BEND (x - fold)^2`: behind the fold the slope is beyond doubt from `2 BEND (x - fold) x > 1e-6` on,
+/// some hundredths later.
 #[test]
 fn a_fold_lies_where_the_slope_vanishes_and_not_where_that_is_beyond_doubt() {
     for fold in [1e-5, 1e-4, 1e-3] {

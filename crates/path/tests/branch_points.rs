@@ -78,8 +78,8 @@ fn branch_points_are_found_in_mixed_coordinates() {
     }
 }
 
-/// A period-doubled orbit reaches its flip as `x` reaches zero, and leaves as its own copy, half a period later:
-/// `x (x² − (λ − λ²))`, the loop `x² = λ − λ²` between the flips at `λ = 0` and `1`.
+/// A period-doubled orbit reaches its flip as `x` reaches zero, and leaves as its own copy, half a period
+/// later: `x (x² − (λ − λ²))`, the loop `x² = λ − λ²` between the flips at `λ = 0` and `1`.
 #[test]
 fn a_branch_between_two_flips_closes_through_both_of_them() {
     let bubble = |x: f64, l: f64| {

@@ -4,7 +4,8 @@ use hammerbeam_path::{
     DenseProblem, Direction, EvaluationError, ParameterRange, PathProblem, Settings, TestValue, follow,
 };
 
-/// The line `x = λ` with a point of the plane that moves along it, and two test functions: the parameter less [`OTHER`], and what the point is beyond the unit circle.
+/// The line `x = λ` with a point of the plane that moves along it, and two test functions: the parameter less
+/// [`OTHER`], and what the point is beyond the unit circle.
 struct Passing<P> {
     line: P,
     at: f64,
@@ -13,7 +14,8 @@ struct Passing<P> {
 /// Where the other function vanishes.
 const OTHER: f64 = 0.55;
 
-/// Goes through the circle on a straight line, and away from it in another direction where the other function is zero.
+/// Goes through the circle on a straight line, and away from it in another direction where the other function
+/// is zero.
 fn place(at: f64) -> [f64; 2] {
     let further = (at - OTHER).max(0.0);
     [4.0 * (at - 0.35), 0.9 + 20.0 * further]
@@ -50,7 +52,8 @@ impl<P: PathProblem> PathProblem for Passing<P> {
     }
 }
 
-/// From 0.1 to 1 in steps of up to 0.5 along the line: the circle is passed at `0.35 ± 0.109`, and from beyond the other zero the straight way does not lead through it.
+/// From 0.1 to 1 in steps of up to 0.5 along the line: the circle is passed at `0.35 ± 0.109`, and from
+/// beyond the other zero the straight way does not lead through it.
 #[test]
 fn they_are_found_on_the_way_to_the_zero_of_another_function() {
     assert!(beyond(place(0.1)) > 0.0 && beyond(place(OTHER)) > 0.0, "outside at the start and at the zero");

@@ -1,11 +1,13 @@
-//! Solutions that are seen in several ways, as an orbit of several periods that may begin in each of them: a loop closes where it comes to its start seen otherwise.
+//! Solutions that are seen in several ways, as an orbit of several periods that may begin in each of them: a
+//! loop closes where it comes to its start seen otherwise.
 
 use std::f64::consts::PI;
 
 use crate::support::{range, steps_of};
 use hammerbeam_path::{DenseProblem, Direction, PathProblem, StopReason, follow};
 
-/// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`, half a turn later.
+/// `x^2 + y^2 = 1`, `lambda = 2 x y`: at `(cos a, sin a)` the parameter is `sin 2 a`, the same at `(-x, -y)`,
+/// half a turn later.
 fn circle() -> impl PathProblem + Clone {
     DenseProblem::new(2, |z: &[f64], r: &mut [f64], j: &mut [f64]| {
         r.copy_from_slice(&[z[0] * z[0] + z[1] * z[1] - 1.0, z[2] - 2.0 * z[0] * z[1]]);

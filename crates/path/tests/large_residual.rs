@@ -1,8 +1,10 @@
-//! A residual that is large where its correction is small: one more correction takes it away, and no step is shortened for it.
+//! A residual that is large where its correction is small: one more correction takes it away, and no step is
+//! shortened for it.
 
 use hammerbeam_path::{DenseProblem, Direction, ParameterRange, Settings, StopReason, follow};
 
-/// `K (x - a l^2) = 0`. A step h of the tangent misses the path by `a h^2`, below the tolerance of corrections, and leaves `K a h^2` in the residual, above its own.
+/// `K (x - a l^2) = 0`. A step h of the tangent misses the path by `a h^2`, below the tolerance of
+/// corrections, and leaves `K a h^2` in the residual, above its own.
 #[test]
 fn a_large_residual_of_a_small_correction_does_not_shorten_steps() {
     let (factor, bend) = (1e7, 1e-11);

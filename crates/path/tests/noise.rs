@@ -1,4 +1,5 @@
-//! Rounding in the residual, as from an integrator with a tolerance, neither stops a branch nor invents events.
+//! Rounding in the residual, as from an integrator with a tolerance, neither stops a branch nor invents
+//! events.
 
 use crate::support::*;
 use approx::assert_abs_diff_eq;
@@ -21,7 +22,8 @@ fn noisy_graph(
     }
 }
 
-/// Up to the default floor of 1e-12 events keep their accuracy; beyond it they may be off by what noise hides.
+/// Up to the default floor of 1e-12 events keep their accuracy; beyond it they may be off by what noise
+/// hides.
 #[test]
 fn sharp_folds_survive_noise() {
     for (size, accuracy) in [(1e-13, 1e-11), (1e-12, 1e-10), (1e-11, 1e-7), (1e-10, 1e-6)] {

@@ -16,11 +16,13 @@ struct Multiplied<P> {
 /// Where the pair crosses the circle, before the fold at `x = 0`.
 const CROSSING: f64 = -1e-3;
 
-/// `λ = -x²` whose point `x` is a fixed point with two multipliers of the product `D = 1 + b tanh((x + a)/a)` and the sum `T = 1 + D + tanh x`.
+/// `λ = -x²` whose point `x` is a fixed point with two multipliers of the product `D = 1 + b tanh((x + a)/a)`
+/// and the sum `T = 1 + D + tanh x`.
 ///
-/// `(1 - mu)(1 - mu') = 1 - T + D = -tanh x`: one is at +1 at the fold. With `a = 1e-3` and `b = 0.1` they are complex on the circle at `x = -a`, where
-/// `T = 2 - tanh a`; real and outside from about `x = -a/2`, where `T^2 - 4 D = (T - 2)^2 - 4 (1 - T + D)` changes its sign; 1 and 1.1 at the fold;
-/// one on either side of the circle behind it. The numbers outside are 0, 2, 2, 1.
+/// `(1 - mu)(1 - mu') = 1 - T + D = -tanh x`: one is at +1 at the fold. With `a = 1e-3` and `b = 0.1` they
+/// are complex on the circle at `x = -a`, where `T = 2 - tanh a`; real and outside from about `x = -a/2`,
+/// where `T^2 - 4 D = (T - 2)^2 - 4 (1 - T + D)` changes its sign; 1 and 1.1 at the fold; one on either side
+/// of the circle behind it. The numbers outside are 0, 2, 2, 1.
 fn normal() -> Multiplied<impl PathProblem> {
     let multipliers = |x: f64| {
         let product = 1.0 + 0.1 * ((x - CROSSING) / -CROSSING).tanh();
@@ -32,7 +34,8 @@ fn normal() -> Multiplied<impl PathProblem> {
 /// Half-way between the two crossings, and how far they are from it.
 const OUT_AND_IN: (f64, f64) = (0.07, 0.02);
 
-/// `λ = x` with a pair that is outside the circle between the two crossings alone, and one of the product 9 that turns real between them.
+/// `λ = x` with a pair that is outside the circle between the two crossings alone, and one of the product 9
+/// that turns real between them.
 fn passing() -> Multiplied<impl PathProblem> {
     let multipliers = |x: f64| {
         let (middle, width) = OUT_AND_IN;
@@ -134,7 +137,8 @@ fn assert_both_crossings(settings: Settings) {
     }
 }
 
-/// Behind the step the number of pairs outside is another one, since one has turned real, and the zero that tells of it may be either.
+/// Behind the step the number of pairs outside is another one, since one has turned real, and the zero that
+/// tells of it may be either.
 #[test]
 fn both_crossings_are_found_while_another_pair_turns_real() {
     assert_both_crossings(steps_of(0.3));

@@ -108,8 +108,8 @@ proptest! {
         }
     }
 
-    /// A polygon in three dimensions: corners of all angles, with and without a turn of the parameter, pieces from 0.1
-    /// down to 1e-6 long. Pieces shorter than the steps are seen by their signature alone.
+    /// A polygon in three dimensions: corners of all angles, with and without a turn of the parameter, pieces
+    /// from 0.1 down to 1e-6 long. Pieces shorter than the steps are seen by their signature alone.
     #[test]
     fn polygons_are_walked_around_all_corners(
         pieces in prop::collection::vec((-6.0..-1.0, slope(), slope()), 8),

@@ -8,7 +8,8 @@ use hammerbeam_path::{
 
 const WIDTH: f64 = 1000.0;
 
-/// The ellipse `(x/1000)² + λ² = 1` from `x = 1` on, in units that stay within a factor of four of `x`; points in the first units.
+/// The ellipse `(x/1000)² + λ² = 1` from `x = 1` on, in units that stay within a factor of four of `x`;
+/// points in the first units.
 fn follow_ellipse(rescales: bool) -> (Vec<ContinuationPoint>, StopReason) {
     let unit = Cell::new(1.0);
     let mut problem = DenseProblem::new(1, |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {

@@ -1,7 +1,8 @@
 //! Corners behind which `R` changes like a square root, as at grazing of a rigid stop.
 //!
-//! `R = J z + b nu(g . z)`, `nu(c) = sqrt(2 c)` for `c > 0`, else 0, in two unknowns and the parameter. Where `g . z <= 0` the path is the line along t with `J t = 0`; behind the
-//! surface it is `z = w nu + p nu^2/2` with `J w = -b`, `g . w = 0`, `J p = 0`, `g . p = 1`.
+//! `R = J z + b nu(g . z)`, `nu(c) = sqrt(2 c)` for `c > 0`, else 0, in two unknowns and the parameter. Where
+//! `g . z <= 0` the path is the line along t with `J t = 0`; behind the surface it is `z = w nu + p nu^2/2`
+//! with `J w = -b`, `g . w = 0`, `J p = 0`, `g . p = 1`.
 
 use crate::support::{range, steps_of};
 use hammerbeam_path::{Branch, DenseProblem, Direction, PathProblem, Settings, StopReason, follow};

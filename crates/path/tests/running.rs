@@ -80,7 +80,8 @@ fn a_resumed_run_repeats_the_uninterrupted_one_bit_by_bit() {
     }
 }
 
-/// Follows `f` and checks at each point that the problem was evaluated last exactly there; returns the events seen.
+/// Follows `f` and checks at each point that the problem was evaluated last exactly there; returns the events
+/// seen.
 fn events_evaluated_in_place(f: Implicit, start: [f64; 2]) -> Events {
     let seen = std::cell::RefCell::new(vec![]);
     let mut problem = DenseProblem::new(1, |z: &[f64], r: &mut [f64], j: &mut [f64]| {
@@ -176,8 +177,8 @@ fn a_start_at_a_fold_goes_along_a_direction() {
     assert_monotone(&branch, |z| -z[0]);
 }
 
-/// The equation changes its sign at `λ = 0.3`, as when a problem is cut into other segments: the determinant jumps, the
-/// path does not.
+/// The equation changes its sign at `λ = 0.3`, as when a problem is cut into other segments: the determinant
+/// jumps, the path does not.
 #[test]
 fn orientation_is_anchored_anew_where_the_equations_change() {
     let recut = |x: f64, l: f64| {
@@ -192,7 +193,8 @@ fn orientation_is_anchored_anew_where_the_equations_change() {
     assert_eq!((signs.first(), signs.last()), (Some(&signs[0]), Some(&-signs[0])));
 }
 
-/// Work over a fold or corner of each kind, from 0.05 before it to 0.06 behind it. A change here is a change of speed.
+/// Work over a fold or corner of each kind, from 0.05 before it to 0.06 behind it. A change here is a change
+/// of speed.
 #[test]
 fn work_over_sharp_turns_is_pinned() {
     let hairpin = |radius: f64| {

@@ -1,4 +1,5 @@
-//! Folds as sharp as grazing makes them: turns within 1e-6 to 1e-8 of the parameter, corners, one-sided powers.
+//! Folds as sharp as grazing makes them: turns within 1e-6 to 1e-8 of the parameter, corners, one-sided
+//! powers.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use crate::support::*;
@@ -27,7 +28,8 @@ fn a_hairpin_of_any_radius_is_rounded_once() {
     }
 }
 
-/// The sheets of `λ = −√(x² + r²) / slope` close in on each other: at slope 0.05 they leave the fold 6 degrees apart.
+/// The sheets of `λ = −√(x² + r²) / slope` close in on each other: at slope 0.05 they leave the fold 6
+/// degrees apart.
 #[test]
 fn a_narrow_hairpin_is_rounded_without_jumping_to_its_other_sheet() {
     for slope in [0.05, 0.3, 3.0] {
@@ -106,8 +108,8 @@ fn folds_beside_a_jump_of_curvature_are_found_at_every_step() {
     }
 }
 
-/// Beside the touch at `x = 0.1 k` hides `λ = x − 2 w (G(p/w))`, `G(u) = 3 u^1.5 e^-u`: a pair of folds within about
-/// `w` of the touch, on its left or on its right.
+/// Beside the touch at `x = 0.1 k` hides `λ = x − 2 w (G(p/w))`, `G(u) = 3 u^1.5 e^-u`: a pair of folds
+/// within about `w` of the touch, on its left or on its right.
 fn hidden_pairs(x: f64, width: f64, side: f64) -> (f64, f64, u64) {
     let (mut value, mut slope, mut touches) = (x, 1.0, 0);
     for k in 0..5 {
@@ -169,8 +171,8 @@ fn a_sharp_fold_costs_a_bounded_number_of_evaluations() {
     assert!(branch.counters.evaluations < 600, "{:?}", branch.counters);
 }
 
-/// A stiff stop: `λ = x − c (√(p + δ) − √δ)`, whose slope jumps to `1 − c / (2 √δ)` at the touch. The parameter turns at
-/// the touch itself, at `λ = 0`, and again at `p = c²/4 − δ`.
+/// A stiff stop: `λ = x − c (√(p + δ) − √δ)`, whose slope jumps to `1 − c / (2 √δ)` at the touch. The
+/// parameter turns at the touch itself, at `λ = 0`, and again at `p = c²/4 − δ`.
 #[test]
 fn a_fold_at_a_touch_with_a_steep_far_side_is_passed() {
     for c in [0.01, 0.1, 0.5] {
@@ -246,7 +248,8 @@ impl<P: PathProblem> PathProblem for Foreseeing<P> {
     }
 }
 
-/// Between touch and release, `w` apart, `λ = x + 2 w sin³(π p/w)`: a pair of folds, and the same signature behind them.
+/// Between touch and release, `w` apart, `λ = x + 2 w sin³(π p/w)`: a pair of folds, and the same signature
+/// behind them.
 #[test]
 fn pairs_of_folds_between_two_changes_in_one_step_are_found_if_the_problem_sees_them_coming() {
     for width in [1e-5, 1e-3] {
@@ -282,7 +285,8 @@ fn hidden_pairs_are_found_through_noise() {
     }
 }
 
-/// A path that turns by a right angle every few hundredths of a millionth is followed, but it leads nowhere: that is said instead of going on for ever.
+/// A path that turns by a right angle every few hundredths of a millionth is followed, but it leads nowhere:
+/// that is said instead of going on for ever.
 #[test]
 fn a_path_that_leads_nowhere_is_left() {
     let wriggle = |x: f64, l: f64| (x - 1e-8 * (1e8 * l).sin(), 1.0, -(1e8 * l).cos(), 0);

@@ -54,8 +54,8 @@ fn parallel_sheets_that_never_meet_are_kept_apart() {
     }
 }
 
-/// A spiral in three unknowns: `r = r₀ + a φ` in `(x, λ)`, neighbouring turns `2 π a = 1e-4` apart, `φ` and its
-/// double as unknowns.
+/// A spiral in three unknowns: `r = r₀ + a φ` in `(x, λ)`, neighbouring turns `2 π a = 1e-4` apart, `φ` and
+/// its double as unknowns.
 fn spiral() -> impl PathProblem {
     let a = 1e-4 / (2.0 * std::f64::consts::PI);
     // A rise of φ by 2π must look like a near sheet: φ enters the inner product with a small weight.
@@ -119,8 +119,8 @@ fn a_path_that_crosses_itself_is_not_taken_for_a_retrace() {
     assert_eq!(folds(&branch).len(), 2);
 }
 
-/// A lollipop: the stem `x = 0, λ < 0` runs into the circle `(x − 1)² + λ² = 1` at the origin with the same tangent,
-/// as no regular path can. After one round on the circle the follower stands at the junction again.
+/// A lollipop: the stem `x = 0, λ < 0` runs into the circle `(x − 1)² + λ² = 1` at the origin with the same
+/// tangent, as no regular path can. After one round on the circle the follower stands at the junction again.
 #[test]
 fn a_stretch_that_would_be_walked_again_ends_the_branch() {
     let lollipop = |x: f64, l: f64| {

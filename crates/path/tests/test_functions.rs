@@ -70,7 +70,8 @@ fn two_functions_that_vanish_within_one_step_give_two_points() {
     assert!(zeros(&branch, 1).iter().all(|point| (point.0 - 0.501).abs() < 1e-9));
 }
 
-/// Which of them are negative there is rounding: whatever their order and their signs, a point is a zero of all, or there is one for each.
+/// Which of them are negative there is rounding: whatever their order and their signs, a point is a zero of
+/// all, or there is one for each.
 #[test]
 fn functions_that_vanish_at_one_place_are_all_found_there() {
     let all: [fn(&[f64]) -> TestValue; 4] = [
@@ -114,7 +115,8 @@ fn two_zeros_of_one_function_within_a_step_are_both_found() {
     }
 }
 
-/// Negative between x = 0.300 and x = 0.302 only, so that count and sign are the same on both sides of a step over both zeros: the values before it tell that the function comes down.
+/// Negative between x = 0.300 and x = 0.302 only, so that count and sign are the same on both sides of a step
+/// over both zeros: the values before it tell that the function comes down.
 #[test]
 fn two_zeros_within_a_step_that_leave_no_trace_in_the_count_are_found() {
     for step in [0.3, 0.1, 0.03] {
@@ -136,12 +138,14 @@ fn a_function_that_only_comes_near_zero_has_none() {
     }
 }
 
-/// Where a pair of multipliers beyond the unit circle becomes real, one test function jumps; where one of both then passes -1, another vanishes. In one step the jump must not
-/// undo what is known behind the zero, where the sign of the function is rounding.
+/// Where a pair of multipliers beyond the unit circle becomes real, one test function jumps; where one of
+/// both then passes -1, another vanishes. In one step the jump must not undo what is known behind the zero,
+/// where the sign of the function is rounding.
 #[test]
 fn a_zero_is_found_once_though_another_function_jumps_within_the_same_step() {
     let jump: fn(&[f64]) -> TestValue = |z| signed(if z[0] > 0.4 { 1.0 } else { -2.0 });
-    // Beside its zero the function has one sign: that of before it on one way, that of behind it on the other.
+    // Beside its zero the function has one sign: that of before it on one way, that of behind it on the
+    // other.
     let above: fn(&[f64]) -> TestValue =
         |z| signed(if (z[0] - 0.3).abs() < 1e-9 { 1e-15 } else { z[0] - 0.3 });
     let below: fn(&[f64]) -> TestValue =
@@ -163,7 +167,8 @@ fn beside(z: &[f64]) -> f64 {
     if (0.304..0.6).contains(&z[0]) { z[0] - 0.304 } else { f64::INFINITY }
 }
 
-/// Asserts that all changes are found by these test functions where the signature is another one at `0.300 < x < 0.304`.
+/// Asserts that all changes are found by these test functions where the signature is another one at `0.300 <
+/// x < 0.304`.
 fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
     let equation = |z: &[f64], residual: &mut [f64], jacobian: &mut [f64]| {
         residual[0] = z[0] * z[0] + z[1] * z[1] - 1.0;
@@ -171,7 +176,8 @@ fn changes_twice(tests: &[fn(&[f64]) -> TestValue]) {
         u64::from((0.300..0.304).contains(&z[0]))
     };
     for step in [0.1, 0.05, 0.03] {
-        // From a few places, so that steps fall otherwise; down past the two changes on one side of the circle, up past them on the other.
+        // From a few places, so that steps fall otherwise; down past the two changes on one side of the
+        // circle, up past them on the other.
         for angle in 0..20 {
             let start = [(0.03 * f64::from(angle)).cos(), (0.03 * f64::from(angle)).sin()];
             let settings = Settings { max_step_length: step, sheet_distance: 1e-2, ..Settings::default() };
@@ -190,7 +196,8 @@ fn a_signature_that_changes_twice_within_a_step_is_found_beside_where_a_function
     changes_twice(&[|z| TestValue::new(beside(z), 0)]);
 }
 
-/// Two values in order, one of which is there always: what begins or ends is the larger one by its place, and may be the smaller one by its value.
+/// Two values in order, one of which is there always: what begins or ends is the larger one by its place, and
+/// may be the smaller one by its value.
 #[test]
 fn a_signature_that_changes_twice_is_found_where_the_smaller_of_two_values_begins_or_ends() {
     const ALWAYS: f64 = 0.2;

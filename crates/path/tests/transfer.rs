@@ -11,7 +11,8 @@ use hammerbeam_path::{
 
 type Function = Box<dyn FnMut(&[f64], &mut [f64], &mut [f64]) -> u64>;
 
-/// The unit circle `x² + λ² = 1` in several copies of `x`, each `1/copies` of the weight; the first is remembered.
+/// The unit circle `x² + λ² = 1` in several copies of `x`, each `1/copies` of the weight; the first is
+/// remembered.
 struct Circle(DenseProblem<Function>);
 
 impl Circle {
@@ -99,7 +100,8 @@ fn other_equations_on_the_way_are_refused_and_change_nothing() {
     assert_eq!(follower.checkpoint(), &before);
 }
 
-/// The unknowns are those of before, but nothing of them is said to stay: without its start the circle is walked on beyond it; with the start brought back on the way it closes there.
+/// The unknowns are those of before, but nothing of them is said to stay: without its start the circle is
+/// walked on beyond it; with the start brought back on the way it closes there.
 #[test]
 fn a_start_that_is_out_of_reach_can_be_brought_back() {
     for brought_back in [false, true] {

@@ -1,8 +1,9 @@
 //! The analytic signal: envelope and instantaneous phase.
 //!
-//! `z = x + i H(x)` with the Hilbert transform `H` has the spectrum of `x` at positive frequencies, doubled, and none at negative ones. Its modulus is the
-//! envelope: for a decaying harmonic `A exp(-d t) cos(w t + p)` it is `A exp(-d t)`, as long as `d` is small beside `w`; near both ends of a record it is off, since
-//! the transform takes the record as periodic.
+//! `z = x + i H(x)` with the Hilbert transform `H` has the spectrum of `x` at positive frequencies, doubled,
+//! and none at negative ones. Its modulus is the envelope: for a decaying harmonic `A exp(-d t) cos(w t + p)`
+//! it is `A exp(-d t)`, as long as `d` is small beside `w`; near both ends of a record it is off, since the
+//! transform takes the record as periodic.
 //!
 //! # Source
 //! Feldman, *Hilbert Transform Applications in Mechanical Vibration*, 2011, chapter 2.

@@ -11,7 +11,8 @@ pub(crate) fn forward(series: Vec<f64>) -> Vec<Complex<f64>> {
     spectrum
 }
 
-/// The series of a transform, `N` values; imaginary parts of the first value and, for even `N`, of the last do not count.
+/// The series of a transform, `N` values; imaginary parts of the first value and, for even `N`, of the last
+/// do not count.
 pub(crate) fn backward(mut spectrum: Vec<Complex<f64>>, length: usize) -> Vec<f64> {
     let transform = RealFftPlanner::new().plan_fft_inverse(length);
     spectrum[0].im = 0.0;

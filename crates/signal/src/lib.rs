@@ -1,7 +1,8 @@
 //! Measured and computed time series.
 //!
-//! This crate knows series of numbers in time and nothing of structures, contacts or orbits. A file becomes a [`raw::RawRecord`] (what it
-//! says), that becomes a [`Record`] (even sampling, SI units, nothing missing; or a refusal), and functions of plain slices do the rest:
+//! This crate knows series of numbers in time and nothing of structures, contacts or orbits. A file becomes a
+//! [`raw::RawRecord`] (what it says), that becomes a [`Record`] (even sampling, SI units, nothing missing; or
+//! a refusal), and functions of plain slices do the rest:
 //!
 //! ```
 //! use hammerbeam_signal::{Terms, filter::{Band, butterworth}, read::parse, spectrum::{Window, amplitude_spectrum}};

@@ -1,7 +1,8 @@
-//! What is read and made at most: a wrong file or number then ends with a sentence, and not for want of memory or time.
+//! What is read and made at most: a wrong file or number then ends with a sentence, and not for want of
+//! memory or time.
 //!
-//! Every reader of the program opens its file here. A device, a pipe or an archive has no size that could be looked up beforehand, so no more than the
-//! limit is ever taken from any of them.
+//! Every reader of the program opens its file here. A device, a pipe or an archive has no size that could be
+//! looked up beforehand, so no more than the limit is ever taken from any of them.
 
 use std::{
     fs::File,
@@ -19,7 +20,8 @@ pub const LARGEST_TEXT: u64 = 16 << 20;
 pub const MOST_SAMPLES: usize = 1 << 25;
 /// Largest magnitude of a sample in its unit; with larger ones squares and their sums are not finite.
 pub const LARGEST_SAMPLE: f64 = 1e60;
-/// Magnitude that the largest sample of a channel has at least, if it is not 0; of smaller ones no squares are left.
+/// Magnitude that the largest sample of a channel has at least, if it is not 0; of smaller ones no squares
+/// are left.
 pub const SMALLEST_SAMPLE: f64 = 1e-60;
 
 /// Content of a file.
@@ -50,7 +52,8 @@ pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read_bytes(path, most)?).map_err(no_text)
 }
 
-/// Whether a character is none that is seen: what a terminal obeys, ends a line, or turns the direction of writing.
+/// Whether a character is none that is seen: what a terminal obeys, ends a line, or turns the direction of
+/// writing.
 #[must_use]
 pub fn is_control(character: char) -> bool {
     character.is_control()

@@ -1,6 +1,7 @@
 //! Numbers at random from a seed, the same on every machine and for ever.
 //!
-//! SplitMix64 (Steele, Lea and Flood, OOPSLA 2014) for bits, the polar method (Marsaglia and Bray, SIAM Rev. 6 (1964), 260-264) for the normal distribution.
+//! SplitMix64 (Steele, Lea and Flood, OOPSLA 2014) for bits, the polar method (Marsaglia and Bray, SIAM Rev.
+//! 6 (1964), 260-264) for the normal distribution.
 
 /// A source of random numbers.
 #[derive(Debug, Clone)]

@@ -79,7 +79,8 @@ impl RawRecord {
         Self { groups: vec![RawGroup { axis, channels }], time: None, findings }
     }
 
-    /// With a column as the time, by its name or its number among all columns, from 1 on in the order of the file. What was taken for the time becomes a channel again, where it stands in the file.
+    /// With a column as the time, by its name or its number among all columns, from 1 on in the order of the
+    /// file. What was taken for the time becomes a channel again, where it stands in the file.
     ///
     /// # Errors
     /// [`RecordError::NoSuchChannel`].
@@ -110,7 +111,8 @@ impl RawRecord {
         Ok(self)
     }
 
-    /// Name of a channel that is meant by its name or its number, from 1 on in the order of the file, the time not counted. A name comes before a number.
+    /// Name of a channel that is meant by its name or its number, from 1 on in the order of the file, the
+    /// time not counted. A name comes before a number.
     ///
     /// # Errors
     /// [`RecordError::NoSuchChannel`] with the names there are.
@@ -132,7 +134,8 @@ impl RawRecord {
 
     /// Adds a channel to the group with the same times, which is made if it is not there.
     ///
-    /// Steps that differ by less than 1e-6 of themselves are the same: a file in single precision says no more.
+    /// Steps that differ by less than 1e-6 of themselves are the same: a file in single precision says no
+    /// more.
     pub fn add(&mut self, axis: Axis, channel: RawChannel) {
         match self.groups.iter_mut().find(|group| same(&group.axis, &axis)) {
             Some(group) => group.channels.push(channel),

@@ -187,11 +187,13 @@ fn simplified(text: &str) -> String {
     }
 }
 
-/// Splits the title of a column into name and unit: `acc (m/s^2)`, `time [s]`, `a / g`, `v m/s`, `velocity_m_s`, `t, ms`, `x in mm`.
+/// Splits the title of a column into name and unit: `acc (m/s^2)`, `time [s]`, `a / g`, `v m/s`,
+/// `velocity_m_s`, `t, ms`, `x in mm`.
 ///
 /// # Returns
-/// The name, and the text of the unit if there is one. A text in brackets is taken for a unit whether it is known or not;
-/// otherwise only known units are told from words, the longest that the title ends in. What is something per time (`rad/s`, `load_n_s`) is no time.
+/// The name, and the text of the unit if there is one. A text in brackets is taken for a unit whether it is
+/// known or not; otherwise only known units are told from words, the longest that the title ends in. What is
+/// something per time (`rad/s`, `load_n_s`) is no time.
 #[must_use]
 pub fn split_title(title: &str) -> (String, Option<String>) {
     let title = title.trim();
@@ -214,7 +216,8 @@ pub fn split_title(title: &str) -> (String, Option<String>) {
     (title.to_owned(), None)
 }
 
-/// Name and unit of a title that ends in a known unit behind a blank, a comma or a slash; or in one that is not known, if it is something per time.
+/// Name and unit of a title that ends in a known unit behind a blank, a comma or a slash; or in one that is
+/// not known, if it is something per time.
 fn known_end(title: &str) -> Option<(&str, &str)> {
     for (at, separator) in title.match_indices([' ', '/', ',']) {
         let text = title[at + separator.len()..].trim();

@@ -62,7 +62,8 @@ fn quasi_periodic_motion_is_aperiodic() {
     assert_eq!(of(&series).motion, Motion::Aperiodic);
 }
 
-/// Duffing's equation of Ueda, `x'' + 0.05 x' + x³ = 7.5 cos t`, is chaotic (Ueda, J. Stat. Phys. 20 (1979), 181-196).
+/// Duffing's equation of Ueda, `x'' + 0.05 x' + x³ = 7.5 cos t`, is chaotic (Ueda, J. Stat. Phys. 20 (1979),
+/// 181-196).
 #[test]
 fn chaotic_motion_is_aperiodic() {
     let acceleration = |t: f64, x: f64, v: f64| 7.5 * t.cos() - 0.05 * v - x.powi(3);

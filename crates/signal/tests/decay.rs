@@ -79,8 +79,9 @@ fn close_modes_lie_in_their_intervals() {
     }));
 }
 
-/// Behind a low-pass filter the noise is coloured: an interval from the variance alone would be too small by three.
-/// The first 0.1 s are left out: there the filter still settles, and that is no decay of the structure.
+/// Behind a low-pass filter the noise is coloured: an interval from the variance alone would be too small by
+/// three. The first 0.1 s are left out: there the filter still settles, and that is no decay of the
+/// structure.
 #[test]
 fn intervals_hold_behind_a_filter() {
     let filter = butterworth(4, Band::LowPass { cut_off_hz: 60.0 }, RATE).unwrap();
@@ -156,7 +157,8 @@ fn damping_that_grows_with_time_is_told() {
     assert!(found.changes() == Some(true) && second.value > first.value, "{found:?}");
 }
 
-/// Damping of 0.15: four or five maxima stand out of the noise. They say the decrement, and nothing about its course.
+/// Damping of 0.15: four or five maxima stand out of the noise. They say the decrement, and nothing about its
+/// course.
 #[test]
 fn few_maxima_of_a_viscous_decay_do_not_show_a_change() {
     let (mut covered, mut fewest, mut most) = (0, usize::MAX, 0);
@@ -173,7 +175,8 @@ fn few_maxima_of_a_viscous_decay_do_not_show_a_change() {
     assert!(covered >= 90, "{covered} of 100");
 }
 
-/// Where there are enough maxima, a viscous decay is rarely said to change: intervals of 95 % of two halves that do not meet.
+/// Where there are enough maxima, a viscous decay is rarely said to change: intervals of 95 % of two halves
+/// that do not meet.
 #[test]
 fn viscous_decays_do_not_change() {
     let changed = (0..100).filter(|seed| {

@@ -1,6 +1,7 @@
 //! Filters with low cut-offs against the same filters in arithmetic of 60 digits.
 //!
-//! Here SciPy's own rounding can be more than 1e-12 of the largest value (`scipy_.._off_by` in `fixtures/exact_filters.json`, up to 2e-10), so it is no measure: poles near one amplify the rounding of
+//! Here SciPy's own rounding can be more than 1e-12 of the largest value (`scipy_.._off_by` in
+//! `fixtures/exact_filters.json`, up to 2e-10), so it is no measure: poles near one amplify the rounding of
 //! coefficients in powers of z. Ours are in powers of z - 1.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -7,8 +7,9 @@
 //! | Lorenz | 16, 45.92, 4 | 0.01 s | 1.50 1/s (2.16 bits/s) |
 //! | Rössler | 0.15, 0.2, 10 | 0.1 s | 0.090 1/s (0.13 bits/s) |
 //!
-//! Exponents by Wolf et al. 1985, table 1; delays, dimensions and lengths by Rosenstein et al. 1993. A single record of these lengths scatters by
-//! several per cent with its beginning, so each case is run from five beginnings.
+//! Exponents by Wolf et al. 1985, table 1; delays, dimensions and lengths by Rosenstein et al. 1993. A single
+//! record of these lengths scatters by several per cent with its beginning, so each case is run from five
+//! beginnings.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::f64::consts::PI;
@@ -79,16 +80,19 @@ fn rosenstein_1993_lorenz() {
     assert_within(&errors(LORENZ, 5000, Method::Rosenstein, StraightPart::Found), 0.05, 0.10);
 }
 
-/// Missed when the part is found automatically. Distances to nearest neighbours have a part along the motion, which does not grow, so the curve is flatter than the exponent until what lies
-/// across the motion outweighs it; by then it feels the size of the attractor. (Distances across the motion alone give 0.9 to 1.0 of the exponent here, but 1.15 of Lorenz'.)
+/// Missed when the part is found automatically. Distances to nearest neighbours have a part along the motion,
+/// which does not grow, so the curve is flatter than the exponent until what lies across the motion outweighs
+/// it; by then it feels the size of the attractor. (Distances across the motion alone give 0.9 to 1.0 of the
+/// exponent here, but 1.15 of Lorenz'.)
 #[test]
 fn rosenstein_1993_roessler_comes_out_a_sixth_too_small() {
     let errors = errors(ROESSLER, 20_000, Method::Rosenstein, StraightPart::Found);
     assert!((-0.20..-0.08).contains(&errors[2]), "{errors:.3?}");
 }
 
-/// The authors give 0.0879 from a record of 2000 samples, 2 % too small, with the part chosen by eye (`rosenstein_1993.rs`). With ten times as many samples more is missing: over the part in which the mean of several
-/// curves is steepest, and over the period of steepest growth.
+/// The authors give 0.0879 from a record of 2000 samples, 2 % too small, with the part chosen by eye
+/// (`rosenstein_1993.rs`). With ten times as many samples more is missing: over the part in which the mean of
+/// several curves is steepest, and over the period of steepest growth.
 #[test]
 fn rosenstein_1993_roessler_with_the_straight_part_given() {
     assert_within(&errors(ROESSLER, 20_000, Method::Rosenstein, StraightPart::Given(230, 320)), 0.15, 0.25);
@@ -109,7 +113,8 @@ fn wolf_1985_lorenz_and_roessler() {
     assert_within(&errors(ROESSLER, 20_000, Method::Wolf, StraightPart::Found), 0.05, 0.10);
 }
 
-/// The straight part of Lorenz' curve is given, as the authors choose it by eye; what is found by itself gives up to 15 % too much.
+/// The straight part of Lorenz' curve is given, as the authors choose it by eye; what is found by itself
+/// gives up to 15 % too much.
 #[test]
 fn kantz_1994() {
     assert_within(&errors(LOGISTIC, 5000, Method::Kantz, StraightPart::Found), 0.04, 0.06);
@@ -117,7 +122,8 @@ fn kantz_1994() {
     assert_within(&errors(LORENZ, 5000, Method::Kantz, StraightPart::Given(40, 120)), 0.05, 0.15);
 }
 
-/// Rosenstein et al. use 11 and 3 for Lorenz, 1 and 2 for Hénon. Of the logistic map one coordinate is the state.
+/// Rosenstein et al. use 11 and 3 for Lorenz, 1 and 2 for Hénon. Of the logistic map one coordinate is the
+/// state.
 #[test]
 fn delay_and_dimension_are_those_of_the_authors() {
     let chosen = |series: Vec<f64>| {

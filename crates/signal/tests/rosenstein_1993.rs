@@ -1,4 +1,5 @@
-//! Rosenstein, Collins and De Luca, Physica D 65 (1993), 117-134, tables 2 and 3: their method on their examples, with their lengths, delays and dimensions.
+//! Rosenstein, Collins and De Luca, Physica D 65 (1993), 117-134, tables 2 and 3: their method on their
+//! examples, with their lengths, delays and dimensions.
 //!
 //! | system | samples | delay | their errors, one record each | ours, the middle of nine beginnings |
 //! |---|---|---|---|---|
@@ -6,12 +7,15 @@
 //! | Hénon, 2 to 5 | 500 | 1 | -2.2, -2.9, -4.5, -6.2 % | -2.6, -3.3, -4.8, -5.7 % |
 //! | Lorenz, 3, 5, 7, 9 | 5000 | 11 | +2.1, -0.1, +4.1, +4.0 % | +0.5, -2.5, +1.0, +2.1 % |
 //!
-//! Their accuracy, the largest error of a system, is met for these systems in every dimension. They chose the straight part by eye. Here it is looked for automatically.
+//! Their accuracy, the largest error of a system, is met for these systems in every dimension. They chose the
+//! straight part by eye. Here it is looked for automatically.
 //!
-//! For Rössler (2000 samples, delay 8, dimensions 3, 5, 7, 9; their errors -2.3, -4.0, -5.2, -7.2 %) it is **missed**. Over the mean period of steepest growth the middle of nine beginnings is a draw: the first nine
-//! give -6.4, -6.3, -3.6, -6.3 %, but 60 others have medians of -10.8, -11.3, -11.2, -11.5 %, and middles of nine meet 7.2 % in only 26 to 38 % of draws. Even medians of 60 scatter: three
-//! more draws have -1 to -14 %. Without that part, Rössler's exponent comes out a seventh to a
-//! fifth too small. Single records of 2000 samples scatter by tens of per cent, theirs, too, as their table 3 shows.
+//! For Rössler (2000 samples, delay 8, dimensions 3, 5, 7, 9; their errors -2.3, -4.0, -5.2, -7.2 %) it is
+//! **missed**. Over the mean period of steepest growth the middle of nine beginnings is a draw: the first
+//! nine give -6.4, -6.3, -3.6, -6.3 %, but 60 others have medians of -10.8, -11.3, -11.2, -11.5 %, and
+//! middles of nine meet 7.2 % in only 26 to 38 % of draws. Even medians of 60 scatter: three more draws have
+//! -1 to -14 %. Without that part, Rössler's exponent comes out a seventh to a fifth too small. Single
+//! records of 2000 samples scatter by tens of per cent, theirs, too, as their table 3 shows.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::ops::Range;
@@ -68,8 +72,10 @@ fn logistic_map_henon_and_lorenz_are_within_the_authors_accuracy_in_every_dimens
     }
 }
 
-/// The authors' 7.2 % is missed, or met by chance. The tolerance is what is left: middles of sixty beginnings are a draw, too (quartiles of single ones are 14 % to each side of the middle, so that a middle of sixty has a standard
-/// error of 3.3 %). About -8 %, the middle of 180, three times that is allowed, and rounded up.
+/// The authors' 7.2 % is missed, or met by chance. The tolerance is what is left: middles of sixty beginnings
+/// are a draw, too (quartiles of single ones are 14 % to each side of the middle, so that a middle of sixty
+/// has a standard error of 3.3 %). About -8 %, the middle of 180, three times that is allowed, and rounded
+/// up.
 #[test]
 fn roessler_over_the_period_of_steepest_growth_is_within_a_fifth_in_the_middle_of_sixty_beginnings() {
     for dimension in [3, 5, 7, 9] {
@@ -79,7 +85,9 @@ fn roessler_over_the_period_of_steepest_growth_is_within_a_fifth_in_the_middle_o
     }
 }
 
-/// Their table 3: exponents from one record each, of 800 to 2000 samples in three dimensions. Ours scatter, and theirs lie among them. (Of 400 samples, not seven periods, they print 0.0351; five of nine of our curves have no straight part there.)
+/// Their table 3: exponents from one record each, of 800 to 2000 samples in three dimensions. Ours scatter,
+/// and theirs lie among them. (Of 400 samples, not seven periods, they print 0.0351; five of nine of our
+/// curves have no straight part there.)
 #[test]
 fn exponents_that_the_authors_print_for_roessler_lie_among_those_of_nine_beginnings() {
     for (length, printed) in [(800, 0.0655), (1200, 0.0918), (1600, 0.0984), (2000, 0.0879)] {

@@ -1,6 +1,8 @@
-//! Filters, resampling, spectra, windows and envelopes against SciPy's results, to 1e-12 of the largest value.
+//! Filters, resampling, spectra, windows and envelopes against SciPy's results, to 1e-12 of the largest
+//! value.
 //!
-//! The results are in `fixtures/scipy.json`, made by `fixtures/make_fixtures.py` with the version named there.
+//! The results are in `fixtures/scipy.json`, made by `fixtures/make_fixtures.py` with the version named
+//! there.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_signal::{
@@ -115,7 +117,8 @@ fn spectra_by_segments() {
     }
 }
 
-/// One-sided power of a line is half the square of its amplitude, but the square itself at half the sampling rate; ours has the mean at zero.
+/// One-sided power of a line is half the square of its amplitude, but the square itself at half the sampling
+/// rate; ours has the mean at zero.
 #[test]
 fn amplitudes_of_the_whole_record() {
     let results = results();

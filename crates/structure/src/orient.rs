@@ -5,7 +5,8 @@ use faer::Mat;
 /// A mode that moves less than this part of its largest displacement at a point is at rest there.
 const AT_REST: f64 = 1e-6;
 
-/// Turns each mode so that it is positive at the first of `preferred` where it moves, else where it moves most.
+/// Turns each mode so that it is positive at the first of `preferred` where it moves, else where it moves
+/// most.
 ///
 /// * `shapes`: one column a mode, rows over all coordinates.
 /// * `translation`: 1 for transverse displacements, 0 for rotations.

@@ -26,7 +26,8 @@ pub struct Reduced {
     pub outline: Vec<OutlinePoint>,
 }
 
-/// A place of a structure and how it moves, for drawing the structure as a whole: `y = shape . q + support_ratio u`.
+/// A place of a structure and how it moves, for drawing the structure as a whole: `y = shape . q +
+/// support_ratio u`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutlinePoint {
     /// Distance from the left end [m]; of a lumped structure the number of the mass, from 0.
@@ -46,11 +47,12 @@ impl Structure {
     /// decomposition of the unreduced structure, and another for each reduction: of the order of a
     /// second each for 1000 coordinates (500 elements), growing with the cube.
     ///
-    /// * `interface`: names of the points with local elements or forces; held or prescribed ones may be named.
+    /// * `interface`: names of the points with local elements or forces; held or prescribed ones may be
+    ///   named.
     ///
     /// # Errors
-    /// An unknown interface point, a cut-off below the first elastic mode, a lumped structure with a reduction,
-    /// damping ratios out of range or number, nothing left free.
+    /// An unknown interface point, a cut-off below the first elastic mode, a lumped structure with a
+    /// reduction, damping ratios out of range or number, nothing left free.
     pub fn reduce(
         &self,
         reduction: &Reduction,

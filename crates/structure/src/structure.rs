@@ -83,7 +83,8 @@ impl Structure {
         self.points.iter().map(|point| point.name.as_str())
     }
 
-    /// Eigenfrequencies [Hz] of the supported structure, support motion held at zero; rigid-body modes are 0.0.
+    /// Eigenfrequencies [Hz] of the supported structure, support motion held at zero; rigid-body modes are
+    /// 0.0.
     ///
     /// # Errors
     /// Nothing is free, or the modes do not converge.

@@ -113,7 +113,8 @@ fn every_number_of_a_beam_agrees_with_differences() {
         let (low, high) = (moved(-step), moved(step));
         for mode in 0..8 {
             let difference = (high[mode] - low[mode]) / (2.0 * step * value(&beam, name, second));
-            // Relative to what the parameter does to a frequency at most: rounding 1e-12/1e-5, truncation (1e-5)^2 times the squared number of half waves.
+            // Relative to what the parameter does to a frequency at most: rounding 1e-12/1e-5, truncation
+            // (1e-5)^2 times the squared number of half waves.
             let tolerance = 1e-6 * (difference.abs() + 1e-2 * frequencies[mode] / value(&beam, name, second));
             assert!(
                 (exact[mode] - difference).abs() < tolerance,

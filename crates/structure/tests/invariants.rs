@@ -204,7 +204,8 @@ fn the_outline_passes_through_the_points() {
     }
 }
 
-/// First mode of a clamped-free beam: `w(x) / w(L)` is half of `cosh kx - cos kx - s (sinh kx - sin kx)`, `k L = 1.87510407`, `s = 0.73409551`.
+/// First mode of a clamped-free beam: `w(x) / w(L)` is half of `cosh kx - cos kx - s (sinh kx - sin kx)`, `k
+/// L = 1.87510407`, `s = 0.73409551`.
 #[test]
 fn the_outline_of_a_cantilever_has_the_shape_of_its_first_mode() {
     let beam = unit_beam(16, End::Clamped, End::Free, Vec::new());
@@ -213,7 +214,8 @@ fn the_outline_of_a_cantilever_has_the_shape_of_its_first_mode() {
     for place in &outline {
         let kx = 1.875_104_07 * place.at / tip.at;
         let meant = 0.5 * (kx.cosh() - kx.cos() - 0.734_095_51 * (kx.sinh() - kx.sin()));
-        // Cubic elements: the error of the shape is of the order of (k h)^4 = 2e-4 times its fourth derivative's share, 1/720.
+        // Cubic elements: the error of the shape is of the order of (k h)^4 = 2e-4 times its fourth
+        // derivative's share, 1/720.
         assert_relative_eq!(place.shape[0] / tip.shape[0], meant, epsilon = 1e-6);
     }
 }

@@ -80,7 +80,8 @@ fn beam_without_other_supports_rides_exactly_with_its_support() {
     }
 }
 
-/// Clamped at the left and moved across in the middle: `x^2 (3 l - x) / (2 l^3)` up to there, straight beyond.
+/// Clamped at the left and moved across in the middle: `x^2 (3 l - x) / (2 l^3)` up to there, straight
+/// beyond.
 #[test]
 fn cantilever_moved_at_a_point_bends_up_to_it_and_is_straight_beyond() {
     let points = vec![bare("half", 0.25), bare("driven", 0.5)];

@@ -1,9 +1,12 @@
 //! How fast whole diagrams are computed: searches, every branch, its bifurcations, and storage.
 //!
-//! Runs each study once with one thread and once with all cores and prints solutions per second; then, on a sample of the stored solutions, what
-//! one of each kind of work costs (an orbit, its sensitivities, its maxima), and the shares of flight, contact, linear algebra and storage in the time
-//! of a solution. Flight is what the parts of an orbit without contact take on their own, without what beginning and ending them takes, contact the rest of an evaluation; linear algebra is a bordered system factorised and solved
-//! twice with each evaluation and the multipliers with each solution; what is left are maxima and the path's own checks. With `-- --test` only a small study runs.
+//! Runs each study once with one thread and once with all cores and prints solutions per second; then, on a
+//! sample of the stored solutions, what one of each kind of work costs (an orbit, its sensitivities, its
+//! maxima), and the shares of flight, contact, linear algebra and storage in the time of a solution. Flight
+//! is what the parts of an orbit without contact take on their own, without what beginning and ending them
+//! takes, contact the rest of an evaluation; linear algebra is a bordered system factorised and solved twice
+//! with each evaluation and the multipliers with each solution; what is left are maxima and the path's own
+//! checks. With `-- --test` only a small study runs.
 #![allow(clippy::unwrap_used, reason = "a benchmark ends where its study is wrong")]
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
@@ -96,7 +99,8 @@ struct Costs {
 }
 
 impl Costs {
-    /// Shares of a solution's time, in percent: flight, contact, linear algebra, the rest (maxima, checks of the path), storage.
+    /// Shares of a solution's time, in percent: flight, contact, linear algebra, the rest (maxima, checks of
+    /// the path), storage.
     fn shares(&self) -> [f64; 5] {
         let flight = self.evaluations * self.flight;
         let contact = self.evaluations * (self.evaluation - self.flight);
@@ -171,7 +175,8 @@ fn monodromy(integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Vec<
     (0..size * size).map(|k| by_state[(k / size, k % size)]).collect()
 }
 
-/// Times [s] of a bordered system of `A - I`, factorised and solved twice, and of the eigenvalues of `A`, on average over these.
+/// Times [s] of a bordered system of `A - I`, factorised and solved twice, and of the eigenvalues of `A`, on
+/// average over these.
 fn linear_algebra(matrices: &[Vec<f64>]) -> [f64; 2] {
     let count = matrices.len().max(1) as f64;
     let mut lu = DenseLu::new();

@@ -94,9 +94,9 @@ impl StoredBranches {
         self.store.solution(branch.record.start, placed.side, placed.number)
     }
 
-    /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the state is interpolated and then
-    /// corrected at the frequency. In a symmetric system the mirror image of an orbit is one, too, and counts
-    /// to its branch unless a branch holds it.
+    /// Orbits in which branches cross a frequency, each with the number of its branch: between two rows the
+    /// state is interpolated and then corrected at the frequency. In a symmetric system the mirror image of
+    /// an orbit is one, too, and counts to its branch unless a branch holds it.
     ///
     /// * `model`: that of the study.
     /// * `wanted`: of a branch's record, whether it is looked at.
@@ -145,7 +145,8 @@ impl StoredBranches {
                     orbits.extend(orbit.map(|orbit| (record.id, orbit)));
                 }
             }
-            // Between rows the higher end counts; a branch that ends at the frequency and lies above it has no such pair there.
+            // Between rows the higher end counts; a branch that ends at the frequency and lies above it has
+            // no such pair there.
             for (end, beside) in [(rows.first(), rows.get(1)), (rows.last(), rows.iter().rev().nth(1))] {
                 let Some((end, beside)) = end.zip(beside) else { continue };
                 if end.row.frequency_hz == frequency_hz && beside.row.frequency_hz >= frequency_hz {
@@ -159,8 +160,9 @@ impl StoredBranches {
 
     /// The branch that a periodic motion lies on.
     ///
-    /// * `states`: at phase 0 of each of its excitation periods, or of some of them over and over: of an orbit that is in contact at phase 0 with a law that remembers its impact, not all may be
-    ///   known. One in common with an orbit of as many periods is enough.
+    /// * `states`: at phase 0 of each of its excitation periods, or of some of them over and over: of an
+    ///   orbit that is in contact at phase 0 with a law that remembers its impact, not all may be known. One
+    ///   in common with an orbit of as many periods is enough.
     ///
     /// # Errors
     /// The store refuses.
@@ -231,8 +233,8 @@ impl StoredBranches {
     }
 }
 
-/// Whether an orbit touches as often as one of two rows: where several branches meet in a grazing, Newton's method may
-/// go from between two rows of one to another.
+/// Whether an orbit touches as often as one of two rows: where several branches meet in a grazing, Newton's
+/// method may go from between two rows of one to another.
 fn has_contacts_of(pair: &[PlacedRow], orbit: &PeriodicSolution) -> bool {
     pair.iter().any(|placed| placed.row.maxima.contacts == orbit.maxima.contacts)
 }

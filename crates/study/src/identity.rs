@@ -1,11 +1,12 @@
 //! What makes a study the same study: everything that its solutions depend on.
 //!
-//! Title, budgets and comments are not part of it; a default that is written out is the same as one that is not.
+//! Title, budgets and comments are not part of it; a default that is written out is the same as one that is
+//! not.
 
 use crate::file::Study;
 
-/// Version of the computed data: counted up when the same study gives other numbers, so that a results folder is
-/// never continued with another program's numbers.
+/// Version of the computed data: counted up when the same study gives other numbers, so that a results folder
+/// is never continued with another program's numbers.
 pub const DATA_VERSION: u32 = 17;
 
 impl Study {

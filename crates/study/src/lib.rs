@@ -18,8 +18,9 @@
 //! | [`verify`] | stored solutions, computed again by the independent integrator |
 //! | [`export`], [`summary`] | what is read from it: CSV, and branches in few numbers |
 //!
-//! A run is a loop over searches that the study alone decides. Everything it finishes is in the store before it goes on, and what is in the store is
-//! skipped, so a run that was killed does exactly what is left, with the same bits.
+//! A run is a loop over searches that the study alone decides. Everything it finishes is in the store before
+//! it goes on, and what is in the store is skipped, so a run that was killed does exactly what is left, with
+//! the same bits.
 //!
 //! # Example
 //! ```

@@ -1,7 +1,8 @@
 //! Numbers of a study file by their key paths, and the file with other numbers in their places.
 //!
-//! A path leads through the tables of the file. An element of a list of tables is named by its `name`, or by its number from 1: `structure.point.contact.mass_kg` and
-//! `structure.point.1.mass_kg` are the same. Numbers that choose how something is computed are not numbers of the model and are left out.
+//! A path leads through the tables of the file. An element of a list of tables is named by its `name`, or by
+//! its number from 1: `structure.point.contact.mass_kg` and `structure.point.1.mass_kg` are the same. Numbers
+//! that choose how something is computed are not numbers of the model and are left out.
 
 use std::ops::Range;
 
@@ -122,7 +123,8 @@ pub(crate) fn with_numbers(
     StudyFile::parse(&file.name, replaced(&file.text, numbers, values))
 }
 
-/// The model alone of the study with other numbers, without branches in other parameters and curves: their ranges hold the values of the study as it is.
+/// The model alone of the study with other numbers, without branches in other parameters and curves: their
+/// ranges hold the values of the study as it is.
 ///
 /// # Errors
 /// [`StudyError::Invalid`]: a value is out of the range that the study file allows.
@@ -134,7 +136,8 @@ pub(crate) fn model_with(
     StudyFile::parse_model(&file.name, replaced(&file.text, numbers, values))
 }
 
-/// Values that the study file allows for a number, as far as they do not hang on others: whether it may be negative or zero, and whether it may exceed one.
+/// Values that the study file allows for a number, as far as they do not hang on others: whether it may be
+/// negative or zero, and whether it may exceed one.
 pub(crate) fn limits(file: &StudyFile, number: &Number) -> (f64, f64) {
     let size = if number.value == 0.0 { 1.0 } else { number.value.abs() };
     let allowed = |value: f64| with_numbers(file, std::slice::from_ref(number), &[value]).is_ok();

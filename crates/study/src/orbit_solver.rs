@@ -64,8 +64,8 @@ impl<'m> OrbitSolver<'m> {
         }
     }
 
-    /// All periodic solutions of minimal period `period_multiple` that are found at a frequency: stable ones first,
-    /// then the largest maximum displacement.
+    /// All periodic solutions of minimal period `period_multiple` that are found at a frequency: stable ones
+    /// first, then the largest maximum displacement.
     ///
     /// * `interrupted`: asked now and then; the search ends with an error when it says true.
     ///
@@ -126,7 +126,8 @@ const CLOSEST_MOTION: f64 = 1e-13;
 
 /// Settings of the orbit crate from those of a study.
 ///
-/// A motion is computed twenty times as closely as its orbit is asked for, down to where rounding decides, and never worse than by default.
+/// A motion is computed twenty times as closely as its orbit is asked for, down to where rounding decides,
+/// and never worse than by default.
 pub(crate) fn settings(continuation: &file::Continuation) -> OrbitSettings {
     let usual = OrbitSettings::default();
     OrbitSettings {

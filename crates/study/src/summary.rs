@@ -23,7 +23,8 @@ pub struct BranchSummary {
     pub folds: u64,
     /// Number of flips.
     pub flips: u64,
-    /// Those at which the study does not ask for the branch of doubled period; 0 as long as the branch is not finished.
+    /// Those at which the study does not ask for the branch of doubled period; 0 as long as the branch is not
+    /// finished.
     pub flips_not_followed: u64,
     /// Number of Neimark-Sacker points.
     pub neimark_sackers: u64,

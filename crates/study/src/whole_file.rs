@@ -1,9 +1,10 @@
 //! Files that appear whole or not at all.
 //!
-//! A file is written beside its place, under a name that ends in `.part`, and takes its place when it is finished: whoever reads meanwhile has the
-//! old one or the new one, and where a link was the file is afterwards, not what the link led to. The part is locked while it is written, and the
-//! system lets the lock go however the program ends; so a part that nobody holds was left by a program that was killed, and goes when the next
-//! file is written into that folder.
+//! A file is written beside its place, under a name that ends in `.part`, and takes its place when it is
+//! finished: whoever reads meanwhile has the old one or the new one, and where a link was the file is
+//! afterwards, not what the link led to. The part is locked while it is written, and the system lets the lock
+//! go however the program ends; so a part that nobody holds was left by a program that was killed, and goes
+//! when the next file is written into that folder.
 
 use std::{
     collections::BTreeSet,
@@ -101,7 +102,8 @@ impl Write for WholeFile {
     }
 }
 
-/// Replaces a file by these bytes. They are left to the system, which brings them to the disk when it likes: for what can be made again.
+/// Replaces a file by these bytes. They are left to the system, which brings them to the disk when it likes:
+/// for what can be made again.
 ///
 /// # Errors
 /// [`WriteError`]; what was there is as it was then.
@@ -195,7 +197,8 @@ mod tests {
         names
     }
 
-    /// Every writer ends with its own bytes whole or with those of another one, and nothing else is left in the folder.
+    /// Every writer ends with its own bytes whole or with those of another one, and nothing else is left in
+    /// the folder.
     #[test]
     fn one_file_is_written_by_several_at_once_and_nothing_is_left_of_a_failure() {
         let folder = tempfile::tempdir().unwrap();

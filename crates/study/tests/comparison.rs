@@ -11,7 +11,8 @@ use hammerbeam_study::comparison::{
     Verdict, compare,
 };
 
-/// A branch of period 1 with two peaks and an unstable stretch between them, one of period 2 with a peak, and a low one of period 1.
+/// A branch of period 1 with two peaks and an unstable stretch between them, one of period 2 with a peak, and
+/// a low one of period 1.
 fn value(branch: u32, f: f64) -> f64 {
     let peak = |at: f64, width: f64| 1.0 / (1.0 + ((f - at) / width).powi(2));
     match branch {
@@ -33,7 +34,8 @@ fn curves() -> Curves {
     Curves::new(vec![branch(1, 1, 20.0, 70.0), branch(2, 2, 55.0, 75.0), branch(3, 1, 20.0, 30.0)])
 }
 
-/// Points as a rig would show them whose frequencies are `factor` too low and whose values are `amplitude` too small.
+/// Points as a rig would show them whose frequencies are `factor` too low and whose values are `amplitude`
+/// too small.
 fn measured(factor: f64, amplitude: f64, noise: f64, seed: u64) -> Vec<MeasuredPoint> {
     let mut random = Random::new(seed);
     let mut point = |branch: u32, f: f64, period: u32| {
@@ -81,7 +83,8 @@ fn an_offset_is_found_where_an_offset_was_put() {
     assert!(factor.after.rms > 10.0 * found.after.rms, "{} {}", factor.after.rms, found.after.rms);
 }
 
-/// Of 60 seeds the values put in lie within two standard errors as often as they should: 95 % of them, and 90 % allows for chance (a binomial share of 60 is 0.95 +- 0.03).
+/// Of 60 seeds the values put in lie within two standard errors as often as they should: 95 % of them, and 90
+/// % allows for chance (a binomial share of 60 is 0.95 +- 0.03).
 #[test]
 fn standard_errors_are_what_they_say() {
     let (factor, amplitude) = (1.06, 7.0);
@@ -151,7 +154,8 @@ fn each_point_has_its_verdict() {
     assert_eq!(found[6].nearest.unwrap().hit.branch, 3);
 }
 
-/// Two peaks, the second one at 1.1 times the frequency, of nearly the same height: points on the first one could as well be meant for it.
+/// Two peaks, the second one at 1.1 times the frequency, of nearly the same height: points on the first one
+/// could as well be meant for it.
 #[test]
 fn a_second_minimum_that_is_about_as_good_is_told_and_one_that_is_not_is_not() {
     let curves = |second: f64| {
@@ -187,7 +191,8 @@ fn a_second_minimum_that_is_about_as_good_is_told_and_one_that_is_not_is_not() {
     assert_eq!(fit(3.0).second, None);
 }
 
-/// A branch of `f^3`: points whose frequencies are a quarter too low lie `3 ln(1.25/c)` off with the factor `c`, and 1.18 is the end of what is tried.
+/// A branch of `f^3`: points whose frequencies are a quarter too low lie `3 ln(1.25/c)` off with the factor
+/// `c`, and 1.18 is the end of what is tried.
 #[test]
 fn estimate_at_an_end_is_told_and_has_no_standard_error() {
     let point = |k: usize| {
@@ -229,7 +234,8 @@ fn estimate_at_an_end_is_told_and_has_no_standard_error() {
     assert!((found.after.rms - 2.0_f64.ln()).abs() < 1e-6, "{:?}", found.after);
 }
 
-/// Beside a number at an end the other one is what it is with the first one given there, its standard error too.
+/// Beside a number at an end the other one is what it is with the first one given there, its standard error
+/// too.
 #[test]
 fn number_beside_one_at_an_end_is_that_for_this_end() {
     let points = measured(1.06, 7.0, 0.05, 3);
@@ -245,7 +251,8 @@ fn number_beside_one_at_an_end_is_that_for_this_end() {
     );
 }
 
-/// Two bells, the second one at 1.10025 times the frequency and of exactly the form of the points. Beside a grid of 0.0005 its steep flanks are missed by 0.00025, so that on the grid the first one, which is a
+/// Two bells, the second one at 1.10025 times the frequency and of exactly the form of the points. Beside a
+/// grid of 0.0005 its steep flanks are missed by 0.00025, so that on the grid the first one, which is a
 /// little deformed, is the better one.
 #[test]
 fn lowest_of_the_refined_minima_is_taken() {
@@ -296,7 +303,8 @@ fn what_cannot_be_compared_is_refused() {
         matches!(few, Err(ComparisonError::TooFewPoints { fitted: 2, measured: 2, met: 2, near: 2, .. })),
         "{few:?}"
     );
-    // Every point meets its branch, but the factor of 1000 is not among those that are tried: millimetres that were read as metres.
+    // Every point meets its branch, but the factor of 1000 is not among those that are tried: millimetres
+    // that were read as metres.
     let far: Vec<_> = measured(1.0, 1e-3, 0.0, 1);
     let given = FitSettings { frequency: Fixed::Given(1.0), ..FitSettings::default() };
     let found = compare(&far, &curves(), Quantity::Acceleration, &given).unwrap_err();

@@ -37,7 +37,8 @@ fn held(points: &[MeasuredPoint], curves: &Curves, settings: &FitSettings) -> Co
     compare(points, curves, Quantity::Displacement, settings).unwrap()
 }
 
-/// Eigenfrequencies of 1 to 1000 Hz and half widths down to 0.05 %: the offset is tried on a scale of the frequencies, and finely enough for the peak.
+/// Eigenfrequencies of 1 to 1000 Hz and half widths down to 0.05 %: the offset is tried on a scale of the
+/// frequencies, and finely enough for the peak.
 #[test]
 fn offset_of_a_narrow_resonance_is_found_at_any_scale() {
     for (eigenfrequency, damping) in [(1.0, 0.003), (1.0, 5e-4), (30.0, 5e-4), (1000.0, 0.003)] {
@@ -60,7 +61,8 @@ fn offset_of_a_narrow_resonance_is_found_at_any_scale() {
     }
 }
 
-/// Sum of squares as the fit defines it, from the verdicts: what is farther off than the square of the reach, or meets nothing, counts as that.
+/// Sum of squares as the fit defines it, from the verdicts: what is farther off than the square of the reach,
+/// or meets nothing, counts as that.
 fn sum(comparison: &Comparison) -> f64 {
     let most = (2.0 * 1.5_f64.ln()).powi(2);
     let of = |point: &hammerbeam_study::comparison::PointOutcome| match (point.verdict, point.nearest) {
@@ -70,7 +72,8 @@ fn sum(comparison: &Comparison) -> f64 {
     comparison.points.iter().map(of).sum()
 }
 
-/// A branch that ends at 36 Hz, and a low one behind it. Points lie up to the end, so that a shift that is a little too large loses some: no minimum that is found may be above the sum at the shift that was put in.
+/// A branch that ends at 36 Hz, and a low one behind it. Points lie up to the end, so that a shift that is a
+/// little too large loses some: no minimum that is found may be above the sum at the shift that was put in.
 #[test]
 fn sum_of_squares_beside_the_end_of_a_branch_is_no_larger_than_at_the_true_shift() {
     let high = |f: f64| 1.0 + 0.5 / (36.3 - f);
@@ -93,7 +96,8 @@ fn sum_of_squares_beside_the_end_of_a_branch_is_no_larger_than_at_the_true_shift
     }
 }
 
-/// Two peaks, the second one 13 % lower. Points of a period that no branch has fit nowhere: they are no reason to take the second peak for as good.
+/// Two peaks, the second one 13 % lower. Points of a period that no branch has fit nowhere: they are no
+/// reason to take the second peak for as good.
 #[test]
 fn points_that_never_fit_make_no_second_minimum() {
     let bell = |f: f64, at: f64| (-((f / at).ln() / 0.02).powi(2)).exp();
@@ -110,7 +114,8 @@ fn points_that_never_fit_make_no_second_minimum() {
     assert!(found.second.is_none() && found.points == 21, "{found:?}");
 }
 
-/// Both flanks of a peak have the value; 0.4 % lie between them, and the peak itself is far above. The same with values without any difference, where sums of squares are rounding.
+/// Both flanks of a peak have the value; 0.4 % lie between them, and the peak itself is far above. The same
+/// with values without any difference, where sums of squares are rounding.
 #[test]
 fn both_flanks_of_a_narrow_peak_are_told() {
     let damping = 0.003;
@@ -131,8 +136,9 @@ fn both_flanks_of_a_narrow_peak_are_told() {
     }
 }
 
-/// Three branches of one period lie over one another, a factor of 1.3 apart, so that the nearest one of a point changes with the factor, and some points are strays: no other factor may have a smaller sum at the shift that was found,
-/// and no other shift with the factor that was.
+/// Three branches of one period lie over one another, a factor of 1.3 apart, so that the nearest one of a
+/// point changes with the factor, and some points are strays: no other factor may have a smaller sum at the
+/// shift that was found, and no other shift with the factor that was.
 #[test]
 fn no_factor_and_no_shift_of_a_fine_grid_has_a_smaller_sum() {
     let value = |f: f64| 1.0 + 4.0 * (-((f - 30.0) / 2.0).powi(2)).exp();

@@ -1,4 +1,5 @@
-//! Model updating with noisy synthetic data: what is recovered, how often intervals hold the truth, and what is told when the data cannot decide.
+//! Model updating with noisy synthetic data: what is recovered, how often intervals hold the truth, and what
+//! is told when the data cannot decide.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use hammerbeam_fit::FitProblem;
@@ -142,12 +143,14 @@ fn without_noise_the_parameters_come_back_from_far_away() {
     let study = study(BEAM);
     let found = fitted(&study, &synthetic(&study, &parameters(&THREE), EIGENFREQUENCIES, None));
     for parameter in &found.parameters {
-        // Converged to 1e-6 standard errors, which are about 1e-3 of the values; the mesh may divide the beam otherwise, which moves frequencies by 1e-6.
+        // Converged to 1e-6 standard errors, which are about 1e-3 of the values; the mesh may divide the beam
+        // otherwise, which moves frequencies by 1e-6.
         assert!((parameter.value / parameter.in_study - 1.0).abs() < 1e-6, "{parameter:?}");
     }
 }
 
-/// Of 100 independent intervals that hold the truth with a probability of 0.95 each, fewer than 90 do with a probability of 0.011, and all do with 0.006.
+/// Of 100 independent intervals that hold the truth with a probability of 0.95 each, fewer than 90 do with a
+/// probability of 0.011, and all do with 0.006.
 #[test]
 fn intervals_from_eigenfrequencies_hold_the_truth_at_the_stated_rate() {
     let study = study(BEAM);
@@ -157,8 +160,9 @@ fn intervals_from_eigenfrequencies_hold_the_truth_at_the_stated_rate() {
     assert!(counts.iter().all(|count| (90..100).contains(count)), "{counts:?}");
 }
 
-/// The noise is seven times what the file says, which it is told to find out. Three degrees of freedom: with the quantile of the normal distribution the intervals would hold the truth
-/// in 86 % of the cases only, less than 90 of 100 with a probability of 0.85.
+/// The noise is seven times what the file says, which it is told to find out. Three degrees of freedom: with
+/// the quantile of the normal distribution the intervals would hold the truth in 86 % of the cases only, less
+/// than 90 of 100 with a probability of 0.85.
 #[test]
 fn intervals_with_an_estimated_variance_hold_the_truth_at_the_stated_rate() {
     let study = study(BEAM);
@@ -206,7 +210,8 @@ fn a_contact_and_its_restitution_come_back_from_responses_without_noise() {
     }
 }
 
-/// A mass on a spring that never meets its stop: `max |v| = w F/sqrt((k - w^2)^2 + (2 z w sqrt(k))^2)` for 1 kg.
+/// A mass on a spring that never meets its stop: `max |v| = w F/sqrt((k - w^2)^2 + (2 z w sqrt(k))^2)` for 1
+/// kg.
 #[test]
 fn a_spring_comes_back_from_maximum_velocities() {
     let study = study(&IMPACTS.replace("gap_m = 2.0e-3", "gap_m = 100.0"));
@@ -221,7 +226,8 @@ fn a_spring_comes_back_from_maximum_velocities() {
     }
     let found = fitted(&study, &parsed(&text, &study));
     for parameter in &found.parameters {
-        // The parabola between 2048 samples is off by less than 1e-11; the fit stops within 1e-6 standard errors of about a percent.
+        // The parabola between 2048 samples is off by less than 1e-11; the fit stops within 1e-6 standard
+        // errors of about a percent.
         assert!((parameter.value / parameter.in_study - 1.0).abs() < 1e-6, "{parameter:?}");
     }
 }
@@ -278,7 +284,8 @@ fn modulus_density_and_thickness_of_a_bare_beam_are_told_to_be_one() {
     }
 }
 
-/// The mass at the tip tells modulus and density apart, but two low frequencies hardly see the rotary inertia of a mass.
+/// The mass at the tip tells modulus and density apart, but two low frequencies hardly see the rotary inertia
+/// of a mass.
 #[test]
 fn a_parameter_that_the_data_hardly_see_is_named_alone() {
     let study = study(BEAM);
@@ -312,7 +319,8 @@ fn exact_derivatives_agree_with_differences() {
         let largest = (0..10).map(|i| exact[(i, 0)].abs()).fold(0.0, f64::max);
         for i in 0..10 {
             let difference = (high[i] - low[i]) / (2.0 * step);
-            // Truncation: a step of the length is 2e-4 of the short end beyond the mass. Rounding: 1e-12/1e-5 of a frequency.
+            // Truncation: a step of the length is 2e-4 of the short end beyond the mass. Rounding: 1e-12/1e-5
+            // of a frequency.
             assert!(
                 (exact[(i, 0)] - difference).abs() < 1e-5 * largest,
                 "{key} {i}: {} {difference}",

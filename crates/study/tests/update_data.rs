@@ -1,4 +1,5 @@
-//! Data files of model updating: what they say is understood, and everything wrong is refused where it stands.
+//! Data files of model updating: what they say is understood, and everything wrong is refused where it
+//! stands.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::path::Path;

@@ -1,5 +1,5 @@
-//! What a run of a study answers: branches, events, orbits at some frequencies, and what its verification says; lengths, times and forces in the units of
-//! another study, frequencies as parts of the range.
+//! What a run of a study answers: branches, events, orbits at some frequencies, and what its verification
+//! says; lengths, times and forces in the units of another study, frequencies as parts of the range.
 
 use std::path::Path;
 

@@ -1,10 +1,12 @@
 //! Whether two studies have the same answers.
 //!
 //! # Tolerances
-//! A stored orbit is known to 1e-10 of its size, and what it leads to is worse by what its own sensitivity makes of that; an orbit at a frequency between rows is
-//! corrected to the same tolerance. Orbits that differ by more than [`SAME`] of their maxima or multipliers are others.
-//! A located event is known within its own uncertainty or 1e-8 of its frequency, whichever is more; corners at rigid stops, where speeds
-//! below 1e-5 of the orbit's are not resolved, say so in their uncertainty. Ends of branches are cut at the range or are events.
+//! A stored orbit is known to 1e-10 of its size, and what it leads to is worse by what its own sensitivity
+//! makes of that; an orbit at a frequency between rows is corrected to the same tolerance. Orbits that differ
+//! by more than [`SAME`] of their maxima or multipliers are others. A located event is known within its own
+//! uncertainty or 1e-8 of its frequency, whichever is more; corners at rigid stops, where speeds below 1e-5
+//! of the orbit's are not resolved, say so in their uncertainty. Ends of branches are cut at the range or are
+//! events.
 
 use std::fmt;
 

@@ -17,7 +17,8 @@ pub fn shifted(study: &Table, cycles: f64) -> Table {
     study
 }
 
-/// All displacements negated. The amplitude of the excitation is positive, so its phase turns by half a cycle.
+/// All displacements negated. The amplitude of the excitation is positive, so its phase turns by half a
+/// cycle.
 #[must_use]
 pub fn mirrored(study: &Table) -> Table {
     let mut study = study.clone();
@@ -35,7 +36,8 @@ pub fn mirrored(study: &Table) -> Table {
     study
 }
 
-/// Masses, springs, dampers, loads and stops in the reverse order, masses under other names, pairs the other way round; a beam with its ends exchanged.
+/// Masses, springs, dampers, loads and stops in the reverse order, masses under other names, pairs the other
+/// way round; a beam with its ends exchanged.
 #[must_use]
 pub fn swapped(study: &Table) -> Table {
     let mut study = with_response_point(study);

@@ -1,6 +1,7 @@
 //! Relations that hold between answers, whatever the answers are: the same physics written another way.
 //!
-//! A study is a TOML document; each relation makes another document of it, of which one knows what must come out.
+//! A study is a TOML document; each relation makes another document of it, of which one knows what must come
+//! out.
 //!
 //! | relation | study | answers |
 //! |---|---|---|

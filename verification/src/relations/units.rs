@@ -1,7 +1,8 @@
 //! A study in other units of mass, length and time.
 //!
-//! The unit of a number stands at the end of its key, so its dimension `M^a L^b T^c` is read off there, and the number is multiplied by
-//! `mass^a length^b time^c`. A key without a unit (counts, ratios, angles, names) stays as it is.
+//! The unit of a number stands at the end of its key, so its dimension `M^a L^b T^c` is read off there, and
+//! the number is multiplied by `mass^a length^b time^c`. A key without a unit (counts, ratios, angles, names)
+//! stays as it is.
 
 use toml::{Table, Value};
 

@@ -3,7 +3,8 @@
 use hammerbeam_motion::System;
 use hammerbeam_orbit::BranchRow;
 
-/// States of the orbits at which the rows cross `frequency_hz`, between two rows by the chord; in the energy norm's units.
+/// States of the orbits at which the rows cross `frequency_hz`, between two rows by the chord; in the energy
+/// norm's units.
 pub fn crossings(system: &System, rows: &[BranchRow], frequency_hz: f64) -> Vec<Vec<f64>> {
     let n = system.dof();
     let frequencies = &system.model().natural_frequencies;

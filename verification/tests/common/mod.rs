@@ -20,7 +20,8 @@ pub struct Rig {
     pub response: Response,
 }
 
-/// The beam of van de Vorst, Fey, de Kraker and van Campen, unreduced; parameters in the file of its eigenfrequencies.
+/// The beam of van de Vorst, Fey, de Kraker and van Campen, unreduced; parameters in the file of its
+/// eigenfrequencies.
 pub fn paper_beam_model(damping_ratio: f64) -> ReducedModel {
     let contact = BeamPoint {
         name: "contact".into(),
@@ -44,7 +45,8 @@ pub fn paper_beam_model(damping_ratio: f64) -> ReducedModel {
     shaken.reduce(&reduction, &Damping::modal(damping_ratio), &["contact"]).unwrap().model
 }
 
-/// The shaken beam with the stops `laws`, each below (`sign` -1) or above (+1) the contact point and riding on the support.
+/// The shaken beam with the stops `laws`, each below (`sign` -1) or above (+1) the contact point and riding
+/// on the support.
 pub fn paper_beam_with(damping_ratio: f64, laws: &[(f64, Law)]) -> Rig {
     let model = paper_beam_model(damping_ratio);
     let point = model.point("contact").unwrap().clone();

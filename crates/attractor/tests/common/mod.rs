@@ -10,7 +10,8 @@ pub use motion::{beam_with, element, hertz, model, paper_beam};
 
 use hammerbeam_motion::{Harmonic, HarmonicForce, Load, LocalElement, System};
 
-/// A mass of 1 kg on a spring of `stiffness` with damping `damping`, driven by `force cos(W t)`, with elements that act on it.
+/// A mass of 1 kg on a spring of `stiffness` with damping `damping`, driven by `force cos(W t)`, with
+/// elements that act on it.
 pub fn oscillator(stiffness: f64, damping: f64, force: f64, elements: Vec<LocalElement>) -> System {
     let model = model(&[stiffness.sqrt()], faer::mat![[damping]]);
     let harmonic = Harmonic { order: 1, amplitude: force, phase: 0.0 };

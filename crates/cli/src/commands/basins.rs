@@ -61,7 +61,8 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
 /// Writes the tables.
 ///
 /// # Returns
-/// The branch that each attractor lies on. The branches are closed again here: a store that is read cannot be finished.
+/// The branch that each attractor lies on. The branches are closed again here: a store that is read cannot be
+/// finished.
 fn numbered_and_written(
     options: &BasinsOptions,
     (file, model): (&StudyFile, &Model),

@@ -25,7 +25,8 @@ use crate::{
 const ALIGNING: u64 = 50;
 /// What contacts take is told where it is more than this share of what dampers take.
 const ROUNDING: f64 = 1e-12;
-/// Correlation of neighbouring blocks beyond which the confidence is not to be trusted: two standard errors with 20 blocks.
+/// Correlation of neighbouring blocks beyond which the confidence is not to be trusted: two standard errors
+/// with 20 blocks.
 const CORRELATED: f64 = 0.45;
 /// Points of a stroboscopic section that are kept.
 const MOST_POINTS: usize = 4096;
@@ -117,7 +118,8 @@ impl<'a> Motion<'a> {
         frequencies.iter().map(&mut at).collect()
     }
 
-    /// The exponents at a frequency, and whether they are averaged as long as they should be: if the user stops it they are not, or there are none.
+    /// The exponents at a frequency, and whether they are averaged as long as they should be: if the user
+    /// stops it they are not, or there are none.
     fn exponents(
         &mut self,
         frequency_hz: f64,

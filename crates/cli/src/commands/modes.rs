@@ -44,7 +44,8 @@ fn document(model: &Model) -> Value {
     })
 }
 
-/// The shape of each mode at the points, divided by its largest entry there; signs are those of the modal coordinates.
+/// The shape of each mode at the points, divided by its largest entry there; signs are those of the modal
+/// coordinates.
 fn shapes_text(model: &Model) -> Vec<String> {
     let points = &model.system.model().points;
     let names: String = points.iter().map(|point| format!(" {:>12}", point.name)).collect();

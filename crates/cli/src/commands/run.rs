@@ -8,7 +8,8 @@ use std::{
 
 use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
-    MirrorImage, Model, OrbitSolver, Store, StoredBranches, Study, StudyFile, UndampedInContact, UndampedMode,
+    MirrorImage, Model, OrbitSolver, Store, StoredBranches, Study, StudyFile, UndampedInContact,
+    UndampedMode,
     run::{Plan, RunOutcome},
     settled::settled_states,
     store::{JobRecord, PieceRecord, StoredReason, WalkRecord},

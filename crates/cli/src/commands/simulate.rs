@@ -1,7 +1,8 @@
 //! `hammerbeam simulate`: a motion in time, with every contact.
 //!
-//! With `--out` it goes into the store chunk by chunk, and on from the last one if it is asked again. Tables and summary are made of the chunks alone, those
-//! of the store first, so that they have the same bytes however often the command was interrupted.
+//! With `--out` it goes into the store chunk by chunk, and on from the last one if it is asked again. Tables
+//! and summary are made of the chunks alone, those of the store first, so that they have the same bytes
+//! however often the command was interrupted.
 
 mod observer;
 mod size;

@@ -76,7 +76,8 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
 /// Writes the tables.
 ///
 /// # Returns
-/// The branch that each motion lies on. The branches are closed again here: a store that is read cannot be finished.
+/// The branch that each motion lies on. The branches are closed again here: a store that is read cannot be
+/// finished.
 fn numbered_and_written(
     options: &SweepOptions,
     (file, model): (&StudyFile, &Model),
@@ -164,8 +165,8 @@ impl Work<'_> {
         Ok(())
     }
 
-    /// The state that the motions found so far have come to. Within a contact whose law remembers its impact it does not tell how that began: then the sweep is gone over once more from the last
-    /// state that does.
+    /// The state that the motions found so far have come to. Within a contact whose law remembers its impact
+    /// it does not tell how that began: then the sweep is gone over once more from the last state that does.
     fn last_state(
         &self,
         sweeper: &mut Sweeper,
@@ -221,7 +222,8 @@ fn branch(branches: &StoredBranches, model: &Model, point: &SweepPoint) -> Resul
     let mut map = SystemMap::new(model.system.clone(), point.frequency_hz, 1, ExactSettings::default())?;
     let mut states = vec![point.state.clone()];
     while states.len() < period {
-        // A state within a contact that remembers its impact cannot be gone on from; one of its states is enough.
+        // A state within a contact that remembers its impact cannot be gone on from; one of its states is
+        // enough.
         match hammerbeam_attractor::SectionMap::advance(&mut map, 0, &states[states.len() - 1]) {
             Ok(next) => states.push(next),
             Err(_) => states.resize(period, point.state.clone()),

@@ -27,7 +27,8 @@ pub trait Album {
     /// Takes a figure, or the reason why there is none.
     fn add(&mut self, name: &str, figure: Result<Figure, FigureError>);
 
-    /// Takes a figure, or does without it where there is nothing to draw: contacts of a structure without stops, say.
+    /// Takes a figure, or does without it where there is nothing to draw: contacts of a structure without
+    /// stops, say.
     fn add_unless_empty(&mut self, name: &str, figure: Result<Figure, FigureError>) {
         if !matches!(figure, Err(FigureError::Empty { .. })) {
             self.add(name, figure);
@@ -40,7 +41,8 @@ pub trait Album {
 
 /// Files as they are drawn, and what cannot be.
 ///
-/// What is added is drawn at any time until [`Self::finish`], in whatever order; its bytes and the list of files do not depend on that.
+/// What is added is drawn at any time until [`Self::finish`], in whatever order; its bytes and the list of
+/// files do not depend on that.
 pub struct Drawn<'a> {
     folder: &'a Path,
     /// Resolution of the PNG files, in pixels per inch.

@@ -1,4 +1,5 @@
-//! Figures of the linear structure and of its excitation: mode shapes, the error of the reduction, the amplitude over the frequency.
+//! Figures of the linear structure and of its excitation: mode shapes, the error of the reduction, the
+//! amplitude over the frequency.
 
 use std::f64::consts::TAU;
 

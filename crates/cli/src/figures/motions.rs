@@ -64,7 +64,8 @@ pub fn draw_sections(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()
     })
 }
 
-/// Hands over every motion whose exponents are stored, with the title of its figures and the end of their names.
+/// Hands over every motion whose exponents are stored, with the title of its figures and the end of their
+/// names.
 fn each_spectrum(store: &Store, mut each: impl FnMut(String, String, &ExponentRecord)) -> anyhow::Result<()> {
     let title = store.about("title")?;
     for request in store.requests()? {
@@ -137,8 +138,9 @@ pub fn draw_basins(
     Ok(())
 }
 
-/// Ranges of the frequency in which a stored sweep has a chaotic motion, or a stored series of exponents one whose largest exponent is
-/// positive with confidence: each reaches half-way to the next frequency of its sweep or series.
+/// Ranges of the frequency in which a stored sweep has a chaotic motion, or a stored series of exponents one
+/// whose largest exponent is positive with confidence: each reaches half-way to the next frequency of its
+/// sweep or series.
 pub fn chaotic_ranges(store: &Store) -> Result<Vec<(f64, f64)>, StoreError> {
     let mut ranges = Vec::new();
     for request in store.requests()? {

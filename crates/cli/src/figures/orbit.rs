@@ -1,4 +1,5 @@
-//! Figures of an orbit. Its samples are computed here, from its stored state on; the figures take them as they are.
+//! Figures of an orbit. Its samples are computed here, from its stored state on; the figures take them as
+//! they are.
 
 mod course;
 
@@ -133,7 +134,8 @@ fn diagram(
     })
 }
 
-/// The accelerations, each jump of the velocity among them as the acceleration that makes it within the step in which it lies.
+/// The accelerations, each jump of the velocity among them as the acceleration that makes it within the step
+/// in which it lies.
 ///
 /// * `duration_s`: of the orbit.
 fn with_impulses(samples: &[OrbitSample], impulses: &[OrbitImpulse], duration_s: f64) -> Vec<f64> {

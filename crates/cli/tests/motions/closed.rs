@@ -1,4 +1,5 @@
-//! A contact that a weight keeps closed for good, under a law that remembers how fast it closed: no command takes what is left of that for a motion of the system.
+//! A contact that a weight keeps closed for good, under a law that remembers how fast it closed: no command
+//! takes what is left of that for a motion of the system.
 
 use serde_json::Value;
 
@@ -37,7 +38,8 @@ const COMMANDS: [&[&str]; 4] = [
 const REFUSED: &str =
     "wall is closed over the whole settled motion: its law needs to know how fast a contact began";
 
-/// Exit code 1, as there is nothing to give, with the stop by its name; basins tell what all of their cells have in common.
+/// Exit code 1, as there is nothing to give, with the stop by its name; basins tell what all of their cells
+/// have in common.
 #[test]
 fn contacts_that_stay_closed_leave_nothing_to_give() {
     let workshop = weighed(1.0);

@@ -58,8 +58,10 @@ fn state(attractor: &Value) -> [f64; 2] {
     [0, 1].map(|i| attractor["modal_state"][i].as_f64().unwrap())
 }
 
-/// Between the folds of the hardening spring, which lie beyond the range of this study: three branches of one period, the small and the large motion and the unstable one between them. A motion
-/// that is nearly a harmonic one has the amplitude `|q - i v/W|`, which is that of its branch and far from those of the others.
+/// Between the folds of the hardening spring, which lie beyond the range of this study: three branches of one
+/// period, the small and the large motion and the unstable one between them. A motion that is nearly a
+/// harmonic one has the amplitude `|q - i v/W|`, which is that of its branch and far from those of the
+/// others.
 #[test]
 fn two_motions_of_one_period_are_on_the_branches_of_their_amplitudes() {
     let study = DUFFING.replace("frequency_hz = [0.08, 0.5]", "frequency_hz = [0.22, 0.28]");
@@ -85,7 +87,8 @@ fn linear(frequency_hz: f64) -> [f64; 2] {
     [0.4 * real, -0.4 * imaginary].map(|part| part / (real * real + imaginary * imaginary))
 }
 
-/// Above its resonance the mass may stay away from its rigid stop, and then moves as `Re F/(1 - W^2 + i c W) exp(i W t)`, or strike it in every second period: branches of one and of two periods.
+/// Above its resonance the mass may stay away from its rigid stop, and then moves as `Re F/(1 - W^2 + i c W)
+/// exp(i W t)`, or strike it in every second period: branches of one and of two periods.
 #[test]
 fn a_motion_that_strikes_and_one_that_does_not_are_on_their_branches() {
     let workshop = Workshop::driven_mass(
@@ -114,7 +117,8 @@ fn a_motion_that_strikes_and_one_that_does_not_are_on_their_branches() {
         let ([q, v], [real, imaginary]) = (state(attractor), linear(0.42));
         let away = (q - real).hypot(v + TAU * 0.42 * imaginary);
         if own.period == 1.0 {
-            // A motion has come to an attractor, or repeats, within 1e-8 of its size, and comes closer by 5 % in a period.
+            // A motion has come to an attractor, or repeats, within 1e-8 of its size, and comes closer by 5 %
+            // in a period.
             assert!(away < 1e-6 && own.contacts == 0.0, "{attractor} {own:?}");
             let [real, imaginary] = linear(own.frequency_hz);
             assert!((own.displacement - real.hypot(imaginary)).abs() < 1e-9, "{own:?}");

@@ -1,4 +1,5 @@
-//! Commands that are killed or interrupted: what was finished is kept, and what goes on ends with the same bytes.
+//! Commands that are killed or interrupted: what was finished is kept, and what goes on ends with the same
+//! bytes.
 
 use std::{
     fs,
@@ -33,7 +34,8 @@ fn basins_go_on_after_a_kill_with_the_same_bytes() {
     assert!(states.len() > 1 && states.iter().all(|velocity| velocity.parse::<f64>().is_ok()), "{table}");
 }
 
-/// Pieces of the only request in `out` that are stored, and all that it has; none as long as there is no request.
+/// Pieces of the only request in `out` that are stored, and all that it has; none as long as there is no
+/// request.
 fn stored(workshop: &Workshop) -> (i64, i64) {
     let database = workshop.path("out/results.db");
     let connection = Connection::open_with_flags(database, OpenFlags::SQLITE_OPEN_READ_ONLY);
@@ -51,7 +53,8 @@ fn wait_for_more(workshop: &Workshop, child: &mut Child, before: i64) {
     }
 }
 
-/// Each time it has stored more than the time before, and not all; somewhere within the work on a piece, which is lost.
+/// Each time it has stored more than the time before, and not all; somewhere within the work on a piece,
+/// which is lost.
 ///
 /// * `duration`: of the whole command, about.
 fn kill_three_times(workshop: &Workshop, arguments: &[&str], duration: Duration) {
@@ -133,7 +136,8 @@ fn sweeps_and_exponents_go_on_after_a_kill_with_the_same_bytes() {
     }
 }
 
-/// A sweep whose motions are in contact at phase 0, which their states do not tell all of: killed and taken up again it has the same bytes.
+/// A sweep whose motions are in contact at phase 0, which their states do not tell all of: killed and taken
+/// up again it has the same bytes.
 #[test]
 fn a_sweep_within_contacts_that_remember_goes_on_with_the_same_bytes() {
     let study = remembering();

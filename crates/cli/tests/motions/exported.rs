@@ -26,7 +26,8 @@ const REQUESTS: [(&[&str], &[&str]); 5] = [
     ),
 ];
 
-/// Each with the bytes that its command wrote, and no table besides; all are named in the document of the export.
+/// Each with the bytes that its command wrote, and no table besides; all are named in the document of the
+/// export.
 #[test]
 fn every_table_of_every_request_is_exported_as_its_command_wrote_it() {
     let workshop = Workshop::with(DUFFING);

@@ -76,7 +76,8 @@ fn a_folder_is_locked_until_the_tables_are_written() {
 
 /// The command, stopped when all was stored and the table not there; `None` where it was too quick.
 ///
-/// It is let go for a moment at a time, so that it does not get far between two looks however busy the machine.
+/// It is let go for a moment at a time, so that it does not get far between two looks however busy the
+/// machine.
 #[cfg(unix)]
 fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, Child)> {
     let workshop = Workshop::with(TWO_MASSES);

@@ -52,7 +52,8 @@ fn branches_that_are_not_there_are_refused_by_every_command() {
     assert_eq!(workshop.listing(), before, "something was written");
 }
 
-/// Without a load a mass on a spring moves as `y = Y cos(w t) + (V/w) sin(w t)`, `w^2 = 25/s^2`; until it meets its stop.
+/// Without a load a mass on a spring moves as `y = Y cos(w t) + (V/w) sin(w t)`, `w^2 = 25/s^2`; until it
+/// meets its stop.
 #[test]
 fn a_motion_starts_from_displacements_and_velocities_of_points() {
     let study = "[structure]\nkind = \"lumped\"\nmass = [{ name = \"ball\", mass_kg = 4.0 }]\n\

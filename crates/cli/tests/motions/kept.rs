@@ -36,7 +36,8 @@ fn last_chunk(workshop: &Workshop) -> SimulatedChunk {
 /// Kills the command as soon as it has stored more.
 ///
 /// # Returns
-/// The last chunk of what was stored; nothing if the command has come to its end before, as it does where the test gets no time of the machine.
+/// The last chunk of what was stored; nothing if the command has come to its end before, as it does where the
+/// test gets no time of the machine.
 fn kill_after_progress(workshop: &Workshop, arguments: &[&str]) -> Option<SimulatedChunk> {
     let before = done(workshop);
     let mut child = workshop.spawn(arguments);
@@ -137,7 +138,8 @@ fn a_contact_that_remembers_goes_on_over_a_kill() {
     }
 }
 
-/// Below its resonance the mass is pressed on a stop without a gap for half of each period, phase 0 in its middle: after some bounces it sticks.
+/// Below its resonance the mass is pressed on a stop without a gap for half of each period, phase 0 in its
+/// middle: after some bounces it sticks.
 #[test]
 fn a_mass_that_sticks_goes_on_over_a_kill() {
     let study = IMPACT_OSCILLATOR.replace("restitution = 0.8\ngap_m = 1.0", "restitution = 0.3\ngap_m = 0.0");
@@ -193,7 +195,8 @@ fn a_transient_is_kept_too() {
     assert!(!workshop.path("out/samples.csv").exists());
 }
 
-/// A mass that escapes over the barrier of its softening spring: the whole periods before are kept, and asked again the motion ends at the same place.
+/// A mass that escapes over the barrier of its softening spring: the whole periods before are kept, and asked
+/// again the motion ends at the same place.
 #[test]
 fn a_motion_that_ends_early_keeps_its_periods() {
     let workshop = Workshop::changed(DUFFING, "stiffness_n_m3 = 1.0", "stiffness_n_m3 = -0.2");

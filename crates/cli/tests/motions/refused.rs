@@ -105,8 +105,9 @@ fn basins_without_an_attractor_are_exit_code_1() {
     assert_eq!(document["error"]["exit_code"], 1);
 }
 
-/// At rest the mass is pressed against a stop whose law needs the speed of an impact, and some states about it lie in the contact: the search begins beside, and its orbit is the motion that
-/// settles from a state that a motion can begin at.
+/// At rest the mass is pressed against a stop whose law needs the speed of an impact, and some states about
+/// it lie in the contact: the search begins beside, and its orbit is the motion that settles from a state
+/// that a motion can begin at.
 #[test]
 fn a_search_does_not_miss_what_no_motion_can_begin_at() {
     let workshop = Workshop::with(&remembering());
@@ -120,7 +121,8 @@ fn a_search_does_not_miss_what_no_motion_can_begin_at() {
     assert!((orbit / settled - 1.0).abs() < 1e-7, "{orbit} {settled}");
 }
 
-/// Above its first grazing the linear motion of the impact oscillator goes beyond the stop: at phase 0 by `Re F/(1 - W^2 + i c W) - g`.
+/// Above its first grazing the linear motion of the impact oscillator goes beyond the stop: at phase 0 by `Re
+/// F/(1 - W^2 + i c W) - g`.
 #[test]
 fn the_motion_without_contacts_is_refused_where_it_lies_behind_the_stop() {
     let workshop = Workshop::with(IMPACT_OSCILLATOR);

@@ -1,4 +1,5 @@
-//! Impacts on rigid stops in the figures of an orbit: a velocity that jumps, and an impulse instead of a force.
+//! Impacts on rigid stops in the figures of an orbit: a velocity that jumps, and an impulse instead of a
+//! force.
 
 use super::{OrbitDiagram, OrbitSample};
 use crate::{

@@ -1,6 +1,7 @@
 //! Motions that do not repeat, and their stroboscopic points.
 //!
-//! Points of a section are carried as pairs of u16, steps from the least value of each coordinate to the largest: a 65 535th of its range.
+//! Points of a section are carried as pairs of u16, steps from the least value of each coordinate to the
+//! largest: a 65 535th of its range.
 
 use serde_json::{Value, json};
 

@@ -1,8 +1,10 @@
 //! Floquet multipliers of every solution, the largest ones.
 //!
-//! A record for each solution, one behind the other, little-endian: a u16 whose lowest four bits are the number of entries and whose bit `4 + k` says that entry `k` is a
-//! pair, then the entries. An entry is a real multiplier, or the real and the imaginary part of a pair, of which the one above the axis stands for both. A number
-//! is an f32 without its lowest byte: cut, not rounded, so that what lies within the unit circle stays there. That is good to 2^-15 of it.
+//! A record for each solution, one behind the other, little-endian: a u16 whose lowest four bits are the
+//! number of entries and whose bit `4 + k` says that entry `k` is a pair, then the entries. An entry is a
+//! real multiplier, or the real and the imaginary part of a pair, of which the one above the axis stands for
+//! both. A number is an f32 without its lowest byte: cut, not rounded, so that what lies within the unit
+//! circle stays there. That is good to 2^-15 of it.
 
 /// Entries of a solution at most.
 const MOST_ENTRIES: usize = 12;
@@ -16,7 +18,8 @@ pub struct MultiplierRecords {
 }
 
 impl MultiplierRecords {
-    /// Adds the multipliers of the next solution, over all branches end to end; none where they are not known.
+    /// Adds the multipliers of the next solution, over all branches end to end; none where they are not
+    /// known.
     ///
     /// * `multipliers`: largest modulus first, a pair side by side.
     pub fn push(&mut self, multipliers: &[[f64; 2]]) {

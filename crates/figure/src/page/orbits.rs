@@ -1,7 +1,9 @@
 //! Orbits as records that are decoded one at a time; what a record is says `record.rs`.
 //!
-//! Displacement and velocity are smooth at their distance of samples. A contact may be much shorter: of acceleration and forces the least and the largest value
-//! in each step from one sample to the next are carried, in their order in time, so that no peak is lost. An impact on a rigid stop is an impulse and a jump of the velocity.
+//! Displacement and velocity are smooth at their distance of samples. A contact may be much shorter: of
+//! acceleration and forces the least and the largest value in each step from one sample to the next are
+//! carried, in their order in time, so that no peak is lost. An impact on a rigid stop is an impulse and a
+//! jump of the velocity.
 
 mod coder;
 mod record;
@@ -20,7 +22,8 @@ pub struct PageOrbit {
     pub displacement_m: Vec<f64>,
     /// Its velocity at the same instants (m/s).
     pub velocity_m_s: Vec<f64>,
-    /// What happens within contacts, which may be shorter than the distance of samples: number of the sample before it, displacement (m) and velocity (m/s).
+    /// What happens within contacts, which may be shorter than the distance of samples: number of the sample
+    /// before it, displacement (m) and velocity (m/s).
     pub in_contacts: Vec<(usize, f64, f64)>,
     /// Impacts on rigid stops, in their order in time.
     pub impulses: Vec<PageImpulse>,
@@ -30,7 +33,8 @@ pub struct PageOrbit {
     pub forces_n: Vec<Vec<[f64; 2]>>,
     /// Displacement of the support (m) at equal steps of its own over one excitation period.
     pub support_m: Vec<f64>,
-    /// Coordinates (kg^1/2 m) of the modes that are drawn, at equal steps of their own over the period of the orbit.
+    /// Coordinates (kg^1/2 m) of the modes that are drawn, at equal steps of their own over the period of the
+    /// orbit.
     pub modes: Vec<Vec<f64>>,
     /// Amplitudes of the harmonics 1, 2, ... of the orbit frequency in the acceleration (m/s²).
     pub spectrum_m_s2: Vec<f64>,
@@ -71,7 +75,8 @@ pub struct OrbitRecords {
 }
 
 impl OrbitRecords {
-    /// Adds the orbit of a solution unless all of them would be longer than `most` bytes; says whether it did.
+    /// Adds the orbit of a solution unless all of them would be longer than `most` bytes; says whether it
+    /// did.
     ///
     /// * `solution`: its number, counted from 0 over all branches end to end.
     pub fn insert(&mut self, solution: u32, record: OrbitRecord, most: usize) -> bool {

@@ -1,5 +1,5 @@
-//! A face in a PDF: a font of numbered glyphs with the outlines of the characters that are used, their widths, and what characters they are,
-//! so that text can be searched and copied. ISO 32000-1, section 9.7.
+//! A face in a PDF: a font of numbered glyphs with the outlines of the characters that are used, their
+//! widths, and what characters they are, so that text can be searched and copied. ISO 32000-1, section 9.7.
 
 use std::collections::BTreeSet;
 
@@ -139,7 +139,8 @@ impl Metrics {
     }
 }
 
-/// Six letters for a set of characters, so that faces with different ones are not taken for each other (hash of Fowler, Noll and Vo).
+/// Six letters for a set of characters, so that faces with different ones are not taken for each other (hash
+/// of Fowler, Noll and Vo).
 fn tag(characters: &BTreeSet<char>) -> String {
     let hash = characters.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, character| {
         (hash ^ u64::from(u32::from(*character))).wrapping_mul(0x0100_0000_01b3)

@@ -1,14 +1,16 @@
 //! Opaque pixels as a PNG file (ISO/IEC 15948).
 //!
-//! Figures are ink on white: most pixels are those above them, and many figures have at most 256 colours, edges smoothed. Where they have, a pixel is one byte, the place of its colour in
-//! a palette; else it is three. Rows are written as they are: what repeats from row to row the deflater finds as well without a filter, in files that are a fifth
-//! smaller than with differences of rows.
+//! Figures are ink on white: most pixels are those above them, and many figures have at most 256 colours,
+//! edges smoothed. Where they have, a pixel is one byte, the place of its colour in a palette; else it is
+//! three. Rows are written as they are: what repeats from row to row the deflater finds as well without a
+//! filter, in files that are a fifth smaller than with differences of rows.
 
 use png::{BitDepth, ColorType, DeflateCompression, Encoder, EncodingError, Filter, PixelDimensions, Unit};
 
 /// How hard the deflater looks for what repeats, from 1 to 9.
 ///
-/// Of the 104 figures of a beam, 3 makes 9.1 MB in two thirds of the time of 6, which makes 8.7 MB; 1 makes 15.3 MB in half of that.
+/// Of the 104 figures of a beam, 3 makes 9.1 MB in two thirds of the time of 6, which makes 8.7 MB; 1 makes
+/// 15.3 MB in half of that.
 const EFFORT: u8 = 3;
 /// Colours of a palette at most.
 const PALETTE: usize = 256;
@@ -108,7 +110,8 @@ mod tests {
 
     use super::*;
 
-    /// An image of so many colours, in which colours repeat, and whose file another decoder reads as the same pixels.
+    /// An image of so many colours, in which colours repeat, and whose file another decoder reads as the same
+    /// pixels.
     fn assert_kept(colours: u32, kind: u8) {
         const WIDTH: u32 = 61;
         let colour = |k: u32| [k % 16 * 16, k / 16 % 16 * 16, k / 256 * 16].map(|part| part as u8);
@@ -132,7 +135,8 @@ mod tests {
         }
     }
 
-    /// 300 pixels per inch are 11811 per metre; the empty last chunk has the sum that every PNG file ends with.
+    /// 300 pixels per inch are 11811 per metre; the empty last chunk has the sum that every PNG file ends
+    /// with.
     #[test]
     fn resolution_and_sums_stand_where_the_standard_has_them() {
         let file = encode(&[255; 16], 2, 300.0).unwrap();

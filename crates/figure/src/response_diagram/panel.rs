@@ -23,7 +23,8 @@ pub(super) struct Panel {
     measured: Vec<Measured>,
 }
 
-/// The measured points of a kind: places of those that are drawn, and how many are not, since they lie beyond the axes.
+/// The measured points of a kind: places of those that are drawn, and how many are not, since they lie beyond
+/// the axes.
 pub(super) struct Measured {
     pub(super) motion: MeasuredMotion,
     pub(super) places: Vec<(f64, f64)>,
@@ -213,8 +214,8 @@ fn measured(
     Measured { motion, places, beyond: beyond.len() }
 }
 
-/// Whether the point with this index has that mark. Flips and Neimark-Sacker points between unstable solutions change nothing that can be
-/// observed: they have a mark of their own.
+/// Whether the point with this index has that mark. Flips and Neimark-Sacker points between unstable
+/// solutions change nothing that can be observed: they have a mark of their own.
 fn is(points: &[ResponsePoint], index: usize, mark: Mark) -> bool {
     let point = &points[index];
     let beside_stable = || {

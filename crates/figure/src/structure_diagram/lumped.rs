@@ -1,5 +1,6 @@
-//! The sketch of lumped masses on a line. In each space between two of them, and before the first and behind the last, elements stand
-//! in lanes on top of each other; what is fixed to the ground between two masses ends at a post of its own.
+//! The sketch of lumped masses on a line. In each space between two of them, and before the first and behind
+//! the last, elements stand in lanes on top of each other; what is fixed to the ground between two masses
+//! ends at a post of its own.
 
 use super::{
     MARGIN, MOST_MASSES, Sketch, SketchCarrier, SketchLumped, SketchStop, StopKind, StructureDiagram, stop,

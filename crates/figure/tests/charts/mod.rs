@@ -44,7 +44,8 @@ fn drawn_twice_every_figure_is_byte_for_byte_the_same() {
     }
 }
 
-/// Of each line of text the PDF has the first letter, at the place where the SVG has it, and of each path one that is painted.
+/// Of each line of text the PDF has the first letter, at the place where the SVG has it, and of each path one
+/// that is painted.
 #[test]
 fn a_pdf_has_the_texts_and_the_paths_of_the_svg() {
     for (name, figure) in all() {

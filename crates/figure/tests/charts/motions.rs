@@ -55,7 +55,8 @@ fn chaotic_ranges_are_shaded_and_named() {
     assert_eq!(shaded.svg().matches("fill=\"#f8ebd5\"").count(), 2);
 }
 
-/// Contact forces and impact velocities have their axes; without a contact there is nothing on a logarithmic one.
+/// Contact forces and impact velocities have their axes; without a contact there is nothing on a logarithmic
+/// one.
 #[test]
 fn contact_forces_and_impact_velocities_have_their_diagrams() {
     let point = |k: i32, force: f64| ResponsePoint {

@@ -24,7 +24,8 @@ fn impulses_stand_in_a_panel_of_their_own_with_their_unit() {
 #[test]
 fn a_spectrum_has_the_harmonics_of_the_motion_alone() {
     let svg = orbit().draw_spectrum(&Style::default()).unwrap().svg();
-    // Those of 10 and 30 Hz, two arcs for the dot of each; all others are rounding, below 1e-5 of the largest.
+    // Those of 10 and 30 Hz, two arcs for the dot of each; all others are rounding, below 1e-5 of the
+    // largest.
     assert_eq!(svg.matches("a0.9 0.9 0 1 0").count(), 4);
     assert!(svg.contains(">harmonic<") && svg.contains(">eigenfrequency<"));
 }
@@ -51,7 +52,8 @@ fn the_support_is_drawn_over_the_displacement_and_named() {
     assert!(!still.draw_history(&Style::double_column()).unwrap().svg().contains(">support<"));
 }
 
-/// Of an orbit of three excitation periods the section has three points, and they stand in the portrait as well.
+/// Of an orbit of three excitation periods the section has three points, and they stand in the portrait as
+/// well.
 #[test]
 fn the_section_of_an_orbit_has_as_many_points_as_excitation_periods() {
     let svg =

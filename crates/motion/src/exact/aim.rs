@@ -1,12 +1,17 @@
 //! What a step with forces aims for: an event, or a length.
 //!
-//! **Events at once.** Where contacts open or close in the same instant, as those of two stops of one level on one mass do, the polynomials of a step that ends with one of them may find the other a moment
-//! earlier, and the other way round. Each is then located by the motion itself, and the earlier one is taken; the other follows at once or within the slack of the next step.
+//! **Events at once.** Where contacts open or close in the same instant, as those of two stops of one level
+//! on one mass do, the polynomials of a step that ends with one of them may find the other a moment earlier,
+//! and the other way round. Each is then located by the motion itself, and the earlier one is taken; the
+//! other follows at once or within the slack of the next step.
 //!
-//! So the polynomials are contradicted by a location, and may be so for two reasons alone. What they find lies so near the end of the step that location and rounding do not tell them apart. Or it lies
-//! before that, and the location that went out from there ended later: there is no zero, but a distance that comes near to it. A location that went out from elsewhere says nothing of an
-//! earlier zero, and is made anew from there, once for each such place, so that it comes to an end. All events that were located for the step are remembered: of three that contradict one another in a circle the
-//! third would else send the step back to the first. And only these are excused: others are looked for in the whole of the step.
+//! So the polynomials are contradicted by a location, and may be so for two reasons alone. What they find
+//! lies so near the end of the step that location and rounding do not tell them apart. Or it lies before
+//! that, and the location that went out from there ended later: there is no zero, but a distance that comes
+//! near to it. A location that went out from elsewhere says nothing of an earlier zero, and is made anew from
+//! there, once for each such place, so that it comes to an end. All events that were located for the step are
+//! remembered: of three that contradict one another in a circle the third would else send the step back to
+//! the first. And only these are excused: others are looked for in the whole of the step.
 
 use super::event::Event;
 
@@ -20,7 +25,8 @@ pub(super) struct Aim {
     pub(super) event: Option<Event>,
     /// Length to fall back to if the event does not come [s].
     pub(super) otherwise: f64,
-    /// The events that were located before, each once: the polynomials of the steps that end with them had another one come earlier.
+    /// The events that were located before, each once: the polynomials of the steps that end with them had
+    /// another one come earlier.
     rivals: Vec<Rival>,
     /// Whether it was looked for an opening at the end of the step (`brief_opening.rs`).
     pub(super) settled: bool,
@@ -51,17 +57,20 @@ impl Aim {
         Self { otherwise, ..Self::to(event, length) }
     }
 
-    /// To an opening just before the end of a step of the length `otherwise`, which is taken if there is none.
+    /// To an opening just before the end of a step of the length `otherwise`, which is taken if there is
+    /// none.
     pub(super) fn to_opening(event: Event, length: f64, otherwise: f64) -> Self {
         Self { settled: true, ..Self::to_or(event, length, otherwise) }
     }
 
-    /// As far as the length for want of the event; the end of that step was looked at if it was to be taken instead.
+    /// As far as the length for want of the event; the end of that step was looked at if it was to be taken
+    /// instead.
     pub(super) fn without_event(&self, length: f64) -> Self {
         Self { settled: self.settled && self.event.is_some(), ..Self::free(length) }
     }
 
-    /// Whether an event that the polynomials of a step find at `found`, before its own end, was located not to come before that; `undecided` is what location and rounding leave open of its time.
+    /// Whether an event that the polynomials of a step find at `found`, before its own end, was located not
+    /// to come before that; `undecided` is what location and rounding leave open of its time.
     pub(super) fn was_later(&self, event: Event, found: f64, (length, undecided): (f64, f64)) -> bool {
         self.rivals.iter().any(|rival| {
             let near = found >= length - undecided;
@@ -70,7 +79,8 @@ impl Aim {
         })
     }
 
-    /// The same, knowing that its event was located not to come before the end of the step at `length`, which is that of the stretch.
+    /// The same, knowing that its event was located not to come before the end of the step at `length`, which
+    /// is that of the stretch.
     pub(super) fn refuted(&self, length: f64) -> Self {
         let mut aim = self.clone();
         aim.rivals.extend(self.event.map(|event| Rival { event, sought: self.length, located: length }));
@@ -96,7 +106,8 @@ mod tests {
     const PART: Event = Event::Part(1);
     const LENGTH: f64 = 1.0;
 
-    /// The aim for a part that was found as a step ended with a lift, located at `located` by a search that went out from `sought`.
+    /// The aim for a part that was found as a step ended with a lift, located at `located` by a search that
+    /// went out from `sought`.
     fn after_a_lift((sought, located): (f64, f64)) -> Aim {
         Aim::to(LIFT, sought).rather(PART, 0.8, Some(LIFT), located)
     }

@@ -30,13 +30,15 @@ impl ExactIntegrator {
         run.pressing = self.pressing_now(run);
     }
 
-    /// Solves a step of about `length` (shorter where the lengths are discrete); its error see `step_error.rs`.
+    /// Solves a step of about `length` (shorter where the lengths are discrete); its error see
+    /// `step_error.rs`.
     pub(super) fn attempt(&mut self, run: &Run, length: f64, grading: Grading) -> Option<f64> {
         self.solve_step(run, length, (grading, false), self.full_precision())?;
         Some(self.state_error(run))
     }
 
-    /// What Newton's method may leave of the displacements, relative to their range: next to nothing against the error of a step.
+    /// What Newton's method may leave of the displacements, relative to their range: next to nothing against
+    /// the error of a step.
     pub(super) fn full_precision(&self) -> f64 {
         (1e-4 * self.settings.tolerance).max(1e-15)
     }
@@ -112,8 +114,8 @@ impl ExactIntegrator {
 
     /// First guess of the displacements: the present motion continued.
     ///
-    /// `r + r' t + r'' t^2/2 + G f' r' t^3/6` with the forces in `r''`; after a touch the force sets in with the power e instead, and
-    /// `r + r' t + r'' t^2/2 + G f(r + r' t) t^2/((e + 1)(e + 2))`.
+    /// `r + r' t + r'' t^2/2 + G f' r' t^3/6` with the forces in `r''`; after a touch the force sets in with
+    /// the power e instead, and `r + r' t + r'' t^2/2 + G f(r + r' t) t^2/((e + 1)(e + 2))`.
     fn guess(&mut self, run: &Run) {
         self.step.displacement.clear();
         self.step.velocity.clear();

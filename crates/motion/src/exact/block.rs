@@ -1,13 +1,15 @@
 //! The linear structure as independent second-order blocks, exact in time.
 //!
-//! With modal damping each mode is a block of its own. Dampers that couple modes are taken out by the eigenvectors of the
-//! coupled first-order system, so that in every case the state `x = S^-1 z` of `z = [q; q']` obeys
+//! With modal damping each mode is a block of its own. Dampers that couple modes are taken out by the
+//! eigenvectors of the coupled first-order system, so that in every case the state `x = S^-1 z` of `z = [q;
+//! q']` obeys
 //!
 //! `p_i' = s_i + beta_i`, `s_i' = -k_i p_i - c_i s_i + phi_i`, `x = [p; s]`,
 //!
-//! with inputs `[beta; phi] = S^-1 [0; b]` from a modal load `b`. A complex pair `-a +- i w` gives `k = a^2 + w^2`, `c = 2 a`; two
-//! real eigenvalues `m_1, m_2` give `k = m_1 m_2`, `c = -(m_1 + m_2)`. So underdamped, critically damped, overdamped and
-//! rigid modes are all the same block, and its propagator needs no eigenvalues.
+//! with inputs `[beta; phi] = S^-1 [0; b]` from a modal load `b`. A complex pair `-a +- i w` gives `k = a^2 +
+//! w^2`, `c = 2 a`; two real eigenvalues `m_1, m_2` give `k = m_1 m_2`, `c = -(m_1 + m_2)`. So underdamped,
+//! critically damped, overdamped and rigid modes are all the same block, and its propagator needs no
+//! eigenvalues.
 
 use faer::Mat;
 

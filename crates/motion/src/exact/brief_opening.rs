@@ -1,20 +1,29 @@
 //! Contacts that open for an instant between two presses.
 //!
-//! **Why the polynomials of a step do not tell.** A release is sought on the polynomial through the penetrations at the nodes. With the bound `T <= 2 sqrt(tolerance)` of `step_error.rs` on the part of the force that its polynomial leaves
-//! out, the penetration within a step of the length h may be off by some `T V h`, at the nodes as well as between them: the square of T holds for the end alone, where what is left out is orthogonal to all that is smooth.
-//! So a valley of the penetration whose bottom is nearer to zero than
+//! **Why the polynomials of a step do not tell.** A release is sought on the polynomial through the
+//! penetrations at the nodes. With the bound `T <= 2 sqrt(tolerance)` of `step_error.rs` on the part of the
+//! force that its polynomial leaves out, the penetration within a step of the length h may be off by some `T
+//! V h`, at the nodes as well as between them: the square of T holds for the end alone, where what is left
+//! out is orthogonal to all that is smooth. So a valley of the penetration whose bottom is nearer to zero
+//! than
 //!
 //! `b = 2 sqrt(tolerance) V h`
 //!
-//! may be open or closed, whatever the polynomial says; of a pressure `a p + b p' + d` that vanishes the same is `2 sqrt(tolerance) V (a h + b)`.
+//! may be open or closed, whatever the polynomial says; of a pressure `a p + b p' + d` that vanishes the same
+//! is `2 sqrt(tolerance) V (a h + b)`.
 //!
-//! **What tells.** Such a step is cut at the bottom of the valley, which has the accuracy of the end of a step then: the distance d that falls to zero at a release and its slope d' at the end are those of the motion up to the
-//! tolerance, and functions of the length that are smooth down to rounding. The place of the bottom is that of the polynomial, off by a small part e of the length; the turn lies `-d'/d''` from the end, and the lowest distance is `d - d'^2/(2 d'')` up
-//! to the third power of e. Is that below minus the rounding margin, the contact opens `sqrt(d'^2 - 2 d d'')/d''` before the turn, and the step that ends there is located as every release
-//! is; otherwise the contact stays closed and the next step starts at the bottom.
+//! **What tells.** Such a step is cut at the bottom of the valley, which has the accuracy of the end of a
+//! step then: the distance d that falls to zero at a release and its slope d' at the end are those of the
+//! motion up to the tolerance, and functions of the length that are smooth down to rounding. The place of the
+//! bottom is that of the polynomial, off by a small part e of the length; the turn lies `-d'/d''` from the
+//! end, and the lowest distance is `d - d'^2/(2 d'')` up to the third power of e. Is that below minus the
+//! rounding margin, the contact opens `sqrt(d'^2 - 2 d d'')/d''` before the turn, and the step that ends
+//! there is located as every release is; otherwise the contact stays closed and the next step starts at the
+//! bottom.
 //!
-//! **What it costs.** A look at twelve numbers per step where they have no valley, the place of the bottom of one where they have, and another solution of a step where it is as near as that to zero: of presses of
-//! one contact a part of the order of `sqrt(tolerance)`.
+//! **What it costs.** A look at twelve numbers per step where they have no valley, the place of the bottom of
+//! one where they have, and another solution of a step where it is as near as that to zero: of presses of one
+//! contact a part of the order of `sqrt(tolerance)`.
 
 use super::{
     ExactIntegrator,
@@ -62,7 +71,8 @@ impl ExactIntegrator {
         self.possible_ends(run).filter_map(of_end).min_by(|x, y| x.1.total_cmp(&y.1))
     }
 
-    /// How long the solved step, which ends with an event or not, may be so that no bottom within it is as near to zero as its polynomials do not tell.
+    /// How long the solved step, which ends with an event or not, may be so that no bottom within it is as
+    /// near to zero as its polynomials do not tell.
     pub(super) fn up_to_uncertain_bottom(&self, run: &Run, at_end: Option<Event>) -> Option<f64> {
         let length = self.step.length;
         let bottoms =
@@ -148,7 +158,8 @@ fn deepest_of(distance: &[f64; NODES]) -> f64 {
     distance.iter().fold(0.0_f64, |deepest, d| deepest.max(d.abs()))
 }
 
-/// Where a polynomial given at the nodes has a minimum between the neighbours of a node, or the end of the step that it has beside it, and its value there.
+/// Where a polynomial given at the nodes has a minimum between the neighbours of a node, or the end of the
+/// step that it has beside it, and its value there.
 fn bottom_of(rule: &Rule, values: &[f64; NODES], node: usize) -> Option<(f64, f64)> {
     let low = if node == 0 { 0.0 } else { rule.s[node - 1] };
     let high = if node == NODES - 1 { 1.0 } else { rule.s[node + 1] };

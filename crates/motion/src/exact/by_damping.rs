@@ -1,19 +1,25 @@
-//! The column of the sensitivities that belongs to an added part of the damping, which acts on the whole motion.
+//! The column of the sensitivities that belongs to an added part of the damping, which acts on the whole
+//! motion.
 //!
-//! With `C = C(0) + z D` (and what the support transmits, `d = d(0) + z d_z`) the sensitivity `s = dx/dz` in the fixed coordinates of the blocks obeys
+//! With `C = C(0) + z D` (and what the support transmits, `d = d(0) + z d_z`) the sensitivity `s = dx/dz` in
+//! the fixed coordinates of the blocks obeys
 //!
-//! `s' = A s + dA x + db + B f' C s`, `dA` by the change of the damping matrix, D (`change.rs`), `db = S^-1 [0; -d_z u']`.
+//! `s' = A s + dA x + db + B f' C s`, `dA` by the change of the damping matrix, D (`change.rs`), `db = S^-1
+//! [0; -d_z u']`.
 //!
 //! The motion x has three parts, and `dA x` drives one part of s with each:
 //!
-//! - the particular solution of the load drives another particular solution, steady or from rest ([`Drive::change`]);
-//! - the free motion adds `dE x` over a flight or a step, and `dX x` to the displacements at the nodes of a step;
+//! - the particular solution of the load drives another particular solution, steady or from rest
+//!   ([`Drive::change`]);
+//! - the free motion adds `dE x` over a flight or a step, and `dX x` to the displacements at the nodes of a
+//!   step;
 //! - the forces of a step add `dP F` to the state at its end and `dW F` to the displacements at its nodes.
 //!
-//! So a step solves `(I - W f') dr = X s + dX x + d r_particular + dW F` and ends with `s+ = E s + dE x + dP F + P f' dr`. For short steps `dX`, `dW` and `dP`
-//! come from the power series with the changed Markov parameters `d(C A^m B)`; for long ones x and s go through the step together, from node to
-//! node, the force by quadrature fine enough for every block. Forces that depend on velocities need `dr'`, too: C reads displacements and `dA` acts on velocities, so `C dA = 0` and
-//! `d(r') = C A s`.
+//! So a step solves `(I - W f') dr = X s + dX x + d r_particular + dW F` and ends with `s+ = E s + dE x + dP
+//! F + P f' dr`. For short steps `dX`, `dW` and `dP` come from the power series with the changed Markov
+//! parameters `d(C A^m B)`; for long ones x and s go through the step together, from node to node, the force
+//! by quadrature fine enough for every block. Forces that depend on velocities need `dr'`, too: C reads
+//! displacements and `dA` acts on velocities, so `C dA = 0` and `d(r') = C A s`.
 
 use faer::c64;
 
@@ -30,7 +36,8 @@ use super::{
 };
 use crate::{DampingPart, System};
 
-/// Radians of the fastest block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding.
+/// Radians of the fastest block that sixteen Gauss points resolve, together with the polynomials of the step,
+/// to rounding.
 const RADIANS: f64 = 4.0;
 
 /// What the column by a part of the damping is made of.
@@ -181,7 +188,8 @@ impl ByDamping {
     }
 }
 
-/// What a unit of a part of the damping adds to the modal load of each order of the particular solution: `-i m W U_m d_z`; empty where the support transmits nothing.
+/// What a unit of a part of the damping adds to the modal load of each order of the particular solution: `-i
+/// m W U_m d_z`; empty where the support transmits nothing.
 fn transmitted(system: &System, part: usize, drive: &Drive) -> Vec<Vec<c64>> {
     let DampingPart { support, .. } = &system.damping_parts()[part];
     if support.iter().all(|value| *value == 0.0) {

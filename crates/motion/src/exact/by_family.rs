@@ -1,11 +1,19 @@
-//! The column of the sensitivities that belongs to a number of a family of systems: differences of the motions of its neighbours.
+//! The column of the sensitivities that belongs to a number of a family of systems: differences of the
+//! motions of its neighbours.
 //!
-//! The modes are those of the value, and the state is that of modes, so the column has the change of their coordinates in it; no formula of the structure is needed. With the step h it is
-//! `(Z(p + h) - Z(p - h))/2h`. Beside grazing and within chatter the motion bends within a step of 1e-5: where `Z(p + h) + Z(p - h) - 2 Z(p)` is not small against the difference, or the neighbours have other contacts, the step is shortened, down
-//! to where rounding leaves three digits, and the difference taken that bends least: bending falls with the step and rounding grows. It is shortened as well as long as `2 b^2`, what a bend b beside a square root leaves of error, is more than the next step's rounding: beside slow
-//! impacts the column is large, and where the columns of an orbit cancel, as they do in a tangent, an error of a millionth is one of hundredths. Where only one side has a system, it is the difference to that. How the number changes the matrix `dZ/dz` along a direction is the same difference of matrices, each of which is exact: a difference of
-//! columns at two states would divide the rounding of the columns by a second step. The column serves Newton's method and tangents, both of which converge whatever its last digits: solutions
-//! are those of the equations, and events those of the fundamental matrices, which are exact.
+//! The modes are those of the value, and the state is that of modes, so the column has the change of their
+//! coordinates in it; no formula of the structure is needed. With the step h it is `(Z(p + h) - Z(p -
+//! h))/2h`. Beside grazing and within chatter the motion bends within a step of 1e-5: where `Z(p + h) + Z(p -
+//! h) - 2 Z(p)` is not small against the difference, or the neighbours have other contacts, the step is
+//! shortened, down to where rounding leaves three digits, and the difference taken that bends least: bending
+//! falls with the step and rounding grows. It is shortened as well as long as `2 b^2`, what a bend b beside a
+//! square root leaves of error, is more than the next step's rounding: beside slow impacts the column is
+//! large, and where the columns of an orbit cancel, as they do in a tangent, an error of a millionth is one
+//! of hundredths. Where only one side has a system, it is the difference to that. How the number changes the
+//! matrix `dZ/dz` along a direction is the same difference of matrices, each of which is exact: a difference
+//! of columns at two states would divide the rounding of the columns by a second step. The column serves
+//! Newton's method and tangents, both of which converge whatever its last digits: solutions are those of the
+//! equations, and events those of the fundamental matrices, which are exact.
 
 use super::{ExactIntegrator, MotionError};
 use crate::{ParameterError, Stretch};
@@ -64,7 +72,8 @@ impl ExactIntegrator {
         self.by_number(end, end_of)
     }
 
-    /// How a number of a family, if that is the parameter, changes the derivative of a flow by the state along a direction.
+    /// How a number of a family, if that is the parameter, changes the derivative of a flow by the state
+    /// along a direction.
     ///
     /// * `direction`: length 2n, as the state.
     ///
@@ -86,7 +95,8 @@ impl ExactIntegrator {
         self.by_number(&here?, |neighbour| along(neighbour).ok())
     }
 
-    /// Derivative by the number of what `of` makes of a neighbour and `here` is of this integrator itself, whose last motion was the one in question; `None` if no number is the parameter.
+    /// Derivative by the number of what `of` makes of a neighbour and `here` is of this integrator itself,
+    /// whose last motion was the one in question; `None` if no number is the parameter.
     fn by_number(
         &mut self,
         here: &[f64],
@@ -154,7 +164,8 @@ impl ExactIntegrator {
         Some(Difference { column: pairs().map(|(a, b)| (b - a) / width).collect(), bend, is_smooth })
     }
 
-    /// How a number of a family, if that is the parameter, changes the relative displacement of an element beyond the level of one of its contacts, and its rate, of a given state of the modes.
+    /// How a number of a family, if that is the parameter, changes the relative displacement of an element
+    /// beyond the level of one of its contacts, and its rate, of a given state of the modes.
     ///
     /// * `phase`: [cycles]; `state`: `[q; q']`, length 2n.
     ///

@@ -1,10 +1,12 @@
 //! The column of the sensitivities that belongs to a parameter of the system.
 //!
-//! With `r = r_free + W F`, `F = f(r, p)`: `dF = f' dr + f_p` and `(I - W f') dr = X V + d r_particular + W f_p`.
+//! With `r = r_free + W F`, `F = f(r, p)`: `dF = f' dr + f_p` and `(I - W f') dr = X V + d r_particular + W
+//! f_p`.
 //!
-//! - Excitation scale `a`: `f_p = 0`, and the particular solution of all orders above 0 is proportional to `a`.
-//! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V - level_g`. The gap of a rigid stop that holds the structure moves the particular
-//!   solution (`held.rs`).
+//! - Excitation scale `a`: `f_p = 0`, and the particular solution of all orders above 0 is proportional to
+//!   `a`.
+//! - Gap: `f(r - level)`, so `dF = f' (dr - level_g)`, where `e = dr - level_g` solves `(I - W f') e = X V -
+//!   level_g`. The gap of a rigid stop that holds the structure moves the particular solution (`held.rs`).
 //! - Stiffness: `f_p = F/k`. Damping and restitution of a contact: `f_p` by the law (`damped_step.rs`).
 //! - A number of a family: differences (`by_family.rs`).
 //! - Added damping: it is in the propagators, the weights and the particular solution; see `by_damping.rs`.
@@ -144,7 +146,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// Column of the parameter at the start of a stretch: without the particular solution, which does not start from the given state.
+    /// Column of the parameter at the start of a stretch: without the particular solution, which does not
+    /// start from the given state.
     pub(super) fn parameter_column_at_start(&mut self) -> Option<Vec<f64>> {
         let parameter = self.parameter?;
         if let Some(by_damping) = &mut self.by_damping {
@@ -176,7 +179,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// Readies what a parameter that is not in the forces has in the solved step that starts from the state of `run`.
+    /// Readies what a parameter that is not in the forces has in the solved step that starts from the state
+    /// of `run`.
     pub(super) fn prepare_driven(&mut self, run: &Run) {
         if self.parameter.is_none() {
             return;

@@ -1,16 +1,19 @@
 //! How the propagators of the blocks change with the damping of the modes.
 //!
-//! Let the damping matrix change by `dC` per unit of a parameter. In the fixed coordinates `x = S^-1 z` of the blocks the system matrix changes by
-//! `dA = S^-1 [0 0; 0 -dC] S`, of which `K_ij` is the part from block j to block i (one 2 x 2 matrix on each diagonal place where modes are
-//! the blocks). The sensitivity obeys `s' = A s + dA x + ...`, so over a time t the free motion x adds
+//! Let the damping matrix change by `dC` per unit of a parameter. In the fixed coordinates `x = S^-1 z` of
+//! the blocks the system matrix changes by `dA = S^-1 [0 0; 0 -dC] S`, of which `K_ij` is the part from block
+//! j to block i (one 2 x 2 matrix on each diagonal place where modes are the blocks). The sensitivity obeys
+//! `s' = A s + dA x + ...`, so over a time t the free motion x adds
 //!
 //! `dE(t) x`, `dE_ij = int_0^t E_i(t - u) K_ij E_j(u) du`.
 //!
-//! - Of a block by itself: `K = alpha I + beta A + gamma A_c + delta A_k`, with the derivatives of A by its damping and its stiffness, is one
-//!   decomposition of every 2 x 2 matrix; `alpha I + beta A` commutes with E, so `dE = t (alpha I + beta A) E + gamma E_c + delta E_k`.
-//! - Between blocks whose eigenvalues lie apart: `K = A_i X - X A_j` has one solution, and `dE = E_i X - X E_j`. With the characteristic
-//!   polynomial `p_j`, `p_j(A_i) X = A_i K + K A_j + c_j K`.
-//! - Between blocks whose eigenvalues (nearly) meet: the corner of the exponential of `[A_i K; 0 A_j]`, finite whatever their distance.
+//! - Of a block by itself: `K = alpha I + beta A + gamma A_c + delta A_k`, with the derivatives of A by its
+//!   damping and its stiffness, is one decomposition of every 2 x 2 matrix; `alpha I + beta A` commutes with
+//!   E, so `dE = t (alpha I + beta A) E + gamma E_c + delta E_k`.
+//! - Between blocks whose eigenvalues lie apart: `K = A_i X - X A_j` has one solution, and `dE = E_i X - X
+//!   E_j`. With the characteristic polynomial `p_j`, `p_j(A_i) X = A_i K + K A_j + c_j K`.
+//! - Between blocks whose eigenvalues (nearly) meet: the corner of the exponential of `[A_i K; 0 A_j]`,
+//!   finite whatever their distance.
 //!
 //! So the derivative is exact for coupled modes too: the coordinates S are held, and need no derivative.
 
@@ -20,8 +23,9 @@ use super::{block::Blocks, propagator::Propagator, secular::exponential};
 
 type Square = [[f64; 2]; 2];
 
-/// Least resultant of the characteristic polynomials of two blocks, relative to the fourth power of their rates, at which their eigenvalues
-/// count as apart: a relative distance of 5e-4 of equally fast ones, which costs `dE` three or four digits.
+/// Least resultant of the characteristic polynomials of two blocks, relative to the fourth power of their
+/// rates, at which their eigenvalues count as apart: a relative distance of 5e-4 of equally fast ones, which
+/// costs `dE` three or four digits.
 const APART: f64 = 1e-6;
 
 /// How one block changes what another does.
@@ -54,7 +58,8 @@ pub(crate) struct Change {
 }
 
 impl Change {
-    /// The change by a change `dC` of the modal damping matrix, n x n, where the first `moving` blocks obey the equations of motion; the others are prescribed and do not change.
+    /// The change by a change `dC` of the modal damping matrix, n x n, where the first `moving` blocks obey
+    /// the equations of motion; the others are prescribed and do not change.
     pub fn of_damping(blocks: &Blocks, damping: &Mat<f64>, moving: usize) -> Self {
         let n = blocks.count();
         // -dC times the rows of S that are velocities.
@@ -204,7 +209,8 @@ fn sylvester((k, c): (f64, f64), (l, d): (f64, f64), coupling: &Square) -> Optio
     Some(combine(&first, &solve(&combine(coupling, &found, -1.0)), 1.0))
 }
 
-/// `int_0^t E_i(t - u) K E_j(u) du` from the exponential of both blocks together, with displacements scaled to velocities.
+/// `int_0^t E_i(t - u) K E_j(u) du` from the exponential of both blocks together, with displacements scaled
+/// to velocities.
 fn corner((k, c): (f64, f64), (l, d): (f64, f64), coupling: &Square, time: f64) -> Square {
     let rate = |k: f64, c: f64| if k + c.abs() > 0.0 { k.sqrt() + c.abs() } else { 1.0 };
     let (r, q) = (rate(k, c), rate(l, d));

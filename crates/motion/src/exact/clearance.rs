@@ -1,17 +1,19 @@
 //! Certified search for the first contact.
 //!
-//! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and `|d'''| <= B_3` that hold
-//! for the time ahead, two steps provably cannot jump over a zero of `d`:
+//! The clearance `d(t) = -sign (r - level)` of an open contact is positive. With bounds `|d''| <= B_2` and
+//! `|d'''| <= B_3` that hold for the time ahead, two steps provably cannot jump over a zero of `d`:
 //!
 //! * `h_2`, the positive root of `d + d' h - B_2 h^2/2`;
 //! * `h_3`, the first positive root of `d + d' h + d'' h^2/2 - B_3 h^3/6`.
 //!
-//! Repeated, they converge on the first contact, quadratically where it is crossed with some speed. Over the time `d''/B_3` the
-//! clearance is convex. Where it has its minimum well inside that stretch (`-d'/d''` is less than half of it), the minimum is found
-//! by Newton's method: if it is above minus the rounding margin, the whole convex stretch is passed at once, since nowhere in it is `d` lower;
-//! if it is below, Newton's method from the left runs monotonically into the crossing (the tangent of a convex function
-//! lies below it). A contact whose minimum is within the margin is grazed, without force. The margin is what rounding leaves undecided:
-//! `8 eps` times the sum of the magnitudes of the terms of `r` in flight, somewhat more in a force step (`touching.rs`).
+//! Repeated, they converge on the first contact, quadratically where it is crossed with some speed. Over the
+//! time `d''/B_3` the clearance is convex. Where it has its minimum well inside that stretch (`-d'/d''` is
+//! less than half of it), the minimum is found by Newton's method: if it is above minus the rounding margin,
+//! the whole convex stretch is passed at once, since nowhere in it is `d` lower; if it is below, Newton's
+//! method from the left runs monotonically into the crossing (the tangent of a convex function lies below
+//! it). A contact whose minimum is within the margin is grazed, without force. The margin is what rounding
+//! leaves undecided: `8 eps` times the sum of the magnitudes of the terms of `r` in flight, somewhat more in
+//! a force step (`touching.rs`).
 //!
 //! The same holds if `d''` is only known from below: all that is used of it is that it is not smaller.
 
@@ -51,7 +53,8 @@ pub(crate) fn look(clearance: Jet, bounds: ClearanceBounds) -> Look {
     if value <= bounds.margin && (slope < 0.0 || (slope == 0.0 && curvature < 0.0)) {
         return Look::Contact;
     }
-    // Within the margin and not falling: what the motion does within the margin is not looked at, so that every look gets on.
+    // Within the margin and not falling: what the motion does within the margin is not looked at, so that
+    // every look gets on.
     let value = value.max(bounds.margin);
     Look::FreeFor(safe_step(value, slope, bounds.second).max(safe_cubic_step(
         value,
@@ -76,8 +79,8 @@ const NEWTON_STEPS: usize = 60;
 /// Decides a stretch in which the clearance is convex.
 ///
 /// * `clearance`: the clearance at a time after the look.
-/// * `at`: about where its minimum is; `length`: length of the stretch (the minimum may lie beyond its end); `start`: time of the look, for
-///   rounding.
+/// * `at`: about where its minimum is; `length`: length of the stretch (the minimum may lie beyond its end);
+///   `start`: time of the look, for rounding.
 pub(crate) fn decide_convex(
     mut clearance: impl FnMut(f64) -> Jet,
     (at, length): (f64, f64),
@@ -125,7 +128,8 @@ fn safe_cubic_step(value: f64, slope: f64, curvature: f64, bound: f64) -> f64 {
         let no_root = slope >= 0.0 && curvature >= 0.0;
         return if no_root { f64::INFINITY } else { 0.0 };
     }
-    // After the last extremum (a maximum, since -B h^3 wins) the cubic falls; before it, it must be shown to be positive.
+    // After the last extremum (a maximum, since -B h^3 wins) the cubic falls; before it, it must be shown to
+    // be positive.
     let discriminant = curvature * curvature + 2.0 * bound * slope;
     let (mut h, mut beyond) = if discriminant > 0.0 {
         let root = discriminant.sqrt();
@@ -140,7 +144,8 @@ fn safe_cubic_step(value: f64, slope: f64, curvature: f64, bound: f64) -> f64 {
     } else {
         return 0.0;
     };
-    // Beyond the maximum, and its turning point, the cubic is concave and falls: Newton's method comes to the root from beyond.
+    // Beyond the maximum, and its turning point, the cubic is concave and falls: Newton's method comes to the
+    // root from beyond.
     while cubic(beyond) > 0.0 {
         h = beyond;
         beyond *= 2.0;

@@ -1,12 +1,14 @@
-//! Collocation of the contact force over a step: nodes, and the constants of its exact convolution with the modes.
+//! Collocation of the contact force over a step: nodes, and the constants of its exact convolution with the
+//! modes.
 //!
-//! Over a step of length h the force is a polynomial of degree `NODES - 1` in a variable `s` in [0, 1] that is mapped to the time
-//! `t = h c(s)`. A Hertz force starts like `t^1.5`, hence like `s^3` under `c = s^2`: with the map graded at the touch or at the release
-//! it is smooth in `s`, and no small steps are needed. The nodes are those of Gauss for the weight `c'(s)`, so integrals of the
-//! force against smooth functions of time converge twice as fast as the force itself.
+//! Over a step of length h the force is a polynomial of degree `NODES - 1` in a variable `s` in [0, 1] that
+//! is mapped to the time `t = h c(s)`. A Hertz force starts like `t^1.5`, hence like `s^3` under `c = s^2`:
+//! with the map graded at the touch or at the release it is smooth in `s`, and no small steps are needed. The
+//! nodes are those of Gauss for the weight `c'(s)`, so integrals of the force against smooth functions of
+//! time converge twice as fast as the force itself.
 //!
-//! With the Lagrange polynomials `l_j`, the convolution with a mode follows from its power series:
-//! `int_0^{h c_k} exp(A (h c_k - t)) l_j dt = sum_m A^m h^{m+1} w_mkj`, `w_mkj = int_0^{c_k} (c_k - c)^m/m! l_j dc`,
+//! With the Lagrange polynomials `l_j`, the convolution with a mode follows from its power series: `int_0^{h
+//! c_k} exp(A (h c_k - t)) l_j dt = sum_m A^m h^{m+1} w_mkj`, `w_mkj = int_0^{c_k} (c_k - c)^m/m! l_j dc`,
 //! and the same up to the end of the step. The constants `w` depend on the map only.
 
 use std::sync::OnceLock;
@@ -85,15 +87,18 @@ pub(crate) struct Rule {
     pub powers: Vec<[f64; NODES]>,
     /// `int_0^1 (1 - c)^m/m! l_j dc`, indexed `[m][j]`.
     pub at_end: Vec<[f64; NODES]>,
-    /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed `[degree][node]`.
+    /// Coefficients of a force in the orthonormal polynomials from its nodal values, indexed
+    /// `[degree][node]`.
     pub coefficients: [[f64; NODES]; NODES],
-    /// Lagrange polynomials at [`FINE`]` + 1` equal steps of the variable, indexed `[node][place]`, zero behind.
+    /// Lagrange polynomials at [`FINE`]` + 1` equal steps of the variable, indexed `[node][place]`, zero
+    /// behind.
     pub fine: [[f64; PLACES]; NODES],
     /// `c_k/c'(s_k)`: how far s moves at node k if the step becomes longer by a small part of itself.
     pub lag: [f64; NODES],
     /// `d l_j/ds` at `s_k`, indexed `[k][j]`.
     derivative: [[f64; NODES]; NODES],
-    /// Bernstein coefficients from nodal values, indexed `[coefficient][node]`, from the first node to the end of the step.
+    /// Bernstein coefficients from nodal values, indexed `[coefficient][node]`, from the first node to the
+    /// end of the step.
     to_bernstein: [[f64; NODES]; NODES],
     /// The same over all of the step.
     to_whole: [[f64; NODES]; NODES],
@@ -167,7 +172,8 @@ impl Rule {
         self.derivative.map(|row| dot(&row, values))
     }
 
-    /// Bernstein coefficients of a polynomial from the first node to the end of the step, from its values at the nodes.
+    /// Bernstein coefficients of a polynomial from the first node to the end of the step, from its values at
+    /// the nodes.
     pub fn bernstein(&self, values: &[f64; NODES]) -> [f64; NODES] {
         self.to_bernstein.map(|row| dot(&row, values))
     }
@@ -206,7 +212,8 @@ fn powers(c: [f64; NODES]) -> Vec<[f64; NODES]> {
     std::iter::successors(Some((0, [1.0; NODES])), next).take(TERMS).map(|(_, power)| power).collect()
 }
 
-/// Derivatives of the Lagrange polynomials at their nodes: `(w_j/w_k)/(s_k - s_j)` with the barycentric weights w.
+/// Derivatives of the Lagrange polynomials at their nodes: `(w_j/w_k)/(s_k - s_j)` with the barycentric
+/// weights w.
 fn derivative(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
     let weight = |j: usize| (0..NODES).filter(|&i| i != j).map(|i| 1.0 / (s[j] - s[i])).product::<f64>();
     let weights: [f64; NODES] = std::array::from_fn(weight);
@@ -220,7 +227,8 @@ fn derivative(s: &[f64; NODES]) -> [[f64; NODES]; NODES] {
     matrix
 }
 
-/// The inverse of `binomial(n, i) x_k^i (1 - x_k)^(n - i)`, `n = NODES - 1`, where x runs from 0 at `start` to 1 at the end of the step.
+/// The inverse of `binomial(n, i) x_k^i (1 - x_k)^(n - i)`, `n = NODES - 1`, where x runs from 0 at `start`
+/// to 1 at the end of the step.
 fn to_bernstein(s: &[f64; NODES], start: f64) -> [[f64; NODES]; NODES] {
     let degree = NODES - 1;
     let binomial = |i: usize| (0..i).map(|m| (degree - m) as f64 / (m + 1) as f64).product::<f64>();

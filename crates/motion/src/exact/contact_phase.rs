@@ -1,14 +1,20 @@
 //! Steps while forces act, with control of their error (`step_error.rs`).
 //!
-//! A contact that is struck and left takes a step from the touch and one to the release, each graded towards its end, and where those are too coarse others between them.
-//! How long they are is in `step_length.rs`, what a step aims for in `aim.rs`.
+//! A contact that is struck and left takes a step from the touch and one to the release, each graded towards
+//! its end, and where those are too coarse others between them. How long they are is in `step_length.rs`,
+//! what a step aims for in `aim.rs`.
 //!
-//! **What limits very stiff contacts** is rounding of the displacement. A contact of the duration T has the circular frequency `w_c = pi/T`, which grows like `k^(2/5)` for Hertz and like `k^(1/2)` for a linear
-//! stop. Within it sensitivities of the velocity by the displacement are of the size of `w_c`, and cancel down to what an impact leaves of them, some `2 r''/v`. The displacement is a sum over the modes
-//! that rounds by about `eps r`; the next step starts from it, and its part `w_c/v eps r` of the depth changes the sensitivities by as much of `w_c`: `eps r w_c^2/v` is left, `eps r w_c^2/r''` of what
-//! the impact leaves, `eps (w_c/w)^2` with the frequency w of the motion around the contact. Over a period of the beam of the paper the multiplier has 3e-8 of it at 1e15 N/m^1.5, 2e-7 (36 Hz) to 8e-5 (22 Hz) at 1e20, and 4e-4 to 0.2 at 1e24. A finer tolerance
-//! takes more steps, each of which rounds, and does not help. A multiplier comes near to that of a rigid stop like T, and so like `k^(-2/5)`: 4e-5 to 1e-4 away from it at 1e15, which is the
-//! stop and no error. Where that difference does not matter, a rigid stop has neither.
+//! **What limits very stiff contacts** is rounding of the displacement. A contact of the duration T has the
+//! circular frequency `w_c = pi/T`, which grows like `k^(2/5)` for Hertz and like `k^(1/2)` for a linear
+//! stop. Within it sensitivities of the velocity by the displacement are of the size of `w_c`, and cancel
+//! down to what an impact leaves of them, some `2 r''/v`. The displacement is a sum over the modes that
+//! rounds by about `eps r`; the next step starts from it, and its part `w_c/v eps r` of the depth changes the
+//! sensitivities by as much of `w_c`: `eps r w_c^2/v` is left, `eps r w_c^2/r''` of what the impact leaves,
+//! `eps (w_c/w)^2` with the frequency w of the motion around the contact. Over a period of the beam of the
+//! paper the multiplier has 3e-8 of it at 1e15 N/m^1.5, 2e-7 (36 Hz) to 8e-5 (22 Hz) at 1e20, and 4e-4 to 0.2
+//! at 1e24. A finer tolerance takes more steps, each of which rounds, and does not help. A multiplier comes
+//! near to that of a rigid stop like T, and so like `k^(-2/5)`: 4e-5 to 1e-4 away from it at 1e15, which is
+//! the stop and no error. Where that difference does not matter, a rigid stop has neither.
 
 use std::sync::Arc;
 
@@ -30,7 +36,8 @@ const MAX_TRIES: usize = 60;
 /// Part of the largest velocity of an element below which its own is rounding.
 pub(super) const AT_REST: f64 = 8.0 * f64::EPSILON;
 
-/// Most of its length that a step keeps that was too inaccurate: its error is hardly one that a power describes yet, and what would just do by it can be far off.
+/// Most of its length that a step keeps that was too inaccurate: its error is hardly one that a power
+/// describes yet, and what would just do by it can be far off.
 const MOST_KEPT: f64 = 0.7;
 
 /// What became of a try.
@@ -45,7 +52,8 @@ enum Tried {
 }
 
 impl ExactIntegrator {
-    /// Takes one accepted step with forces, up to a release, a touch, the end of the stretch, or as far as the error allows.
+    /// Takes one accepted step with forces, up to a release, a touch, the end of the stretch, or as far as
+    /// the error allows.
     pub(super) fn contact_phase(&mut self, run: &mut Run, end: f64) -> Result<(), MotionError> {
         self.note_start(run, end);
         let pressed = run.pressed.take();
@@ -107,7 +115,8 @@ impl ExactIntegrator {
         speed > 0.0 && (!is_rounding || clearance(self.jet_with_forces(run, element)).curvature > 0.0)
     }
 
-    /// Whether the pressure of a closed contact has vanished within rounding, and falls; or is missing, as after an impact elsewhere.
+    /// Whether the pressure of a closed contact has vanished within rounding, and falls; or is missing, as
+    /// after an impact elsewhere.
     fn has_parted(&self, run: &Run, element: usize) -> bool {
         let Some(contact) = run.closed[element] else { return false };
         let touch = Touch { element, contact, boundary: Boundary::Presses };
@@ -201,7 +210,8 @@ impl ExactIntegrator {
         if let Some(shorter) = self.up_to_uncertain_bottom(run, event) {
             return free(shorter);
         }
-        // One that was located behind the stretch is not looked for again where the search for it went out from.
+        // One that was located behind the stretch is not looked for again where the search for it went out
+        // from.
         let refuted = (aim.event.is_some() && !at_event).then(|| aim.refuted(length));
         let aim = refuted.as_ref().unwrap_or(aim);
         let Ok(earlier) = self.earlier_event(run, aim, (event, length)) else {
@@ -230,7 +240,8 @@ impl ExactIntegrator {
         Tried::Accepted { error, event }
     }
 
-    /// An event that the polynomials find before the end of the solved step, and when, apart from those that were located to come later.
+    /// An event that the polynomials find before the end of the solved step, and when, apart from those that
+    /// were located to come later.
     fn earlier_event(
         &mut self,
         run: &Run,
@@ -252,7 +263,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// The first touch, else the first release, in the solved step that ends with `event`, other than those `excused`. Where the polynomials through the nodes show none there is one only if the proof of
+    /// The first touch, else the first release, in the solved step that ends with `event`, other than those
+    /// `excused`. Where the polynomials through the nodes show none there is one only if the proof of
     /// `enclosure.rs` fails.
     fn first_in_step(
         &mut self,

@@ -1,6 +1,8 @@
-//! What a motion went through, as far as its maxima need it: flights, touches and force steps, noted as they are computed.
+//! What a motion went through, as far as its maxima need it: flights, touches and force steps, noted as they
+//! are computed.
 //!
-//! An orbit is evaluated with its sensitivities first and observed then. The course saves going through the motion a second time.
+//! An orbit is evaluated with its sensitivities first and observed then. The course saves going through the
+//! motion a second time.
 
 use super::{
     collocation::{Grading, NODES},
@@ -16,11 +18,13 @@ type Span = (usize, usize);
 /// Something that happened.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Passage {
-    /// A flight, from a homogeneous block state; with the elements that are closed, those held on rigid stops, and the impulses that these got.
+    /// A flight, from a homogeneous block state; with the elements that are closed, those held on rigid
+    /// stops, and the impulses that these got.
     Flight { start: f64, duration: f64, state: Span, closed: u64, held: Span, impulses: Span },
     /// A contact closed with this relative velocity [m/s].
     Touch { speed: f64 },
-    /// It was an impact on the rigid stop of this element, with that impulse [N s], which took that energy [J], and after which the contact stuck or not.
+    /// It was an impact on the rigid stop of this element, with that impulse [N s], which took that energy
+    /// [J], and after which the contact stuck or not.
     Impact { element: usize, impulse: f64, energy: f64, sticks: bool },
     /// A force step.
     Step(CourseStep),

@@ -1,17 +1,19 @@
 //! Forces of a step whose laws depend on the velocity: `F = f(r, r')`.
 //!
-//! With `r = r_free + W F` and `r' = r'_free + W' F` at the nodes, Newton's method from a guess of `(r, r')` solves
+//! With `r = r_free + W F` and `r' = r'_free + W' F` at the nodes, Newton's method from a guess of `(r, r')`
+//! solves
 //!
 //! `(I - f_r W - f_v W') dF = f_r d_r + f_v d_v`, `d_r = r_free + W F - r`, `d_v = r'_free + W' F - r'`,
 //!
-//! and corrects `r` by `d_r + W dF`, `r'` by `d_v + W' dF`. With the same matrix the sensitivities of the forces are
+//! and corrects `r` by `d_r + W dF`, `r'` by `d_v + W' dF`. With the same matrix the sensitivities of the
+//! forces are
 //!
 //! `(I - f_r W - f_v W') dF = f_r (X V + d r_particular) + f_v (X' V + d r'_particular) + f_p`,
 //!
 //! where `f_p` has the change of the speed that the contact remembers, too (`onset.rs`).
 //!
-//! The forces are those of a contact that presses, continued smoothly beyond its end, so that no kink lies in the step; where the pressure
-//! vanishes is an event (`event.rs`).
+//! The forces are those of a contact that presses, continued smoothly beyond its end, so that no kink lies in
+//! the step; where the pressure vanishes is an event (`event.rs`).
 
 use super::{
     collocation::{NODES, NodeMatrix},
@@ -24,8 +26,8 @@ use super::{
 use crate::{Law, Parameter};
 
 impl ForceStep {
-    /// Solves for displacements and velocities from the guess of them, until what is left is below `precision` times their range and size, or
-    /// corrections below their roundings.
+    /// Solves for displacements and velocities from the guess of them, until what is left is below
+    /// `precision` times their range and size, or corrections below their roundings.
     #[inline(never)]
     pub(super) fn solve_damped(
         &mut self,

@@ -1,13 +1,13 @@
 //! Blocks of a structure whose dampers couple the modes.
 //!
-//! Modes that no damping entry connects stay as they are. Each connected group of m modes is the first-order system `A` of size 2m;
-//! its eigenvalues are taken in pairs (complex conjugates, or neighbouring real ones) with `c = -(l_1 + l_2)` and
-//! `k = l_1 l_2`. The null space of `A^2 + c A + k I` is the invariant plane of the pair, well determined even where
-//! its eigenvectors merge (critical damping). With any `s` in the plane and `p = (A + c I) s`, `A p = -k s` and
-//! `A s = p - c s`: the block of `block.rs`.
+//! Modes that no damping entry connects stay as they are. Each connected group of m modes is the first-order
+//! system `A` of size 2m; its eigenvalues are taken in pairs (complex conjugates, or neighbouring real ones)
+//! with `c = -(l_1 + l_2)` and `k = l_1 l_2`. The null space of `A^2 + c A + k I` is the invariant plane of
+//! the pair, well determined even where its eigenvectors merge (critical damping). With any `s` in the plane
+//! and `p = (A + c I) s`, `A p = -k s` and `A s = p - c s`: the block of `block.rs`.
 //!
-//! In a stiff structure the squares in that null space cost the slow pairs their digits; Newton's method on the equations of
-//! the plane (`plane.rs`), each row of its own size, brings them back.
+//! In a stiff structure the squares in that null space cost the slow pairs their digits; Newton's method on
+//! the equations of the plane (`plane.rs`), each row of its own size, brings them back.
 
 use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, c64};
@@ -63,7 +63,8 @@ impl Blocks {
     }
 }
 
-/// Inverse of `S`, and its condition number with displacements scaled to velocities and columns to length one.
+/// Inverse of `S`, and its condition number with displacements scaled to velocities and columns to length
+/// one.
 fn inverse(from_blocks: &Mat<f64>, rates: &[f64]) -> (Mat<f64>, f64) {
     let size = from_blocks.nrows();
     let row_scale = |i: usize| rates.get(i).copied().unwrap_or(1.0);
@@ -174,7 +175,8 @@ fn eigenvalue_pairs(system: &Mat<f64>) -> Result<Vec<(f64, f64)>, MergedModes> {
     let mut real: Vec<f64> = eigenvalues.iter().filter(|l| l.im == 0.0).map(|l| l.re).collect();
     real.iter_mut().filter(|l| l.abs() < 1e-15 * scale).for_each(|l| *l = 0.0);
     real.sort_by(f64::total_cmp);
-    // Dampers and springs of a structure do not drive it: a stiffness below zero is the rounding of a rigid one.
+    // Dampers and springs of a structure do not drive it: a stiffness below zero is the rounding of a rigid
+    // one.
     pairs.extend(real.chunks_exact(2).map(|pair| ((pair[0] * pair[1]).max(0.0), -(pair[0] + pair[1]))));
     pairs.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.total_cmp(&y.1)));
     Ok(pairs)

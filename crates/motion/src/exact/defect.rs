@@ -1,9 +1,14 @@
-//! What the polynomial of a force leaves of it between the nodes of a step, and what that makes of velocities.
+//! What the polynomial of a force leaves of it between the nodes of a step, and what that makes of
+//! velocities.
 //!
-//! A polynomial P meets the law at the nodes; elsewhere it differs by the *defect* `e = f(r, r') - P`. Integrals of e to the end of a step nearly vanish, so the motion from step to step does not feel
-//! it. Within the step they do not: `r'(t)` is wrong by `sum_b M_b int_0^t e_b ds`, with the mobility `M_b` of the element against the force b, and r by the integral of that, which is smaller by the
-//! length of the step. A force that hangs on the velocity shows it. The integral is taken by sixteen points of Gauss in the variable of the grading, with defects from the velocities as they are: what the
-//! correction itself changes of them is smaller by `M f_v h`, a damper's share of the velocity in a step of the length h. Where that is not below one the correction does not help.
+//! A polynomial P meets the law at the nodes; elsewhere it differs by the *defect* `e = f(r, r') - P`.
+//! Integrals of e to the end of a step nearly vanish, so the motion from step to step does not feel it.
+//! Within the step they do not: `r'(t)` is wrong by `sum_b M_b int_0^t e_b ds`, with the mobility `M_b` of
+//! the element against the force b, and r by the integral of that, which is smaller by the length of the
+//! step. A force that hangs on the velocity shows it. The integral is taken by sixteen points of Gauss in the
+//! variable of the grading, with defects from the velocities as they are: what the correction itself changes
+//! of them is smaller by `M f_v h`, a damper's share of the velocity in a step of the length h. Where that is
+//! not below one the correction does not help.
 
 use super::{ExactIntegrator, drive::Jet, recurrence::gauss_sixteen};
 

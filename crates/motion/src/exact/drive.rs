@@ -1,9 +1,9 @@
 //! The part of the motion that the load drives: the particular solution at one excitation frequency.
 //!
-//! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has the steady solution
-//! `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the denominator (nearly) vanishes - a constant load on a
-//! rigid mode, a load on an undamped eigenfrequency - the solution that starts from rest with the stretch takes its place
-//! (`secular.rs`); it stays finite.
+//! For the order m, at the circular frequency `w = m W`, a block driven by `Re [beta; phi] exp(i w t)` has
+//! the steady solution `p = (phi + (i w + c) beta)/(k - w^2 + i w c)`, `s = i w p - beta`. Where the
+//! denominator (nearly) vanishes - a constant load on a rigid mode, a load on an undamped eigenfrequency -
+//! the solution that starts from rest with the stretch takes its place (`secular.rs`); it stays finite.
 
 use std::f64::consts::TAU;
 
@@ -98,8 +98,9 @@ impl Drive {
         self.push(outputs, (order, support), state, state_by_frequency);
     }
 
-    /// Adds an order of a held structure (`held.rs`): `load` drives the blocks that move, the others are `prescribed`, and what acts on the pressing forces, the last outputs,
-    /// directly is `forces`. Support, prescribed blocks and forces come with their derivatives by the circular frequency.
+    /// Adds an order of a held structure (`held.rs`): `load` drives the blocks that move, the others are
+    /// `prescribed`, and what acts on the pressing forces, the last outputs, directly is `forces`. Support,
+    /// prescribed blocks and forces come with their derivatives by the circular frequency.
     pub fn add_held(
         &mut self,
         blocks: &Blocks,
@@ -126,7 +127,8 @@ impl Drive {
         }
     }
 
-    /// Steady solution of the first `moving` blocks under one order, and its derivative by the frequency; what is resonant becomes secular.
+    /// Steady solution of the first `moving` blocks under one order, and its derivative by the frequency;
+    /// what is resonant becomes secular.
     fn steady(
         &mut self,
         blocks: &Blocks,
@@ -233,13 +235,15 @@ impl Drive {
         }
     }
 
-    /// Adds the derivative of the particular state at `time` by the scale of the excitation, times `factor`, to `state`.
+    /// Adds the derivative of the particular state at `time` by the scale of the excitation, times `factor`,
+    /// to `state`.
     pub fn add_state_by_scale(&self, time: f64, factor: f64, state: &mut [f64]) {
         self.scaled_part().add_state(time, factor / self.scale, state);
     }
 
-    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for a change `dA` of the blocks, and modal loads `db` of its orders (as many as
-    /// there are): the steady solution where there is one, from rest elsewhere. Of it only states, values and rates are told.
+    /// The part of the change `s' = A s + dA x + db` of the motion that the particular solution drives, for a
+    /// change `dA` of the blocks, and modal loads `db` of its orders (as many as there are): the steady
+    /// solution where there is one, from rest elsewhere. Of it only states, values and rates are told.
     pub fn change(
         &self,
         blocks: &Blocks,

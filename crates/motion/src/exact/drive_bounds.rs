@@ -1,4 +1,5 @@
-//! Bounds on the particular solution (`drive.rs`) and on its derivatives: sums of the amplitudes of its orders, and what resonant loads can reach.
+//! Bounds on the particular solution (`drive.rs`) and on its derivatives: sums of the amplitudes of its
+//! orders, and what resonant loads can reach.
 
 use faer::c64;
 
@@ -46,14 +47,16 @@ impl Drive {
         self.orders.iter().map(of_order).sum()
     }
 
-    /// Amplitude and circular frequency of each order in the particular part of output `index`; `None` where it is not made of these and of a parabola alone.
+    /// Amplitude and circular frequency of each order in the particular part of output `index`; `None` where
+    /// it is not made of these and of a parabola alone.
     pub fn amplitudes(&self, index: usize) -> Option<impl Iterator<Item = (f64, f64)>> {
         let of_order =
             move |order: &Order| (magnitude(order.outputs[index].0), order.order * self.circular_frequency);
         self.secular.iter().all(SecularLoad::is_parabola).then(|| self.orders.iter().map(of_order))
     }
 
-    /// Largest value that the part of resonant loads in an output can take until `until`, for rounding margins.
+    /// Largest value that the part of resonant loads in an output can take until `until`, for rounding
+    /// margins.
     pub fn secular_magnitude(&self, output: &Output, until: f64) -> f64 {
         self.secular.iter().map(|load| load.magnitude(output, until)).sum()
     }
@@ -71,7 +74,8 @@ impl Drive {
     }
 }
 
-/// Magnitude of an amplitude; as far from the ends of the range of numbers as amplitudes are, no care is needed.
+/// Magnitude of an amplitude; as far from the ends of the range of numbers as amplitudes are, no care is
+/// needed.
 fn magnitude(amplitude: c64) -> f64 {
     amplitude.norm_sqr().sqrt()
 }

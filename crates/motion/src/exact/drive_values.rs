@@ -1,4 +1,5 @@
-//! Outputs of the particular solution (`drive.rs`) at a time and at the nodes of a step, and their derivatives by the frequency and by the scale of the excitation.
+//! Outputs of the particular solution (`drive.rs`) at a time and at the nodes of a step, and their
+//! derivatives by the frequency and by the scale of the excitation.
 
 use std::f64::consts::TAU;
 
@@ -14,8 +15,8 @@ use super::{
 };
 
 impl Drive {
-    /// Acceleration of the particular part of output `index` (with the row `output`) and its derivatives at `time`: of resonant loads the latter by differences, which suffice to steer
-    /// Newton's method.
+    /// Acceleration of the particular part of output `index` (with the row `output`) and its derivatives at
+    /// `time`: of resonant loads the latter by differences, which suffice to steer Newton's method.
     pub fn acceleration_jet(&self, index: usize, output: &Output, time: f64) -> Jet {
         let mut jet = Jet::default();
         for order in &self.orders {
@@ -64,7 +65,8 @@ impl Drive {
         jet
     }
 
-    /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to `values`.
+    /// Adds the particular part of output `index` (with the row `output`) at `start + c_k length` to
+    /// `values`.
     pub fn add_values(
         &self,
         index: usize,
@@ -90,7 +92,8 @@ impl Drive {
         }
     }
 
-    /// Derivatives of the particular part of output `index` by the scale of the excitation at `start + c_k length`.
+    /// Derivatives of the particular part of output `index` by the scale of the excitation at `start + c_k
+    /// length`.
     pub fn values_by_scale(
         &self,
         index: usize,
@@ -103,7 +106,8 @@ impl Drive {
         values.map(|value| value / self.scale)
     }
 
-    /// Derivatives of the particular part of output `index` by the frequency at the fixed times `start + c_k length`.
+    /// Derivatives of the particular part of output `index` by the frequency at the fixed times `start + c_k
+    /// length`.
     pub fn values_by_frequency(
         &self,
         index: usize,
@@ -135,7 +139,8 @@ impl Drive {
         values
     }
 
-    /// Adds the rate of the particular part of output `index` (with the row `output`) at `start + c_k length` to `rates`.
+    /// Adds the rate of the particular part of output `index` (with the row `output`) at `start + c_k length`
+    /// to `rates`.
     pub fn add_rates(
         &self,
         index: usize,
@@ -149,7 +154,8 @@ impl Drive {
         }
     }
 
-    /// Derivatives of the rate of the particular part of output `index` by the scale of the excitation at `start + c_k length`.
+    /// Derivatives of the rate of the particular part of output `index` by the scale of the excitation at
+    /// `start + c_k length`.
     pub fn rates_by_scale(
         &self,
         index: usize,
@@ -162,9 +168,11 @@ impl Drive {
         rates.map(|rate| rate / self.scale)
     }
 
-    /// Derivatives of the rate of the particular part of output `index` by the frequency at the fixed times `start + c_k length`.
+    /// Derivatives of the rate of the particular part of output `index` by the frequency at the fixed times
+    /// `start + c_k length`.
     ///
-    /// That of `Re(i w A exp(i w t))` with `w_f = 2 pi m` is `Re(i (w A_f + w_f A + w w_f i t A) exp(i w t))`.
+    /// That of `Re(i w A exp(i w t))` with `w_f = 2 pi m` is `Re(i (w A_f + w_f A + w w_f i t A) exp(i w
+    /// t))`.
     pub fn rates_by_frequency(
         &self,
         index: usize,

@@ -1,17 +1,22 @@
-//! Sines, cosines and exponentials of several numbers at once, without branches, so that the compiler makes vectors of them ([`vectorised`](super::lanes::vectorised)).
+//! Sines, cosines and exponentials of several numbers at once, without branches, so that the compiler makes
+//! vectors of them ([`vectorised`](super::lanes::vectorised)).
 //!
-//! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k pi/2 + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have
-//! 33 bits each, so `k A` and `k B` are exact up to `|k| < 2^20`, and so is `x - k A`. What r rounds is kept as the tail t, half a unit of r at most. The same for the
-//! exponential with `ln 2 = A + B`, where `|k| < 2^11` and A has 40 bits.
+//! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k pi/2
+//! + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have 33 bits each, so `k A` and `k B` are
+//! exact up to `|k| < 2^20`, and so is `x - k A`. What r rounds is kept as the tail t, half a unit of r at
+//! most. The same for the exponential with `ln 2 = A + B`, where `|k| < 2^11` and A has 40 bits.
 //!
 //! **Series.** With `w = 1 - r^2/2`,
 //!
-//! `sin(r + t) = r + (r^3 S(r^2) + t w)`, `cos(r + t) = w + ((1 - w - r^2/2) + (r^4 C(r^2) - r t))`, `exp(r) = 1 + (r + r^2 E(r))`
+//! `sin(r + t) = r + (r^3 S(r^2) + t w)`, `cos(r + t) = w + ((1 - w - r^2/2) + (r^4 C(r^2) - r t))`, `exp(r)
+//! = 1 + (r + r^2 E(r))`
 //!
-//! by Taylor up to `r^17`, `r^16` and `r^13`, `|r| <= ln(2)/2` in the last: what is left is below `8e-20`, `3e-18` and `4e-18`, relative to the function.
+//! by Taylor up to `r^17`, `r^16` and `r^13`, `|r| <= ln(2)/2` in the last: what is left is below `8e-20`,
+//! `3e-18` and `4e-18`, relative to the function.
 //!
-//! **Error.** The last sum rounds by half a unit in the last place, and what is added in it is less than a third of the result and rounded a few times: the error is below
-//! one unit in the last place. The tests measure it against the standard library, whose own error is as large.
+//! **Error.** The last sum rounds by half a unit in the last place, and what is added in it is less than a
+//! third of the result and rounded a few times: the error is below one unit in the last place. The tests
+//! measure it against the standard library, whose own error is as large.
 //!
 //! Beyond [`TURNING`] and [`DECAY`] the standard functions have to serve.
 
@@ -82,7 +87,8 @@ pub(crate) fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N];
         let sine = (r - (r * square * horner(&SINE, square) - tail * lead)).to_bits();
         let rest = (1.0 - lead - half) + (square * square * horner(&COSINE, square) - r * tail);
         let cosine = (lead + rest).to_bits();
-        // Odd quadrants exchange the two; the second and third turn the sign of the sine, the first and second that of the cosine.
+        // Odd quadrants exchange the two; the second and third turn the sign of the sine, the first and
+        // second that of the cosine.
         let exchange = 0_u64.wrapping_sub(quadrant & 1);
         let sign = [quadrant, quadrant.wrapping_add(1)].map(|bits| (bits & 2) << 62);
         sines[i] = f64::from_bits(((cosine & exchange) | (sine & !exchange)) ^ sign[0]);

@@ -1,38 +1,57 @@
 //! Bounds from below, with proof, on what keeps a closed contact closed all through a step with forces.
 //!
-//! A closed contact ends where its guard `g = alpha p + beta p'` falls to zero: the penetration p (`alpha = 1`, `beta = 0`), or the pressure of a contact with a damper. At the nodes g is
-//! known, and at both ends of the step with its slope. Between the nodes a polynomial through these values may differ from g, and an opening may hide there. This file bounds the difference, for the
-//! motion *that is computed*: that of the polynomial forces of the step. What that differs from the exact motion is the error of the step (`step_error.rs`).
+//! A closed contact ends where its guard `g = alpha p + beta p'` falls to zero: the penetration p (`alpha =
+//! 1`, `beta = 0`), or the pressure of a contact with a damper. At the nodes g is known, and at both ends of
+//! the step with its slope. Between the nodes a polynomial through these values may differ from g, and an
+//! opening may hide there. This file bounds the difference, for the motion *that is computed*: that of the
+//! polynomial forces of the step. What that differs from the exact motion is the error of the step
+//! (`step_error.rs`).
 //!
 //! # The polynomial and its remainder
-//! In the variable s of the step, `t = h c(s)`, let P be the polynomial that has the values of g at the nodes `s_k`, its value and slope by the time at both ends, and zero slope by s at the end towards which
-//! the step is graded (there `c' = 0`, and g has that too). These are `n = NODES + a + b` conditions, a of them at the start and b at the end: two at a smooth end, three at a graded one; P has the degree `n - 1`.
+//! In the variable s of the step, `t = h c(s)`, let P be the polynomial that has the values of g at the nodes
+//! `s_k`, its value and slope by the time at both ends, and zero slope by s at the end towards which the step
+//! is graded (there `c' = 0`, and g has that too). These are `n = NODES + a + b` conditions, a of them at the
+//! start and b at the end: two at a smooth end, three at a graded one; P has the degree `n - 1`.
 //!
-//! **Theorem 1.** With `w = s^a (1 - s)^b`, `omega = prod (s - s_k)`, `Omega = max |omega|` over [0, 1] and `r_n >= |g^(n)(s)|/n!` for all s in it: `|g - P| <= Omega r_n w`.
+//! **Theorem 1.** With `w = s^a (1 - s)^b`, `omega = prod (s - s_k)`, `Omega = max |omega|` over [0, 1] and
+//! `r_n >= |g^(n)(s)|/n!` for all s in it: `|g - P| <= Omega r_n w`.
 //!
-//! *Proof.* Each condition is one of Hermite's for the node polynomial `s^a (s - 1)^b omega`, so `g - P` is this times `g^(n)(xi)/n!` for some xi (Davis, Interpolation and Approximation, 1975, theorem 3.5.1). The nodes are those of a Jacobi
-//! polynomial with exponents 0 and 1, so `|omega|` is largest at an end (Szegö, Orthogonal Polynomials, 1975, theorem 7.32.1).
+//! *Proof.* Each condition is one of Hermite's for the node polynomial `s^a (s - 1)^b omega`, so `g - P` is
+//! this times `g^(n)(xi)/n!` for some xi (Davis, Interpolation and Approximation, 1975, theorem 3.5.1). The
+//! nodes are those of a Jacobi polynomial with exponents 0 and 1, so `|omega|` is largest at an end (Szegö,
+//! Orthogonal Polynomials, 1975, theorem 7.32.1).
 //!
-//! So `g >= P - Omega r_n w`, a polynomial of degree `n - 1`, and that lies in the convex hull of its Bernstein coefficients `b_i - Omega r_n w_i`. Zeros of g at the ends of the step need no care: there `b_0 = g(0)` and `b_1 - b_0` is the slope,
-//! without any margin, since the coefficients `w_i` with `i < a` or `i > n - 1 - b` vanish. Nor does it need to be known which of them there are.
+//! So `g >= P - Omega r_n w`, a polynomial of degree `n - 1`, and that lies in the convex hull of its
+//! Bernstein coefficients `b_i - Omega r_n w_i`. Zeros of g at the ends of the step need no care: there `b_0
+//! = g(0)` and `b_1 - b_0` is the slope, without any margin, since the coefficients `w_i` with `i < a` or `i
+//! > n - 1 - b` vanish. Nor does it need to be known which of them there are.
 //!
 //! # The remainder
-//! For functions f on [0, 1] and power series `F(x)` let `f << F` say `|f^(j)(s)|/j! <= F_j` for all j and s. Sums and products keep this (Leibniz), and `f' << F'` gives `(j + 1) |f_(j+1)| <= F'_j`. The map has
-//! `c' << gamma`, with `gamma = 1` for a smooth step and `2 + 2 x` for a graded one. A force `F_a`, a polynomial of degree `m = NODES - 1` with the Bernstein coefficients `f_i`, has
-//! `F_a << phi_a`, `phi_aj = binomial(m, j) max_i |D^j f_i|` with the forward differences D.
+//! For functions f on [0, 1] and power series `F(x)` let `f << F` say `|f^(j)(s)|/j! <= F_j` for all j and s.
+//! Sums and products keep this (Leibniz), and `f' << F'` gives `(j + 1) |f_(j+1)| <= F'_j`. The map has `c'
+//! << gamma`, with `gamma = 1` for a smooth step and `2 + 2 x` for a graded one. A force `F_a`, a polynomial
+//! of degree `m = NODES - 1` with the Bernstein coefficients `f_i`, has `F_a << phi_a`, `phi_aj = binomial(m,
+//! j) max_i |D^j f_i|` with the forward differences D.
 //!
-//! Block i, `x' = A x + sum_a B_a F_a` with `A^2 = -c A - k` (`block.rs`), has the rate `z/h = sqrt(k) + c`. Its parts `d_1 = h C A x` and `d_2 = h^2 C A^2 x` in the derivatives of the output obey, by `tau = t/h`,
+//! Block i, `x' = A x + sum_a B_a F_a` with `A^2 = -c A - k` (`block.rs`), has the rate `z/h = sqrt(k) + c`.
+//! Its parts `d_1 = h C A x` and `d_2 = h^2 C A^2 x` in the derivatives of the output obey, by `tau = t/h`,
 //!
 //! `d_1' = d_2 + h^2 sum_a C A B_a F_a`, `d_2' = -h c d_2 - h^2 k d_1 + h^3 sum_a C A^2 B_a F_a`.
 //!
-//! **Theorem 2.** Let `sigma_a = max(|C A B_a|, |C A^2 B_a| h/z)`, and let D be the series with `D_0 >= |d_1|, |d_2|/z` all over the step and `D' = gamma (z D + h^2 sum_a sigma_a phi_a)`. Then `d_1 << D` and `d_2 << z D`.
+//! **Theorem 2.** Let `sigma_a = max(|C A B_a|, |C A^2 B_a| h/z)`, and let D be the series with `D_0 >=
+//! |d_1|, |d_2|/z` all over the step and `D' = gamma (z D + h^2 sum_a sigma_a phi_a)`. Then `d_1 << D` and
+//! `d_2 << z D`.
 //!
-//! *Proof.* By s both derivatives have the factor c'. If the claim holds up to the coefficient j, that of `d_1'` is at most that of `gamma (z D + h^2 sigma phi)`, and that of `d_2'` at most that of
-//! `gamma ((h c z + h^2 k) D + h^2 z sigma phi)`; since `h c z + h^2 k <= z^2`, that is z times the first.
+//! *Proof.* By s both derivatives have the factor c'. If the claim holds up to the coefficient j, that of
+//! `d_1'` is at most that of `gamma (z D + h^2 sigma phi)`, and that of `d_2'` at most that of `gamma ((h c z
+//! + h^2 k) D + h^2 z sigma phi)`; since `h c z + h^2 k <= z^2`, that is z times the first.
 //!
-//! As `D_0` serves what the energy norm E of the block can be in the step, `E(0) + h sum_a |B_a| max |F_a|`, times the output's factors for first and second derivatives. A harmonic of the load with the amplitude A in the output and `z = w h` is
-//! such a block without forces, with `D_0 = A z`. As `C B` vanishes, `r' = c' sum d_1` by s for the whole output, hence `r_n = [gamma sum D]_(n-1)/n` for the displacement and `h r_n = [sum D]_n` for the velocity. In a smooth step with a mode of
-//! the amplitude A this is `A z^n/n!`; with `Omega = (NODES!)^2/(2 NODES)!`, 4e-7, some 1e-11 A at z = 2.
+//! As `D_0` serves what the energy norm E of the block can be in the step, `E(0) + h sum_a |B_a| max |F_a|`,
+//! times the output's factors for first and second derivatives. A harmonic of the load with the amplitude A
+//! in the output and `z = w h` is such a block without forces, with `D_0 = A z`. As `C B` vanishes, `r' = c'
+//! sum d_1` by s for the whole output, hence `r_n = [gamma sum D]_(n-1)/n` for the displacement and `h r_n =
+//! [sum D]_n` for the velocity. In a smooth step with a mode of the amplitude A this is `A z^n/n!`; with
+//! `Omega = (NODES!)^2/(2 NODES)!`, 4e-7, some 1e-11 A at z = 2.
 
 mod remainder;
 
@@ -57,7 +76,8 @@ use remainder::BINOMIALS;
 const MOST: usize = NODES + 5;
 /// Values that go into it: at the nodes, then value and slope at the start and at the end.
 const GIVEN: usize = NODES + 4;
-/// What rounding of the matrices that make the polynomials is, as one of the nodal values, relative to the largest.
+/// What rounding of the matrices that make the polynomials is, as one of the nodal values, relative to the
+/// largest.
 const MATRIX_ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// Halvings after which a polynomial that is not shown to be positive counts as doubtful.
 const HALVINGS: u32 = 6;
@@ -110,8 +130,10 @@ impl Hermite {
         };
         let (count, degree) = (NODES + a + b, NODES + a + b - 1);
         let binomial = |i: usize| (0..i).map(|m| (degree - m) as f64 / (m + 1) as f64).product::<f64>();
-        // The conditions on the coefficients, those with something given first: a polynomial has the derivatives `b_0`, `degree (b_1 - b_0)`, `degree (degree - 1)/2 (b_2 - 2 b_1 + b_0)`
-        // over the factorial at its start; where `t = h s^2` the last one is the slope by `t/h`. The same backwards at its end.
+        // The conditions on the coefficients, those with something given first: a polynomial has the
+        // derivatives `b_0`, `degree (b_1 - b_0)`, `degree (degree - 1)/2 (b_2 - 2 b_1 + b_0)` over the
+        // factorial at its start; where `t = h s^2` the last one is the slope by `t/h`. The same backwards at
+        // its end.
         let mut conditions = Mat::<f64>::zeros(count, count);
         for (k, &s) in nodes.iter().enumerate() {
             for i in 0..count {
@@ -177,7 +199,8 @@ impl Hermite {
 }
 
 impl ExactIntegrator {
-    /// Whether the guard of the a-th active element, which falls to zero at `event`, is proved to stay above what rounding and the location of events leave undecided, all through the solved step.
+    /// Whether the guard of the a-th active element, which falls to zero at `event`, is proved to stay above
+    /// what rounding and the location of events leave undecided, all through the solved step.
     pub(super) fn stays_above(&self, run: &Run, (a, event): (usize, Event), at_end: Option<Event>) -> bool {
         let Some(guard) = self.guard_of(run, a, event) else { return false };
         let remainder = self.remainder(run, event.element(), guard.parts);
@@ -213,7 +236,8 @@ impl ExactIntegrator {
         Some(Guard { nodal, values, slopes, parts, rounding })
     }
 
-    /// Adds what the polynomials of the forces are at the ends of the step to the second derivatives of an output there.
+    /// Adds what the polynomials of the forces are at the ends of the step to the second derivatives of an
+    /// output there.
     fn add_forces_at_ends(&self, output: usize, ends: &mut [Jet; 2]) {
         let rule = self.step.grading().rule();
         for (force, &active) in self.step.force.as_chunks::<NODES>().0.iter().zip(&self.step.active) {
@@ -224,7 +248,8 @@ impl ExactIntegrator {
     }
 }
 
-/// Whether a polynomial is nowhere below `floor` in [0, 1], as so many halvings of its Bernstein coefficients show.
+/// Whether a polynomial is nowhere below `floor` in [0, 1], as so many halvings of its Bernstein coefficients
+/// show.
 fn is_above(coefficients: &[f64], floor: f64, halvings: u32) -> bool {
     if coefficients.iter().all(|b| *b >= floor) {
         return true;

@@ -8,18 +8,21 @@ use crate::ParameterError;
 #[expect(missing_docs, reason = "each message names its fields")]
 #[non_exhaustive]
 pub enum MotionError {
-    /// The damping has no block form: motion is left to the general integrator, which orbits are not computed with.
+    /// The damping has no block form: motion is left to the general integrator, which orbits are not computed
+    /// with.
     #[error(transparent)]
     MergedModes(#[from] MergedModes),
     /// The system has no such parameter, or not with this value.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A law needs the speed with which a contact began, and the stretch begins within it. Another phase of the excitation moves the start.
+    /// A law needs the speed with which a contact began, and the stretch begins within it. Another phase of
+    /// the excitation moves the start.
     #[error(
         "{element} is closed at the start of a stretch, at the phase of {phase} cycles, and its law needs to know how fast it closed"
     )]
     StartsInContact { element: String, phase: f64 },
-    /// A contact begins without any speed and is pressed on, and its law loses in proportion to one over that speed: as from rest against a stop without a gap.
+    /// A contact begins without any speed and is pressed on, and its law loses in proportion to one over that
+    /// speed: as from rest against a stop without a gap.
     #[error(
         "{element} is pressed on without an impact, {time:.6e} s after the start of the stretch, and its law needs the speed of one; a motion that begins away from the stop has it"
     )]
@@ -27,10 +30,12 @@ pub enum MotionError {
     /// No force step, however short, reached the tolerance.
     #[error("contact step of {step:.2e} s is too short at {time:.6e} s after the start of the stretch")]
     StepTooShort { time: f64, step: f64 },
-    /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or forces far beyond those of the system.
+    /// The motion takes so many force steps that it does not get on: contacts of ever shorter distance, or
+    /// forces far beyond those of the system.
     #[error("more than {steps} force steps up to {time:.6e} s after the start of the stretch")]
     TooManySteps { time: f64, steps: u64 },
-    /// Contacts close and open, or press and part, without end, and time does not get on: rounding decides both ways what comes first. It is no property of the system, and a motion beside this one does not
+    /// Contacts close and open, or press and part, without end, and time does not get on: rounding decides
+    /// both ways what comes first. It is no property of the system, and a motion beside this one does not
     /// have it.
     #[error(
         "the motion stands still {time:.6e} s after the start of the stretch: {elements} close and open, or press and part, again and again, and time does not get on; with a gap or a phase of the start that is a little different what happens at once there is taken apart"

@@ -1,8 +1,9 @@
 //! Steps that end exactly where a contact opens or closes.
 //!
-//! The length of the step is found by Newton's method on the distance that falls to zero at its end: the penetration of the contact that
-//! opens, the pressure of one that parts, the clearance of one that closes. A relative error d of the length leaves `d^exponent` of the
-//! contact's effect on the sensitivities, and less in the state.
+//! The length of the step is found by Newton's method on the distance that falls to zero at its end: the
+//! penetration of the contact that opens, the pressure of one that parts, the clearance of one that closes. A
+//! relative error d of the length leaves `d^exponent` of the contact's effect on the sensitivities, and less
+//! in the state.
 
 use super::{
     ExactIntegrator,
@@ -16,14 +17,15 @@ use super::{
 /// Tries of the length of one step; three are usual.
 const MAX_TRIES: usize = 8;
 
-/// Accuracy of the length, relative to the power of the tolerance that the exponent of the contact asks for: slow contacts weigh
-/// their ends more, and another try is cheap.
+/// Accuracy of the length, relative to the power of the tolerance that the exponent of the contact asks for:
+/// slow contacts weigh their ends more, and another try is cheap.
 const RELATIVE_ACCURACY: f64 = 0.02;
 
 /// Precision of the displacements at the first try of a length.
 const COARSE: f64 = 1e-5;
 
-/// A step that ends with a release and is longer than what the last step allows by this factor fails as a rule.
+/// A step that ends with a release and is longer than what the last step allows by this factor fails as a
+/// rule.
 pub(super) const HOPELESS: f64 = 1.5;
 
 /// What ends a step.
@@ -73,7 +75,8 @@ impl ExactIntegrator {
         let accuracy = self.location_accuracy(exponent);
         // Newton's method with the curvature: the next error is below the power 2.5 of this one.
         let nearly = 0.3 * accuracy.powf(0.4);
-        // A stop that has just been left is not met before its clearance is looked at again, however little it is above zero meanwhile.
+        // A stop that has just been left is not met before its clearance is looked at again, however little
+        // it is above zero meanwhile.
         let least = match event {
             Event::Touch(touch) => self.looked_past(run, touch.element).min(remaining),
             _ => 0.0,
@@ -126,18 +129,20 @@ impl ExactIntegrator {
         ends && curvature > 0.0 && value - 0.5 * slope * slope / curvature > self.rounding_of(run, event)
     }
 
-    /// Length above which the sensitivities of the step would hardly be accurate enough, as the last step tells; it is not worth
-    /// locating its end.
+    /// Length above which the sensitivities of the step would hardly be accurate enough, as the last step
+    /// tells; it is not worth locating its end.
     fn longest_with_sensitivities(&self, run: &Run) -> f64 {
         if run.sensitivity.is_some() && run.proposal > 0.0 { HOPELESS * run.proposal } else { f64::INFINITY }
     }
 
-    /// Accuracy of the length of a step that ends with a contact that sets in or ends with that exponent, relative to it.
+    /// Accuracy of the length of a step that ends with a contact that sets in or ends with that exponent,
+    /// relative to it.
     fn location_accuracy(&self, exponent: f64) -> f64 {
         (RELATIVE_ACCURACY * self.settings.tolerance.powf(1.0 / exponent)).max(4.0 * f64::EPSILON)
     }
 
-    /// How much earlier than at the end of the solved step an event that was located there may be found: what its location, and rounding of what falls to zero, leave undecided [s].
+    /// How much earlier than at the end of the solved step an event that was located there may be found: what
+    /// its location, and rounding of what falls to zero, leave undecided [s].
     pub(super) fn located_within(&self, run: &Run, event: Event) -> f64 {
         let length = self.step.length;
         let speed = self.distance_at_end(run, event).slope.abs();
@@ -159,7 +164,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// What rounding leaves undecided of a pressure that vanishes or comes back; 0 at other events, whose distances are displacements.
+    /// What rounding leaves undecided of a pressure that vanishes or comes back; 0 at other events, whose
+    /// distances are displacements.
     fn pressure_rounding(&self, run: &Run, event: Event) -> f64 {
         let of_pressure = match event {
             Event::Part(_) => true,
@@ -177,7 +183,8 @@ impl ExactIntegrator {
         })
     }
 
-    /// Exponent with which the force sets in or ends at an event: where the pressure vanishes or comes back, linearly.
+    /// Exponent with which the force sets in or ends at an event: where the pressure vanishes or comes back,
+    /// linearly.
     fn exponent_of(&self, run: &Run, event: Event) -> f64 {
         let contacts = self.laws[event.element()].contacts();
         match event {
@@ -189,7 +196,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// How the closed contact of an element ends as a rule: the pressure of a spring with a damper vanishes before its penetration does.
+    /// How the closed contact of an element ends as a rule: the pressure of a spring with a damper vanishes
+    /// before its penetration does.
     pub(super) fn usual_end(&self, element: usize) -> Event {
         match self.laws[element].pressure() {
             Some(pressure) if pressure.offset == 0.0 => Event::Part(element),
@@ -247,7 +255,8 @@ impl ExactIntegrator {
         found
     }
 
-    /// The first end of a closed contact, or lift of a held stop, within the solved step, and when, other than those `excused` and the one with which the step ends.
+    /// The first end of a closed contact, or lift of a held stop, within the solved step, and when, other
+    /// than those `excused` and the one with which the step ends.
     pub(super) fn first_release(
         &self,
         run: &Run,
@@ -272,7 +281,8 @@ impl ExactIntegrator {
         })
     }
 
-    /// What falls to zero at an end of the contact of the a-th active element, at the nodes of the solved step.
+    /// What falls to zero at an end of the contact of the a-th active element, at the nodes of the solved
+    /// step.
     pub(super) fn nodal_distance(&self, run: &Run, a: usize, event: Event) -> Option<[f64; NODES]> {
         let contact = self.closed_contact(run, event.element())?;
         Some(std::array::from_fn(|k| {
@@ -311,7 +321,8 @@ impl ExactIntegrator {
     }
 }
 
-/// Time until a falling distance is zero, from its value and derivatives; `None` if it is not falling or turns before.
+/// Time until a falling distance is zero, from its value and derivatives; `None` if it is not falling or
+/// turns before.
 fn time_to_zero(distance: Jet, length: f64) -> Option<f64> {
     let Jet { value, slope, curvature } = distance;
     if slope >= 0.0 || slope.is_nan() {

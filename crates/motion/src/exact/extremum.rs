@@ -7,8 +7,9 @@ use super::{
 
 /// Parabolas by which the largest value of a polynomial is closed in.
 const PARABOLAS: usize = 6;
-/// Of places where it is as large up to this part, the table of a polynomial does not tell which is the largest: between two of its entries the value is higher by at most 15 %, where all of eleven zeros
-/// lie within the step.
+/// Of places where it is as large up to this part, the table of a polynomial does not tell which is the
+/// largest: between two of its entries the value is higher by at most 15 %, where all of eleven zeros lie
+/// within the step.
 const UNDECIDED: f64 = 0.2;
 
 impl Rule {
@@ -33,7 +34,8 @@ impl Rule {
             .fold((highest, 0.0), |best, next| if next.0 >= best.0 { next } else { best })
     }
 
-    /// The largest magnitude about a place at which it is known, by successive parabolas through it and its neighbours, from half an interval beyond an end of the step inwards.
+    /// The largest magnitude about a place at which it is known, by successive parabolas through it and its
+    /// neighbours, from half an interval beyond an end of the step inwards.
     fn closed_in(&self, expansion: &[f64; NODES], (place, value): (f64, f64)) -> (f64, f64) {
         let width = 1.0 / FINE as f64;
         let middle = place.clamp(0.5 * width, 1.0 - 0.5 * width);
@@ -69,7 +71,8 @@ fn vertex([(a, at_a), (b, at_b), (c, at_c)]: [(f64, f64); 3]) -> Option<f64> {
 mod tests {
     use super::super::collocation::Grading;
 
-    /// `1 - c (s + e) (s - q)^2` is 1 at the inner top q and `1 - c e q^2` at the start, from which it falls: that is more than the entries of the table about q have, unless one lies at q.
+    /// `1 - c (s + e) (s - q)^2` is 1 at the inner top q and `1 - c e q^2` at the start, from which it falls:
+    /// that is more than the entries of the table about q have, unless one lies at q.
     #[test]
     fn the_higher_of_two_tops_is_found_wherever_it_lies_between_the_entries_of_the_table() {
         let rule = Grading::Smooth.rule();

@@ -127,7 +127,8 @@ impl ExactIntegrator {
         (free, touch)
     }
 
-    /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance; `free` ends with that time.
+    /// Whether an element has just left its rigid stop, so that rounding would decide on its clearance;
+    /// `free` ends with that time.
     fn is_looked_past(&self, run: &Run, element: usize, time: f64, free: &mut f64) -> bool {
         match run.lifted {
             Some((lifted, until)) if lifted == element && until > run.time + time => {
@@ -138,7 +139,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// Clearance at `time` after the start of the flight, from the output that tells it; the state of `run` is moved there.
+    /// Clearance at `time` after the start of the flight, from the output that tells it; the state of `run`
+    /// is moved there.
     fn clearance_ahead(&self, run: &mut Run, time: f64, (output, touch): (usize, Touch)) -> Jet {
         self.place(run, time);
         self.distance(self.output_jet(&run.state, output, run.time + time), touch)
@@ -160,8 +162,8 @@ impl ExactIntegrator {
         )
     }
 
-    /// What falls to zero at a boundary, from the relative displacement: the clearance, the missing pressure (whose second derivative is not
-    /// known, only bounded), or the penetration.
+    /// What falls to zero at a boundary, from the relative displacement: the clearance, the missing pressure
+    /// (whose second derivative is not known, only bounded), or the penetration.
     pub(super) fn distance(&self, displacement: Jet, touch: Touch) -> Jet {
         if touch.boundary == Boundary::Lifts {
             return displacement;
@@ -182,7 +184,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// Bounds on what falls to zero at a boundary, from those on the displacement: `|s''| <= a B_2 + b B_3` for the pressure `s = a p + b p' + d`.
+    /// Bounds on what falls to zero at a boundary, from those on the displacement: `|s''| <= a B_2 + b B_3`
+    /// for the pressure `s = a p + b p' + d`.
     pub(super) fn boundary_bounds(
         &self,
         elastic: ClearanceBounds,

@@ -1,9 +1,10 @@
 //! The largest displacement and acceleration of the response point in a flight.
 //!
-//! Both are sums of known functions with a known bound `B` on their second derivative: over an interval of length h they
-//! exceed the larger end value by at most `B h^2/8`. Intervals that cannot beat the best value so far are dropped, the
-//! others halved, with Newton's method on the derivative: where the interval is proved concave and the method settles inside
-//! it, the maximum is found; elsewhere halving goes on down to [`ACCURACY`].
+//! Both are sums of known functions with a known bound `B` on their second derivative: over an interval of
+//! length h they exceed the larger end value by at most `B h^2/8`. Intervals that cannot beat the best value
+//! so far are dropped, the others halved, with Newton's method on the derivative: where the interval is
+//! proved concave and the method settles inside it, the maximum is found; elsewhere halving goes on down to
+//! [`ACCURACY`].
 
 use super::ExactIntegrator;
 
@@ -28,7 +29,8 @@ pub(super) struct Flown<'a> {
 }
 
 impl ExactIntegrator {
-    /// Largest magnitude of displacement (0) or acceleration (2) of an output over a flight, not below `best`.
+    /// Largest magnitude of displacement (0) or acceleration (2) of an output over a flight, not below
+    /// `best`.
     pub(super) fn flight_maximum(
         &self,
         flown: &Flown,
@@ -57,7 +59,8 @@ impl ExactIntegrator {
         best
     }
 
-    /// Bound on the magnitude of displacement (0) or acceleration (2) of an output over a flight: each block within its energy norm.
+    /// Bound on the magnitude of displacement (0) or acceleration (2) of an output over a flight: each block
+    /// within its energy norm.
     pub(super) fn flight_bound(&self, flown: &Flown, (index, derivative): (usize, usize)) -> f64 {
         let (output, n) = (&self.outputs[index], self.blocks.count());
         let until = flown.start + flown.duration;
@@ -129,7 +132,8 @@ impl<'a> FlightFunction<'a> {
         self.flown.duration
     }
 
-    /// Number of equal intervals over which the curvature adds at most this to the values at their ends; one where nothing bends.
+    /// Number of equal intervals over which the curvature adds at most this to the values at their ends; one
+    /// where nothing bends.
     pub fn places(&self, excess: f64) -> usize {
         let spacing = if self.bound > 0.0 { (8.0 * excess / self.bound).sqrt() } else { self.flown.duration };
         (self.flown.duration / spacing).ceil().max(1.0) as usize
@@ -245,8 +249,8 @@ mod tests {
         exact::{ExactIntegrator, ExactSettings},
     };
 
-    /// Free vibration `A cos(t + p)` over many durations and phases: the largest displacement is 1 where `cos` passes an
-    /// extremum, else the larger end value.
+    /// Free vibration `A cos(t + p)` over many durations and phases: the largest displacement is 1 where
+    /// `cos` passes an extremum, else the larger end value.
     #[test]
     fn largest_displacement_of_a_cosine_is_the_closed_form_for_every_phase_and_duration() {
         let model = ReducedModel {

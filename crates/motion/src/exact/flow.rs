@@ -1,4 +1,5 @@
-//! A run over a stretch: from its start through flights and contacts to the state and the sensitivities at its end.
+//! A run over a stretch: from its start through flights and contacts to the state and the sensitivities at
+//! its end.
 
 use faer::Mat;
 
@@ -29,7 +30,8 @@ impl ExactIntegrator {
         Ok(end)
     }
 
-    /// State of the steady motion without local forces at the start of a stretch (of the motion from rest, where resonant).
+    /// State of the steady motion without local forces at the start of a stretch (of the motion from rest,
+    /// where resonant).
     pub fn steady_state(&mut self, stretch: &Stretch) -> Vec<f64> {
         self.let_go();
         let n = self.blocks.count();
@@ -127,7 +129,8 @@ impl ExactIntegrator {
         Ok(run)
     }
 
-    /// Whether a contact with penetration at the start of a stretch has pressure, as far as its law asks for it.
+    /// Whether a contact with penetration at the start of a stretch has pressure, as far as its law asks for
+    /// it.
     fn presses_at_start(&self, run: &Run, element: usize, contact: usize) -> bool {
         let touch = Touch { element, contact, boundary: Boundary::Presses };
         let jet = self.output_jet(&run.state, element, 0.0);
@@ -252,7 +255,8 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// An output and its derivatives from the homogeneous block state at `time`, apart from the direct part of forces.
+    /// An output and its derivatives from the homogeneous block state at `time`, apart from the direct part
+    /// of forces.
     pub(super) fn output_jet(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let o = &self.outputs[output];
         let mut jet = self.drive.jet(output, o, time);

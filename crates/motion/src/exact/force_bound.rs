@@ -1,19 +1,22 @@
 //! Bounds on the force of a step between its nodes.
 //!
-//! The force of a step is a polynomial `F(s)` of degree `m = NODES - 1` in the variable of the step. It lies in the convex hull of its
-//! Bernstein coefficients `b_i` over [0, 1], and so does its derivative, with the coefficients `m (b_{i+1} - b_i)`. In time,
+//! The force of a step is a polynomial `F(s)` of degree `m = NODES - 1` in the variable of the step. It lies
+//! in the convex hull of its Bernstein coefficients `b_i` over [0, 1], and so does its derivative, with the
+//! coefficients `m (b_{i+1} - b_i)`. In time,
 //!
 //! `dF/dt = F_s / (h c'(s))`,
 //!
-//! where `c' = 1` in a smooth step, `2 s` in one graded at the touch and `2 (1 - s)` in one graded at the release. A force that sets in with a
-//! half-integer power has `F_s(0) = 0`, but its polynomial only nearly so, and the quotient is unbounded at that end. So the value at the end
-//! is split off: `F_s(s) = F_s(0) + s Q(s)`, where the coefficients of `Q` follow from those of `F_s` since
-//! `s B_j^{m-2} = (j + 1)/(m - 1) B_{j+1}^{m-1}`. The first part changes the force by no more than `|F_s(0)|` over any part of the step, the
+//! where `c' = 1` in a smooth step, `2 s` in one graded at the touch and `2 (1 - s)` in one graded at the
+//! release. A force that sets in with a half-integer power has `F_s(0) = 0`, but its polynomial only nearly
+//! so, and the quotient is unbounded at that end. So the value at the end is split off: `F_s(s) = F_s(0) + s
+//! Q(s)`, where the coefficients of `Q` follow from those of `F_s` since `s B_j^{m-2} = (j + 1)/(m - 1)
+//! B_{j+1}^{m-1}`. The first part changes the force by no more than `|F_s(0)|` over any part of the step, the
 //! second no faster than `max |Q|/(2 h)`. Hence, for any two times in the step,
 //!
 //! `|F(t_2) - F(t_1)| <= rate |t_2 - t_1| + jump`, and `|F - middle| <= range`.
 //!
-//! To `range` and `jump` the error of the force is added as its expansion tells (`step_error.rs`): its two highest terms.
+//! To `range` and `jump` the error of the force is added as its expansion tells (`step_error.rs`): its two
+//! highest terms.
 
 use super::collocation::{Grading, NODES};
 

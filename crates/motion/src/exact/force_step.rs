@@ -1,8 +1,8 @@
 //! One step while forces act: solves `F_k = f(r_k)` at the nodes and maps the state.
 //!
-//! `r = r_free + W f(r)` is solved by Newton's method with the small matrix `I - W f'`; the state then goes over the step
-//! by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d r_particular)`, `V+ = E V + P f' dr`. Laws that depend on the velocity
-//! see `damped_step.rs`.
+//! `r = r_free + W f(r)` is solved by Newton's method with the small matrix `I - W f'`; the state then goes
+//! over the step by `x+ = E x + P F`, and its sensitivities `V` by `dr = (I - W f')^-1 (X V + d
+//! r_particular)`, `V+ = E V + P f' dr`. Laws that depend on the velocity see `damped_step.rs`.
 
 use std::sync::Arc;
 
@@ -20,10 +20,12 @@ use super::{
 };
 use crate::{Law, Parameter};
 
-/// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom longer.
+/// The state is read for steps longer than the first that is tried by this factor: the next try is not seldom
+/// longer.
 const READ_AHEAD: f64 = 1.3;
 
-/// Forces of a step and what they were solved with. Node values are indexed `[a * NODES + k]` with the a-th active element.
+/// Forces of a step and what they were solved with. Node values are indexed `[a * NODES + k]` with the a-th
+/// active element.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ForceStep {
     /// Matrices of the step: its own, or such as are kept for steps of that length.
@@ -37,13 +39,15 @@ pub(crate) struct ForceStep {
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub slope: Vec<f64>,
-    /// Whether a law of an active element depends on the velocity: then velocities go with the displacements (`damped_step.rs`).
+    /// Whether a law of an active element depends on the velocity: then velocities go with the displacements
+    /// (`damped_step.rs`).
     pub damped: bool,
     pub velocity: Vec<f64>,
     /// `df/dr'`.
     pub damping: Vec<f64>,
     pub(super) free_velocity: Vec<f64>,
-    /// What each block has in the force per unit of its turning, relative to the velocities; see `step_error.rs` [1/s].
+    /// What each block has in the force per unit of its turning, relative to the velocities; see
+    /// `step_error.rs` [1/s].
     pub unresolved: Vec<f64>,
     pub(super) free: Vec<f64>,
     readings: Vec<Readings>,
@@ -57,7 +61,8 @@ pub(crate) struct ForceStep {
     pub(super) driven: Driven,
 }
 
-/// What a parameter that is in the structure (`by_damping.rs`) or in the particular solution has in a solved step; empty where there is none.
+/// What a parameter that is in the structure (`by_damping.rs`) or in the particular solution has in a solved
+/// step; empty where there is none.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Driven {
     /// Derivative of the displacements at the nodes at given forces, `[a * NODES + k]`.
@@ -142,7 +147,8 @@ impl ForceStep {
         }
     }
 
-    /// An output and its derivatives at the end of the solved step from `state`, apart from the direct part of the forces.
+    /// An output and its derivatives at the end of the solved step from `state`, apart from the direct part
+    /// of the forces.
     pub fn end_jet(&self, output: usize, series: &Series, outputs: &[Output], state: &[f64]) -> Jet {
         let active = self.active.iter().position(|&e| e == output);
         if !self.weights.complete {
@@ -178,7 +184,8 @@ impl ForceStep {
         }
     }
 
-    /// Solves for the sensitivities `dF = f' (I - W f')^-1 (X V + d r_particular)` of the forces; by a parameter see `by_parameter.rs`.
+    /// Solves for the sensitivities `dF = f' (I - W f')^-1 (X V + d r_particular)` of the forces; by a
+    /// parameter see `by_parameter.rs`.
     pub fn solve_sensitivity(
         &mut self,
         drive: &Drive,
@@ -238,8 +245,8 @@ impl ForceStep {
         }
     }
 
-    /// Tail and largest value of each sensitivity of the force of the a-th active element, once solved for, and the largest velocity
-    /// before the step.
+    /// Tail and largest value of each sensitivity of the force of the a-th active element, once solved for,
+    /// and the largest velocity before the step.
     pub fn sensitivity_tails(&self, a: usize, sensitivity: &Sensitivity) -> Vec<ColumnTail> {
         let columns = sensitivity.columns();
         let coefficients = &self.grading().rule().coefficients;

@@ -1,9 +1,10 @@
 //! Forecasts of a contact from its energy: how long it lasts, and how deep it goes.
 //!
-//! With the mobility G and the law `f = K p^e` the penetration p of a closed contact obeys about `p'' = -c - G K p^e`, c being the
-//! acceleration with which the free motion leaves the stop. With the present p and speed w, energy gives the depth P
-//! from `w^2/2 = c (P - p) + G K/(e+1) (P^(e+1) - p^(e+1))`, and the time between P and p is the integral of `dx/v(x)`. Good to some percent
-//! (less where the contact loses energy, which is left out): a start for Newton's method, and a first length.
+//! With the mobility G and the law `f = K p^e` the penetration p of a closed contact obeys about `p'' = -c -
+//! G K p^e`, c being the acceleration with which the free motion leaves the stop. With the present p and
+//! speed w, energy gives the depth P from `w^2/2 = c (P - p) + G K/(e+1) (P^(e+1) - p^(e+1))`, and the time
+//! between P and p is the integral of `dx/v(x)`. Good to some percent (less where the contact loses energy,
+//! which is left out): a start for Newton's method, and a first length.
 
 use super::{ExactIntegrator, contact_phase::AT_REST, flight::clearance_of, run::Run};
 
@@ -31,7 +32,8 @@ impl Bounce {
         self.leaving * x + self.gain * power_of(x, self.power)
     }
 
-    /// Penetration at which the potential has this value, by Newton's method from above (the potential is convex).
+    /// Penetration at which the potential has this value, by Newton's method from above (the potential is
+    /// convex).
     fn depth(&self, energy: f64) -> f64 {
         let elastic = (energy / self.gain).powf(1.0 / self.power);
         if self.leaving == 0.0 {
@@ -49,7 +51,8 @@ impl Bounce {
         x
     }
 
-    /// Time from the penetration `from` to the turning point `depth`; `x = depth (1 - w^2)` takes out the root at the turn.
+    /// Time from the penetration `from` to the turning point `depth`; `x = depth (1 - w^2)` takes out the
+    /// root at the turn.
     fn time(&self, from: f64, depth: f64) -> f64 {
         let energy = self.potential(depth);
         let range = (1.0 - from / depth).max(0.0).sqrt();
@@ -61,7 +64,8 @@ impl Bounce {
     }
 }
 
-/// A power of a number that is not negative, without a logarithm where the exponent is a multiple of a half, as in all laws.
+/// A power of a number that is not negative, without a logarithm where the exponent is a multiple of a half,
+/// as in all laws.
 fn power_of(x: f64, exponent: f64) -> f64 {
     let whole = exponent.floor();
     match exponent - whole {
@@ -72,7 +76,8 @@ fn power_of(x: f64, exponent: f64) -> f64 {
 }
 
 impl ExactIntegrator {
-    /// The first closed contact that is expected to open, and in what time; `None` where the contact force is not what turns the motion.
+    /// The first closed contact that is expected to open, and in what time; `None` where the contact force is
+    /// not what turns the motion.
     pub(super) fn first_forecast(&self, run: &Run, touched: Option<usize>) -> Option<(usize, f64)> {
         let of_element = |&element: &usize| self.forecast(run, element, touched == Some(element));
         self.step.active.iter().filter_map(of_element).min_by(|x, y| x.1.total_cmp(&y.1))

@@ -1,22 +1,29 @@
 //! A structure that is held on rigid stops: the linear structure that is left while contacts stick.
 //!
-//! While the elements of a set S are held on their stops, `r_j = phi_j . q + s_j u = level_j`, the structure obeys
+//! While the elements of a set S are held on their stops, `r_j = phi_j . q + s_j u = level_j`, the structure
+//! obeys
 //!
 //! `q'' + C q' + diag(w^2) q = b(t) - Phi lambda`, `Phi = [phi_j]`, `lambda_j >= 0` the pressing forces.
 //!
-//! With `D = Phi^T Phi` and an orthonormal basis N of the complement of Phi it is `q = q_S(t) + N y`, `q_S = Phi D^-1 (level - s u)`, and y moves freely:
+//! With `D = Phi^T Phi` and an orthonormal basis N of the complement of Phi it is `q = q_S(t) + N y`, `q_S =
+//! Phi D^-1 (level - s u)`, and y moves freely:
 //!
 //! `y'' + N^T C N y' + N^T diag(w^2) N y = N^T (b - C q_S' - diag(w^2) q_S)`,
 //! `lambda = D^-1 (Phi^T (b - C q' - diag(w^2) q) + s u'')`.
 //!
-//! Forces of other elements add `Phi_e F_e` to both right sides, `N^T phi_e F_e` and `D^-1 Phi^T phi_e F_e` (`pressing.rs`).
+//! Forces of other elements add `Phi_e F_e` to both right sides, `N^T phi_e F_e` and `D^-1 Phi^T phi_e F_e`
+//! (`pressing.rs`).
 //!
-//! So it is a linear structure again, whose blocks may be coupled although those of the free structure were not. N is turned so that `N^T diag(w^2) N` is diagonal (singular
-//! vectors of `diag(w) N`, which keep the small eigenfrequencies to their digits), then the damping is decoupled as in `decouple.rs`.
+//! So it is a linear structure again, whose blocks may be coupled although those of the free structure were
+//! not. N is turned so that `N^T diag(w^2) N` is diagonal (singular vectors of `diag(w) N`, which keep the
+//! small eigenfrequencies to their digits), then the damping is decoupled as in `decouple.rs`.
 //!
-//! **One state for both.** The state keeps its length 2n: besides the n - s blocks of y it has s blocks `(phi_j . q, phi_j . q')` without stiffness or damping, of which all is
-//! prescribed: `(level_j - s_j u, -s_j u')` is their part of the particular solution, and their homogeneous part is zero. So `x = S^-1 [q; q'] - particular` as everywhere, flight,
-//! certified search, force steps, sensitivities, traces and maxima are those of the free structure with these blocks, and the pressing forces are outputs of their own, after all others.
+//! **One state for both.** The state keeps its length 2n: besides the n - s blocks of y it has s blocks
+//! `(phi_j . q, phi_j . q')` without stiffness or damping, of which all is prescribed: `(level_j - s_j u,
+//! -s_j u')` is their part of the particular solution, and their homogeneous part is zero. So `x = S^-1 [q;
+//! q'] - particular` as everywhere, flight, certified search, force steps, sensitivities, traces and maxima
+//! are those of the free structure with these blocks, and the pressing forces are outputs of their own, after
+//! all others.
 
 use faer::{Mat, c64};
 use hammerbeam_structure::ReducedModel;
@@ -46,7 +53,8 @@ pub(super) struct Held {
 const INDEPENDENT: f64 = 1e-10;
 
 impl Held {
-    /// The structure of `system` with `elements` held; its particular solution is made with each stretch. `None` if their shapes depend on one another.
+    /// The structure of `system` with `elements` held; its particular solution is made with each stretch.
+    /// `None` if their shapes depend on one another.
     ///
     /// # Errors
     /// [`MergedModes`] where the damping that is left has no block form.
@@ -92,7 +100,8 @@ impl Held {
         self.driven(system, stretch, &levels, true)
     }
 
-    /// What a force on an element adds to what the j-th held stop presses with at once: `((Phi D^-1)^T phi_e)_j`.
+    /// What a force on an element adds to what the j-th held stop presses with at once: `((Phi D^-1)^T
+    /// phi_e)_j`.
     pub fn direct(&self, j: usize, element: usize) -> f64 {
         -self.reactions[element][j]
     }
@@ -142,7 +151,8 @@ impl Held {
         drive
     }
 
-    /// `D^-1 (Phi^T b + s u'')` of one order and its derivative by the circular frequency; what else the stops press with is read from the state.
+    /// `D^-1 (Phi^T b + s u'')` of one order and its derivative by the circular frequency; what else the
+    /// stops press with is read from the state.
     fn direct_forces(
         &self,
         system: &System,
@@ -173,7 +183,8 @@ impl Held {
     }
 }
 
-/// An orthonormal basis of all of space whose first vectors span the given ones; `None` if these depend on one another.
+/// An orthonormal basis of all of space whose first vectors span the given ones; `None` if these depend on
+/// one another.
 fn orthonormal(n: usize, given: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     let s = given.len();
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(n);
@@ -223,7 +234,8 @@ fn lift_of(directions: &[Vec<f64>], shapes: &[&[f64]]) -> Mat<f64> {
     Mat::from_fn(n, s, |i, j| (0..s).map(|k| directions[k][i] * inverse[(k, j)]).sum())
 }
 
-/// The modes of the held structure: N, n x (n - s), and its eigenfrequencies; the first s `directions` are held.
+/// The modes of the held structure: N, n x (n - s), and its eigenfrequencies; the first s `directions` are
+/// held.
 fn moving_modes(
     model: &ReducedModel,
     directions: &[Vec<f64>],

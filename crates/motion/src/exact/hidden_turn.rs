@@ -1,8 +1,11 @@
 //! Contacts that turn at their level in front of the first node of a step, or behind its last.
 //!
-//! There neither the opening nor the corner of the slope `s` of the force is seen: at the nodes the penetration has the values of the motion behind the turn, or in front of it, and releases are sought on
-//! what is interpolated between them. Of the response over the length h a turn at the time t from the end of the step leaves out about `h G s t`, with the mobility G, which may be as small as the tolerance
-//! and yet more than what the error estimate, which knows the nodes only, says. The turn is where the clearance and its derivatives at the end of the step put it; a step that hides it ends there.
+//! There neither the opening nor the corner of the slope `s` of the force is seen: at the nodes the
+//! penetration has the values of the motion behind the turn, or in front of it, and releases are sought on
+//! what is interpolated between them. Of the response over the length h a turn at the time t from the end of
+//! the step leaves out about `h G s t`, with the mobility G, which may be as small as the tolerance and yet
+//! more than what the error estimate, which knows the nodes only, says. The turn is where the clearance and
+//! its derivatives at the end of the step put it; a step that hides it ends there.
 
 use super::{
     ExactIntegrator,
@@ -29,7 +32,8 @@ struct Turn {
 }
 
 impl ExactIntegrator {
-    /// That length, or the time to the first turn in front of the first node of a step of that length, or what a corner at its start allows.
+    /// That length, or the time to the first turn in front of the first node of a step of that length, or
+    /// what a corner at its start allows.
     pub(super) fn up_to_hidden_turn(&self, run: &Run, length: f64) -> f64 {
         let smooth = Grading::Smooth;
         let first_node = smooth.map(smooth.rule().s[0]).0 * length;
@@ -45,7 +49,8 @@ impl ExactIntegrator {
         allowed.fold(length, f64::min)
     }
 
-    /// How long the solved step may be so that no turn lies behind its last node, nor a corner at its end; `None` if none does.
+    /// How long the solved step may be so that no turn lies behind its last node, nor a corner at its end;
+    /// `None` if none does.
     pub(super) fn hidden_turn_at_end(&self, run: &Run) -> Option<f64> {
         let (length, grading) = (self.step.length, self.step.grading());
         let behind_nodes = (1.0 - grading.map(grading.rule().s[NODES - 1]).0) * length;
@@ -94,14 +99,16 @@ impl ExactIntegrator {
         (is_corner && hidden > self.settings.tolerance).then_some(time)
     }
 
-    /// Whether a half-integer contact may be at a bottom of its penetration in a state in which the element has that displacement and speed.
+    /// Whether a half-integer contact may be at a bottom of its penetration in a state in which the element
+    /// has that displacement and speed.
     fn may_be_corner(&self, run: &Run, (element, contact): (usize, Contact), at: Jet) -> bool {
         at.slope.abs() < AT_REST * run.start[element].velocity
             && contact.onset_exponent.fract() != 0.0
             && clearance_of(at, contact.level, contact.sign).value < 0.0
     }
 
-    /// How long a step of that length may be that has a turn at its end, so that the corner there is not hidden; `None` if it is not.
+    /// How long a step of that length may be that has a turn at its end, so that the corner there is not
+    /// hidden; `None` if it is not.
     fn longest_beside(&self, turn: &Turn, without_node: f64, length: f64) -> Option<f64> {
         let &Turn { element, jet, clearance, .. } = turn;
         let time = -clearance.slope / clearance.curvature;

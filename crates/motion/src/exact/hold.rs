@@ -1,9 +1,12 @@
 //! Going over to a structure that is held on rigid stops (`held.rs`), and back.
 //!
-//! The state is written down in modal coordinates, the other structure takes the place of the present one, and the state is read in its coordinates. What was not held before is
-//! projected: the homogeneous part of a held displacement is zero. In modal coordinates the projection takes `Phi D^-1 (r', ...)` from the velocities, the impulse of an impact
-//! without restitution, and from the displacements what rounding has left. Sensitivities go the same way, with what the particular solutions contribute to the columns of frequency
-//! and parameter. Their rank drops by two with each stop: what the motion was relative to the stop before it stuck is forgotten.
+//! The state is written down in modal coordinates, the other structure takes the place of the present one,
+//! and the state is read in its coordinates. What was not held before is projected: the homogeneous part of a
+//! held displacement is zero. In modal coordinates the projection takes `Phi D^-1 (r', ...)` from the
+//! velocities, the impulse of an impact without restitution, and from the displacements what rounding has
+//! left. Sensitivities go the same way, with what the particular solutions contribute to the columns of
+//! frequency and parameter. Their rank drops by two with each stop: what the motion was relative to the stop
+//! before it stuck is forgotten.
 
 use super::{
     ExactIntegrator, MotionError, by_damping::ByDamping, drive::Drive, flight::Boundary, held::Held, run::Run,
@@ -21,7 +24,8 @@ pub(super) struct Holding {
 }
 
 impl ExactIntegrator {
-    /// Computes with the free structure again; the coordinates of a run that was held have lost their meaning.
+    /// Computes with the free structure again; the coordinates of a run that was held have lost their
+    /// meaning.
     pub(super) fn let_go(&mut self) {
         if let Some(mut holding) = self.holding.take() {
             self.exchange(&mut holding.held.structure);
@@ -54,7 +58,8 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Computes with the structure that is held on these elements, over a stretch that was gone through before.
+    /// Computes with the structure that is held on these elements, over a stretch that was gone through
+    /// before.
     pub(super) fn turn_to(&mut self, stretch: &Stretch, elements: &[usize]) -> Result<(), MotionError> {
         if elements.is_empty() {
             self.let_go();
@@ -136,7 +141,8 @@ impl ExactIntegrator {
         run.stuck.iter().position(|&stuck| stuck == element)
     }
 
-    /// Output that tells when a boundary is crossed: the pressing force of a held element, else the relative displacement.
+    /// Output that tells when a boundary is crossed: the pressing force of a held element, else the relative
+    /// displacement.
     pub(super) fn watched_output(&self, run: &Run, element: usize, boundary: Boundary) -> usize {
         match (&self.holding, self.held_place(run, element)) {
             (Some(holding), Some(j)) if boundary == Boundary::Lifts => {

@@ -1,35 +1,50 @@
 //! Impacts on rigid stops, and what comes of chatter.
 //!
-//! **One impact.** At a touch with `r' = v > 0` the modal velocities jump by `phi P`, and so, with `phi^T phi = C A B = D`,
+//! **One impact.** At a touch with `r' = v > 0` the modal velocities jump by `phi P`, and so, with `phi^T phi
+//! = C A B = D`,
 //!
 //! `P = -(1 + e) v/D`, `r' -> -e v`; energy lost `(1 - e^2) v^2/(2 D)`.
 //!
-//! The particular solution does not jump, the velocity of a moving support is in `v`. While other stops are held, B is the input that their reactions leave, and D is that of the held
-//! structure; a stop that would have to pull is let go first.
+//! The particular solution does not jump, the velocity of a moving support is in `v`. While other stops are
+//! held, B is the input that their reactions leave, and D is that of the held structure; a stop that would
+//! have to pull is let go first.
 //!
-//! **Sensitivities.** The touch comes `dt = -dr/v` later, with `dr` at fixed time, and is met with the velocity `v + dr' + r'' dt`. Before, the motion goes on for `dt` as it was, after it
-//! comes too late by as much:
+//! **Sensitivities.** The touch comes `dt = -dr/v` later, with `dr` at fixed time, and is met with the
+//! velocity `v + dr' + r'' dt`. Before, the motion goes on for `dt` as it was, after it comes too late by as
+//! much:
 //!
 //! `V+ = V - B (1 + e)/D (dr' + r'' dt) - (A B P + sum_e B_e [F_e]) dt`,
 //!
-//! where `[F_e]` are the jumps of forces that depend on the velocity (`velocity_jump.rs`), and those `lambda_j` of held stops that the impact throws off; r'' is that of the motion before, with these held. Seen along the motion, `(dr, dr')` goes to `(-e dr, -e dr' - ...)`: the determinant of the jump is `e^2`, so an
-//! impact contracts volumes by `2 ln e`. With e = 0 the velocity is forgotten: where the structure is not pressed on it leaves at once, and neighbours differ by the instant of that alone. By e itself there is the direct part `-B v/D`.
+//! where `[F_e]` are the jumps of forces that depend on the velocity (`velocity_jump.rs`), and those
+//! `lambda_j` of held stops that the impact throws off; r'' is that of the motion before, with these held.
+//! Seen along the motion, `(dr, dr')` goes to `(-e dr, -e dr' - ...)`: the determinant of the jump is `e^2`,
+//! so an impact contracts volumes by `2 ln e`. With e = 0 the velocity is forgotten: where the structure is
+//! not pressed on it leaves at once, and neighbours differ by the instant of that alone. By e itself there is
+//! the direct part `-B v/D`.
 //!
-//! **Grazing.** For `v -> 0` the sensitivities grow like `1/v`, and v like the root of the depth to which the motion would have gone: this is the singularity of grazing impacts, and it is
-//! left as it is. A touch within the rounding margin of the clearance is grazed: no impact, no jump (`clearance.rs`).
+//! **Grazing.** For `v -> 0` the sensitivities grow like `1/v`, and v like the root of the depth to which the
+//! motion would have gone: this is the singularity of grazing impacts, and it is left as it is. A touch
+//! within the rounding margin of the clearance is grazed: no impact, no jump (`clearance.rs`).
 //!
-//! **Chatter.** Pressed on with the acceleration `a = r'' > 0`, the bounces shrink like `v_k+1 = e v_k` and end after the further time `T = 2 e v/(a (1 - e))`. Impacts are followed one by one
-//! until the next bounce would rise no higher than `(e v)^2/(2 a) <= `CHATTER * margin` (`stick.rs`), and then the contact sticks at once: an impact with e = 0. What is left out moves y, the
-//! structure beside the stop (`held.rs`), through the displacement of the bounces alone, since their impulses do not act on it: by about `v^3/a^2` times a stiffness,
-//! of third order in the speed of the first bounce that is left out. Sensitivities err in second order: that of y' jumps by `-A B dr/D`, as at an impact without restitution. The sum of
-//! impulses is right, since what presses over T is what the bounces would have given. If the acceleration falls by half within 2 T, the chatter does not come to its end, and bounces are followed as long as they rise
-//! above the margin.
+//! **Chatter.** Pressed on with the acceleration `a = r'' > 0`, the bounces shrink like `v_k+1 = e v_k` and
+//! end after the further time `T = 2 e v/(a (1 - e))`. Impacts are followed one by one until the next bounce
+//! would rise no higher than `(e v)^2/(2 a) <= `CHATTER * margin` (`stick.rs`), and then the contact sticks
+//! at once: an impact with e = 0. What is left out moves y, the structure beside the stop (`held.rs`),
+//! through the displacement of the bounces alone, since their impulses do not act on it: by about `v^3/a^2`
+//! times a stiffness, of third order in the speed of the first bounce that is left out. Sensitivities err in
+//! second order: that of y' jumps by `-A B dr/D`, as at an impact without restitution. The sum of impulses is
+//! right, since what presses over T is what the bounces would have given. If the acceleration falls by half
+//! within 2 T, the chatter does not come to its end, and bounces are followed as long as they rise above the
+//! margin.
 //!
-//! **Several stops.** Stops that touch at one instant strike one after another, in the order of the elements. An impact that would pull at a held stop throws it off; so stops may chatter against one another. Once a
-//! touch beside held stops is itself below the height above, it sticks with them, and those that would have to pull are let go.
+//! **Several stops.** Stops that touch at one instant strike one after another, in the order of the elements.
+//! An impact that would pull at a held stop throws it off; so stops may chatter against one another. Once a
+//! touch beside held stops is itself below the height above, it sticks with them, and those that would have
+//! to pull are let go.
 //!
 //! # Source
-//! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009), 85-106 (chatter that ends).
+//! Nordmark, J. Sound Vib. 145 (1991), 279-297 (grazing); Nordmark and Piiroinen, Nonlinear Dyn. 58 (2009),
+//! 85-106 (chatter that ends).
 
 use super::{ExactIntegrator, MotionError, drive::Jet, flight::Touch, run::Run};
 
@@ -80,10 +95,12 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Moves the run to the very instant of a touch that a flight has come to: the search ends within the rounding margin, and a small speed makes a long time of it.
+    /// Moves the run to the very instant of a touch that a flight has come to: the search ends within the
+    /// rounding margin, and a small speed makes a long time of it.
     ///
-    /// A stretch may also start behind the stop, where a method asks for the motion from a state that cannot be. Then the impact was before, and the run goes back to it, to a negative
-    /// time, so that the flow has a smooth continuation there.
+    /// A stretch may also start behind the stop, where a method asks for the motion from a state that cannot
+    /// be. Then the impact was before, and the run goes back to it, to a negative time, so that the flow has
+    /// a smooth continuation there.
     fn settle_on_the_touch(&mut self, run: &mut Run, touch: Touch) {
         if self.forces_act(run) {
             return;

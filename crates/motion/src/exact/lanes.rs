@@ -2,7 +2,8 @@
 //!
 //! Products and sums are never fused or reordered by the compiler, so results do not depend on the machine.
 
-/// Runs loops that are compiled twice, for any machine and for one with vectors of four; the machine at hand decides.
+/// Runs loops that are compiled twice, for any machine and for one with vectors of four; the machine at hand
+/// decides.
 ///
 /// What is called from `work` has to be inlined to have a part in it.
 #[inline(always)]
@@ -31,7 +32,8 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + tail
 }
 
-/// `T_r += sum_k w_rk S_k` for the rows `T_r` of `target` and the rows `S_k` of `source`, of `columns` entries each, a multiple of four.
+/// `T_r += sum_k w_rk S_k` for the rows `T_r` of `target` and the rows `S_k` of `source`, of `columns`
+/// entries each, a multiple of four.
 ///
 /// * `weights`: the `w_rk` of a row r; where they end the sum ends.
 #[inline(always)]

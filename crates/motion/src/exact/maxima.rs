@@ -1,8 +1,9 @@
 //! Maxima of an orbit on the continuous motion.
 //!
-//! They are taken from the course of the motion (`course.rs`): first what every passage adds, and the largest forces; then the accelerations in the force steps, of which the
-//! hardest one comes first; then the flights (`flight_maximum.rs`), of which the longest comes first; last the displacements in force steps (`step_maximum.rs`). So most of them are shown to
-//! lie below what was found before by a bound alone.
+//! They are taken from the course of the motion (`course.rs`): first what every passage adds, and the largest
+//! forces; then the accelerations in the force steps, of which the hardest one comes first; then the flights
+//! (`flight_maximum.rs`), of which the longest comes first; last the displacements in force steps
+//! (`step_maximum.rs`). So most of them are shown to lie below what was found before by a bound alone.
 
 use super::{
     ExactIntegrator, MotionError,
@@ -19,15 +20,18 @@ use crate::Stretch;
 pub struct Maxima {
     /// Largest absolute displacement of the response point, `max |y|` [m].
     pub displacement: f64,
-    /// Largest absolute acceleration of the response point, `max |y''|`, apart from the jumps of the velocity at impacts on rigid stops [m/s^2].
+    /// Largest absolute acceleration of the response point, `max |y''|`, apart from the jumps of the velocity
+    /// at impacts on rigid stops [m/s^2].
     pub acceleration: f64,
-    /// Largest contact force over all elements with a contact [N]; impacts on rigid stops have none, stops that are stuck to have.
+    /// Largest contact force over all elements with a contact [N]; impacts on rigid stops have none, stops
+    /// that are stuck to have.
     pub contact_force: f64,
     /// Largest speed with which a contact closes [m/s].
     pub impact_velocity: f64,
     /// Sum of the impulses of all contacts [N s].
     pub impulse: f64,
-    /// Energy that the structure has lost to all contacts [J], what is stored in them at the end included; 0 for laws that lose none.
+    /// Energy that the structure has lost to all contacts [J], what is stored in them at the end included; 0
+    /// for laws that lose none.
     pub energy_lost: f64,
     /// Number of contacts that closed; on a rigid stop where chatter came to its end, how often it did.
     pub touches: u32,
@@ -74,7 +78,8 @@ struct Observation<'a> {
 }
 
 impl ExactIntegrator {
-    /// Maxima of a motion over stretches that follow one another, each from its own state, of the response point given at construction.
+    /// Maxima of a motion over stretches that follow one another, each from its own state, of the response
+    /// point given at construction.
     ///
     /// # Errors
     /// See [`MotionError`].
@@ -85,7 +90,8 @@ impl ExactIntegrator {
         maxima
     }
 
-    /// From now on what happens is noted, so that [`ExactIntegrator::observe`] need not go through the same motion again.
+    /// From now on what happens is noted, so that [`ExactIntegrator::observe`] need not go through the same
+    /// motion again.
     pub fn begin_course(&mut self) {
         self.course.clear();
         self.notes_course = true;

@@ -1,12 +1,16 @@
 //! Laws that remember with what speed their contact began, from one stretch to the next.
 //!
-//! A state `[q; q']` within such a contact does not tell how the contact began, so a stretch that starts there is refused. One exception: a motion goes on over the end of the stretch
-//! before, if it starts with exactly the state, to the last bit, and at the phase in which that ended, and no parameter was changed in between. So motion is followed period by period.
+//! A state `[q; q']` within such a contact does not tell how the contact began, so a stretch that starts
+//! there is refused. One exception: a motion goes on over the end of the stretch before, if it starts with
+//! exactly the state, to the last bit, and at the phase in which that ended, and no parameter was changed in
+//! between. So motion is followed period by period.
 //!
-//! **Sensitivities** of a flow are by the state at its start alone, and an orbit has to be cut where the contact is open: [`ExactIntegrator::flow`] does not go on. Tangent vectors that are
-//! carried along a motion can, by [`ExactIntegrator::flow_onwards`]. With the fundamental matrix `P` of the stretch before and the derivative `w` of the speed by the state at the start of that,
-//! neighbours have the displacement `y` there, `P y` at its end and `w y = (w P^-1)(P y)` in their speed; so the speed has the derivative `w P^-1` by the state at the start of the next stretch, among
-//! the neighbours that come from there.
+//! **Sensitivities** of a flow are by the state at its start alone, and an orbit has to be cut where the
+//! contact is open: [`ExactIntegrator::flow`] does not go on. Tangent vectors that are carried along a motion
+//! can, by [`ExactIntegrator::flow_onwards`]. With the fundamental matrix `P` of the stretch before and the
+//! derivative `w` of the speed by the state at the start of that, neighbours have the displacement `y` there,
+//! `P y` at its end and `w y = (w P^-1)(P y)` in their speed; so the speed has the derivative `w P^-1` by the
+//! state at the start of the next stretch, among the neighbours that come from there.
 
 use faer::{Mat, linalg::solvers::Solve};
 
@@ -19,12 +23,14 @@ pub struct ContactMemory {
     phase: f64,
     state: Vec<f64>,
     laws: Vec<Law>,
-    /// Derivative of the remembered speed by the state, of each element; empty where it is not known or not needed.
+    /// Derivative of the remembered speed by the state, of each element; empty where it is not known or not
+    /// needed.
     speeds: Vec<Vec<f64>>,
 }
 
 impl ContactMemory {
-    /// The speed of the impact that the law of each element remembers [m/s]; infinite where there was none yet, and where the law remembers none.
+    /// The speed of the impact that the law of each element remembers [m/s]; infinite where there was none
+    /// yet, and where the law remembers none.
     #[must_use]
     pub fn impact_speeds(&self) -> Vec<f64> {
         self.laws.iter().map(Law::impact_speed).collect()
@@ -32,10 +38,11 @@ impl ContactMemory {
 }
 
 impl ExactIntegrator {
-    /// Flow over a stretch that may start in a contact whose law remembers its impact, where it goes on from the end of the stretch before; else as [`ExactIntegrator::flow`].
+    /// Flow over a stretch that may start in a contact whose law remembers its impact, where it goes on from
+    /// the end of the stretch before; else as [`ExactIntegrator::flow`].
     ///
-    /// Its `by_state` takes tangent vectors of the flow before on; where that had no sensitivities, the speed of the impact counts as given. By frequency and
-    /// parameters the speed counts as given.
+    /// Its `by_state` takes tangent vectors of the flow before on; where that had no sensitivities, the speed
+    /// of the impact counts as given. By frequency and parameters the speed counts as given.
     ///
     /// # Errors
     /// See [`MotionError`].
@@ -46,7 +53,8 @@ impl ExactIntegrator {
         flow
     }
 
-    /// What a motion that goes on from the end of the last stretch has to know, if there are laws that remember.
+    /// What a motion that goes on from the end of the last stretch has to know, if there are laws that
+    /// remember.
     #[must_use]
     pub fn memory(&self) -> Option<ContactMemory> {
         self.memory.clone()
@@ -57,9 +65,11 @@ impl ExactIntegrator {
         self.memory = memory;
     }
 
-    /// Goes back to where a motion of this system was at a state and a phase, if its laws remembered impacts of these speeds then, see [`ContactMemory::impact_speeds`].
+    /// Goes back to where a motion of this system was at a state and a phase, if its laws remembered impacts
+    /// of these speeds then, see [`ContactMemory::impact_speeds`].
     ///
-    /// * `phase`: [cycles], from 0 to less than 1; `state`: `[q; q']`, length 2n; `impact_speeds`: one of each element [m/s].
+    /// * `phase`: [cycles], from 0 to less than 1; `state`: `[q; q']`, length 2n; `impact_speeds`: one of
+    ///   each element [m/s].
     pub fn set_impact_speeds(&mut self, phase: f64, state: &[f64], impact_speeds: &[f64]) {
         let elements = self.system.elements().iter().zip(impact_speeds);
         let laws = elements.map(|(element, speed)| element.law.struck_at(*speed)).collect();

@@ -1,4 +1,5 @@
-//! The exact integrator: closed-form flight, certified contacts, collocated contact forces, exact sensitivities.
+//! The exact integrator: closed-form flight, certified contacts, collocated contact forces, exact
+//! sensitivities.
 //!
 //! The mathematics stands in the crate docs; here is who does what:
 //!
@@ -132,7 +133,8 @@ const MOST_STEPS: u64 = 20_000;
 /// Settings of the exact integrator.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExactSettings {
-    /// Bound on the error of each force step, relative to the scales of the stretch; see `step_error.rs` for the formula.
+    /// Bound on the error of each force step, relative to the scales of the stretch; see `step_error.rs` for
+    /// the formula.
     pub tolerance: f64,
 }
 
@@ -220,7 +222,8 @@ impl ExactIntegrator {
         Self::watching(system, settings, None)
     }
 
-    /// An integrator that can also observe a response point, whose displacement is `shape . q + support_ratio u`.
+    /// An integrator that can also observe a response point, whose displacement is `shape . q + support_ratio
+    /// u`.
     ///
     /// # Errors
     /// [`MotionError::MergedModes`] if the damping has no block form.
@@ -307,35 +310,41 @@ impl ExactIntegrator {
         self.counts
     }
 
-    /// How often each contact closed in the last stretch, in the order of elements and their contacts. A chatter that came to its end on a rigid stop counts 65536 besides its
-    /// impacts, whose number says nothing then, see [`complete_touches`].
+    /// How often each contact closed in the last stretch, in the order of elements and their contacts. A
+    /// chatter that came to its end on a rigid stop counts 65536 besides its impacts, whose number says
+    /// nothing then, see [`complete_touches`].
     #[must_use]
     pub fn touches(&self) -> &[u32] {
         &self.touches
     }
 
-    /// Each contact at the start and at the end of the last stretch, in the order of [`touches`](Self::touches).
+    /// Each contact at the start and at the end of the last stretch, in the order of
+    /// [`touches`](Self::touches).
     #[must_use]
     pub fn at_ends(&self) -> [&[AtEnd]; 2] {
         self.at_ends.each_ref().map(Vec::as_slice)
     }
 
-    /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for each impact on a rigid stop, minus infinity where one stuck, and, of a flow
-    /// with sensitivities, the integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. What the memory of an impact does besides is counted by
-    /// [`ExactIntegrator::flow_onwards`] alone; not a number where that cannot be told (mathematics in `volume.rs`).
+    /// By how much the contacts changed the logarithm of volumes of states in the last stretch: `2 ln e` for
+    /// each impact on a rigid stop, minus infinity where one stuck, and, of a flow with sensitivities, the
+    /// integral of the divergence `phi^T phi df/dr'` of forces that depend on the velocity. What the memory
+    /// of an impact does besides is counted by [`ExactIntegrator::flow_onwards`] alone; not a number where
+    /// that cannot be told (mathematics in `volume.rs`).
     #[must_use]
     pub fn contraction(&self) -> f64 {
         self.contraction
     }
 
-    /// By how much the rank of the sensitivities of the last stretch is less than that of the state: two for each rigid stop that held the structure, and one for an impact without restitution that
-    /// does not stick, at the instant at which they are most.
+    /// By how much the rank of the sensitivities of the last stretch is less than that of the state: two for
+    /// each rigid stop that held the structure, and one for an impact without restitution that does not
+    /// stick, at the instant at which they are most.
     #[must_use]
     pub fn directions_lost(&self) -> usize {
         self.directions_lost
     }
 
-    /// Elements that were closed all through the last stretch, with or without pressure, one bit each (the first 64).
+    /// Elements that were closed all through the last stretch, with or without pressure, one bit each (the
+    /// first 64).
     #[must_use]
     pub fn closed_throughout(&self) -> u64 {
         self.closed_throughout

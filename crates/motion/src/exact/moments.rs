@@ -1,6 +1,8 @@
-//! What a force over part of a step makes of outputs and states: the power series of `series.rs` on the moments of the force.
+//! What a force over part of a step makes of outputs and states: the power series of `series.rs` on the
+//! moments of the force.
 //!
-//! `int exp(A (T - t)) B F dt = sum_m A^m B mu_m`, `mu_m = int (T - t)^m/m! F dt`: the moments are those of all outputs and of all their derivatives.
+//! `int exp(A (T - t)) B F dt = sum_m A^m B mu_m`, `mu_m = int (T - t)^m/m! F dt`: the moments are those of
+//! all outputs and of all their derivatives.
 
 use super::{collocation::TERMS, drive::Jet, lanes::add_multiple, series::Series};
 
@@ -12,9 +14,11 @@ pub(crate) struct Moments {
 }
 
 impl Series {
-    /// Moments `int (rate (T - t))^m/m! F dt` of a force up to a time T within the reach, from sixteen times `t`.
+    /// Moments `int (rate (T - t))^m/m! F dt` of a force up to a time T within the reach, from sixteen times
+    /// `t`.
     ///
-    /// * `delays`: `T - t` [s]; `impulses`: forces times the weights of a quadrature [N s]; `duration`: the longest delay.
+    /// * `delays`: `T - t` [s]; `impulses`: forces times the weights of a quadrature [N s]; `duration`: the
+    ///   longest delay.
     #[inline(always)]
     pub fn moments(&self, delays: &[f64; 16], impulses: [f64; 16], duration: f64) -> Moments {
         let (mut moments, mut powers) = ([0.0; TERMS], impulses);

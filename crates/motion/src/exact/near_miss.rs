@@ -1,13 +1,19 @@
-//! How near a motion is to touching once more or once less: what tells two grazings between neighbouring orbits that have the same contacts.
+//! How near a motion is to touching once more or once less: what tells two grazings between neighbouring
+//! orbits that have the same contacts.
 //!
 //! The [`NEAREST`] smallest values of each kind:
 //!
-//! * The clearance `min s (level - r)` over the turns of a flight towards a contact, the highest of each flight: where a new contact appears it vanishes, linearly in whatever varies.
-//! * The squared speed of a touch: where a contact vanishes so does it, linearly too, since the penetration is `v^2/2a` there. Where a contact stops opening for an instant, the touch behind that instant vanishes.
-//! * The penetration of a turn between two presses of one contact: where the contact begins to open there it vanishes, linearly.
+//! * The clearance `min s (level - r)` over the turns of a flight towards a contact, the highest of each
+//!   flight: where a new contact appears it vanishes, linearly in whatever varies.
+//! * The squared speed of a touch: where a contact vanishes so does it, linearly too, since the penetration
+//!   is `v^2/2a` there. Where a contact stops opening for an instant, the touch behind that instant vanishes.
+//! * The penetration of a turn between two presses of one contact: where the contact begins to open there it
+//!   vanishes, linearly.
 //!
-//! Turns of a flight are found on a grid as fine as its curvature asks for, and the highest of them is closed in by Newton's method where it is near; in the intervals at its ends, where it may begin or end with its stretch, by its slope there. Turns of a contact that stays closed are
-//! the valleys of its force at the nodes of its steps (`valley.rs`); the lowest ones are closed in.
+//! Turns of a flight are found on a grid as fine as its curvature asks for, and the highest of them is closed
+//! in by Newton's method where it is near; in the intervals at its ends, where it may begin or end with its
+//! stretch, by its slope there. Turns of a contact that stays closed are the valleys of its force at the
+//! nodes of its steps (`valley.rs`); the lowest ones are closed in.
 
 use super::{
     ExactIntegrator,
@@ -24,10 +30,12 @@ const MOST_PLACES: usize = 256;
 /// Steps of Newton's method from a node to the turn of a contact, behind which a parabola does the rest.
 const POLISHES: usize = 3;
 
-/// How many of each kind are told: where one of them stays small the next ones show what happens elsewhere in the orbit.
+/// How many of each kind are told: where one of them stays small the next ones show what happens elsewhere in
+/// the orbit.
 pub const NEAREST: usize = 4;
 
-/// How near a motion is to other contacts: the smallest values of each kind, ascending, infinite where there are not so many.
+/// How near a motion is to other contacts: the smallest values of each kind, ascending, infinite where there
+/// are not so many.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearMisses {
     /// Clearance of the highest turn of a flight towards a contact [m].
@@ -170,7 +178,8 @@ fn inner_turn(clearances: &[f64], node: usize) -> Option<Turn> {
     Some(Turn { node, clearance: at - 0.5 * slope * slope / bend, shift: -slope / bend })
 }
 
-/// Whether a parabola through an end of the grid and the two places next to it says, about, that the clearance turns between the first two.
+/// Whether a parabola through an end of the grid and the two places next to it says, about, that the
+/// clearance turns between the first two.
 fn may_turn_at_end(clearances: &[f64], end: usize) -> bool {
     let inwards = |k: usize| if end == 0 { k } else { end - k };
     if clearances.len() < 3 || clearances[inwards(1)] < clearances[end] {
@@ -181,7 +190,8 @@ fn may_turn_at_end(clearances: &[f64], end: usize) -> bool {
     first - 0.5 * (second - first) < 0.25 * first
 }
 
-/// A turn in the first or the last interval, where a flight begins or ends with its stretch: one whose end is nearer to the contact than the next place, and approaches it inwards.
+/// A turn in the first or the last interval, where a flight begins or ends with its stretch: one whose end is
+/// nearer to the contact than the next place, and approaches it inwards.
 ///
 /// * `slope`, `curvature`: of the clearance at that end, by intervals of the grid.
 fn end_turn(clearances: &[f64], node: usize, (slope, curvature): (f64, f64)) -> Option<Turn> {
@@ -278,8 +288,8 @@ mod tests {
         }
     }
 
-    /// A spring of 99 N/m pressed with 9.9 N holds the mass at `x_e = -9.9/100`; pressed by `x + 0.1 > 0`, it vibrates there with 10 rad/s and comes back to
-    /// `x_e - A` twice.
+    /// A spring of 99 N/m pressed with 9.9 N holds the mass at `x_e = -9.9/100`; pressed by `x + 0.1 > 0`, it
+    /// vibrates there with 10 rad/s and comes back to `x_e - A` twice.
     #[test]
     fn a_contact_that_turns_before_it_opens_misses_that_by_what_is_left_of_its_penetration() {
         let stop = LinearStop::with_preload(99.0, 9.9).unwrap();

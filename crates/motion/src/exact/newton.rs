@@ -19,11 +19,11 @@ const SHORT: f64 = 2.0;
 pub(crate) struct NotSolved;
 
 impl ForceStep {
-    /// Solves for the displacements (and velocities, see `damped_step.rs`) from the guess of them, until what is left is below `precision` times their
-    /// range, or a correction below `rounding`.
+    /// Solves for the displacements (and velocities, see `damped_step.rs`) from the guess of them, until what
+    /// is left is below `precision` times their range, or a correction below `rounding`.
     ///
-    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate with, and so is that of the
-    /// last step solved if this one is nearly the same (`again`).
+    /// The matrix is factorised anew only while the corrections are large: later it is good enough to iterate
+    /// with, and so is that of the last step solved if this one is nearly the same (`again`).
     pub fn solve(
         &mut self,
         laws: &[Law],
@@ -55,7 +55,8 @@ impl ForceStep {
                 return Err(NotSolved);
             }
             self.evaluate(laws);
-            // What is left after this correction: its square after a fresh matrix, else as before times the rate.
+            // What is left after this correction: its square after a fresh matrix, else as before times the
+            // rate.
             let rate = if fresh { largest / range } else { largest / previous };
             if largest * rate <= precision * range || largest <= rounding {
                 return Ok(());
@@ -66,8 +67,9 @@ impl ForceStep {
         Err(NotSolved)
     }
 
-    /// Puts the forces of the guess into the equations for the next one, as long as that brings it nearer, where the step is short against
-    /// the period of the loaded contact: an error of the guess grows with a power p of the time, and of it only `(w t)^2/((p + 1)(p + 2))` are left.
+    /// Puts the forces of the guess into the equations for the next one, as long as that brings it nearer,
+    /// where the step is short against the period of the loaded contact: an error of the guess grows with a
+    /// power p of the time, and of it only `(w t)^2/((p + 1)(p + 2))` are left.
     fn improve_guess(&mut self, laws: &[Law]) {
         let count = self.active.len();
         let mut before = f64::INFINITY;

@@ -1,16 +1,18 @@
 //! What a contact does to the sensitivities, and keeps in memory, as it closes.
 //!
-//! **Force that jumps.**
-//! A damper begins with the force `-c r'`. Where the touch comes earlier by `dr/r'`, that force acts for so long besides, and its impulse is
-//! `-c r' dr/r' = -c dr`. So the sensitivities jump by
+//! **Force that jumps.** A damper begins with the force `-c r'`. Where the touch comes earlier by `dr/r'`,
+//! that force acts for so long besides, and its impulse is `-c r' dr/r' = -c dr`. So the sensitivities jump
+//! by
 //!
 //! `V+ = V - c B (C V + d r_particular - level_p)`,
 //!
-//! the saltation matrix `1 - c B C`, of determinant 1 since `C B` vanishes. It is finite for any speed of the touch, so grazing touches are no exception.
+//! the saltation matrix `1 - c B C`, of determinant 1 since `C B` vanishes. It is finite for any speed of the
+//! touch, so grazing touches are no exception.
 //!
-//! **Speed that is remembered.** The touch comes `-dr/r'` later, so its speed changes by `dv = dr' - r'' dr/r'`, where `dr'` is taken at fixed time and `r''` has the
-//! forces of the other elements (its own begins with zero). While the contact lasts, its force has the direct part `f_v dv`
-//! (`damped_step.rs`). Towards grazing `dv` grows like `1/r'`, but the force goes like `r'^3`, so their product vanishes.
+//! **Speed that is remembered.** The touch comes `-dr/r'` later, so its speed changes by `dv = dr' - r''
+//! dr/r'`, where `dr'` is taken at fixed time and `r''` has the forces of the other elements (its own begins
+//! with zero). While the contact lasts, its force has the direct part `f_v dv` (`damped_step.rs`). Towards
+//! grazing `dv` grows like `1/r'`, but the force goes like `r'^3`, so their product vanishes.
 
 use super::{ExactIntegrator, MotionError, collocation::NODES, flight::Touch, run::Run};
 use crate::Parameter;
@@ -31,7 +33,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// A law that remembers its impact cannot begin a contact that has no speed at all and is pressed on. One that turns by itself has next to no force.
+    /// A law that remembers its impact cannot begin a contact that has no speed at all and is pressed on. One
+    /// that turns by itself has next to no force.
     pub(super) fn check_impact(&self, run: &Run, touch: Touch) -> Result<(), MotionError> {
         let element = touch.element;
         let jet = self.jet_with_forces(run, element);
@@ -44,7 +47,8 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Puts the speed of an impact, and its sensitivities, in memory for the contact that begins; nothing for a law without memory.
+    /// Puts the speed of an impact, and its sensitivities, in memory for the contact that begins; nothing for
+    /// a law without memory.
     pub(super) fn remember_impact(&mut self, run: &mut Run, touch: Touch) {
         let element = touch.element;
         if !self.laws[element].remembers_impact() {
@@ -79,7 +83,8 @@ impl ExactIntegrator {
         row
     }
 
-    /// Sensitivities of the penetration, with its sign that of the displacement, at fixed time, one per column.
+    /// Sensitivities of the penetration, with its sign that of the displacement, at fixed time, one per
+    /// column.
     pub(super) fn displacement_sensitivity(&self, run: &Run, touch: Touch) -> Vec<f64> {
         let (element, output) = (touch.element, &self.outputs[touch.element]);
         let Some(sensitivity) = &run.sensitivity else { return Vec::new() };

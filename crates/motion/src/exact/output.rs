@@ -16,7 +16,8 @@ pub(crate) struct Output {
     pub snap_row: Vec<f64>,
     /// Part of the support displacement [-].
     pub support_ratio: f64,
-    /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the value, as far as its stiffness bounds it.
+    /// Factors of the energy norm `sqrt(k p^2 + s^2)` of each block in a bound on the value, as far as its
+    /// stiffness bounds it.
     pub value_bound: Vec<f64>,
     /// The same for the first derivative.
     pub first_bound: Vec<f64>,
@@ -65,7 +66,8 @@ impl Output {
     }
 }
 
-/// Smallest `g_i` with `|row_p p + row_s s| <= g_i sqrt(k p^2 + s^2)`; a row on `p` where `k = 0` is zero for derivatives.
+/// Smallest `g_i` with `|row_p p + row_s s| <= g_i sqrt(k p^2 + s^2)`; a row on `p` where `k = 0` is zero for
+/// derivatives.
 fn energy_factors(blocks: &Blocks, row: &[f64]) -> Vec<f64> {
     let n = blocks.count();
     let factor = |i: usize| {

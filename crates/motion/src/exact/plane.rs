@@ -1,12 +1,13 @@
 //! Newton's method on one invariant plane of a structure with coupling dampers.
 //!
-//! With displacements `u_p` and `u_s` the two columns of a block are `[u_p; -k u_s]` and `[u_s; u_p - c u_s]`, and they span an
-//! invariant plane if
+//! With displacements `u_p` and `u_s` the two columns of a block are `[u_p; -k u_s]` and `[u_s; u_p - c
+//! u_s]`, and they span an invariant plane if
 //!
 //! `(k - W^2) u_p + k (C - c) u_s = 0`, `(c - C) u_p + (k - W^2 + c C - c^2) u_s = 0`, `W = diag(w)`.
 //!
-//! Unknown are `u_p`, `u_s`, `k` and `c`; the two ways in which the columns may change within the plane are held. Rows and
-//! columns are scaled by their own sizes, so slow planes of stiff structures keep their digits.
+//! Unknown are `u_p`, `u_s`, `k` and `c`; the two ways in which the columns may change within the plane are
+//! held. Rows and columns are scaled by their own sizes, so slow planes of stiff structures keep their
+//! digits.
 
 use faer::{Mat, linalg::solvers::Solve};
 use hammerbeam_structure::ReducedModel;
@@ -90,7 +91,8 @@ impl InvariantPlane {
         self.p.iter().map(|p| (p / rate).powi(2)).chain(self.s.iter().map(|s| s * s)).sum::<f64>().sqrt()
     }
 
-    /// Matrix and defect of the linearised equations in the file header, then the two rows that hold the changes within the plane.
+    /// Matrix and defect of the linearised equations in the file header, then the two rows that hold the
+    /// changes within the plane.
     ///
     /// Columns: p over the rate, s, k over the rate squared, c over the rate.
     fn equations(&self, model: &ReducedModel, group: &[usize]) -> (Mat<f64>, Mat<f64>) {

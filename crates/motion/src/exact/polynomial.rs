@@ -1,14 +1,16 @@
 //! Where a polynomial over a step falls below zero.
 //!
-//! A polynomial lies in the convex hull of its Bernstein coefficients: if none is negative the polynomial has no zero, and halving the
-//! interval sharpens the statement until the first zero is enclosed. Unlike a look at nodal values it misses no zero between nodes.
+//! A polynomial lies in the convex hull of its Bernstein coefficients: if none is negative the polynomial has
+//! no zero, and halving the interval sharpens the statement until the first zero is enclosed. Unlike a look
+//! at nodal values it misses no zero between nodes.
 
 use super::collocation::NODES;
 
 /// Halvings after which the first zero is located well enough to start Newton's method from.
 const HALVINGS: u32 = 24;
 
-/// The first place in [start, 1] where a polynomial falls below `-margin`, from its Bernstein coefficients over that interval.
+/// The first place in [start, 1] where a polynomial falls below `-margin`, from its Bernstein coefficients
+/// over that interval.
 pub(crate) fn first_below(coefficients: &[f64; NODES], start: f64, margin: f64) -> Option<f64> {
     search(coefficients, margin, (start, 1.0), HALVINGS)
 }

@@ -1,18 +1,23 @@
 //! What rigid stops that are held press with, in flight and while forces act, and where that ends.
 //!
-//! Of the forces `F_e` of the elements that act the held stops take a part at once, and another part through the damping of the structure (`held.rs`):
+//! Of the forces `F_e` of the elements that act the held stops take a part at once, and another part through
+//! the damping of the structure (`held.rs`):
 //!
 //! `lambda_j = C_j x + lambda_particular + sum_e gamma_je F_e`, `gamma_je = ((Phi D^-1)^T phi_e)_j`,
 //! `lambda'_j = C_j A x + lambda'_particular + sum_e (C_j B_e F_e + gamma_je F'_e)`, `F' = f_r r' + f_v r''`.
 //!
-//! **In a force step** the motion is the convolution of the held structure, so x is known at every time, and the forces follow from the law at the displacements, which are better than the
-//! polynomials of the forces. `lambda_j` is looked at in panels of the step over which no block turns by more than [`RADIANS`]: twelve nodes resolve it to some 1e-9 of its parts. From their
-//! polynomial follow where it first falls below zero, its largest value and its integral. So that it tells all, the forces must be resolved, relative to what the stops press with,
-//! also where they move nothing, as on a mass that is held itself: `gamma tail(F)/(|lambda_j| + |gamma F|)` is one of the errors of a step (`step_error.rs`).
+//! **In a force step** the motion is the convolution of the held structure, so x is known at every time, and
+//! the forces follow from the law at the displacements, which are better than the polynomials of the forces.
+//! `lambda_j` is looked at in panels of the step over which no block turns by more than [`RADIANS`]: twelve
+//! nodes resolve it to some 1e-9 of its parts. From their polynomial follow where it first falls below zero,
+//! its largest value and its integral. So that it tells all, the forces must be resolved, relative to what
+//! the stops press with, also where they move nothing, as on a mass that is held itself: `gamma
+//! tail(F)/(|lambda_j| + |gamma F|)` is one of the errors of a step (`step_error.rs`).
 //!
-//! **The lift.** The step ends where `lambda_j = 0` at its end, by Newton's method, as at other events (`event.rs`). The accelerations are continuous there, and so the saltation matrix is
-//! the identity. Where `lambda_j` falls below zero by a jump, of a force that sets in with a damper or of the velocities at an impact, the stop is let go in that instant, and the sensitivities jump
-//! (`stick.rs`).
+//! **The lift.** The step ends where `lambda_j = 0` at its end, by Newton's method, as at other events
+//! (`event.rs`). The accelerations are continuous there, and so the saltation matrix is the identity. Where
+//! `lambda_j` falls below zero by a jump, of a force that sets in with a damper or of the velocities at an
+//! impact, the stop is let go in that instant, and the sensitivities jump (`stick.rs`).
 
 use super::{
     ExactIntegrator,
@@ -27,7 +32,8 @@ use super::{
 
 /// Radians of a block that sixteen Gauss points, and about as well the nodes of a panel, resolve.
 const RADIANS: f64 = 4.0;
-/// Share of the largest value in a step within which its polynomial does not tell whether a located lift comes earlier once more.
+/// Share of the largest value in a step within which its polynomial does not tell whether a located lift
+/// comes earlier once more.
 const UNDECIDED: f64 = 1e-3;
 
 /// What a held stop presses with at the start of a step.
@@ -53,7 +59,8 @@ impl Panel {
         self.from + (self.to - self.from) * s
     }
 
-    /// Where the force first falls below `-margin`. What lies before the first node of a step was looked at as it began.
+    /// Where the force first falls below `-margin`. What lies before the first node of a step was looked at
+    /// as it began.
     fn first_below(&self, margin: f64) -> Option<f64> {
         let found = if self.from == 0.0 {
             first_below(&self.rule.bernstein(&self.values), self.rule.s[0], margin)
@@ -76,7 +83,8 @@ impl ExactIntegrator {
         self.holding.as_ref().map_or(0.0, |holding| holding.held.direct(j, element))
     }
 
-    /// Pressing forces of all elements, zero for those that are not held, from the homogeneous state at a time [N].
+    /// Pressing forces of all elements, zero for those that are not held, from the homogeneous state at a
+    /// time [N].
     pub(super) fn pressing_forces(&self, run: &Run, state: &[f64], time: f64) -> Vec<f64> {
         let mut forces = vec![0.0; self.laws.len()];
         let Some(holding) = &self.holding else { return forces };
@@ -87,7 +95,8 @@ impl ExactIntegrator {
         forces
     }
 
-    /// What the j-th held stop presses with while these elements act, from the homogeneous state at a time [N].
+    /// What the j-th held stop presses with while these elements act, from the homogeneous state at a time
+    /// [N].
     fn pressing_with(&self, active: &[usize], j: usize, state: &[f64], time: f64) -> f64 {
         let mut force = self.output_jet(state, self.pressing_output(j), time).value;
         for &e in active {
@@ -97,7 +106,8 @@ impl ExactIntegrator {
         force
     }
 
-    /// The pressing force of the j-th held stop and its rate, from outputs and their derivatives apart from the direct part of the forces of `active` elements.
+    /// The pressing force of the j-th held stop and its rate, from outputs and their derivatives apart from
+    /// the direct part of the forces of `active` elements.
     fn pressing_jet(&self, active: &[usize], j: usize, jet: impl Fn(usize) -> Jet) -> Jet {
         let output = self.pressing_output(j);
         let mut pressing = jet(output);
@@ -204,7 +214,8 @@ impl ExactIntegrator {
         (0..count).map(of_panel).collect()
     }
 
-    /// The first lift of a held stop within the solved step, and when; of the one with which the step ends, once more before that, and none of those that are excused.
+    /// The first lift of a held stop within the solved step, and when; of the one with which the step ends,
+    /// once more before that, and none of those that are excused.
     pub(super) fn first_lift(
         &self,
         run: &Run,
@@ -243,7 +254,8 @@ impl ExactIntegrator {
         (0..held).map(|j| self.panels(state, j).iter().map(of_panel).sum()).collect()
     }
 
-    /// The largest that the j-th held stop presses with in the solved step, which starts from `state`, if that is above `best` [N].
+    /// The largest that the j-th held stop presses with in the solved step, which starts from `state`, if
+    /// that is above `best` [N].
     pub(super) fn pressing_maximum(&self, state: &[f64], j: usize, best: f64) -> f64 {
         let mut best = best;
         for panel in &self.panels(state, j) {
@@ -258,7 +270,8 @@ impl ExactIntegrator {
         best
     }
 
-    /// Integrals of the pressing forces over a flight of the held structure, by Gauss' rule over panels that resolve every block [N s].
+    /// Integrals of the pressing forces over a flight of the held structure, by Gauss' rule over panels that
+    /// resolve every block [N s].
     pub(super) fn held_impulses(&self, state: &[f64], start: f64, duration: f64) -> Vec<f64> {
         let Some(holding) = &self.holding else { return Vec::new() };
         let s = holding.held.elements.len();

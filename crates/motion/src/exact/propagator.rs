@@ -33,8 +33,9 @@ impl Propagator {
 
     /// The propagator and its derivatives by the damping c and by the stiffness k.
     ///
-    /// With `D' = -h`, `h' = 1/2` by c and `D' = 1`, `h' = 0` by k, from `C' = -t S D'/2` and `S' = (t C - S)/(2 D) D'`, which is
-    /// `t^3 (-1/6 + D t^2/60 - ...) D'`; for `D << 0` from the exponentials of the two roots.
+    /// With `D' = -h`, `h' = 1/2` by c and `D' = 1`, `h' = 0` by k, from `C' = -t S D'/2` and `S' = (t C -
+    /// S)/(2 D) D'`, which is `t^3 (-1/6 + D t^2/60 - ...) D'`; for `D << 0` from the exponentials of the two
+    /// roots.
     pub fn with_derivatives(stiffness: f64, damping: f64, time: f64) -> (Self, Self, Self) {
         let (k, half, t) = (stiffness, 0.5 * damping, time);
         let discriminant = k - half * half;
@@ -90,7 +91,8 @@ pub(super) struct Quad {
 }
 
 impl Quad {
-    /// Bit by bit those of [`Propagator::new`], if all blocks oscillate within the reach of `elementary.rs`: else nothing, and false.
+    /// Bit by bit those of [`Propagator::new`], if all blocks oscillate within the reach of `elementary.rs`:
+    /// else nothing, and false.
     #[inline]
     pub fn set(&mut self, stiffness: &[f64; 4], damping: &[f64; 4], time: f64) -> bool {
         let (mut frequencies, mut angles, mut exponents) = ([0.0; 4], [0.0; 4], [0.0; 4]);
@@ -210,7 +212,8 @@ mod tests {
         }
     }
 
-    /// Against differences of fourth order of the propagator itself, for every kind of damping and on both sides of the series.
+    /// Against differences of fourth order of the propagator itself, for every kind of damping and on both
+    /// sides of the series.
     #[test]
     fn derivatives_of_the_propagator_are_those_of_differences() {
         let entries = |x: Propagator| [x.a, x.b, x.c, x.d];
@@ -253,7 +256,8 @@ mod tests {
         let propagator = Propagator::new(1e-3, 1e3, 1e4);
         let slow = 2e-3 / (1e3 + (1e6_f64 - 4e-3).sqrt());
         assert!((propagator.a / (-slow * 1e4_f64).exp() - 1.0).abs() < 1e-8);
-        // A stiffness of which the square of the damping leaves next to nothing: over 2e6 s the slow root makes exp(-1.3).
+        // A stiffness of which the square of the damping leaves next to nothing: over 2e6 s the slow root
+        // makes exp(-1.3).
         let stiff = Propagator::new(1.3, 2e6, 2e6);
         let slow = 2.6 / (2e6 + (4e12_f64 - 5.2).sqrt());
         assert!((stiff.a / (-slow * 2e6_f64).exp() - 1.0).abs() < 1e-12, "{}", stiff.a);

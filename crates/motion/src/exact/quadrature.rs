@@ -1,7 +1,7 @@
 //! Matrices of steps that are too long for the power series, by quadrature fine enough for every mode.
 //!
-//! With `I_k = int_0^{c_k} exp(A h (c_k - c)) l_j h dc`, `I_k = exp(A h (c_k - c_{k-1})) I_{k-1}` and the integral from one node to the next:
-//! one pass over the step serves all nodes.
+//! With `I_k = int_0^{c_k} exp(A h (c_k - c)) l_j h dc`, `I_k = exp(A h (c_k - c_{k-1})) I_{k-1}` and the
+//! integral from one node to the next: one pass over the step serves all nodes.
 
 use super::{
     block::Blocks,
@@ -12,14 +12,16 @@ use super::{
     weights::StepWeights,
 };
 
-/// Radians of a mode that sixteen Gauss points resolve, together with the polynomials of the step, to rounding.
+/// Radians of a mode that sixteen Gauss points resolve, together with the polynomials of the step, to
+/// rounding.
 const RADIANS: f64 = 4.0;
 
 /// `int exp(A (end - t)) l_j dt` of one block for each j: entries `[a, b, c, d]` of the propagator.
 type Integrals = [[f64; 4]; NODES];
 
 impl StepWeights {
-    /// Matrices of a step of any length; `active` lists elements, `velocity` tells whether their velocities are wanted.
+    /// Matrices of a step of any length; `active` lists elements, `velocity` tells whether their velocities
+    /// are wanted.
     pub fn by_quadrature(
         blocks: &Blocks,
         outputs: &[Output],
@@ -77,7 +79,8 @@ impl StepWeights {
         }
     }
 
-    /// Adds the response `(p, s)` of block i of n at a node, or at the end, to the j-th force of the b-th active element.
+    /// Adds the response `(p, s)` of block i of n at a node, or at the end, to the j-th force of the b-th
+    /// active element.
     fn add(
         &mut self,
         outputs: &[Output],

@@ -64,8 +64,8 @@ impl Recurrence {
         sums
     }
 
-    /// Largest magnitude of the two polynomials of highest degree: like all Jacobi polynomials with weights that do not grow beyond
-    /// the ends faster than a root, they have it at an end.
+    /// Largest magnitude of the two polynomials of highest degree: like all Jacobi polynomials with weights
+    /// that do not grow beyond the ends faster than a root, they have it at an end.
     pub fn highest(&self) -> f64 {
         let ends = [self.values(0.0), self.values(1.0)];
         ends.iter()

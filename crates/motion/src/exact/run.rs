@@ -19,7 +19,8 @@ pub(crate) struct Run {
     pub remaining: f64,
     /// Step length that the error allows next [s]; 0 if nothing is known.
     pub proposal: f64,
-    /// Length that the error allows a step that is graded towards an end of the contact [s]; 0 if nothing is known.
+    /// Length that the error allows a step that is graded towards an end of the contact [s]; 0 if nothing is
+    /// known.
     pub graded: f64,
     /// Length of the longest step of this contact, or of the last bold one [s], and steps since then.
     pub longest: (f64, u32),

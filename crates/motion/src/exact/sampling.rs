@@ -5,15 +5,17 @@ use super::{
     recurrence::gauss_sixteen,
 };
 
-/// Radians of a block that sixteen Gauss points resolve, together with the polynomials of the step, to rounding, and over which no term of the power series is larger
-/// than twice the impulse: what cancels is no more than a few roundings.
+/// Radians of a block that sixteen Gauss points resolve, together with the polynomials of the step, to
+/// rounding, and over which no term of the power series is larger than twice the impulse: what cancels is no
+/// more than a few roundings.
 const RADIANS: f64 = 2.0;
 
 impl ExactIntegrator {
-    /// Output and its derivatives at `time` after the start of the last solved step, which started from `state`.
+    /// Output and its derivatives at `time` after the start of the last solved step, which started from
+    /// `state`.
     ///
-    /// `r = r_particular + C exp(A t) x + int_0^t g(t - s) F(s) ds`, the integral by Gauss in the variable of the grading;
-    /// `r''` has the term `C A B F(t)` besides.
+    /// `r = r_particular + C exp(A t) x + int_0^t g(t - s) F(s) ds`, the integral by Gauss in the variable of
+    /// the grading; `r''` has the term `C A B F(t)` besides.
     pub(super) fn jet_in_step(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let (n, step, o) = (self.blocks.count(), &self.step, &self.outputs[output]);
         let mut jet = self.drive.jet(output, o, step.start + time);
@@ -38,8 +40,8 @@ impl ExactIntegrator {
         jet
     }
 
-    /// Sixteen times of Gauss from one time in the last solved step to another: how long before the end they are, and the impulses of the a-th active element's force
-    /// that they stand for.
+    /// Sixteen times of Gauss from one time in the last solved step to another: how long before the end they
+    /// are, and the impulses of the a-th active element's force that they stand for.
     #[inline(always)]
     fn impulses_in_step(&self, a: usize, (from, to): (f64, f64)) -> ([f64; 16], [f64; 16]) {
         let step = &self.step;
@@ -86,10 +88,11 @@ impl ExactIntegrator {
         jet
     }
 
-    /// Takes the homogeneous block state from one time to a later one in the last solved step, forces included.
+    /// Takes the homogeneous block state from one time to a later one in the last solved step, forces
+    /// included.
     ///
-    /// `x(t) = exp(A (t - t_0)) x(t_0) + int exp(A (t - s)) B F(s) ds`, by Gauss in the variable of the grading over panels that resolve every block; there the integral
-    /// is that of the power series.
+    /// `x(t) = exp(A (t - t_0)) x(t_0) + int exp(A (t - s)) B F(s) ds`, by Gauss in the variable of the
+    /// grading over panels that resolve every block; there the integral is that of the power series.
     pub(super) fn carry_in_step(&self, state: &mut [f64], from: f64, to: f64) {
         let fastest = self.rates.iter().fold(0.0_f64, |fastest, rate| fastest.max(*rate));
         let panels = (fastest * (to - from) / RADIANS).ceil().max(1.0);
@@ -103,7 +106,8 @@ impl ExactIntegrator {
         }
     }
 
-    /// An output and its derivatives at `time` in the last solved step, from the homogeneous state then: with the direct part of the forces.
+    /// An output and its derivatives at `time` in the last solved step, from the homogeneous state then: with
+    /// the direct part of the forces.
     pub(super) fn forced_jet(&self, state: &[f64], output: usize, time: f64) -> Jet {
         let step = &self.step;
         let mut jet = self.output_jet(state, output, step.start + time);

@@ -1,9 +1,9 @@
 //! A load at (or very near) resonance: the motion it drives from rest.
 //!
-//! `p' = s + Re(beta e)`, `s' = -k p - c s + Re(phi e)`, `e = exp(i (w t + angle))`, from `p = s = 0`. With `C = Re e`, `S = Im e` and
-//! `t C`, `t S` as further states, the motion and its derivative by the frequency solve one constant linear system
-//! of eight equations, whose exponential is finite whatever the distance from resonance. The constant load on a free block
-//! (gravity on a rigid mode) is the parabola.
+//! `p' = s + Re(beta e)`, `s' = -k p - c s + Re(phi e)`, `e = exp(i (w t + angle))`, from `p = s = 0`. With
+//! `C = Re e`, `S = Im e` and `t C`, `t S` as further states, the motion and its derivative by the frequency
+//! solve one constant linear system of eight equations, whose exponential is finite whatever the distance
+//! from resonance. The constant load on a free block (gravity on a rigid mode) is the parabola.
 
 use faer::c64;
 
@@ -71,8 +71,8 @@ impl SecularLoad {
         Self { block, stiffness, damping, frequency, input, is_change: false, system }
     }
 
-    /// The change of another block (or of the same) by what this load does, `s' = A s + K x` from rest; of it only [`SecularLoad::state`]
-    /// is told.
+    /// The change of another block (or of the same) by what this load does, `s' = A s + K x` from rest; of it
+    /// only [`SecularLoad::state`] is told.
     ///
     /// * `block`, `(k, c)`: the block that changes; `coupling`: `K`.
     pub fn change(&self, block: usize, (stiffness, damping): (f64, f64), coupling: &[[f64; 2]; 2]) -> Self {

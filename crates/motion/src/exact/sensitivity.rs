@@ -21,7 +21,8 @@ pub(crate) struct ColumnTail {
     pub tail: Tail,
 }
 
-/// The matrix `V` of 2n rows: a column per initial state, one for the frequency, one for a parameter if wanted, and padding to a multiple of four.
+/// The matrix `V` of 2n rows: a column per initial state, one for the frequency, one for a parameter if
+/// wanted, and padding to a multiple of four.
 ///
 /// Rows are contiguous, so every inner loop runs along a row.
 #[derive(Debug, Clone, Default)]
@@ -30,12 +31,14 @@ pub(crate) struct Sensitivity {
     columns: usize,
     values: Vec<f64>,
     has_parameter: bool,
-    /// Sensitivities of the speed with which the last contact of an element began; empty where nothing is remembered.
+    /// Sensitivities of the speed with which the last contact of an element began; empty where nothing is
+    /// remembered.
     impact_speeds: Vec<Vec<f64>>,
 }
 
 impl Sensitivity {
-    /// Sensitivities at the start of a stretch: `S^-1`, `frequency`, and the column of a parameter, if one is wanted.
+    /// Sensitivities at the start of a stretch: `S^-1`, `frequency`, and the column of a parameter, if one is
+    /// wanted.
     pub fn start(&mut self, blocks: &Blocks, frequency: &[f64], parameter: Option<&[f64]>) {
         self.rows = 2 * blocks.count();
         // An even number of rows leaves room for two columns besides.
@@ -141,7 +144,8 @@ impl Sensitivity {
         self.impact_speeds.get(element).map(Vec::as_slice).filter(|row| !row.is_empty())
     }
 
-    /// With nothing but a unit, in the first column, in the speed with which the present contact of an element began.
+    /// With nothing but a unit, in the first column, in the speed with which the present contact of an
+    /// element began.
     pub fn by_impact_speed_alone(&self, element: usize) -> Self {
         let values = vec![0.0; self.values.len()];
         let mut alone = Self { values, impact_speeds: Vec::new(), has_parameter: false, ..*self };

@@ -1,7 +1,7 @@
 //! Power series of a step of length h: its matrices, and outputs in it, from the Markov parameters `C A^m B`.
 //!
-//! All sums over the modes are made once; a new length costs next to nothing. Terms are scaled by the fastest rate, so that `z = h rate` tells how many
-//! are needed; a slow block needs fewer.
+//! All sums over the modes are made once; a new length costs next to nothing. Terms are scaled by the fastest
+//! rate, so that `z = h rate` tells how many are needed; a slow block needs fewer.
 
 use std::sync::OnceLock;
 
@@ -97,8 +97,8 @@ impl Series {
         REACH / self.rate
     }
 
-    /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part and from direct forces:
-    /// `C A^d (exp(A t) x + int exp(A (t - s)) B F ds)`.
+    /// Derivative `d` of output `o` at the nodes of a step within the reach, apart from the particular part
+    /// and from direct forces: `C A^d (exp(A t) x + int exp(A (t - s)) B F ds)`.
     ///
     /// * `state`: block state at the start of the step; `force`: node values, `[a * NODES + k]`.
     pub fn node_values(
@@ -133,7 +133,8 @@ impl Series {
         values.map(|value| value * self.rate.powi(derivative as i32))
     }
 
-    /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first powers there.
+    /// Terms needed at `z = h rate`: two more than those above rounding, since slow blocks have their first
+    /// powers there.
     pub(super) fn terms(z: f64) -> usize {
         // Up to which z the term m is rounding: `z^m/m! < 1e-18`.
         static LIMITS: OnceLock<Vec<f64>> = OnceLock::new();
@@ -160,8 +161,8 @@ impl Series {
         self.rates.iter().map(|rate| Self::terms(length * rate)).collect()
     }
 
-    /// Prepares a step within the reach: its convolution `W`, and `W'` if `velocity` says so. The rest follows with
-    /// [`StepWeights::set_propagators`] and [`Series::complete`].
+    /// Prepares a step within the reach: its convolution `W`, and `W'` if `velocity` says so. The rest
+    /// follows with [`StepWeights::set_propagators`] and [`Series::complete`].
     pub fn prepare(
         &self,
         (active, velocity): (&[usize], bool),
@@ -298,7 +299,8 @@ impl Series {
         values
     }
 
-    /// Velocities of the free motion at the nodes of a step from the readings at its start, apart from the particular part.
+    /// Velocities of the free motion at the nodes of a step from the readings at its start, apart from the
+    /// particular part.
     pub fn free_rates(&self, readings: &Readings, grading: Grading, length: f64) -> [f64; NODES] {
         let rule = grading.rule();
         let z = length * self.rate;
@@ -310,7 +312,8 @@ impl Series {
         rates.map(|rate| rate * self.rate)
     }
 
-    /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the direct part of the forces.
+    /// Output `o` and its derivatives at the end of a step, apart from the particular part and from the
+    /// direct part of the forces.
     pub fn end_jet(
         &self,
         (output, readings): (usize, &Readings),
@@ -341,7 +344,8 @@ impl Series {
     }
 }
 
-/// `sum_m L_im f_m R_m` for each entry i of the state, with as many terms as its block needs; `list` is indexed `[i * TERMS + m]`.
+/// `sum_m L_im f_m R_m` for each entry i of the state, with as many terms as its block needs; `list` is
+/// indexed `[i * TERMS + m]`.
 #[inline(always)]
 fn sum_powers(
     list: &[f64],

@@ -1,11 +1,15 @@
 //! Whether a run gets on.
 //!
-//! A pass through the loop of a run (`flow.rs`) moves time on, or changes what acts in one instant: a contact closes or opens, presses or parts, a stop is hit or lifts. That is an end of its own as
-//! a rule: between impacts velocities do not jump, so that in one instant every contact closes or opens at most once and presses or parts at most once, and does so again only where another one has
-//! changed the force meanwhile. With E elements these are fewer than `4 E^2` passes; up to 25 elements that is below [`MOST_CHANGES`] for each. If there are more, rounding leaves two decisions
-//! that contradict one another, and time stands still for ever.
+//! A pass through the loop of a run (`flow.rs`) moves time on, or changes what acts in one instant: a contact
+//! closes or opens, presses or parts, a stop is hit or lifts. That is an end of its own as a rule: between
+//! impacts velocities do not jump, so that in one instant every contact closes or opens at most once and
+//! presses or parts at most once, and does so again only where another one has changed the force meanwhile.
+//! With E elements these are fewer than `4 E^2` passes; up to 25 elements that is below [`MOST_CHANGES`] for
+//! each. If there are more, rounding leaves two decisions that contradict one another, and time stands still
+//! for ever.
 //!
-//! Impacts on rigid stops do turn velocities round, and chatter has any number of them within what time resolves. They are counted by themselves (`impact.rs`), and each begins an instant anew.
+//! Impacts on rigid stops do turn velocities round, and chatter has any number of them within what time
+//! resolves. They are counted by themselves (`impact.rs`), and each begins an instant anew.
 
 use super::run::Run;
 

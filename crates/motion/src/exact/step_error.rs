@@ -1,24 +1,28 @@
 //! The error of a solved step.
 //!
-//! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF` are expanded in the orthonormal
-//! polynomials of the step, up to the degree `m = NODES - 1`; the tail of a function is the magnitude of its two highest
-//! coefficients added, its decay D the tail over the same at half the degree. With the mobility `G` (of `C A B` what can follow within the step) and the largest relative
-//! velocity `V` that the present state can reach, or that the load gives it in the step,
+//! Over a step of length h the force `F` of each active element, its slope `f'` and its sensitivities `dF`
+//! are expanded in the orthonormal polynomials of the step, up to the degree `m = NODES - 1`; the tail of a
+//! function is the magnitude of its two highest coefficients added, its decay D the tail over the same at
+//! half the degree. With the mobility `G` (of `C A B` what can follow within the step) and the largest
+//! relative velocity `V` that the present state can reach, or that the load gives it in the step,
 //!
 //! `T = h G tail(F)/V`, or `sqrt(h G tail(F)/V . (h^2 G tail(f') + h G tail(f_v)))` if that is larger,
 //!
-//! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step, so the state at the end has
-//! about its square; `T D^2`, the force in the polynomials of twice the degree, if that is larger: near a half-integer power
-//! outside the step the coefficients fall slowly. Of the share `S` of the blocks that are not smooth over the step it has the
-//! error itself, and blocks so fast that the nodes do not resolve their part `U` in the force leave that part. The step is accepted if
+//! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step,
+//! so the state at the end has about its square; `T D^2`, the force in the polynomials of twice the degree,
+//! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Of the share
+//! `S` of the blocks that are not smooth over the step it has the error itself, and blocks so fast that the
+//! nodes do not resolve their part `U` in the force leave that part. The step is accepted if
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
-//! where T is also that of what held stops press with (`pressing.rs`),
-//! and, where sensitivities are wanted, the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
-//! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own. Before the first contact the motion does not depend on its stiffness, so there that column has no other scale than
-//! what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times the largest such part of the
-//! elements that act is taken off.
+//! where T is also that of what held stops press with (`pressing.rs`), and, where sensitivities are wanted,
+//! the same holds of them, relative to the largest sensitivity of a velocity (columns of displacements
+//! divided by the eigenfrequency). The columns by the frequency and by a parameter have scales of their own.
+//! Before the first contact the motion does not depend on its stiffness, so there that column has no other
+//! scale than what the contact itself makes: in one of the depth `p` it is known to the part `e/p`, with the
+//! rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times
+//! the largest such part of the elements that act is taken off.
 
 use std::sync::Arc;
 
@@ -64,7 +68,8 @@ struct Response {
     fast_share: f64,
 }
 
-/// What rounding of the displacements leaves in the tail of a column of a contact, in parts of the column times rounding over depth.
+/// What rounding of the displacements leaves in the tail of a column of a contact, in parts of the column
+/// times rounding over depth.
 const ROUNDING: f64 = 32.0;
 const HIGHEST: (i32, f64) = degree(NODES - 1);
 const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
@@ -86,7 +91,8 @@ impl ExactIntegrator {
         (self.blocks.stiffness[block] * p * p + s * s).sqrt()
     }
 
-    /// Error of the state at the end of the solved step, relative to its bound, to the power that makes it go like `h^NODES`.
+    /// Error of the state at the end of the solved step, relative to its bound, to the power that makes it go
+    /// like `h^NODES`.
     pub(super) fn state_error(&mut self, run: &Run) -> f64 {
         let mut amplitudes = std::mem::take(&mut self.step.unresolved);
         amplitudes.clear();
@@ -126,7 +132,8 @@ impl ExactIntegrator {
         largest.max(self.unresolved_excess())
     }
 
-    /// How much an element's force follows the vibration of each block in the solved step, per energy norm of the block.
+    /// How much an element's force follows the vibration of each block in the solved step, per energy norm of
+    /// the block.
     fn following(&self, element: usize, nodes: std::ops::Range<usize>) -> impl Fn(usize) -> f64 {
         let (step, output) = (&self.step, &self.outputs[element]);
         let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
@@ -134,7 +141,8 @@ impl ExactIntegrator {
         move |block| stiffest * output.value_bound[block] + viscous * output.first_bound[block]
     }
 
-    /// Energy norm of a block apart from what follows the present forces and their rates without vibrating: those are smooth.
+    /// Energy norm of a block apart from what follows the present forces and their rates without vibrating:
+    /// those are smooth.
     fn vibration(&self, run: &Run, block: usize) -> f64 {
         let n = self.blocks.count();
         let (k, c) = (self.blocks.stiffness[block], self.blocks.damping[block]);
@@ -163,8 +171,8 @@ impl ExactIntegrator {
 
     /// How an element's displacement responds to its force over the step.
     ///
-    /// A block that turns by z over the step has about `(z/4)^m/m!` of its response in the polynomial of degree m, and it moves by no more than
-    /// `2/z` of what it would without its stiffness.
+    /// A block that turns by z over the step has about `(z/4)^m/m!` of its response in the polynomial of
+    /// degree m, and it moves by no more than `2/z` of what it would without its stiffness.
     fn response(&self, element: usize) -> Response {
         let (mut mobility, mut fast) = (0.0, 0.0);
         for (rate, share) in self.rates.iter().zip(&self.shares[element]) {
@@ -206,7 +214,8 @@ impl ExactIntegrator {
         length
     }
 
-    /// Rounding of the displacement of the a-th active element, relative to the depth of its contact in the solved step; 0 where it always acts.
+    /// Rounding of the displacement of the a-th active element, relative to the depth of its contact in the
+    /// solved step; 0 where it always acts.
     fn relative_rounding(&self, run: &Run, a: usize) -> f64 {
         let element = self.step.active[a];
         let Some(contact) = self.closed_contact(run, element) else { return 0.0 };
@@ -215,7 +224,8 @@ impl ExactIntegrator {
         run.start[element].margin / depth.max(f64::MIN_POSITIVE)
     }
 
-    /// Solves for the sensitivities of the forces of the solved step; their error, 0 if none are wanted, `None` if the step is singular.
+    /// Solves for the sensitivities of the forces of the solved step; their error, 0 if none are wanted,
+    /// `None` if the step is singular.
     pub(super) fn sensitivity_error(&mut self, run: &Run) -> Option<f64> {
         let Some(sensitivity) = &run.sensitivity else { return Some(0.0) };
         if !self.step.weights.complete {
@@ -275,7 +285,8 @@ impl ExactIntegrator {
     }
 }
 
-/// About the part of `exp(i z t)` over a step in the polynomial of a degree: `(z/4)^degree/degree!`, at most 1.
+/// About the part of `exp(i z t)` over a step in the polynomial of a degree: `(z/4)^degree/degree!`, at most
+/// 1.
 fn highest_part(z: f64, (degree, factorial): &(i32, f64)) -> f64 {
     ((0.25 * z).powi(*degree) / factorial).min(1.0)
 }

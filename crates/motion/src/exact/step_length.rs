@@ -1,16 +1,26 @@
 //! How long steps with forces are tried.
 //!
-//! **A contact in two or three steps.** A Hertz contact of the duration T, struck and left, is about a half wave. The force of a step of length h that is graded at the touch is smooth in
-//! `s = sqrt(t/h)` up to the release, at `s = sqrt(T/h)`, and the nearer that is the slower its coefficients fall. So the error goes with the length faster than with a fixed power: from `0.3 T` to `0.5 T`
-//! with powers from 11 down to 5. A step to the release is the same seen backwards. One through the middle has a release or a touch beyond either end only, and bears nearly twice the length.
+//! **A contact in two or three steps.** A Hertz contact of the duration T, struck and left, is about a half
+//! wave. The force of a step of length h that is graded at the touch is smooth in `s = sqrt(t/h)` up to the
+//! release, at `s = sqrt(T/h)`, and the nearer that is the slower its coefficients fall. So the error goes
+//! with the length faster than with a fixed power: from `0.3 T` to `0.5 T` with powers from 11 down to 5. A
+//! step to the release is the same seen backwards. One through the middle has a release or a touch beyond
+//! either end only, and bears nearly twice the length.
 //!
-//! The error is relative to a bound that goes like the root of the tolerance (`step_error.rs`): two halves are enough for sensitivities down to a tolerance of 2.5e-10 ([`HALF_WITH_SENSITIVITIES`]). Below that a contact takes three steps: one from the touch that is as much shorter as the tolerance asks for, one
-//! through the middle, and one to the release, for which as much is left as the first step bore. Where the middle one does not reach so far there are more. The forecast of the release comes up to a tenth too early as a rule
-//! (`forecast.rs`), so the step before the last goes somewhat farther than it says.
+//! The error is relative to a bound that goes like the root of the tolerance (`step_error.rs`): two halves
+//! are enough for sensitivities down to a tolerance of 2.5e-10 ([`HALF_WITH_SENSITIVITIES`]). Below that a
+//! contact takes three steps: one from the touch that is as much shorter as the tolerance asks for, one
+//! through the middle, and one to the release, for which as much is left as the first step bore. Where the
+//! middle one does not reach so far there are more. The forecast of the release comes up to a tenth too early
+//! as a rule (`forecast.rs`), so the step before the last goes somewhat farther than it says.
 //!
-//! **Rounding.** A contact that swallows nearly all of its impact is stiff: its damper may be 1e6 times as strong as what it rests on, and what rounding leaves of the velocity makes errors that do not depend on the length of the
-//! step. Shortening step after step then leads nowhere: thousands were taken where long ones have no larger error. So where steps have halved over [`MANY`] of them a bold one is tried, and taken if its error is within its bound;
-//! in motions that carry tangent vectors along, which cannot avoid such contacts. A branch that comes to one ends there, where its contact splits, and is told to by the number of steps.
+//! **Rounding.** A contact that swallows nearly all of its impact is stiff: its damper may be 1e6 times as
+//! strong as what it rests on, and what rounding leaves of the velocity makes errors that do not depend on
+//! the length of the step. Shortening step after step then leads nowhere: thousands were taken where long
+//! ones have no larger error. So where steps have halved over [`MANY`] of them a bold one is tried, and taken
+//! if its error is within its bound; in motions that carry tangent vectors along, which cannot avoid such
+//! contacts. A branch that comes to one ends there, where its contact splits, and is told to by the number of
+//! steps.
 
 use super::{
     ExactIntegrator,
@@ -21,7 +31,8 @@ use super::{
     step_error::LONGEST_GROWTH,
 };
 
-/// Error of a graded step over half a stiff Hertz contact, relative to its bound at a tolerance of 1e-9, that of its sensitivities included.
+/// Error of a graded step over half a stiff Hertz contact, relative to its bound at a tolerance of 1e-9, that
+/// of its sensitivities included.
 const HALF_WITH_SENSITIVITIES: f64 = 0.35;
 /// The same of the state alone.
 const HALF_OF_THE_STATE: f64 = 0.1;
@@ -43,7 +54,8 @@ const BOLD: f64 = 4.0;
 const BACKWARDS: f64 = 0.94;
 
 impl ExactIntegrator {
-    /// The first try: to the release where it is expected within reach, else as far as the last step's error allows.
+    /// The first try: to the release where it is expected within reach, else as far as the last step's error
+    /// allows.
     pub(super) fn first_aim(&self, run: &Run, touched: Option<usize>, remaining: f64) -> Aim {
         let known = run.release.filter(|known| known.1 > run.time && self.may_come(run, known.0));
         let forecast = match known {
@@ -68,7 +80,8 @@ impl ExactIntegrator {
         Aim::free(length.min(remaining))
     }
 
-    /// The part of a contact that is tried from the touch: half of it, where that is expected to be accurate enough.
+    /// The part of a contact that is tried from the touch: half of it, where that is expected to be accurate
+    /// enough.
     fn first_part(&self, run: &Run) -> f64 {
         let usual = if run.sensitivity.is_some() { HALF_WITH_SENSITIVITIES } else { HALF_OF_THE_STATE };
         let error = usual * (1e-9 / self.settings.tolerance).sqrt();
@@ -105,7 +118,8 @@ impl ExactIntegrator {
     }
 }
 
-/// Notes the length of an accepted step, and says whether steps have become so much shorter that a bold one is due.
+/// Notes the length of an accepted step, and says whether steps have become so much shorter that a bold one
+/// is due.
 fn is_bold_one_due(run: &mut Run, length: f64) -> bool {
     let (longest, since) = run.longest;
     if run.proposal == 0.0 || length >= longest {

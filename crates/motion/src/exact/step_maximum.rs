@@ -1,14 +1,20 @@
 //! Maxima in force steps.
 //!
-//! In a force step the displacement of the response and the force of each element are taken as polynomials in the variable of the step, which tell where the largest value `r` is. They are not
-//! accurate enough for the value itself: that is computed once more from the convolution `r(t) = C exp(A t) x + int C exp(A (t - s)) B F(s) ds + r_particular(t)`, at the time
-//! where Newton's method finds `r'(t) = 0` for it, or at an end of the step. The force follows from it by its law; that of a law that depends on the velocity turns beside the displacement, and it is taken at the
-//! vertex of parabolas through the force itself, as is the acceleration, which follows from the forces.
+//! In a force step the displacement of the response and the force of each element are taken as polynomials in
+//! the variable of the step, which tell where the largest value `r` is. They are not accurate enough for the
+//! value itself: that is computed once more from the convolution `r(t) = C exp(A t) x + int C exp(A (t - s))
+//! B F(s) ds + r_particular(t)`, at the time where Newton's method finds `r'(t) = 0` for it, or at an end of
+//! the step. The force follows from it by its law; that of a law that depends on the velocity turns beside
+//! the displacement, and it is taken at the vertex of parabolas through the force itself, as is the
+//! acceleration, which follows from the forces.
 //!
-//! **Which steps are looked at.** Without forces the energy norm `|x_i|` of a block does not grow, and `|B_ai|` is the most that a unit of force adds per time (`touching.rs`). With the largest magnitude
-//! `F_a` of the Bernstein coefficients of each force, between which its polynomial lies, and the length h of the step,
+//! **Which steps are looked at.** Without forces the energy norm `|x_i|` of a block does not grow, and
+//! `|B_ai|` is the most that a unit of force adds per time (`touching.rs`). With the largest magnitude `F_a`
+//! of the Bernstein coefficients of each force, between which its polynomial lies, and the length h of the
+//! step,
 //!
-//! `|r''| <= P_2 + sum_i g_i^(2) (|x_i| + h sum_a |B_ai| F_a) + sum_a |G_a| F_a = B_2`, `|r(t)| <= |r| + |r'| h + B_2 h^2/2`
+//! `|r''| <= P_2 + sum_i g_i^(2) (|x_i| + h sum_a |B_ai| F_a) + sum_a |G_a| F_a = B_2`, `|r(t)| <= |r| + |r'|
+//! h + B_2 h^2/2`
 //!
 //! from the state at its start. A step whose bound is below what was found elsewhere is passed.
 
@@ -40,13 +46,17 @@ struct Peak {
 
 /// Relative difference of two values up to which their polynomials do not tell which is larger.
 const ALIKE: f64 = 1e-5;
-/// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as smooth as steps are.
+/// A polynomial through the nodes of a step exceeds its largest nodal value by less than this factor, as
+/// smooth as steps are.
 const BETWEEN_NODES: f64 = 1.5;
-/// Steps of Newton's method to the place of a largest displacement, or of parabolas to that of a largest force or acceleration.
+/// Steps of Newton's method to the place of a largest displacement, or of parabolas to that of a largest
+/// force or acceleration.
 const POLISHES: usize = 6;
-/// So near to it, in parts of the step, a parabola gives the value: what is left is of third order, 1e-12 of the variation in the step.
+/// So near to it, in parts of the step, a parabola gives the value: what is left is of third order, 1e-12 of
+/// the variation in the step.
 const NEAR: f64 = 1e-4;
-/// Distance of the points that a parabola is laid through, in parts of the step: so near to its vertex the value is the largest to 1e-12 of the variation in the step.
+/// Distance of the points that a parabola is laid through, in parts of the step: so near to its vertex the
+/// value is the largest to 1e-12 of the variation in the step.
 const BETWEEN_POINTS: f64 = 1e-3;
 
 impl Peaks {
@@ -114,7 +124,8 @@ impl ExactIntegrator {
         peaks.fold(elsewhere, |largest, peak| largest.max(self.exact_extremum(course, peak, f64::abs)))
     }
 
-    /// Largest of the forces that were noted: at the extremum of the displacement, or where the law depends on the velocity, of the force itself.
+    /// Largest of the forces that were noted: at the extremum of the displacement, or where the law depends
+    /// on the velocity, of the force itself.
     pub(super) fn largest_force(&mut self, course: &Course, peaks: Peaks) -> f64 {
         let mut largest = 0.0_f64;
         for peak in &peaks.peaks {
@@ -195,8 +206,8 @@ impl ExactIntegrator {
         peak.step.grading.map(peak.place).0 * peak.step.length
     }
 
-    /// Largest value that a function of the displacement has in the step of a peak, near its place: at the extremum of the displacement or at an
-    /// end of the step.
+    /// Largest value that a function of the displacement has in the step of a peak, near its place: at the
+    /// extremum of the displacement or at an end of the step.
     fn exact_extremum(&mut self, course: &Course, peak: &Peak, magnitude: impl Fn(f64) -> f64) -> f64 {
         let (length, output, state) = (peak.step.length, peak.output, course.numbers(peak.step.state));
         let mut time = self.recall_peak(course, peak);
@@ -227,8 +238,8 @@ impl ExactIntegrator {
         })
     }
 
-    /// Largest acceleration of the response in the step of a peak, near its place. The forces follow from the displacements, which are much more accurate
-    /// than their polynomials.
+    /// Largest acceleration of the response in the step of a peak, near its place. The forces follow from the
+    /// displacements, which are much more accurate than their polynomials.
     fn exact_acceleration(&mut self, course: &Course, peak: &Peak) -> f64 {
         let (response, state) = (self.laws.len(), course.numbers(peak.step.state));
         let (time, grading) = (self.recall_peak(course, peak), peak.step.grading);
@@ -251,7 +262,8 @@ impl ExactIntegrator {
         })
     }
 
-    /// Displacement (`derivative` 0) or acceleration (2) of the response point at the nodes of the solved step.
+    /// Displacement (`derivative` 0) or acceleration (2) of the response point at the nodes of the solved
+    /// step.
     fn response_nodes(&self, state: &[f64], derivative: usize) -> [f64; NODES] {
         let (step, response) = (&self.step, self.laws.len());
         let length = step.length;
@@ -274,7 +286,8 @@ impl ExactIntegrator {
     }
 }
 
-/// Largest value of a function in a step of that length, near a time: the vertices of parabolas through three values close to one another, as long as they move, or an end of the step.
+/// Largest value of a function in a step of that length, near a time: the vertices of parabolas through three
+/// values close to one another, as long as they move, or an end of the step.
 fn largest_near(time: f64, length: f64, value: impl Fn(f64) -> f64) -> f64 {
     let (mut time, between) = (time, BETWEEN_POINTS * length);
     let mut largest = value(time);

@@ -1,18 +1,24 @@
 //! Rigid stops that stick, and how they let go.
 //!
-//! **Going over.** An impact without restitution, or a chatter that comes to its end, leaves the structure held (`held.rs`) if it is pressed on behind the impact: there, as dampers have lost the speed
-//! that the impact took, `r''` is not lower than before, as long as the same stops are held. With the rates `h` of the state a neighbour, who comes `dt = -dr/v` later, has `V+ = V + (h_before - h_behind) dt` besides what the
+//! **Going over.** An impact without restitution, or a chatter that comes to its end, leaves the structure
+//! held (`held.rs`) if it is pressed on behind the impact: there, as dampers have lost the speed that the
+//! impact took, `r''` is not lower than before, as long as the same stops are held. With the rates `h` of the
+//! state a neighbour, who comes `dt = -dr/v` later, has `V+ = V + (h_before - h_behind) dt` besides what the
 //! projection takes, and since the velocities jump by `B P`, `P = -v/D`,
 //!
 //! `V+ = V - A B dr/D + (sum_e B_e [F_e] + sum_j B_j lambda_j) dr/v`,
 //!
-//! where `[F_e]` are the jumps of forces that depend on the velocity (`velocity_jump.rs`), and `lambda_j` is what held stops pressed with that the impact throws off. As v goes to zero `[F_e]/v`
-//! keeps its value `-f_v,e G_e/D`, `G_e = C_e A B`, so the end of a chatter is no exception; a stop that sticks at the start of a stretch has this limit alone.
+//! where `[F_e]` are the jumps of forces that depend on the velocity (`velocity_jump.rs`), and `lambda_j` is
+//! what held stops pressed with that the impact throws off. As v goes to zero `[F_e]/v` keeps its value
+//! `-f_v,e G_e/D`, `G_e = C_e A B`, so the end of a chatter is no exception; a stop that sticks at the start
+//! of a stretch has this limit alone.
 //!
-//! **Letting go** where the pressing force vanishes continuously changes nothing in the sensitivities. Where it falls to `lambda_j < 0` by a jump, at a touch or an impact, whether that sticks or not, that
-//! comes `dt = -dr/v` later for a neighbour, the stop presses no more from then on, and `V+ = V + B_j lambda_j dr/v`.
+//! **Letting go** where the pressing force vanishes continuously changes nothing in the sensitivities. Where
+//! it falls to `lambda_j < 0` by a jump, at a touch or an impact, whether that sticks or not, that comes `dt
+//! = -dr/v` later for a neighbour, the stop presses no more from then on, and `V+ = V + B_j lambda_j dr/v`.
 //!
-//! Forces of other elements act through all of it: they are in the acceleration that presses, and in the pressing forces (`pressing.rs`).
+//! Forces of other elements act through all of it: they are in the acceleration that presses, and in the
+//! pressing forces (`pressing.rs`).
 
 use super::{
     ExactIntegrator, MotionError,
@@ -73,7 +79,8 @@ impl ExactIntegrator {
         self.system.elements()[element].shape.iter().map(|phi| phi * phi).sum()
     }
 
-    /// Whether a touch beside held stops is so slow that the impacts with which they would throw one another off, to and fro, are at their end: then all are held, as far as they press.
+    /// Whether a touch beside held stops is so slow that the impacts with which they would throw one another
+    /// off, to and fro, are at their end: then all are held, as far as they press.
     pub(super) fn comes_to_rest_beside_others(&self, run: &Run, element: usize) -> bool {
         let before = self.jet_with_forces(run, element);
         let margin = self.bounds(&run.state, element, self.stretch.duration()).margin;
@@ -129,7 +136,8 @@ impl ExactIntegrator {
         speed <= AT_REST * self.speed_bound(&run.state, element)
     }
 
-    /// `r''` of an element after a time of flight from now, in which forces that act follow the displacements alone.
+    /// `r''` of an element after a time of flight from now, in which forces that act follow the displacements
+    /// alone.
     fn press_after(&self, run: &Run, element: usize, time: f64) -> f64 {
         let mut state = run.state.clone();
         self.blocks.carry(&mut state, time);
@@ -160,7 +168,8 @@ impl ExactIntegrator {
         self.let_go_of_tension(run, moves.then_some((&displacement, speed)))
     }
 
-    /// Lets held stops go that would have to pull, now that another one is held, too, by an impact with this speed; the strongest first.
+    /// Lets held stops go that would have to pull, now that another one is held, too, by an impact with this
+    /// speed; the strongest first.
     fn let_go_of_tension(&mut self, run: &mut Run, impact: Option<(&[f64], f64)>) -> Result<(), MotionError> {
         while run.stuck.len() > 1 {
             let pressing = self.pressing_forces(run, &run.state, run.time);
@@ -174,7 +183,8 @@ impl ExactIntegrator {
         Ok(())
     }
 
-    /// Lets held stops go that would have to pull after a jump of forces or velocities that comes `-dr/speed` later for a neighbour, the strongest first.
+    /// Lets held stops go that would have to pull after a jump of forces or velocities that comes `-dr/speed`
+    /// later for a neighbour, the strongest first.
     pub(super) fn throw_off(
         &mut self,
         run: &mut Run,

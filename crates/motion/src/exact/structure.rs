@@ -1,4 +1,5 @@
-//! What the integrator computes with, the free structure or one that is held on rigid stops (`held.rs`), and all that follows from its blocks.
+//! What the integrator computes with, the free structure or one that is held on rigid stops (`held.rs`), and
+//! all that follows from its blocks.
 
 use std::{collections::HashMap, sync::Arc};
 
@@ -7,7 +8,8 @@ use super::{
     weights::StepWeights,
 };
 
-/// Matrices of steps beyond the reach of the series, by their active elements, grading and place on the grid of lengths.
+/// Matrices of steps beyond the reach of the series, by their active elements, grading and place on the grid
+/// of lengths.
 pub(super) type KeptWeights = HashMap<(Vec<usize>, Grading, i32), Arc<StepWeights>>;
 
 /// A structure in its blocks.

@@ -1,38 +1,47 @@
-//! Open contacts that close while forces act, and closed ones that open: the certified search of a flight (`clearance.rs`), with forces.
+//! Open contacts that close while forces act, and closed ones that open: the certified search of a flight
+//! (`clearance.rs`), with forces.
 //!
-//! In a solved step the forces are known polynomials, so the relative displacement `r` of an open element is a known function too. With the
-//! homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`, over the row `C` of the element and with the mobility `G = C A B`
-//! (`C B` vanishes):
+//! In a solved step the forces are known polynomials, so the relative displacement `r` of an open element is
+//! a known function too. With the homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`,
+//! over the row `C` of the element and with the mobility `G = C A B` (`C B` vanishes):
 //!
-//! `r'' = r_particular'' + C A^2 x + sum_a G_a F_a`, `r''' = r_particular''' + C A^3 x + sum_a (C A^2 B_a F_a + G_a F_a')`.
+//! `r'' = r_particular'' + C A^2 x + sum_a G_a F_a`, `r''' = r_particular''' + C A^3 x + sum_a (C A^2 B_a F_a
+//! + G_a F_a')`.
 //!
-//! **What is proved.** A constant part `M_a` of each force, the middle of its range, only moves the rest position of every block: with
-//! `y = x + sum_a A^-1 B_a M_a`, `r'' = r_particular'' + C A^2 y + sum_a G_a (F_a - M_a)`. (A rigid block has no such position: for it y is x, and
-//! it takes the whole force.) The energy norm `|y_i|` of a block decays without forces, and `|B_ai| R_a` is the most that a force of the range
-//! `|F_a - M_a| <= R_a` can add per time. So over a window of length T from the state at a look,
+//! **What is proved.** A constant part `M_a` of each force, the middle of its range, only moves the rest
+//! position of every block: with `y = x + sum_a A^-1 B_a M_a`, `r'' = r_particular'' + C A^2 y + sum_a G_a
+//! (F_a - M_a)`. (A rigid block has no such position: for it y is x, and it takes the whole force.) The
+//! energy norm `|y_i|` of a block decays without forces, and `|B_ai| R_a` is the most that a force of the
+//! range `|F_a - M_a| <= R_a` can add per time. So over a window of length T from the state at a look,
 //!
 //! `B_2 = P_2 + sum_i g_i^(2) (|y_i| + T sum_a |B_ai| R_a) + sum_a |G_a| R_a`,
 //! `B_3 = P_3 + sum_i g_i^(3) (|y_i| + T sum_a |B_ai| R_a) + sum_a (|C A^2 B_a| R_a + |G_a| rate_a)`
 //!
-//! bound `|r''|` and, apart from jumps, `|r'''|`: `r''` is nowhere lower than `r''(0) - J - B_3 t` with `J = sum_a |G_a| jump_a`. The `P` bound the particular
-//! solution, the `g^(d)` are the factors of the output's derivatives on the energy norms, and middle, range, rate and jump are those of
-//! `force_bound.rs`: finite for every grading. With the second derivative `r''(0) - J` these are the bounds that
-//! the safe steps of `clearance.rs` need, so no contact of the motion *that is computed* is missed, down to the margin. What that differs from
-//! the exact motion is the error of the step. The window is the rest of the step at first; where the safe step is much shorter, a
-//! window of its size gives better bounds.
+//! bound `|r''|` and, apart from jumps, `|r'''|`: `r''` is nowhere lower than `r''(0) - J - B_3 t` with `J =
+//! sum_a |G_a| jump_a`. The `P` bound the particular solution, the `g^(d)` are the factors of the output's
+//! derivatives on the energy norms, and middle, range, rate and jump are those of `force_bound.rs`: finite
+//! for every grading. With the second derivative `r''(0) - J` these are the bounds that the safe steps of
+//! `clearance.rs` need, so no contact of the motion *that is computed* is missed, down to the margin. What
+//! that differs from the exact motion is the error of the step. The window is the rest of the step at first;
+//! where the safe step is much shorter, a window of its size gives better bounds.
 //!
-//! **A closed contact** opens where its penetration ends, or its pressure. Where `enclosure.rs` proves that it does not, nothing is searched; else the search is the same, for the penetration or for `-s` below. It goes on to what the
-//! location of an event leaves open of the end of the step; an opening that it finds in the first part [`SAME`] of the step is none, since what the contact does there was decided as the step began.
+//! **A closed contact** opens where its penetration ends, or its pressure. Where `enclosure.rs` proves that
+//! it does not, nothing is searched; else the search is the same, for the penetration or for `-s` below. It
+//! goes on to what the location of an event leaves open of the end of the step; an opening that it finds in
+//! the first part [`SAME`] of the step is none, since what the contact does there was decided as the step
+//! began.
 //!
-//! **A contact that has parted** is watched for its pressure `s = a p + b p' + d` to come back, with `|s''| <= a B_2 + b B_3` apart from the jump, which is
-//! taken off `s'`; and for its penetration to end.
+//! **A contact that has parted** is watched for its pressure `s = a p + b p' + d` to come back, with `|s''|
+//! <= a B_2 + b B_3` apart from the jump, which is taken off `s'`; and for its penetration to end.
 //!
-//! **The margin.** Every look carries the state on from the last one by the exact propagators and a quadrature that leaves rounding, so the
-//! margin grows with the number of looks k: `(8 + k) eps` times the sum of the magnitudes of the terms of `r`, those of the forces included. A
-//! clearance within it that still falls is a contact; a minimum within it is a graze.
+//! **The margin.** Every look carries the state on from the last one by the exact propagators and a
+//! quadrature that leaves rounding, so the margin grows with the number of looks k: `(8 + k) eps` times the
+//! sum of the magnitudes of the terms of `r`, those of the forces included. A clearance within it that still
+//! falls is a contact; a minimum within it is a graze.
 //!
-//! **When it cannot decide.** After [`MAX_LOOKS`] looks at a contact the search says [`Unresolved`], and the step is shortened: in a shorter step the
-//! same number of looks goes further, since every look gets on by at least `sqrt(2 margin/B_2)`.
+//! **When it cannot decide.** After [`MAX_LOOKS`] looks at a contact the search says [`Unresolved`], and the
+//! step is shortened: in a shorter step the same number of looks goes further, since every look gets on by at
+//! least `sqrt(2 margin/B_2)`.
 
 use super::{
     ExactIntegrator,
@@ -56,7 +65,8 @@ const WINDOWS: usize = 4;
 pub(super) struct Unresolved;
 
 impl ExactIntegrator {
-    /// The first open contact that closes within the solved step, and when. That of `event` closes at its end, those `excused` are not looked for.
+    /// The first open contact that closes within the solved step, and when. That of `event` closes at its
+    /// end, those `excused` are not looked for.
     pub(super) fn first_touch_in_step(
         &mut self,
         run: &Run,
@@ -95,7 +105,8 @@ impl ExactIntegrator {
         Ok(first)
     }
 
-    /// The first closed contact that opens within the solved step, and when, if it is not proved that none does. That of `event` opens at its end, those `excused` are not looked for.
+    /// The first closed contact that opens within the solved step, and when, if it is not proved that none
+    /// does. That of `event` opens at its end, those `excused` are not looked for.
     pub(super) fn first_opening_in_step(
         &mut self,
         run: &Run,
@@ -128,7 +139,8 @@ impl ExactIntegrator {
         Ok(first)
     }
 
-    /// Time in the step before which an element is not looked at: it has just left its rigid stop, and rounding would decide on its clearance.
+    /// Time in the step before which an element is not looked at: it has just left its rigid stop, and
+    /// rounding would decide on its clearance.
     pub(super) fn looked_past(&self, run: &Run, element: usize) -> f64 {
         match run.lifted {
             Some((lifted, until)) if lifted == element => (until - run.time).max(0.0),
@@ -282,7 +294,8 @@ impl<'a> Search<'a> {
         Err(Unresolved)
     }
 
-    /// Whether a contact that was just released comes back before it rises above what its own location left undecided.
+    /// Whether a contact that was just released comes back before it rises above what its own location left
+    /// undecided.
     fn closes_again_at_once(&self) -> bool {
         if self.touch.boundary != Boundary::Closes {
             return false;
@@ -340,7 +353,8 @@ impl<'a> Search<'a> {
         distance
     }
 
-    /// The lowest derivatives with the jumps of the forces: `r''` may be lower by J, and so the rate of a pressure by J times its part of the velocity.
+    /// The lowest derivatives with the jumps of the forces: `r''` may be lower by J, and so the rate of a
+    /// pressure by J times its part of the velocity.
     fn cautious(&self, clearance: Jet) -> Jet {
         match self.integrator.laws[self.touch.element].pressure() {
             Some(pressure) if self.touch.boundary == Boundary::Presses => {

@@ -1,13 +1,16 @@
-//! A motion written down: its states at given phases, and each of its contacts. What each piece of motion adds to it is in `tracing.rs`.
+//! A motion written down: its states at given phases, and each of its contacts. What each piece of motion
+//! adds to it is in `tracing.rs`.
 //!
-//! In flight a state is that of the closed form; inside a step with forces it is carried there from the start of the step, forces included
-//! (`sampling.rs`). Of a contact force `F(t)` that acts along the relative displacement `r` are noted
+//! In flight a state is that of the closed form; inside a step with forces it is carried there from the start
+//! of the step, forces included (`sampling.rs`). Of a contact force `F(t)` that acts along the relative
+//! displacement `r` are noted
 //!
 //! `impulse = int F dt`, `energy lost = - int F r' dt`
 //!
-//! by Gauss' rule on the nodes of the steps, where `F` and `r` obey the law and `r'` follows from the convolution with the modes. The energy lost by a
-//! law that depends on the displacement alone is zero over a whole contact; what comes out is the error of the steps. The largest force is that
-//! of its polynomial, which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
+//! by Gauss' rule on the nodes of the steps, where `F` and `r` obey the law and `r'` follows from the
+//! convolution with the modes. The energy lost by a law that depends on the displacement alone is zero over a
+//! whole contact; what comes out is the error of the steps. The largest force is that of its polynomial,
+//! which is good to about 1e-5; maxima that are better are those of `maxima.rs`.
 
 use super::{ExactIntegrator, MotionError, run::Run};
 use crate::Stretch;
@@ -45,11 +48,13 @@ pub struct ContactPiece {
     pub jump: Option<Jump>,
     /// When it opened, since the start of the stretch [s]; `None` if it is closed at the end of the stretch.
     pub end: Option<f64>,
-    /// When its penetration ended [s]: later than `end` where the force had vanished before; `None` if that is beyond the end of the stretch.
+    /// When its penetration ended [s]: later than `end` where the force had vanished before; `None` if that
+    /// is beyond the end of the stretch.
     pub clear: Option<f64>,
     /// Integral of the magnitude of the force [N s].
     pub impulse: f64,
-    /// Largest magnitude of the force [N]; of an impact on a rigid stop 0, of one that sticks that of the pressing force after it.
+    /// Largest magnitude of the force [N]; of an impact on a rigid stop 0, of one that sticks that of the
+    /// pressing force after it.
     pub peak_force: f64,
     /// Energy that the structure gave to the contact and did not get back [J].
     pub energy_lost: f64,
@@ -74,7 +79,8 @@ pub struct Trace {
     pub forces: Vec<Vec<f64>>,
     /// Contacts in the order in which they closed.
     pub contacts: Vec<ContactPiece>,
-    /// States within contacts, besides those at the phases, as far as [`ExactIntegrator::trace_closely`] asks for them; ascending in time.
+    /// States within contacts, besides those at the phases, as far as [`ExactIntegrator::trace_closely`] asks
+    /// for them; ascending in time.
     pub inside: Vec<Inside>,
 }
 
@@ -102,7 +108,8 @@ pub(super) struct Tracing {
 }
 
 impl Tracing {
-    /// Times at which the state is wanted in a step: at given phases, and within a contact at equal steps besides, where those are too few.
+    /// Times at which the state is wanted in a step: at given phases, and within a contact at equal steps
+    /// besides, where those are too few.
     fn due(&self, start: f64, length: f64) -> (Vec<f64>, Vec<f64>) {
         let left = self.times[self.trace.samples.len()..].iter().copied();
         let given: Vec<f64> = left.take_while(|time| *time < start + length).collect();
@@ -128,7 +135,8 @@ impl Tracing {
         }
     }
 
-    /// Ends the pieces of elements without force. Those that have parted before their penetration has ended may go on.
+    /// Ends the pieces of elements without force. Those that have parted before their penetration has ended
+    /// may go on.
     pub(super) fn end_open(&mut self, run: &Run) {
         for (element, open) in self.open.iter_mut().enumerate() {
             let Some(piece) = *open else { continue };
@@ -162,7 +170,8 @@ impl Tracing {
 }
 
 impl ExactIntegrator {
-    /// A motion over a stretch from `state`, with its states at `phases` [cycles, ascending, within the stretch] and its contacts.
+    /// A motion over a stretch from `state`, with its states at `phases` [cycles, ascending, within the
+    /// stretch] and its contacts.
     ///
     /// # Errors
     /// See [`MotionError`].
@@ -170,9 +179,11 @@ impl ExactIntegrator {
         self.trace_closely(stretch, state, phases, 0)
     }
 
-    /// As [`Self::trace`], with states within contacts that are too short for the phases: the trace has [`Trace::inside`].
+    /// As [`Self::trace`], with states within contacts that are too short for the phases: the trace has
+    /// [`Trace::inside`].
     ///
-    /// * `in_a_step`: so many at equal distances in each step of the integrator in which something is in contact and fewer of the phases lie. A contact takes some three steps.
+    /// * `in_a_step`: so many at equal distances in each step of the integrator in which something is in
+    ///   contact and fewer of the phases lie. A contact takes some three steps.
     ///
     /// # Errors
     /// See [`MotionError`].

@@ -22,7 +22,9 @@ impl Valley {
     }
 }
 
-/// The lowest valleys of an element's force, at most so many, among the nodes of the steps that one contact lasts, the lowest first. An orbit begins as it ends: its first stretch is looked at once more behind the last.
+/// The lowest valleys of an element's force, at most so many, among the nodes of the steps that one contact
+/// lasts, the lowest first. An orbit begins as it ends: its first stretch is looked at once more behind the
+/// last.
 pub(super) fn lowest_valleys(course: &Course, element: usize, most: usize) -> Vec<Valley> {
     let mut valleys: Vec<Valley> = Vec::new();
     let (mut earlier, mut middle) = (f64::NAN, None::<Valley>);

@@ -1,11 +1,14 @@
 //! What the jump of the velocities at an impact does to forces that depend on them.
 //!
-//! An impact with the impulse P takes the relative velocity of an element e from `r_e'` to `r_e' + G_e P`, with `G_e = C_e A B`, and its force jumps by `[F_e]`. A neighbour comes `dt = -dr/v` later,
-//! and for so long has the force before the impact in place of the one behind it: `V+ = V + sum_e B_e [F_e] dr/v`.
+//! An impact with the impulse P takes the relative velocity of an element e from `r_e'` to `r_e' + G_e P`,
+//! with `G_e = C_e A B`, and its force jumps by `[F_e]`. A neighbour comes `dt = -dr/v` later, and for so
+//! long has the force before the impact in place of the one behind it: `V+ = V + sum_e B_e [F_e] dr/v`.
 //!
-//! **Pressure.** Every law is linear in the velocity while it presses. Where a contact presses before and behind the impact, `[F_e] = f_v,e G_e P`, and since P is proportional to v the quotient
-//! `[F_e]/v` does not depend on the speed: it is taken so, and keeps its digits as `v -> 0`. Where the jump ends the pressure or begins it, one of both forces is zero and the other one is pressure that
-//! the jump of velocity takes or gives: `[F_e]/v` lies between zero and `f_v,e G_e P/v`, and is computed as it stands.
+//! **Pressure.** Every law is linear in the velocity while it presses. Where a contact presses before and
+//! behind the impact, `[F_e] = f_v,e G_e P`, and since P is proportional to v the quotient `[F_e]/v` does not
+//! depend on the speed: it is taken so, and keeps its digits as `v -> 0`. Where the jump ends the pressure or
+//! begins it, one of both forces is zero and the other one is pressure that the jump of velocity takes or
+//! gives: `[F_e]/v` lies between zero and `f_v,e G_e P/v`, and is computed as it stands.
 
 use super::{
     ExactIntegrator,
@@ -18,7 +21,8 @@ use super::{
 type VelocityForce = (usize, Option<f64>);
 
 impl ExactIntegrator {
-    /// Lets the velocities jump by an impulse on the element that is hit, and the pressures with them; `[F_e]/v` of each force that jumps, v the speed of the impact.
+    /// Lets the velocities jump by an impulse on the element that is hit, and the pressures with them;
+    /// `[F_e]/v` of each force that jumps, v the speed of the impact.
     pub(super) fn jump_velocities(&self, run: &mut Run, impact: &Impact, impulse: f64) -> Vec<(usize, f64)> {
         let hit = impact.touch.element;
         let before = self.velocity_forces(run);

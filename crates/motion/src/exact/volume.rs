@@ -1,24 +1,32 @@
 //! What contacts do to volumes of states, over and above the damping of the structure.
 //!
-//! Neighbours of a motion fill a volume that goes like `|det V|`, with the sensitivities V by the initial state. While a contact lasts, `V' = A V + b u`, where `b` is the derivative of
-//! the rate of the state by the speed that the law remembers and `u` that of the speed by the initial state, which stays as it was at the touch (without such a law there is no `b`). Over a step
+//! Neighbours of a motion fill a volume that goes like `|det V|`, with the sensitivities V by the initial
+//! state. While a contact lasts, `V' = A V + b u`, where `b` is the derivative of the rate of the state by
+//! the speed that the law remembers and `u` that of the speed by the initial state, which stays as it was at
+//! the touch (without such a law there is no `b`). Over a step
 //!
 //! `V_1 = P V_0 + p u`, `ln |det P| = int tr A dt`,
 //!
-//! where `p` is what a unit of speed makes of a state that begins with nothing. Of `tr A` the contact has `int phi^T phi df/dr' dt`, and since `det (V_1 - p u) = det V_1 det (1 - w p)` with
-//! the derivative `w = u V_1^-1` of the speed by the present state,
+//! where `p` is what a unit of speed makes of a state that begins with nothing. Of `tr A` the contact has
+//! `int phi^T phi df/dr' dt`, and since `det (V_1 - p u) = det V_1 det (1 - w p)` with the derivative `w = u
+//! V_1^-1` of the speed by the present state,
 //!
 //! `ln |det V_1| - ln |det V_0| = int tr A dt - ln |det (1 - w p)|`;
 //!
-//! with several contacts w has a row and p a column for each. So a contact with memory is a field with one more divergence, `b w`: neighbours that are faster now were struck
-//! faster. In a sum that is held against exponents this checks the trace and P, and takes `p` and `u` as they are; those are held against the general integrator (`tests/onwards.rs` and
-//! the exponents of such laws).
+//! with several contacts w has a row and p a column for each. So a contact with memory is a field with one
+//! more divergence, `b w`: neighbours that are faster now were struck faster. In a sum that is held against
+//! exponents this checks the trace and P, and takes `p` and `u` as they are; those are held against the
+//! general integrator (`tests/onwards.rs` and the exponents of such laws).
 //!
-//! **Cancellation.** A contact that begins slowly and is pressed on loses energy as if it were drowned: one direction of P shrinks by e^-40 in a contact, and `1 - w p` with it, while that of V does not.
-//! Of `1 - w p` the error of p is left, over it. So steps in which it would shrink by more than [`MOST_SHRINKING`] are made shorter, and the error of a step is amplified by e^8, three thousand, at most. After [`MOST_CUTS`] such steps in a stretch
-//! (a contact of small restitution that is pressed on for long) they are taken as they are, and what happens to volumes is not told: it is not a number.
+//! **Cancellation.** A contact that begins slowly and is pressed on loses energy as if it were drowned: one
+//! direction of P shrinks by e^-40 in a contact, and `1 - w p` with it, while that of V does not. Of `1 - w
+//! p` the error of p is left, over it. So steps in which it would shrink by more than [`MOST_SHRINKING`] are
+//! made shorter, and the error of a step is amplified by e^8, three thousand, at most. After [`MOST_CUTS`]
+//! such steps in a stretch (a contact of small restitution that is pressed on for long) they are taken as
+//! they are, and what happens to volumes is not told: it is not a number.
 //!
-//! A touch and a release add nothing, since forces that jump there do so with a determinant of one (`onset.rs`); for impacts see `impact.rs` and `stick.rs`.
+//! A touch and a release add nothing, since forces that jump there do so with a determinant of one
+//! (`onset.rs`); for impacts see `impact.rs` and `stick.rs`.
 
 use faer::{Mat, linalg::solvers::Solve};
 
@@ -30,7 +38,8 @@ const MOST_SHRINKING: f64 = 8.0;
 const MOST_CUTS: u32 = 100;
 
 impl ExactIntegrator {
-    /// A length for the solved step with which what it does to volumes can be told, if it is too long for that.
+    /// A length for the solved step with which what it does to volumes can be told, if it is too long for
+    /// that.
     pub(super) fn shorter_for_volume(&mut self, run: &Run) -> Option<f64> {
         let sensitivity = run.sensitivity.as_ref().filter(|_| self.goes_on && self.step.damped)?;
         if !self.step.active.iter().any(|&e| sensitivity.impact_speed(e).is_some()) {

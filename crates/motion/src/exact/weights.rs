@@ -1,12 +1,14 @@
 //! Matrices of one force step of length h, for the active elements.
 //!
-//! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate docs). For short steps all of
-//! them come from power series in h (`collocation.rs`, `series.rs`): the sums over the modes are in the Markov parameters `C A^m B`, made once, so a
-//! new step length costs next to nothing. Where `h` times the fastest rate exceeds [`REACH`](super::collocation::REACH), they come from quadrature (`quadrature.rs`)
-//! fine enough for every mode; such steps have lengths on a grid and their matrices are kept.
+//! `r_k = r_particular + X_k x + sum W_kj F_j` at the nodes and `x+ = E x + P F` at the end (see the crate
+//! docs). For short steps all of them come from power series in h (`collocation.rs`, `series.rs`): the sums
+//! over the modes are in the Markov parameters `C A^m B`, made once, so a new step length costs next to
+//! nothing. Where `h` times the fastest rate exceeds [`REACH`](super::collocation::REACH), they come from
+//! quadrature (`quadrature.rs`) fine enough for every mode; such steps have lengths on a grid and their
+//! matrices are kept.
 //!
-//! Where a law depends on the velocity, `r'_k = r'_particular + X'_k x + sum W'_kj F_j` is wanted besides. `W'` and `X'` are the same with `C A`
-//! instead of C (`C B` vanishes); elsewhere they are not made.
+//! Where a law depends on the velocity, `r'_k = r'_particular + X'_k x + sum W'_kj F_j` is wanted besides.
+//! `W'` and `X'` are the same with `C A` instead of C (`C B` vanishes); elsewhere they are not made.
 
 use super::{
     block::Blocks,

@@ -1,8 +1,8 @@
 //! Where a function that is known with its slope at both ends of an interval has a lowest place inside.
 //!
 //! With the values `s_0, s_1` and the slopes `m_0, m_1` (by `t` from 0 to 1) Hermite's cubic has the slope
-//! `m_0 (1-t)(1-3t) + m_1 t (3t-2) + 6 (s_1-s_0) t (1-t)`, a parabola. A sign change of it from minus to plus is a lowest place, also where both ends rise or both fall:
-//! then a highest place lies beside it.
+//! `m_0 (1-t)(1-3t) + m_1 t (3t-2) + 6 (s_1-s_0) t (1-t)`, a parabola. A sign change of it from minus to plus
+//! is a lowest place, also where both ends rise or both fall: then a highest place lies beside it.
 
 /// An interval in which a function has a lowest place.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -22,12 +22,13 @@ pub enum Column {
     ByParameter,
 }
 
-/// A vector field `dz/dt = g(t, z; p)`, smooth within regions bounded by zeros of switching functions `s_k(t, z)`.
+/// A vector field `dz/dt = g(t, z; p)`, smooth within regions bounded by zeros of switching functions `s_k(t,
+/// z)`.
 ///
-/// Across a boundary `g` should be continuous (its derivatives may jump), so that sensitivities are continuous too; where it is not,
-/// [`VectorField::jump`] tells how they jump.
-/// Within a step the field is evaluated in one region, [`Point::inside`], even where a stage of the method lies beyond
-/// its boundary: there the field continues smoothly, if it can.
+/// Across a boundary `g` should be continuous (its derivatives may jump), so that sensitivities are
+/// continuous too; where it is not, [`VectorField::jump`] tells how they jump. Within a step the field is
+/// evaluated in one region, [`Point::inside`], even where a stage of the method lies beyond its boundary:
+/// there the field continues smoothly, if it can.
 ///
 /// [`VectorField::evaluate`] is called first at every point; [`VectorField::tangents`] and
 /// [`VectorField::add_by_parameter`] follow at the same point, and may rely on what was stored by it.
@@ -40,8 +41,9 @@ pub trait VectorField {
         1
     }
 
-    /// Raises the magnitudes against which the errors of a column are measured, one for each part, where they may be zero for a
-    /// while: behind a boundary what was zero grows like a low power of time, which no step from its zero resolves.
+    /// Raises the magnitudes against which the errors of a column are measured, one for each part, where they
+    /// may be zero for a while: behind a boundary what was zero grows like a low power of time, which no step
+    /// from its zero resolves.
     fn raise_magnitudes(&self, column: Column, magnitudes: &mut [f64]) {
         let _ = (column, magnitudes);
     }
@@ -49,7 +51,8 @@ pub trait VectorField {
     /// Writes `g(t, z; p)`.
     fn evaluate(&mut self, at: Point<'_>, derivative: &mut [f64]);
 
-    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another, by the initial state and, last, by the parameter.
+    /// Writes `dg/dz y` for each column `y`; the columns, of length `dimension`, follow one another, by the
+    /// initial state and, last, by the parameter.
     fn tangents(&mut self, at: Point<'_>, columns: &[f64], derivatives: &mut [f64]);
 
     /// Adds `dg/dp` to `sum`; a field without a parameter adds nothing.
@@ -64,7 +67,8 @@ pub trait VectorField {
         let _ = (time, state, columns, inside);
     }
 
-    /// Lets the state jump where a boundary was crossed, and sensitivities with it; the field may throw the motion back into the region that was left. A field with a memory puts down here what it keeps.
+    /// Lets the state jump where a boundary was crossed, and sensitivities with it; the field may throw the
+    /// motion back into the region that was left. A field with a memory puts down here what it keeps.
     ///
     /// * `(state, columns)`: to be changed; columns as in [`VectorField::jump`], which is called next.
     /// * `(inside, before)`: the new region, to be changed, and the one that was left.
@@ -80,7 +84,8 @@ pub trait VectorField {
     /// Lets sensitivities jump where a boundary was crossed at which `g` is not continuous.
     ///
     /// * `at`: the place, with the new region; `before`: the region that was left.
-    /// * `columns`: as in [`VectorField::tangents`], the one by the parameter last; to be changed. Empty where no sensitivities are wanted.
+    /// * `columns`: as in [`VectorField::tangents`], the one by the parameter last; to be changed. Empty
+    ///   where no sensitivities are wanted.
     fn jump(&mut self, at: Point<'_>, before: &[bool], columns: &mut [f64]) {
         let _ = (at, before, columns);
     }

@@ -1,9 +1,10 @@
 //! The march over a stretch: step control, crossings of boundaries, samples.
 //!
-//! After a step of error `e` (see the stepper) the next is `0.9 e^(-1/8)` times as long, between a fifth and six
-//! times. A step that leaves its smooth region is done again to end on the boundary; there the march starts afresh.
-//! Behind a boundary forces grow like a low power of time, so that the first step there is corrected by
-//! `0.9 e^(-2/5)` if it fails, and its best length is remembered for the next crossing of that kind.
+//! After a step of error `e` (see the stepper) the next is `0.9 e^(-1/8)` times as long, between a fifth and
+//! six times. A step that leaves its smooth region is done again to end on the boundary; there the march
+//! starts afresh. Behind a boundary forces grow like a low power of time, so that the first step there is
+//! corrected by `0.9 e^(-2/5)` if it fails, and its best length is remembered for the next crossing of that
+//! kind.
 
 use faer::Mat;
 
@@ -29,7 +30,8 @@ pub(super) struct March<'a, F> {
     end: f64,
     pub(super) step: f64,
     finest: f64,
-    /// Where the march started afresh for the last time, and the length of a first step from there whose error does not count.
+    /// Where the march started afresh for the last time, and the length of a first step from there whose
+    /// error does not count.
     restart: f64,
     negligible: f64,
     failed: bool,
@@ -143,8 +145,9 @@ impl<'a, F: VectorField> March<'a, F> {
 
     /// Whether the error of the attempted step allows to accept it.
     ///
-    /// Behind a boundary what was zero before may grow like `t^1.5`, and a step from its zero has the same relative error however
-    /// short it is. What grows within `tolerance^(2/3)` of the last smooth step is below the tolerance of what that step brings.
+    /// Behind a boundary what was zero before may grow like `t^1.5`, and a step from its zero has the same
+    /// relative error however short it is. What grows within `tolerance^(2/3)` of the last smooth step is
+    /// below the tolerance of what that step brings.
     fn good_enough(&self, step: f64, error: f64) -> bool {
         error <= 1.0 || error.is_finite() && self.time == self.restart && step <= self.negligible
     }

@@ -4,24 +4,24 @@
 //!
 //! `dY/dt = G Y`, `Y(0) = 1`; `dy_p/dt = G y_p + dg/dp`, `y_p(0) = 0`; `G = dg/dz`.
 //!
-//! State and sensitivities go through the same stages of the method of Dormand and Prince of order 8 with estimators
-//! of order 5 and 3. The tolerance bounds the error of every *step*, in the norm
+//! State and sensitivities go through the same stages of the method of Dormand and Prince of order 8 with
+//! estimators of order 5 and 3. The tolerance bounds the error of every *step*, in the norm
 //!
 //! `max over columns and parts of |e| / a`,
 //!
-//! where the columns are `z`, those of `Y`, and `y_p`; the parts of a column are its displacements and its velocities
-//! (for a field of its own kind: what [`VectorField::parts`] says); and `a` is the largest entry of that part of that
-//! column met on the way; a field may raise it ([`VectorField::raise_magnitudes`]), and a system does: velocities count at least as
-//! much as displacements times the circular frequency of the excitation, displacements at least a thousandth of the shortest length
-//! in the clearances of the contacts. A step ends where the field switches its smooth region, at the onset and the release of a
-//! contact.
+//! where the columns are `z`, those of `Y`, and `y_p`; the parts of a column are its displacements and its
+//! velocities (for a field of its own kind: what [`VectorField::parts`] says); and `a` is the largest entry
+//! of that part of that column met on the way; a field may raise it ([`VectorField::raise_magnitudes`]), and
+//! a system does: velocities count at least as much as displacements times the circular frequency of the
+//! excitation, displacements at least a thousandth of the shortest length in the clearances of the contacts.
+//! A step ends where the field switches its smooth region, at the onset and the release of a contact.
 //!
-//! This is the independent check of the integrator that uses the structure of the equations, and the baseline of
-//! its benchmarks. It knows nothing of modes beyond their right-hand sides.
+//! This is the independent check of the integrator that uses the structure of the equations, and the baseline
+//! of its benchmarks. It knows nothing of modes beyond their right-hand sides.
 //!
 //! # Source
-//! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I* (1993), sections II.4 to II.6. What
-//! differs: the norm, the limit of shortening, and the restart at switching points.
+//! Hairer, Norsett and Wanner, *Solving Ordinary Differential Equations I* (1993), sections II.4 to II.6.
+//! What differs: the norm, the limit of shortening, and the restart at switching points.
 
 mod dense;
 mod dip;
@@ -55,14 +55,16 @@ use crate::{Flow, Stretch, System};
 /// How to integrate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GeneralSettings {
-    /// Bound of the error of a step, relative to the largest entries; see the module. From 1e-14 to 1e-2, but below 3e-13 rounding decides where crossings lie: one motion with a chatter of two stops
-    /// was off by half its size at 1e-13, without an error.
+    /// Bound of the error of a step, relative to the largest entries; see the module. From 1e-14 to 1e-2, but
+    /// below 3e-13 rounding decides where crossings lie: one motion with a chatter of two stops was off by
+    /// half its size at 1e-13, without an error.
     pub tolerance: f64,
     /// Whether the sensitivities are wanted; without them their matrix and vector are empty.
     pub sensitivities: bool,
     /// Bound of the number of steps, rejected ones included.
     pub max_steps: usize,
-    /// Length of the first step, in the unit of the independent variable (cycles for a system); estimated if `None`.
+    /// Length of the first step, in the unit of the independent variable (cycles for a system); estimated if
+    /// `None`.
     pub first_step: Option<f64>,
 }
 
@@ -107,7 +109,8 @@ pub struct GeneralFlow {
     pub flow: Flow,
     /// Work done.
     pub counts: Counts,
-    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of the stretch that follows.
+    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of the stretch that
+    /// follows.
     pub next_step: f64,
 }
 

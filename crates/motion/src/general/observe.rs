@@ -1,9 +1,10 @@
 //! Maxima of a motion and its contacts, by the integrator's own means.
 //!
-//! Displacements have their extrema where their velocity vanishes: each change of its sign between samples of the dense output is
-//! bracketed, and the extremum is taken from a step of the method itself that ends there. The acceleration has no such derivative; its
-//! maximum is sought between samples, and taken from a step that ends there too. Impulses are integrals of the forces on the dense output
-//! by Gauss' rule with eight nodes in each step.
+//! Displacements have their extrema where their velocity vanishes: each change of its sign between samples of
+//! the dense output is bracketed, and the extremum is taken from a step of the method itself that ends there.
+//! The acceleration has no such derivative; its maximum is sought between samples, and taken from a step that
+//! ends there too. Impulses are integrals of the forces on the dense output by Gauss' rule with eight nodes
+//! in each step.
 
 mod extrema;
 
@@ -23,7 +24,8 @@ pub struct Observed {
     pub flow: Flow,
     /// Work done.
     pub counts: Counts,
-    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of the stretch that follows.
+    /// Length of the step that would have come next, as [`GeneralSettings::first_step`] of the stretch that
+    /// follows.
     pub next_step: f64,
     /// Largest absolute displacement of the response point, `max |y|` [m].
     pub displacement: f64,
@@ -37,12 +39,15 @@ pub struct Observed {
     pub impulse: f64,
     /// Number of contacts that closed, apart from rigid stops.
     pub touches: u32,
-    /// Impacts on the rigid stop of each element, and after how many of them it stuck; empty without rigid stops.
+    /// Impacts on the rigid stop of each element, and after how many of them it stuck; empty without rigid
+    /// stops.
     pub impacts: Vec<[u32; 2]>,
-    /// Elements with a contact that was closed all the time, with or without pressure, one bit each (the first 64).
+    /// Elements with a contact that was closed all the time, with or without pressure, one bit each (the
+    /// first 64).
     pub closed_throughout: u64,
-    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that graze have some near zero. An impact on a rigid stop gives
-    /// `v^2/(2 |r''|)`, to which the motion would have gone.
+    /// Extrema of the penetrations `sign (r - level)` of all contacts, open or closed [m]: contacts that
+    /// graze have some near zero. An impact on a rigid stop gives `v^2/(2 |r''|)`, to which the motion would
+    /// have gone.
     pub extrema: Vec<f64>,
     /// The same element by element.
     pub of_elements: Vec<ElementMaxima>,
@@ -57,9 +62,11 @@ pub struct ElementMaxima {
     pub impact_velocity: f64,
     /// Sum of the impulses [N s].
     pub impulse: f64,
-    /// Deepest of the extrema of the penetration [m], zero if none is above the level; of impacts on a rigid stop as in [`Observed::extrema`].
+    /// Deepest of the extrema of the penetration [m], zero if none is above the level; of impacts on a rigid
+    /// stop as in [`Observed::extrema`].
     pub deepest: f64,
-    /// Least magnitude of the extrema of the penetration [m]: next to zero where a contact grazes; infinite without extrema.
+    /// Least magnitude of the extrema of the penetration [m]: next to zero where a contact grazes; infinite
+    /// without extrema.
     pub nearest: f64,
 }
 
@@ -84,7 +91,8 @@ impl ElementMaxima {
     }
 }
 
-/// Motion of a system over a stretch, observed at a response point of displacement `shape . q + support_ratio u`.
+/// Motion of a system over a stretch, observed at a response point of displacement `shape . q + support_ratio
+/// u`.
 ///
 /// * `state`: `[q; q']` in modal coordinates at the start, length 2n.
 ///
@@ -132,7 +140,8 @@ pub fn observe(
 }
 
 impl Observed {
-    /// Number of contacts: those that closed, those that were closed throughout, and impacts on rigid stops, of which those of a stop that sticks count once for every time that it does.
+    /// Number of contacts: those that closed, those that were closed throughout, and impacts on rigid stops,
+    /// of which those of a stop that sticks count once for every time that it does.
     #[must_use]
     pub fn contacts(&self) -> u32 {
         let of_stop = |[all, stuck]: &[u32; 2]| if *stuck > 0 { *stuck } else { *all };

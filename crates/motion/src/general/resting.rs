@@ -1,13 +1,17 @@
-//! Contacts that rest: held rigid stops keep their penetration at zero, as those of the same place do, or of one between two points that are both held.
+//! Contacts that rest: held rigid stops keep their penetration at zero, as those of the same place do, or of
+//! one between two points that are both held.
 //!
-//! With the shapes `phi_j` of the held stops, such a contact has `phi = sum_j c_j phi_j`, and the same of its support ratio and its level, so that `r - level = sum_j c_j (r_j - level_j)` vanishes as
-//! long as they are held. It has no force, and what the numbers say of its penetration and of the rate of that is rounding: neither tells whether it is closed. So its switching function is its
-//! distance from the next change, the least force with which a stop presses that has a part in it. Then `r_j` falls, and with `c_j > 0` the contact is open from there on. One with `c_j < 0`, on the other side,
-//! closes there.
+//! With the shapes `phi_j` of the held stops, such a contact has `phi = sum_j c_j phi_j`, and the same of its
+//! support ratio and its level, so that `r - level = sum_j c_j (r_j - level_j)` vanishes as long as they are
+//! held. It has no force, and what the numbers say of its penetration and of the rate of that is rounding:
+//! neither tells whether it is closed. So its switching function is its distance from the next change, the
+//! least force with which a stop presses that has a part in it. Then `r_j` falls, and with `c_j > 0` the
+//! contact is open from there on. One with `c_j < 0`, on the other side, closes there.
 
 use super::system_field::{SystemField, dot, switches_of};
 
-/// What a shape or a level may differ from that of held stops, relative to its parts, and be the same but for rounding.
+/// What a shape or a level may differ from that of held stops, relative to its parts, and be the same but for
+/// rounding.
 const SAME: f64 = 1e-10;
 
 /// A contact whose penetration held stops keep at zero.
@@ -59,7 +63,8 @@ impl SystemField<'_> {
         self.rigid.resting = self.resting_on(&self.rigid.held);
     }
 
-    /// A contact does not close without a rigid stop of its place being met, though rounding may have the one before its level and the other behind.
+    /// A contact does not close without a rigid stop of its place being met, though rounding may have the one
+    /// before its level and the other behind.
     pub(super) fn meet_companions(&self, inside: &mut [bool], before: &[bool]) {
         let open = self.rigid.stops.iter().filter(|(e, _)| !self.rigid.held.contains(e) && !self.rests(*e));
         for &(e, switch) in open {
@@ -67,8 +72,9 @@ impl SystemField<'_> {
         }
     }
 
-    /// Contacts that close in the instant in which a rigid stop of their place is met are open: it does not let them be penetrated. Stops that touch at one instant are met in the order of the
-    /// elements, so those that come before it are touched.
+    /// Contacts that close in the instant in which a rigid stop of their place is met are open: it does not
+    /// let them be penetrated. Stops that touch at one instant are met in the order of the elements, so those
+    /// that come before it are touched.
     pub(super) fn open_companions(
         &mut self,
         e: usize,

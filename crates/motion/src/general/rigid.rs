@@ -1,17 +1,23 @@
 //! Rigid stops in the vector field of a system: impacts, and the contact that sticks.
 //!
-//! Everything is at a fixed phase x, so `dr = phi . dq`, and `dr' = phi . dv` but for the column of the frequency, where `s u'/f` is added.
+//! Everything is at a fixed phase x, so `dr = phi . dq`, and `dr' = phi . dv` but for the column of the
+//! frequency, where `s u'/f` is added.
 //!
-//! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi` where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r' T)`,
-//!   `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
-//!   The jump of a velocity may begin or end the pressure of contacts that depend on it: those of the motion after it are in `h_after`.
-//! - A stop that sticks (`stick.rs`) is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is taken from the rates g of the velocities, forces of other elements included, and from their derivatives. Its
-//!   switching function is `lambda_j` itself.
+//! - An impact takes v to `v + psi P`, `P = -(1 + e) r'/(phi . psi)`, with `psi = phi - Phi D^-1 Phi^T phi`
+//!   where other stops Phi are held. With the rates `h` of the state by the phase and the delay `dx = -dr/(r'
+//!   T)`, `dz+ = dz + [0; psi] dP + (h_before - h_after) dx`, `dP = -(1 + e)/(phi . psi) (dr' + r'' T dx)`.
+//!   The jump of a velocity may begin or end the pressure of contacts that depend on it: those of the motion
+//!   after it are in `h_after`.
+//! - A stop that sticks (`stick.rs`) is an acceleration constraint: `lambda = D^-1 (Phi^T g + s u'')` is
+//!   taken from the rates g of the velocities, forces of other elements included, and from their derivatives.
+//!   Its switching function is `lambda_j` itself.
 //! - A stop whose `lambda_j` falls below zero by a jump is let go then (`thrown_off.rs`).
 //! - Other contacts of the same place rest as long as a stop is held (`resting.rs`).
-//! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would go in a period.
+//! - Chatter is followed until the height of the next bounce is below 1e-12 of what the fastest impact would
+//!   go in a period.
 //!
-//! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no flight is known, and impacts are zeros of dense output.
+//! It is the same mechanics as in [`exact`](crate::exact), by other means: no held structure is made, no
+//! flight is known, and impacts are zeros of dense output.
 
 use faer::{Mat, linalg::solvers::Solve};
 
@@ -41,7 +47,8 @@ pub(super) struct RigidStops {
     fastest: f64,
     /// Impacts since they were asked for last.
     pub(super) impacts: Vec<Impact>,
-    /// Touches since then of contacts that close and open in one instant, of elements, with their speeds [m/s].
+    /// Touches since then of contacts that close and open in one instant, of elements, with their speeds
+    /// [m/s].
     pub(super) touches: Vec<(usize, f64)>,
 }
 
@@ -52,7 +59,8 @@ pub(super) struct Impact {
     pub(super) speed: f64,
     pub(super) impulse: f64,
     pub(super) sticks: bool,
-    /// How far the motion would have gone beyond the stop, as far as its acceleration then tells; infinite where that pressed on [m].
+    /// How far the motion would have gone beyond the stop, as far as its acceleration then tells; infinite
+    /// where that pressed on [m].
     pub(super) depth: f64,
 }
 
@@ -80,7 +88,8 @@ impl SystemField<'_> {
         (0..s).map(|j| solved[(j, 0)]).collect()
     }
 
-    /// Takes from a vector over the modes what lies along held shapes, so that `phi_j . vector = targets_j`; gives `D^-1 (Phi^T vector - targets)`.
+    /// Takes from a vector over the modes what lies along held shapes, so that `phi_j . vector = targets_j`;
+    /// gives `D^-1 (Phi^T vector - targets)`.
     pub(super) fn constrain(&self, held: &[usize], targets: &[f64], vector: &mut [f64]) -> Vec<f64> {
         let shape = |e: usize| &self.system.elements()[e].shape;
         let excess: Vec<f64> = held.iter().zip(targets).map(|(&e, t)| dot(shape(e), vector) - t).collect();
@@ -225,7 +234,8 @@ impl SystemField<'_> {
         }
     }
 
-    /// Whether an impact is the end of a chatter, or without restitution and pressed on behind it, where dampers have lost the speed that it took.
+    /// Whether an impact is the end of a chatter, or without restitution and pressed on behind it, where
+    /// dampers have lost the speed that it took.
     fn sticks(
         &mut self,
         (e, restitution): (usize, f64),

@@ -1,8 +1,10 @@
 //! The search of one step for the first zero of a switching function.
 //!
-//! The dense output is looked at with its slope at equidistant places, and in every dip between them (`dip.rs`). It is a power of the step less accurate than the step itself: a flight or a contact
-//! may be deeper than the error of the step and yet be missing in it, or be there alone. So in a dip that comes near zero the sign at the lowest place is that of a step of the method itself to there, and
-//! the zero before it that of the dense output moved to that value.
+//! The dense output is looked at with its slope at equidistant places, and in every dip between them
+//! (`dip.rs`). It is a power of the step less accurate than the step itself: a flight or a contact may be
+//! deeper than the error of the step and yet be missing in it, or be there alone. So in a dip that comes near
+//! zero the sign at the lowest place is that of a step of the method itself to there, and the zero before it
+//! that of the dense output moved to that value.
 
 use super::{
     VectorField,
@@ -12,9 +14,11 @@ use super::{
     switching::{SAMPLES, Verdict, fraction, minimum, zero},
 };
 
-/// Share of what a switching function goes through in a step within which its dense output does not tell a sign.
+/// Share of what a switching function goes through in a step within which its dense output does not tell a
+/// sign.
 const NEAR: f64 = 1e-2;
-/// Fraction of the step over which slopes are differences: an eighth of the distance of samples, so that they have hardly more rounding than those have.
+/// Fraction of the step over which slopes are differences: an eighth of the distance of samples, so that they
+/// have hardly more rounding than those have.
 const NEARBY: f64 = 1.0 / 128.0;
 
 /// Places and weights of the difference of fourth order.
@@ -89,7 +93,8 @@ impl<F: VectorField> Search<'_, F> {
         let near = NEAR * (spread(f64::max) - spread(f64::min));
         let clear_start = samples[0] > 0.0 && !fresh;
         let dip = |k: usize| dip::between([samples[k], samples[k + 1]], [slopes[k], slopes[k + 1]]);
-        // The last place that is inside, and the lowest value of the dense output that a step has shown to be inside.
+        // The last place that is inside, and the lowest value of the dense output that a step has shown to be
+        // inside.
         let (mut last_inside, mut shown) = (0.0, 0.0);
         for k in 0..SAMPLES {
             if let Some(dip) = dip(k).filter(|dip| k > 0 || clear_start || dip.from > 0.0) {
@@ -117,10 +122,12 @@ impl<F: VectorField> Search<'_, F> {
 
     /// Looks into a dip.
     ///
-    /// * `(inside, from, to)`: a place that is inside, where the function falls, and where it has passed its lowest place.
+    /// * `(inside, from, to)`: a place that is inside, where the function falls, and where it has passed its
+    ///   lowest place.
     ///
     /// # Returns
-    /// Its lowest value on the dense output where it stays inside; else, as the error, where it leaves, or `None` where a shorter step has to tell.
+    /// Its lowest value on the dense output where it stays inside; else, as the error, where it leaves, or
+    /// `None` where a shorter step has to tell.
     fn dip(
         &mut self,
         switch: usize,

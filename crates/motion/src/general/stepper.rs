@@ -1,14 +1,14 @@
 //! One step of the method, for the state and its sensitivities at once.
 //!
-//! The columns `w = [z, y_1, ..., y_d, y_p]`, `dz/dt = g`, `dy_j/dt = dg/dz y_j`, `dy_p/dt = dg/dz y_p + dg/dp`, lie one
-//! after another and go through the same stages. The error of a step is measured as HNW do, but for each part of
-//! each column by itself:
+//! The columns `w = [z, y_1, ..., y_d, y_p]`, `dz/dt = g`, `dy_j/dt = dg/dz y_j`, `dy_p/dt = dg/dz y_p +
+//! dg/dp`, lie one after another and go through the same stages. The error of a step is measured as HNW do,
+//! but for each part of each column by itself:
 //!
 //! `error = max over parts of h s_5 / sqrt(s_5 + 0.01 s_3)`, `s_m = sum_i (e_m,i / (tolerance a))^2`,
 //!
-//! with the largest magnitude `a` of any entry of that part of that column on the way so far; a step is accepted if
-//! `error <= 1`. So displacements are held against displacements, velocities against velocities, and a column of the
-//! fundamental matrix against itself.
+//! with the largest magnitude `a` of any entry of that part of that column on the way so far; a step is
+//! accepted if `error <= 1`. So displacements are held against displacements, velocities against velocities,
+//! and a column of the fundamental matrix against itself.
 
 use super::{
     Column, Point, VectorField,
@@ -225,7 +225,8 @@ impl Stepper {
         }
     }
 
-    /// Evaluates the further slopes of the state which dense output needs, and that at the end if it is not there yet.
+    /// Evaluates the further slopes of the state which dense output needs, and that at the end if it is not
+    /// there yet.
     pub(super) fn densify(
         &mut self,
         field: &mut impl VectorField,

@@ -1,13 +1,17 @@
-//! A rigid stop that sticks: at the start of a motion, by an impact without restitution, at the end of a chatter.
+//! A rigid stop that sticks: at the start of a motion, by an impact without restitution, at the end of a
+//! chatter.
 //!
-//! What the motion was relative to the stop is projected out, of the state and of the sensitivities. Besides, with the jump `psi P`, `P = -v/D`, of the velocities, a neighbour who comes
-//! `dx = -dr/(v T)` later has `(h_before - h_behind) dx` (`rigid.rs`), which is
+//! What the motion was relative to the stop is projected out, of the state and of the sensitivities. Besides,
+//! with the jump `psi P`, `P = -v/D`, of the velocities, a neighbour who comes `dx = -dr/(v T)` later has
+//! `(h_before - h_behind) dx` (`rigid.rs`), which is
 //!
 //! `C psi dr/D + (sum_e phi_e [F_e] + sum_j psi_j lambda_j) dr/v`:
 //!
-//! the dampers of the structure, the forces that jump with the velocities, and what held stops pressed with that the impact throws off. Of a law that is linear in the velocity while it presses
-//! `[F_e]/v = -f_v,e (phi_e . psi)/D` where it presses before and behind the impact, and that is its limit as v goes to zero, too. Where its pressure ends or begins with the jump the quotient is taken.
-//! Stops that would have to pull behind the impact are let go as after any other (`thrown_off.rs`).
+//! the dampers of the structure, the forces that jump with the velocities, and what held stops pressed with
+//! that the impact throws off. Of a law that is linear in the velocity while it presses `[F_e]/v = -f_v,e
+//! (phi_e . psi)/D` where it presses before and behind the impact, and that is its limit as v goes to zero,
+//! too. Where its pressure ends or begins with the jump the quotient is taken. Stops that would have to pull
+//! behind the impact are let go as after any other (`thrown_off.rs`).
 
 use super::{
     Point,
@@ -15,7 +19,8 @@ use super::{
     system_field::{SystemField, add_scaled, dot, switches_of},
 };
 
-/// Force of an element and its derivative by the velocity; `None` where the law does not depend on that, or does not press.
+/// Force of an element and its derivative by the velocity; `None` where the law does not depend on that, or
+/// does not press.
 type VelocityForce = Option<(f64, f64)>;
 
 impl SystemField<'_> {
@@ -61,7 +66,8 @@ impl SystemField<'_> {
         self.turn_pressures(time, state, inside);
     }
 
-    /// An impact on an element that is held from then on; `thrown_off` are stops that it has thrown off, with what they pressed with.
+    /// An impact on an element that is held from then on; `thrown_off` are stops that it has thrown off, with
+    /// what they pressed with.
     pub(super) fn strike_and_stick(
         &mut self,
         (e, speed): (usize, f64),
@@ -118,7 +124,8 @@ impl SystemField<'_> {
         self.laws.iter().zip(self.system.elements()).map(of_element).collect()
     }
 
-    /// `[F_e]/v` of every element at an impact that takes the speed v of one of them, from the forces before it and behind.
+    /// `[F_e]/v` of every element at an impact that takes the speed v of one of them, from the forces before
+    /// it and behind.
     fn jumps(
         &self,
         (e, speed): (usize, f64),
@@ -139,7 +146,8 @@ impl SystemField<'_> {
         self.system.elements().iter().zip(before).zip(behind).map(jump).collect()
     }
 
-    /// Holds an element: `r` is its level and `r'` zero from now on. `jumps` are the `[F_e]/v` of all elements.
+    /// Holds an element: `r` is its level and `r'` zero from now on. `jumps` are the `[F_e]/v` of all
+    /// elements.
     fn hold(&mut self, e: usize, jumps: &[f64], time: f64, (state, columns): (&mut [f64], &mut [f64])) {
         let n = self.system.dof();
         let direction = self.free_direction(e);

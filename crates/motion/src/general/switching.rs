@@ -1,8 +1,9 @@
 //! Where a step leaves the smooth region in which it began.
 //!
-//! Between the ends of a step a switching function is followed on the dense output: with its slope at equidistant samples, in the
-//! dips between them, and by bracketing of its first zero (`search.rs`). A touch is missed only where the seventh-order polynomial
-//! has two more extrema between neighbouring samples than the cubic of their values and slopes.
+//! Between the ends of a step a switching function is followed on the dense output: with its slope at
+//! equidistant samples, in the dips between them, and by bracketing of its first zero (`search.rs`). A touch
+//! is missed only where the seventh-order polynomial has two more extrema between neighbouring samples than
+//! the cubic of their values and slopes.
 
 use super::{VectorField, dense::Dense, search::Search, stepper::Stepper};
 
@@ -64,7 +65,8 @@ impl Region {
         if self.inside[switch] { 1.0 } else { -1.0 }
     }
 
-    /// Takes the region of a state; where a switching function is zero, that of a state a moment later counts.
+    /// Takes the region of a state; where a switching function is zero, that of a state a moment later
+    /// counts.
     pub(super) fn locate(&mut self, field: &impl VectorField, time: f64, stepper: &Stepper, moment: f64) {
         let now = self.now_and_then(field, time, stepper, moment);
         for (switch, inside) in self.inside.iter_mut().enumerate() {
@@ -94,9 +96,11 @@ impl Region {
         self.fresh.contains(&true)
     }
 
-    /// Crosses the boundary, and all others that are reached within `moment` from now: stops that act together act at one
-    /// instant up to rounding. Over a moment rounding may be more than a slow switching function changes, and would send it back through the boundary that it has just crossed, again and again;
-    /// so what it is a moment later follows from its rate, a difference over the longer `span`. Boundaries that are crossed one after the other at one time all stay the start of the next step.
+    /// Crosses the boundary, and all others that are reached within `moment` from now: stops that act
+    /// together act at one instant up to rounding. Over a moment rounding may be more than a slow switching
+    /// function changes, and would send it back through the boundary that it has just crossed, again and
+    /// again; so what it is a moment later follows from its rate, a difference over the longer `span`.
+    /// Boundaries that are crossed one after the other at one time all stay the start of the next step.
     ///
     /// Returns a good length of the first step, if there was such a crossing before.
     pub(super) fn cross(
@@ -135,7 +139,8 @@ impl Region {
         }
     }
 
-    /// Whether a boundary is near: nearer than half of the way which the switching function goes over the stages.
+    /// Whether a boundary is near: nearer than half of the way which the switching function goes over the
+    /// stages.
     pub(super) fn near_boundary(&mut self, field: &impl VectorField, stepper: &Stepper, end: f64) -> bool {
         let switches = self.inside.len();
         field.switching(end, stepper.end_state(), &mut self.values);

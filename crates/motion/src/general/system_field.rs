@@ -4,15 +4,18 @@
 //!
 //! `dz/dx = g / f`, `g = [v; -C v - diag(w^2) q + Re sum_m b_m(W) exp(i 2 pi m x) + sum_e phi_e f_e(r_e)]`.
 //!
-//! The ends of a stretch are fixed phases, so `d(dz/dx)/df = (dg/df) / f - g / f^2` with
-//! `dg/df = [0; 2 pi Re sum_m db_m/dW exp(i 2 pi m x)]` gives the whole derivative by the frequency: nothing is left
-//! to add for the duration.
+//! The ends of a stretch are fixed phases, so `d(dz/dx)/df = (dg/df) / f - g / f^2` with `dg/df = [0; 2 pi Re
+//! sum_m db_m/dW exp(i 2 pi m x)]` gives the whole derivative by the frequency: nothing is left to add for
+//! the duration.
 //!
-//! A law that depends on the velocity does so on `r' = phi_e . v + s_e u'`, where `u'` at a fixed phase is proportional to f: `d(u')/df = u'/f`.
+//! A law that depends on the velocity does so on `r' = phi_e . v + s_e u'`, where `u'` at a fixed phase is
+//! proportional to f: `d(u')/df = u'/f`.
 //!
-//! Switching functions are `sign (r - level)`, one for each contact of each element, and the pressure of a law that depends on the velocity. In contact
-//! a law is continued below its level by its tangent there; out of contact its force is zero. Where a force sets in with the jump `-c r'`, the touch comes
-//! earlier by `dr/r'` and brings the impulse `-c dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e . dq)`.
+//! Switching functions are `sign (r - level)`, one for each contact of each element, and the pressure of a
+//! law that depends on the velocity. In contact a law is continued below its level by its tangent there; out
+//! of contact its force is zero. Where a force sets in with the jump `-c r'`, the touch comes earlier by
+//! `dr/r'` and brings the impulse `-c dr`: the sensitivities of the velocities jump by `-c phi_e (phi_e .
+//! dq)`.
 
 mod field;
 mod onset;
@@ -200,13 +203,14 @@ impl<'a> SystemField<'a> {
     }
 }
 
-/// Switching functions of an element: its contacts, and the pressure of a law that depends on the velocity, which has one contact.
+/// Switching functions of an element: its contacts, and the pressure of a law that depends on the velocity,
+/// which has one contact.
 pub(super) fn switches_of(element: &LocalElement) -> usize {
     element.law.contacts().len() + usize::from(element.law.depends_on_velocity())
 }
 
-/// Shortest modal displacement among those that take an element from rest to its contact, or as far as the support moves it; zero
-/// if there are none.
+/// Shortest modal displacement among those that take an element from rest to its contact, or as far as the
+/// support moves it; zero if there are none.
 fn shortest_length(system: &System, frequency_hz: f64) -> f64 {
     let amplitude = |k: usize| system.support_amplitude(k, TAU * frequency_hz).0.norm();
     let support: f64 = (0..system.orders().len()).map(amplitude).sum();

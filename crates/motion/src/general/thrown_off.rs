@@ -1,7 +1,9 @@
-//! Held rigid stops that are let go at once: by an impact elsewhere that would pull them, or because what they press with falls below zero by a jump.
+//! Held rigid stops that are let go at once: by an impact elsewhere that would pull them, or because what
+//! they press with falls below zero by a jump.
 //!
-//! The second is where another stop is hit, or a damper sets in. A neighbour comes there by dt later, and up to then is pressed by the stop: `dv+ = dv - psi_j lambda_j dt`, with the
-//! force before it where the damper's own jump comes next, and with the one after it behind an impact.
+//! The second is where another stop is hit, or a damper sets in. A neighbour comes there by dt later, and up
+//! to then is pressed by the stop: `dv+ = dv - psi_j lambda_j dt`, with the force before it where the
+//! damper's own jump comes next, and with the one after it behind an impact.
 
 use super::{
     rigid::AT_START,
@@ -37,7 +39,8 @@ impl SystemField<'_> {
         (pressing[weakest] < -AT_START * usual).then_some((weakest, pressing[weakest]))
     }
 
-    /// Held stops are let go that would have to pull behind an impact that comes later by `delays`, the strongest first.
+    /// Held stops are let go that would have to pull behind an impact that comes later by `delays`, the
+    /// strongest first.
     pub(super) fn let_go_of_tension(
         &mut self,
         time: f64,
@@ -51,7 +54,8 @@ impl SystemField<'_> {
         }
     }
 
-    /// Sensitivities as a stop that was released had pressed with `force` before an instant that comes later by `delays`, one for each column.
+    /// Sensitivities as a stop that was released had pressed with `force` before an instant that comes later
+    /// by `delays`, one for each column.
     pub(super) fn throw_off(&self, (e, force): (usize, f64), columns: &mut [f64], delays: &[f64]) {
         let n = self.system.dof();
         let direction = self.free_direction(e);

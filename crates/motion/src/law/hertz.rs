@@ -4,8 +4,8 @@ use super::{Contact, Force, LawError};
 
 /// One-sided stop after Hertz.
 ///
-/// `f = -k p^1.5` at penetration `p = r - level > 0`, else `f = 0`; `level` is the gap, or minus the penetration that gives
-/// the preload.
+/// `f = -k p^1.5` at penetration `p = r - level > 0`, else `f = 0`; `level` is the gap, or minus the
+/// penetration that gives the preload.
 ///
 /// # Source
 /// Goldsmith, *Impact* (1960), chapter 4.
@@ -31,7 +31,8 @@ impl HertzStop {
     /// A stop that presses on the undeformed structure with `preload` [N].
     ///
     /// # Errors
-    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Preload`] unless finite and not negative.
+    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Preload`] unless finite and not
+    /// negative.
     pub fn with_preload(stiffness: f64, preload: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
         let level = -(super::valid_preload(preload)? / stiffness).powf(2.0 / 3.0);

@@ -4,11 +4,12 @@ use super::{Contact, Force, HertzStop, LawError, Pressure};
 
 /// One-sided stop after Hunt and Crossley.
 ///
-/// `f = -k p^1.5 (1 + 3/2 a p')` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`. The force sets in and ends like that of
-/// Hertz. With nothing but the contact acting it never ends before the penetration does, since `p' = -2/(3 a)` is not passed.
+/// `f = -k p^1.5 (1 + 3/2 a p')` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`. The
+/// force sets in and ends like that of Hertz. With nothing but the contact acting it never ends before the
+/// penetration does, since `p' = -2/(3 a)` is not passed.
 ///
-/// The coefficient of restitution of an impact with the speed v goes to `1 - a v` for small `a v`, whatever the masses; over the whole range e solves
-/// `(1 + e) y = ln((1 + y)/(1 - e y))`, `y = 3/2 a v`.
+/// The coefficient of restitution of an impact with the speed v goes to `1 - a v` for small `a v`, whatever
+/// the masses; over the whole range e solves `(1 + e) y = ln((1 + y)/(1 - e y))`, `y = 3/2 a v`.
 ///
 /// # Source
 /// Hunt and Crossley, J. Appl. Mech. 42 (1975), 440-445.

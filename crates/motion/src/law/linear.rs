@@ -4,8 +4,9 @@ use super::{Contact, Force, LawError, Pressure};
 
 /// One-sided linear spring, with or without a damper beside it.
 ///
-/// `f = -(k p + c p')` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`: the stop does not pull. With a damper the
-/// force sets in with a jump, `-c p'`, and ends where `k p + c p' = 0`, before the penetration does.
+/// `f = -(k p + c p')` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`: the stop does
+/// not pull. With a damper the force sets in with a jump, `-c p'`, and ends where `k p + c p' = 0`, before
+/// the penetration does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearStop {
     stiffness: f64,
@@ -30,7 +31,8 @@ impl LinearStop {
     /// A spring that presses on the undeformed structure with `preload` [N].
     ///
     /// # Errors
-    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Preload`] unless finite and not negative.
+    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Preload`] unless finite and not
+    /// negative.
     pub fn with_preload(stiffness: f64, preload: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
         let level = -super::valid_preload(preload)? / stiffness;

@@ -1,13 +1,16 @@
-//! Laws of local elements: the force as a function of the relative displacement `r` and the relative velocity `r'`.
+//! Laws of local elements: the force as a function of the relative displacement `r` and the relative velocity
+//! `r'`.
 //!
-//! The force acts on the structure along `+r` (a restoring force is negative for positive `r`). One-sided stops are
-//! oriented so that `r` is positive towards the stop; who builds the element turns the coordinate.
+//! The force acts on the structure along `+r` (a restoring force is negative for positive `r`). One-sided
+//! stops are oriented so that `r` is positive towards the stop; who builds the element turns the coordinate.
 //!
-//! **Laws that lose energy** push or are idle, they never pull. With the penetration `p = r - level` such a law is `f = -h(p) s(p, p')` for `p > 0` and
-//! `s > 0`, else zero: contact is where there is penetration and [`Pressure`] `s`. Where the pressure vanishes first, the surfaces have parted
-//! although there is penetration left by the numbers (the surface does not follow): the contact has *parted*, and presses again if the pressure comes back.
-//! The force is continuous where the pressure vanishes. Where the penetration begins it is continuous too, or, for a damper, jumps by
-//! `-c p'`, see [`Law::onset_damping`]. Some laws remember the speed with which the present contact began ([`Law::remembers_impact`]).
+//! **Laws that lose energy** push or are idle, they never pull. With the penetration `p = r - level` such a
+//! law is `f = -h(p) s(p, p')` for `p > 0` and `s > 0`, else zero: contact is where there is penetration and
+//! [`Pressure`] `s`. Where the pressure vanishes first, the surfaces have parted although there is
+//! penetration left by the numbers (the surface does not follow): the contact has *parted*, and presses again
+//! if the pressure comes back. The force is continuous where the pressure vanishes. Where the penetration
+//! begins it is continuous too, or, for a damper, jumps by `-c p'`, see [`Law::onset_damping`]. Some laws
+//! remember the speed with which the present contact began ([`Law::remembers_impact`]).
 
 mod hertz;
 mod hunt_crossley;
@@ -93,7 +96,8 @@ pub struct Contact {
     pub onset_exponent: f64,
 }
 
-/// What has to be positive besides the penetration p for a contact that loses energy to press: `displacement p + velocity p' + offset`.
+/// What has to be positive besides the penetration p for a contact that loses energy to press: `displacement
+/// p + velocity p' + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pressure {
     /// Factor of the penetration.
@@ -132,7 +136,8 @@ pub enum Law {
 }
 
 impl Law {
-    /// Force on the structure along `r` at the relative displacement `r` [m] and the relative velocity `r'` [m/s].
+    /// Force on the structure along `r` at the relative displacement `r` [m] and the relative velocity `r'`
+    /// [m/s].
     #[must_use]
     pub fn force(&self, displacement: f64, velocity: f64) -> Force {
         match self {
@@ -152,7 +157,8 @@ impl Law {
         if let Self::Rigid(law) = self { Some(law) } else { None }
     }
 
-    /// Force of a contact that presses, continued smoothly to where its pressure has vanished: what a step that ends there follows.
+    /// Force of a contact that presses, continued smoothly to where its pressure has vanished: what a step
+    /// that ends there follows.
     #[must_use]
     pub(crate) fn pressing_force(&self, displacement: f64, velocity: f64) -> Force {
         match self {
@@ -180,7 +186,8 @@ impl Law {
         self.pressure().is_some()
     }
 
-    /// Whether the force depends on the speed with which the present contact began, so that a contact has to be followed from its beginning.
+    /// Whether the force depends on the speed with which the present contact began, so that a contact has to
+    /// be followed from its beginning.
     #[must_use]
     pub fn remembers_impact(&self) -> bool {
         matches!(self, Self::Restitution(_))
@@ -195,7 +202,8 @@ impl Law {
         }
     }
 
-    /// The speed of the impact that the law remembers [m/s]; infinite before the first, and of a law that remembers none.
+    /// The speed of the impact that the law remembers [m/s]; infinite before the first, and of a law that
+    /// remembers none.
     pub(crate) fn impact_speed(&self) -> f64 {
         if let Self::Restitution(law) = self { law.impact_speed() } else { f64::INFINITY }
     }
@@ -210,7 +218,8 @@ impl Law {
         if let Self::Restitution(law) = self { law.by_impact_speed(displacement, velocity) } else { 0.0 }
     }
 
-    /// The constant c [N s/m] of the force `-c r'` with which a contact begins; 0 where the force is continuous.
+    /// The constant c [N s/m] of the force `-c r'` with which a contact begins; 0 where the force is
+    /// continuous.
     #[must_use]
     pub fn onset_damping(&self) -> f64 {
         if let Self::Linear(law) = self { law.damping() } else { 0.0 }
@@ -224,7 +233,8 @@ impl Law {
         }
     }
 
-    /// The constant of the damping of a force that depends on the velocity, in its unit (N s/m, s/m); `None` where a law has none.
+    /// The constant of the damping of a force that depends on the velocity, in its unit (N s/m, s/m); `None`
+    /// where a law has none.
     #[must_use]
     pub fn damping(&self) -> Option<f64> {
         match self {
@@ -255,7 +265,8 @@ impl Law {
         }
     }
 
-    /// The coefficient of restitution [-] of a rigid stop, or of a contact that remembers its impacts; `None` where a law has none.
+    /// The coefficient of restitution [-] of a rigid stop, or of a contact that remembers its impacts; `None`
+    /// where a law has none.
     #[must_use]
     pub fn restitution(&self) -> Option<f64> {
         match self {

@@ -13,10 +13,11 @@ pub enum Degree {
     Cubic,
 }
 
-/// A spring `f = -k r^n`, always active. With `k < 0` a linear one pushes away from the middle, a cubic one softens.
+/// A spring `f = -k r^n`, always active. With `k < 0` a linear one pushes away from the middle, a cubic one
+/// softens.
 ///
-/// A spring of several terms is several elements at one place: the force of each is proportional to its constant,
-/// which is all that derivatives by that constant need to know.
+/// A spring of several terms is several elements at one place: the force of each is proportional to its
+/// constant, which is all that derivatives by that constant need to know.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerSpring {
     stiffness: f64,

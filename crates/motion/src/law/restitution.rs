@@ -1,7 +1,8 @@
 //! Hertz contacts whose loss is set by a coefficient of restitution and by the speed of each impact.
 //!
-//! `f = -k p^1.5 (1 + c p'/v)` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`. The speed v is that with which the present contact
-//! began, so the law has a memory: a contact has to be followed from its beginning. The factor c is what the models differ in:
+//! `f = -k p^1.5 (1 + c p'/v)` at penetration `p = r - level > 0` as long as that pushes, else `f = 0`. The
+//! speed v is that with which the present contact began, so the law has a memory: a contact has to be
+//! followed from its beginning. The factor c is what the models differ in:
 //!
 //! | model | c(e) | source |
 //! |---|---|---|
@@ -13,12 +14,14 @@
 //! | [`Flores`](RestitutionModel::Flores) | `8 (1 - e)/(5 e)` | Flores and others, Multibody Syst. Dyn. 25 (2011), 357-375 |
 //! | [`HuGuo`](RestitutionModel::HuGuo) | `3 (1 - e)/(2 e)` | Hu and Guo, Multibody Syst. Dyn. 35 (2015), 131-151 |
 //!
-//! The coefficient e that goes in is not quite the ratio of speeds that comes out of two bodies with nothing else acting: that is the `e_out` of
-//! `(1 + e_out) c = ln((1 + c)/(1 - e_out c))`, `e_out = 1 - 2 c/3 + ...`. The models of Hunt and Crossley, Herbert and McWhannell, Lankarani and Nikravesh, and
-//! Hu and Guo agree with that to first order in `1 - e`; those with e in the denominator stop completely at `e = 0`.
+//! The coefficient e that goes in is not quite the ratio of speeds that comes out of two bodies with nothing
+//! else acting: that is the `e_out` of `(1 + e_out) c = ln((1 + c)/(1 - e_out c))`, `e_out = 1 - 2 c/3 +
+//! ...`. The models of Hunt and Crossley, Herbert and McWhannell, Lankarani and Nikravesh, and Hu and Guo
+//! agree with that to first order in `1 - e`; those with e in the denominator stop completely at `e = 0`.
 //!
-//! **Slow touches.** The loss is `c p'/v`, so it has no bound as v goes to zero and other forces press the contact on: such a law says nothing of pressing
-//! without an impact. A touch that turns by itself, `p'' < 0`, is harmless: its force goes like `v^3`.
+//! **Slow touches.** The loss is `c p'/v`, so it has no bound as v goes to zero and other forces press the
+//! contact on: such a law says nothing of pressing without an impact. A touch that turns by itself, `p'' <
+//! 0`, is harmless: its force goes like `v^3`.
 
 use super::{Contact, Force, HertzStop, LawError, Pressure, hunt_crossley::damped_hertz};
 
@@ -101,8 +104,8 @@ impl RestitutionStop {
     /// * `restitution`: e, more than 0 and at most 1; 1 loses nothing.
     ///
     /// # Errors
-    /// [`LawError::Restitution`] if it is outside, [`LawError::MemoryOfPreload`] if the stop presses on the undeformed structure: a contact that
-    /// never began has no speed to remember.
+    /// [`LawError::Restitution`] if it is outside, [`LawError::MemoryOfPreload`] if the stop presses on the
+    /// undeformed structure: a contact that never began has no speed to remember.
     pub fn new(elastic: HertzStop, model: RestitutionModel, restitution: f64) -> Result<Self, LawError> {
         if !(restitution > 0.0 && restitution <= 1.0) {
             return Err(LawError::Restitution { found: restitution });

@@ -4,9 +4,10 @@ use super::{Contact, Force, LawError};
 
 /// Rigid stop with a coefficient of restitution.
 ///
-/// `r <= level` always. It has no force law: a touch with the velocity `r' = v > 0` is an impact after Newton, `r' -> -e v` at once, and a contact that is
-/// pressed on lasts with whatever force keeps `r = level`. What both do to a structure, and to its sensitivities, stands in
-/// [`exact`](crate::exact), `impact.rs` and `held.rs`. So [`Law::force`](crate::Law::force) is zero, and the stop has no stiffness.
+/// `r <= level` always. It has no force law: a touch with the velocity `r' = v > 0` is an impact after
+/// Newton, `r' -> -e v` at once, and a contact that is pressed on lasts with whatever force keeps `r =
+/// level`. What both do to a structure, and to its sensitivities, stands in [`exact`](crate::exact),
+/// `impact.rs` and `held.rs`. So [`Law::force`](crate::Law::force) is zero, and the stop has no stiffness.
 ///
 /// # Source
 /// Newton's law of restitution; Shaw and Holmes, J. Sound Vib. 90 (1983), 129-155.
@@ -25,7 +26,8 @@ impl RigidStop {
         Self::at_level(restitution, super::valid_gap(gap)?)
     }
 
-    /// A stop at the relative displacement `level` [m], which may be negative: then it holds the undeformed structure away from its rest.
+    /// A stop at the relative displacement `level` [m], which may be negative: then it holds the undeformed
+    /// structure away from its rest.
     ///
     /// # Errors
     /// [`LawError::RigidRestitution`] unless from 0 to 1, [`LawError::Gap`] unless finite.

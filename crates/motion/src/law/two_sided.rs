@@ -15,7 +15,8 @@ impl TwoSidedStop {
     /// Springs of stiffness `k` [N/m] at the rest distances `gap_above` and `gap_below` [m].
     ///
     /// # Errors
-    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Gap`] unless both gaps are finite and not negative.
+    /// [`LawError::Stiffness`] unless finite and positive, [`LawError::Gap`] unless both gaps are finite and
+    /// not negative.
     pub fn new(stiffness: f64, gap_above: f64, gap_below: f64) -> Result<Self, LawError> {
         super::positive_stiffness(stiffness)?;
         let above = Contact { level: super::valid_gap(gap_above)?, sign: 1.0, onset_exponent: 1.0 };

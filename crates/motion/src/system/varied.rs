@@ -1,4 +1,5 @@
-//! What of a system varies with its parameters (`parameter.rs`): the scale of its load, parts of its damping, laws, and the families that it belongs to.
+//! What of a system varies with its parameters (`parameter.rs`): the scale of its load, parts of its damping,
+//! laws, and the families that it belongs to.
 
 use faer::Mat;
 
@@ -6,13 +7,15 @@ use super::System;
 use crate::{DampingPart, LocalElement, ParameterError, parameter::Kin};
 
 impl System {
-    /// Factor of the harmonics of order 1 and above, see [`Parameter::ExcitationScale`](crate::Parameter::ExcitationScale).
+    /// Factor of the harmonics of order 1 and above, see
+    /// [`Parameter::ExcitationScale`](crate::Parameter::ExcitationScale).
     #[must_use]
     pub fn excitation_scale(&self) -> f64 {
         self.excitation_scale
     }
 
-    /// Lets a further part of the damping vary, by the next number: [`Parameter::AddedDamping`](crate::Parameter::AddedDamping).
+    /// Lets a further part of the damping vary, by the next number:
+    /// [`Parameter::AddedDamping`](crate::Parameter::AddedDamping).
     ///
     /// # Errors
     /// [`ParameterError::DampingPartSize`] if it is over another number of modes.

@@ -14,7 +14,8 @@ fn differences(advance: &mut dyn FnMut(f64) -> Vec<f64>, step: f64) -> Vec<f64> 
 /// Steps of differences, in the units of what is moved.
 const STEP: f64 = 1e-6;
 
-/// Largest difference of columns, displacements scaled by the eigenfrequencies, relative to the largest entry; `rounding` is what rounding of the states leaves of the differences.
+/// Largest difference of columns, displacements scaled by the eigenfrequencies, relative to the largest
+/// entry; `rounding` is what rounding of the states leaves of the differences.
 fn distance(system: &System, found: &[f64], expected: &[f64], rounding: f64) -> f64 {
     let n = system.dof();
     let scale = |i: usize| if i < n { system.model().natural_frequencies[i].max(10.0) } else { 1.0 };
@@ -110,7 +111,8 @@ pub fn assert_by_state(
     }
 }
 
-/// Of a state that is forgotten, or a parameter that has no part in the motion, differences leave nothing but what rounds.
+/// Of a state that is forgotten, or a parameter that has no part in the motion, differences leave nothing but
+/// what rounds.
 fn is_without_effect(found: &[f64], expected: &[f64]) -> bool {
     found.iter().all(|entry| *entry == 0.0) && expected.iter().all(|entry| entry.abs() < 1e-6)
 }

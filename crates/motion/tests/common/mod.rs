@@ -52,7 +52,8 @@ pub fn paper_beam() -> System {
     beam_with(0.015, hertz(4.5e9, 0.0))
 }
 
-/// A uniform clamped-free beam of `n` modes, the first at 17.5 Hz, with a stop near its end that rides on the shaken support.
+/// A uniform clamped-free beam of `n` modes, the first at 17.5 Hz, with a stop near its end that rides on the
+/// shaken support.
 pub fn uniform_beam(n: usize) -> System {
     let root = |i: usize| if i == 0 { 1.875_104 } else { std::f64::consts::PI * (i as f64 + 0.5) };
     let natural_frequencies: Vec<f64> = (0..n).map(|i| TAU * 17.5 * (root(i) / root(0)).powi(2)).collect();
@@ -126,7 +127,8 @@ pub fn settled(system: &System, frequency_hz: f64, cycles: u32, part: f64) -> Ve
     state
 }
 
-/// Relative differences of two flows; displacements are scaled by the eigenfrequencies to velocities, norms are the largest entries.
+/// Relative differences of two flows; displacements are scaled by the eigenfrequencies to velocities, norms
+/// are the largest entries.
 #[derive(Debug, Clone, Copy)]
 pub struct Difference {
     pub state: f64,
@@ -142,8 +144,9 @@ impl Difference {
 
 /// Compares two flows of a system over a stretch, each part relative to its largest entry.
 ///
-/// The column by the frequency is the difference of what the load and the duration change. Where a motion with large losses follows the load it is far smaller than the state over the
-/// frequency, of which rounding is left: it is relative to a hundredth of that at least.
+/// The column by the frequency is the difference of what the load and the duration change. Where a motion
+/// with large losses follows the load it is far smaller than the state over the frequency, of which rounding
+/// is left: it is relative to a hundredth of that at least.
 pub fn difference(system: &System, stretch: &Stretch, found: &Flow, expected: &Flow) -> Difference {
     let n = system.dof();
     let slowest = TAU * stretch.frequency_hz;
@@ -179,13 +182,14 @@ pub fn difference(system: &System, stretch: &Stretch, found: &Flow, expected: &F
 
 /// Asserts that both integrators find the same flow to `bound`; the number of contacts that closed.
 ///
-/// Both run at a fine tolerance: what each step leaves, the contacts that follow amplify by up to a few hundred. Without sensitivities
-/// the steps are longer.
+/// Both run at a fine tolerance: what each step leaves, the contacts that follow amplify by up to a few
+/// hundred. Without sensitivities the steps are longer.
 pub fn assert_agreement(system: &System, stretch: &Stretch, state: &[f64], bound: f64, what: &str) -> u32 {
     let mut exact = ExactIntegrator::new(system.clone(), ExactSettings { tolerance: 1e-12 }).unwrap();
     let found = exact.flow(stretch, state).unwrap_or_else(|error| panic!("{what}: {error}"));
     let general = |tolerance| advance(system, stretch, state, &GeneralSettings::with_tolerance(tolerance));
-    // The finest tolerance has the best sensitivities, but rounding may end its motion or, in a chatter of two stops, lead it astray; then the next one does.
+    // The finest tolerance has the best sensitivities, but rounding may end its motion or, in a chatter of
+    // two stops, lead it astray; then the next one does.
     let error = [1e-13, 3e-13, 1e-12]
         .into_iter()
         .filter_map(|tolerance| general(tolerance).ok())

@@ -1,7 +1,8 @@
 //! A multiplier at +1 or -1: the bordered matrix of `A - mu I`.
 //!
-//! `[A - mu I, b; c^T, 0] [v; g] = [0; 1]` and `[w^T, h] [A - mu I, b; c^T, 0] = [0, 1]`; `g = h` vanishes with the determinant of `A - mu I`, and
-//! `dg = -w^T (dA) v`. Since `c^T v = b^T w = 1`, borders that are renewed as `v` and `w` along the curve keep the sign of `g`.
+//! `[A - mu I, b; c^T, 0] [v; g] = [0; 1]` and `[w^T, h] [A - mu I, b; c^T, 0] = [0, 1]`; `g = h` vanishes
+//! with the determinant of `A - mu I`, and `dg = -w^T (dA) v`. Since `c^T v = b^T w = 1`, borders that are
+//! renewed as `v` and `w` along the curve keep the sign of `g`.
 
 use hammerbeam_motion::exact::MotionError;
 use hammerbeam_path::DenseLu;
@@ -58,7 +59,8 @@ impl Bordered {
         (self.left, self.right) = (unit(left), unit(right));
     }
 
-    /// The borders of orbits that are cut elsewhere, at the last evaluated place: null vectors there, with the signs of `P^-T w` and `P v`.
+    /// The borders of orbits that are cut elsewhere, at the last evaluated place: null vectors there, with
+    /// the signs of `P^-T w` and `P v`.
     ///
     /// * `matrix`: `P`, the fundamental matrix from the old first node to the new one, by rows.
     pub fn carry(&mut self, shooting: &Shooting, matrix: &[f64]) {

@@ -10,7 +10,8 @@ use super::{
     shooting::{Place, Shooting},
 };
 
-/// Values of a condition, their gradients by `[nodes; f; p]` (at grazing `[nodes; f; p; x]`), and what its test functions are made of.
+/// Values of a condition, their gradients by `[nodes; f; p]` (at grazing `[nodes; f; p; x]`), and what its
+/// test functions are made of.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Linear {
     pub values: Vec<f64>,
@@ -27,7 +28,8 @@ pub(super) enum Condition {
 }
 
 impl Condition {
-    /// The condition at the place where the shooting equations were evaluated last; `None` where it is not defined.
+    /// The condition at the place where the shooting equations were evaluated last; `None` where it is not
+    /// defined.
     pub fn evaluate(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<Linear>, MotionError> {
         match self {
             Self::Multiplier(bordered) => bordered.evaluate(shooting, place),
@@ -36,7 +38,8 @@ impl Condition {
         }
     }
 
-    /// Basis of the invariant subspace of the multipliers that the condition holds, at the last evaluated place.
+    /// Basis of the invariant subspace of the multipliers that the condition holds, at the last evaluated
+    /// place.
     pub fn critical_vectors(&self, shooting: &Shooting) -> Vec<Vec<f64>> {
         match self {
             Self::Multiplier(bordered) => {
@@ -47,7 +50,8 @@ impl Condition {
         }
     }
 
-    /// The coefficient of the normal form at the place where the shooting equations were evaluated last, in a form that is bounded; `None` where it cannot be told, or is none that changes its sign.
+    /// The coefficient of the normal form at the place where the shooting equations were evaluated last, in a
+    /// form that is bounded; `None` where it cannot be told, or is none that changes its sign.
     pub fn criticality(&self, shooting: &mut Shooting, place: &Place) -> Result<Option<f64>, MotionError> {
         let coefficient = match self {
             Self::Multiplier(bordered) if bordered.multiplier < 0.0 => {

@@ -1,6 +1,9 @@
-//! The test function that tells sub- from supercritical bifurcations, over places where its value is not known.
+//! The test function that tells sub- from supercritical bifurcations, over places where its value is not
+//! known.
 //!
-//! Beside a grazing no coefficient can be told. There the test has no value and keeps its sign, and where it has one again, whatever that is, it begins anew with that sign: no change behind such a place is taken for a zero.
+//! Beside a grazing no coefficient can be told. There the test has no value and keeps its sign, and where it
+//! has one again, whatever that is, it begins anew with that sign: no change behind such a place is taken for
+//! a zero.
 
 use hammerbeam_path::TestValue;
 

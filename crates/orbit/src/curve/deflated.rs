@@ -1,8 +1,10 @@
 //! The multipliers beside the critical ones.
 //!
-//! Householder reflections that turn the critical vectors into the first axes bring the monodromy matrix to `[A_c *; 0 A_r]`; the other multipliers are the eigenvalues of `A_r`. Nothing is
-//! divided by what vanishes where one of them comes to the critical ones, as `w^T v` does, and no multiplier is taken for another there. With them, two that meet at +1 would be found as a pair on either
-//! side of the unit circle, at the root of rounding.
+//! Householder reflections that turn the critical vectors into the first axes bring the monodromy matrix to
+//! `[A_c *; 0 A_r]`; the other multipliers are the eigenvalues of `A_r`. Nothing is divided by what vanishes
+//! where one of them comes to the critical ones, as `w^T v` does, and no multiplier is taken for another
+//! there. With them, two that meet at +1 would be found as a pair on either side of the unit circle, at the
+//! root of rounding.
 //!
 //! # Source
 //! Golub and Van Loan, *Matrix Computations* (2013), sections 5.1 and 7.1.
@@ -36,7 +38,8 @@ pub(super) fn other_eigenvalues(
     eigenvalues(size - first, &rest)
 }
 
-/// Unit normal of the mirror that turns a column into the axis of that number, its entries before that left out.
+/// Unit normal of the mirror that turns a column into the axis of that number, its entries before that left
+/// out.
 fn normal_of_mirror(column: &[f64], axis: usize) -> Vec<f64> {
     let mut normal = column.to_vec();
     normal[..axis].fill(0.0);
@@ -56,7 +59,8 @@ mod tests {
 
     use super::*;
 
-    /// `S T S^-1` with `S = I + u e^T`, so that `S^-1 = I - u e^T / (1 + e . u)`, of an upper triangular matrix in blocks.
+    /// `S T S^-1` with `S = I + u e^T`, so that `S^-1 = I - u e^T / (1 + e . u)`, of an upper triangular
+    /// matrix in blocks.
     fn mixed(blocks: [[f64; 4]; 4]) -> Vec<f64> {
         let (u, e) = ([0.3, -0.7, 0.2, 0.5], [0.4, 0.1, -0.6, 0.8]);
         let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
@@ -75,7 +79,8 @@ mod tests {
         (0..count).map(column).collect()
     }
 
-    /// A multiplier that meets the critical one, in a block that cannot be made diagonal, is found to rounding; among all four it is off by its root.
+    /// A multiplier that meets the critical one, in a block that cannot be made diagonal, is found to
+    /// rounding; among all four it is off by its root.
     #[test]
     fn a_multiplier_that_meets_the_critical_one_is_found_to_rounding() {
         let matrix =

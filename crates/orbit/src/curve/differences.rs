@@ -1,7 +1,9 @@
 //! Derivatives of fundamental matrices along a vector, by central differences.
 //!
-//! Beside a grazing at the distance D matrices go like `sqrt(D)`. The *bend* of a difference, its second over its first, is `h/(4 D)` then for a step h, and the quotient is off by twice its square; across the grazing the bend stays about one. So steps are
-//! shortened until the bend is [`BEND`], or rounding, which goes like one over the step, is more than is gained. The bend that is left tells the distance.
+//! Beside a grazing at the distance D matrices go like `sqrt(D)`. The *bend* of a difference, its second over
+//! its first, is `h/(4 D)` then for a step h, and the quotient is off by twice its square; across the grazing
+//! the bend stays about one. So steps are shortened until the bend is [`BEND`], or rounding, which goes like
+//! one over the step, is more than is gained. The bend that is left tells the distance.
 
 use hammerbeam_motion::exact::MotionError;
 
@@ -39,7 +41,8 @@ impl Quotients {
 }
 
 impl Shooting {
-    /// Derivative along the direction `v_k` at the node of each segment: of `G_k`, `dZ_k/df` and `dZ_k/dp`, by central differences.
+    /// Derivative along the direction `v_k` at the node of each segment: of `G_k`, `dZ_k/df` and `dZ_k/dp`,
+    /// by central differences.
     pub fn differences(
         &mut self,
         place: &Place,
@@ -49,7 +52,8 @@ impl Shooting {
         by_segment.map(|(k, direction)| self.difference(k, place, direction)).collect()
     }
 
-    /// That of one segment, with a step that is shortened as long as the difference is bent and rounding allows it.
+    /// That of one segment, with a step that is shortened as long as the difference is bent and rounding
+    /// allows it.
     fn difference(&mut self, k: usize, place: &Place, direction: &[f64]) -> Result<Segment, MotionError> {
         let length = direction.iter().map(|d| d * d).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
         let mut step = DIFFERENCE;
@@ -58,7 +62,8 @@ impl Shooting {
             let shorter = (step * (BEND / found.bend).max(SHORTENING)).max(LEAST_DIFFERENCE);
             let next = self.quotients(k, place, direction, shorter / length)?;
             let is_same = largest_change(&found.segment, &next.segment) <= SAME;
-            // Across a grazing the bend stays about one, however short the step, until it is short against the distance.
+            // Across a grazing the bend stays about one, however short the step, until it is short against
+            // the distance.
             if next.rounding > found.error() {
                 break;
             }
@@ -75,7 +80,8 @@ impl Shooting {
         self.with_number(k, place, direction, found.segment)
     }
 
-    /// The same, but where the parameter is a number of a family: there `dZ_k/dp` is a difference itself, so that `dG_k/dp` is taken of the matrices.
+    /// The same, but where the parameter is a number of a family: there `dZ_k/dp` is a difference itself, so
+    /// that `dG_k/dp` is taken of the matrices.
     fn with_number(
         &mut self,
         k: usize,

@@ -1,10 +1,14 @@
 //! A contact that is touched with zero velocity: conditions at the node where the orbit is cut.
 //!
-//! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit. Their derivatives: by the state `phi`; by the phase `r'/f` and
-//! `r''/f` as far as `u` has them; by the frequency those of `s u` and `s u'` at a fixed phase; by the excitation scale `a` those of `u` over `a`; by the gap `-1` in the first.
+//! `sign (r - level) = 0` and `r' = 0` with `r = phi . q + s u(x)`, both over the scale of the orbit. Their
+//! derivatives: by the state `phi`; by the phase `r'/f` and `r''/f` as far as `u` has them; by the frequency
+//! those of `s u` and `s u'` at a fixed phase; by the excitation scale `a` those of `u` over `a`; by the gap
+//! `-1` in the first.
 //!
-//! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its penetration is. A law whose force depends on the velocity opens
-//! where its force vanishes, with penetration: the touch from inside is none of its grazings. A rigid stop is never closed for a while without holding.
+//! An open contact is touched from outside, where its clearance is least; a closed one from inside, where its
+//! penetration is. A law whose force depends on the velocity opens where its force vanishes, with
+//! penetration: the touch from inside is none of its grazings. A rigid stop is never closed for a while
+//! without holding.
 
 use hammerbeam_motion::{Parameter, Stretch, exact::MotionError};
 
@@ -16,9 +20,11 @@ use crate::OrbitError;
 
 /// Looks for the touch per excitation period.
 const LOOKS: usize = 2000;
-/// By how much the opposite contact of a symmetric orbit is further from grazing, in parts of the orbit, and how well half a period is met [cycles].
+/// By how much the opposite contact of a symmetric orbit is further from grazing, in parts of the orbit, and
+/// how well half a period is met [cycles].
 const OPPOSITE: f64 = 1e-6;
-/// Farthest from grazing that the contact of a grazing orbit is, as it was located before, in parts of the orbit.
+/// Farthest from grazing that the contact of a grazing orbit is, as it was located before, in parts of the
+/// orbit.
 const FARTHEST: f64 = 1e-2;
 
 /// The contact that is touched.
@@ -122,7 +128,8 @@ impl Touch {
         Ok(nearest)
     }
 
-    /// The other contact that a symmetric orbit, which touches this one at `turn`, touches half a period later, and how long that is [cycles]; `None` if it will not once the parameter changes.
+    /// The other contact that a symmetric orbit, which touches this one at `turn`, touches half a period
+    /// later, and how long that is [cycles]; `None` if it will not once the parameter changes.
     pub fn opposite(
         self,
         shooting: &mut Shooting,
@@ -149,7 +156,8 @@ impl Touch {
         Ok(None)
     }
 
-    /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one of their two elements alone.
+    /// Whether the opposite contact stays that when the parameter changes: it does not where that is of one
+    /// of their two elements alone.
     fn stays_opposite(self, other: Self, parameter: Parameter) -> bool {
         let (Parameter::Gap { element }
         | Parameter::Stiffness { element }
@@ -161,7 +169,8 @@ impl Touch {
         self.element == other.element || ![self.element, other.element].contains(&element)
     }
 
-    /// Where the contact of the orbit with these nodes, the first at the phase `begin`, turns nearest to its level, if that is near enough for a grazing.
+    /// Where the contact of the orbit with these nodes, the first at the phase `begin`, turns nearest to its
+    /// level, if that is near enough for a grazing.
     fn find(
         self,
         shooting: &mut Shooting,
@@ -220,7 +229,8 @@ impl Touch {
     }
 }
 
-/// States of an orbit at phases in their order, each from the node before it: what a slow impact makes of rounding does not go on.
+/// States of an orbit at phases in their order, each from the node before it: what a slow impact makes of
+/// rounding does not go on.
 fn samples(
     shooting: &mut Shooting,
     (orbit, nodes): (&Stretch, &[Vec<f64>]),

@@ -1,12 +1,16 @@
 //! Orbits and their images half their period later, and orbits that are their own image.
 //!
 //! # Mathematics
-//! `sigma: z(t) -> s z(t + N T/2)` takes periodic orbits of `N` excitation periods `T` to such orbits and is its own inverse: with `s = +1` for even `N`, in any system, since half the period is a number of whole
-//! excitation periods; with `s = -1` for odd `N` where the system is symmetric, so that the excitation changes its sign and forces do with the state. An orbit is one of a pair of images, or its own image: then its period is half as long, or it
-//! is a symmetric one.
+//! `sigma: z(t) -> s z(t + N T/2)` takes periodic orbits of `N` excitation periods `T` to such orbits and is
+//! its own inverse: with `s = +1` for even `N`, in any system, since half the period is a number of whole
+//! excitation periods; with `s = -1` for odd `N` where the system is symmetric, so that the excitation
+//! changes its sign and forces do with the state. An orbit is one of a pair of images, or its own image: then
+//! its period is half as long, or it is a symmetric one.
 //!
-//! An own image is a fixed point of the map over half its period, `H(z) = s Z(z, N T/2)`, and as such an ordinary orbit with a matrix B, `A = B^2`. Pairs branch off from it where B has a multiplier at -1: a flip, or the branch point at which the
-//! symmetry is lost, of which A sees a multiplier at +1. Everything that is known of flips holds of B: the curve, its normal form and where that changes its sign.
+//! An own image is a fixed point of the map over half its period, `H(z) = s Z(z, N T/2)`, and as such an
+//! ordinary orbit with a matrix B, `A = B^2`. Pairs branch off from it where B has a multiplier at -1: a
+//! flip, or the branch point at which the symmetry is lost, of which A sees a multiplier at +1. Everything
+//! that is known of flips holds of B: the curve, its normal form and where that changes its sign.
 
 use hammerbeam_motion::exact::MotionError;
 
@@ -92,7 +96,8 @@ impl Shooting {
         Ok(nodes)
     }
 
-    /// The orbit at a place, or as much of it as another one's segments are long, with its nodes where those of `like` are when they begin at a phase.
+    /// The orbit at a place, or as much of it as another one's segments are long, with its nodes where those
+    /// of `like` are when they begin at a phase.
     pub fn unfolded(&mut self, place: &Place, like: &Self, phase: f64) -> Result<Place, MotionError> {
         let scales = self.scale.values().to_vec();
         let cycles = self.cycles();

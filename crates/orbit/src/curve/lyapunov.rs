@@ -107,7 +107,8 @@ fn combined(
     Some(Coefficient { value, scale: 0.5 * scale, sign, bend })
 }
 
-/// The same pair with a right vector of length one whose parts are orthogonal, the real one the longer: directions of differences that do not depend on chance.
+/// The same pair with a right vector of length one whose parts are orthogonal, the real one the longer:
+/// directions of differences that do not depend on chance.
 fn upright(PairVectors { multiplier, right, left }: &PairVectors) -> PairVectors {
     let [a, b] = right;
     let square = c64::new(dot(a, a) - dot(b, b), 2.0 * dot(a, b));

@@ -1,4 +1,5 @@
-//! Points of codimension two: the test functions of a curve in their order, and which of their zeros are marked.
+//! Points of codimension two: the test functions of a curve in their order, and which of their zeros are
+//! marked.
 
 use hammerbeam_path::{Events, TestValue};
 
@@ -8,7 +9,8 @@ use super::{
 };
 use crate::stability;
 
-/// Distance from its place within which a further multiplier is critical: one that jumped over it, as where contacts change, is not.
+/// Distance from its place within which a further multiplier is critical: one that jumped over it, as where
+/// contacts change, is not.
 const CRITICAL: f64 = 1e-4;
 
 /// Test functions of a curve.
@@ -43,7 +45,8 @@ pub(super) fn signed(value: f64) -> TestValue {
     TestValue::new(value, u32::from(value < 0.0))
 }
 
-/// The zero, among those of the tests, of the clearance of the opposite contact on a grazing curve (`opposite.rs`), which comes behind [`tests`].
+/// The zero, among those of the tests, of the clearance of the opposite contact on a grazing curve
+/// (`opposite.rs`), which comes behind [`tests`].
 pub(super) const OPPOSITE_BIT: u32 = 4;
 
 /// The number of the test function of criticality, where there is one.

@@ -1,16 +1,23 @@
 //! Where a curve of folds comes to orbits that are their own images, and ends.
 //!
 //! # Mathematics
-//! Pairs of orbits branch off from their own images (`image.rs`) as `x (mu + b x^2 + c x^4) = 0`, with x half the way between the two of a pair. Their folds lie at `b = -2 c x^2`, `mu = c x^4`: a curve that comes for `x -> 0`, with the parameters in `x^2`, to the
-//! place `mu = b = 0` on the curve of flips of the map over half the period, at which these change their criticality. Behind it comes its own image, over the same parameters, so it ends there: at a *degenerate flip* or, where the orbits become symmetric,
-//! at a *degenerate branch point* (of the pitchfork).
+//! Pairs of orbits branch off from their own images (`image.rs`) as `x (mu + b x^2 + c x^4) = 0`, with x half
+//! the way between the two of a pair. Their folds lie at `b = -2 c x^2`, `mu = c x^4`: a curve that comes for
+//! `x -> 0`, with the parameters in `x^2`, to the place `mu = b = 0` on the curve of flips of the map over
+//! half the period, at which these change their criticality. Behind it comes its own image, over the same
+//! parameters, so it ends there: at a *degenerate flip* or, where the orbits become symmetric, at a
+//! *degenerate branch point* (of the pitchfork).
 //!
-//! The equations of the curve hold on the curve of flips as well, and that three times: with `mu` eliminated they are `x^3 (b + 2 c x^2) = 0`. So what they know of the place is rounding over `x^3`, and their steps get short before it. The place itself is regular in the equations
-//! of the half: from the last rows the own image, frequency and parameter are extrapolated to `x^2 = 0`, corrected on the curve of flips, and this is followed to the zero of the coefficient of its normal form. It is the end of the curve if it lies where the rows
-//! lead to, and the whole orbit there solves the equations of the curve.
+//! The equations of the curve hold on the curve of flips as well, and that three times: with `mu` eliminated
+//! they are `x^3 (b + 2 c x^2) = 0`. So what they know of the place is rounding over `x^3`, and their steps
+//! get short before it. The place itself is regular in the equations of the half: from the last rows the own
+//! image, frequency and parameter are extrapolated to `x^2 = 0`, corrected on the curve of flips, and this is
+//! followed to the zero of the coefficient of its normal form. It is the end of the curve if it lies where
+//! the rows lead to, and the whole orbit there solves the equations of the curve.
 //!
 //! # Source
-//! Golubitsky and Schaeffer, *Singularities and Groups in Bifurcation Theory* I (1985), chapter VI; Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), section 9.4 (generalised flip).
+//! Golubitsky and Schaeffer, *Singularities and Groups in Bifurcation Theory* I (1985), chapter VI;
+//! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), section 9.4 (generalised flip).
 
 use hammerbeam_path::Direction;
 
@@ -118,7 +125,8 @@ impl Approach {
         passes || comes_near
     }
 
-    /// The zero to which the curve of flips of the half leads, and how well it is known, if it is where rows aim.
+    /// The zero to which the curve of flips of the half leads, and how well it is known, if it is where rows
+    /// aim.
     fn find(
         &self,
         problem: &mut CurveProblem,

@@ -1,19 +1,29 @@
-//! The coefficients of normal forms that tell on which side of a bifurcation what branches off lies, and whether it is stable.
+//! The coefficients of normal forms that tell on which side of a bifurcation what branches off lies, and
+//! whether it is stable.
 //!
-//! On the centre manifold the map of a period is at a flip `x -> -x + c x^3`, at a Neimark-Sacker point `x -> e^{i a} x + C x |x|^2` with `d = Re(e^{-i a} C)`: for `c > 0` and `d < 0` the orbit is stable in it, and what branches off is.
-//! With the derivatives B and C of the map and `A v = -v`, `A q = e^{i a} q`, `p^H A = e^{i a} p^H`, `p^H q = 1`,
+//! On the centre manifold the map of a period is at a flip `x -> -x + c x^3`, at a Neimark-Sacker point `x ->
+//! e^{i a} x + C x |x|^2` with `d = Re(e^{-i a} C)`: for `c > 0` and `d < 0` the orbit is stable in it, and
+//! what branches off is. With the derivatives B and C of the map and `A v = -v`, `A q = e^{i a} q`, `p^H A =
+//! e^{i a} p^H`, `p^H q = 1`,
 //!
 //! * `6 c w^T v = w^T [C(v, v, v) + 3 B(v, (I - A)^-1 B(v, v))]`,
-//! * `2 d = Re e^{-i a} p^H [C(q, q, q') + 2 B(q, (I - A)^-1 B(q, q')) + B(q', (e^{2 i a} I - A)^-1 B(q, q))]`, `q'` the conjugate of q.
+//! * `2 d = Re e^{-i a} p^H [C(q, q, q') + 2 B(q, (I - A)^-1 B(q, q')) + B(q', (e^{2 i a} I - A)^-1 B(q,
+//!   q))]`, `q'` the conjugate of q.
 //!
-//! The test function of a flip is the first without `w^T v`, which vanishes at the 1:2 resonance. Both have a pole where a further multiplier comes to +1, so they go over to `sign det(I - A) x / (x^2 + s^2)^{1/2}` with a scale s of the derivatives,
-//! which passes that point without a zero.
+//! The test function of a flip is the first without `w^T v`, which vanishes at the 1:2 resonance. Both have a
+//! pole where a further multiplier comes to +1, so they go over to `sign det(I - A) x / (x^2 + s^2)^{1/2}`
+//! with a scale s of the derivatives, which passes that point without a zero.
 //!
-//! Over segments with the matrices `G_k` the terms are carried from node to node: `s -> G_k s + DG_k[v] v` for those of second order, and `w_k^T (D^2 G_k[v, v] v + 3 DG_k[v] s)` is what each adds to the third. `DG[v]` and `D^2 G[v, v]` are the first and the second central
-//! difference of the exact fundamental matrices along v: two evaluations for a flip, four for a pair (`D^2 G[q, q'] = D^2 G[a, a] + D^2 G[b, b]`, `q = a + i b`). Near a zero, or where differences are bent as beside a grazing, two steps are taken and extrapolated; where they do not agree there is no value.
+//! Over segments with the matrices `G_k` the terms are carried from node to node: `s -> G_k s + DG_k[v] v`
+//! for those of second order, and `w_k^T (D^2 G_k[v, v] v + 3 DG_k[v] s)` is what each adds to the third.
+//! `DG[v]` and `D^2 G[v, v]` are the first and the second central difference of the exact fundamental
+//! matrices along v: two evaluations for a flip, four for a pair (`D^2 G[q, q'] = D^2 G[a, a] + D^2 G[b, b]`,
+//! `q = a + i b`). Near a zero, or where differences are bent as beside a grazing, two steps are taken and
+//! extrapolated; where they do not agree there is no value.
 //!
 //! # Sources
-//! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), section 5.4 and chapter 9; Kuznetsov and Meijer, SIAM J. Sci. Comput. 26 (2005), 1932-1954.
+//! Kuznetsov, *Elements of Applied Bifurcation Theory* (2004), section 5.4 and chapter 9; Kuznetsov and
+//! Meijer, SIAM J. Sci. Comput. 26 (2005), 1932-1954.
 
 use hammerbeam_motion::exact::MotionError;
 use hammerbeam_path::DenseLu;
@@ -25,14 +35,16 @@ use super::{
 
 /// Step along a vector, relative to the orbit, with which a coefficient far from zero is known well enough.
 const STEP: f64 = 1.25e-3;
-/// It is far from zero with this share of its scale, while second differences of matrices are this share of the first ones.
+/// It is far from zero with this share of its scale, while second differences of matrices are this share of
+/// the first ones.
 const FAR: f64 = 2e-3;
 const BEND: f64 = 0.02;
 /// Further steps, by their ratio to the one before.
 const STEPS: [f64; 2] = [4.0, 0.25];
 /// Values of two steps agree within this share of their scale.
 const AGREES: f64 = 0.02;
-/// By how much an inverse may enlarge a vector: at a pole, where a row is located to 1e-10, rounding decides on the value.
+/// By how much an inverse may enlarge a vector: at a pole, where a row is located to 1e-10, rounding decides
+/// on the value.
 const LARGEST: f64 = 1e6;
 
 /// A coefficient with one step.
@@ -147,7 +159,8 @@ impl Shooting {
         each.fold(zero, |sum, (segment, own)| add(&times(&segment.matrix, &sum), own))
     }
 
-    /// `(by I - A)^-1` of a vector, and the sign of the determinant; `None` if there is no inverse, as far as can be told.
+    /// `(by I - A)^-1` of a vector, and the sign of the determinant; `None` if there is no inverse, as far as
+    /// can be told.
     pub fn answer(&self, by: f64, vector: &[f64]) -> Option<(Vec<f64>, f64)> {
         let size = self.size();
         let mut matrix: Vec<f64> = self.monodromy().iter().map(|entry| -entry).collect();

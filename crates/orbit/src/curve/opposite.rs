@@ -1,11 +1,16 @@
-//! The contact opposite to that of a grazing curve, which is touched half a period later as long as orbits are symmetric.
+//! The contact opposite to that of a grazing curve, which is touched half a period later as long as orbits
+//! are symmetric.
 //!
 //! # Mathematics
-//! Over a parameter that breaks the symmetry a curve of the first contact has the clearance `c` at the second, with `c = 0` where the symmetry holds. It is that of orbits that pass the second contact, which is left out beside its touch (`passing.rs`): where
-//! `c > 0` it is not missed, where `c < 0` it would be struck, and these are orbits of another system. So `c` is a test function of the curve, and its zero an end: beyond, both contacts are grazed at once only at single points, and the curve of the first contact with
-//! impacts at the second begins there.
+//! Over a parameter that breaks the symmetry a curve of the first contact has the clearance `c` at the
+//! second, with `c = 0` where the symmetry holds. It is that of orbits that pass the second contact, which is
+//! left out beside its touch (`passing.rs`): where `c > 0` it is not missed, where `c < 0` it would be
+//! struck, and these are orbits of another system. So `c` is a test function of the curve, and its zero an
+//! end: beyond, both contacts are grazed at once only at single points, and the curve of the first contact
+//! with impacts at the second begins there.
 //!
-//! Where the symmetry holds all along the curve, `c` is zero up to errors of points. The zero is that of `c + e`, therefore, with the depth `e` of [`TOUCHED`], to which the second contact is grazed at the end.
+//! Where the symmetry holds all along the curve, `c` is zero up to errors of points. The zero is that of `c +
+//! e`, therefore, with the depth `e` of [`TOUCHED`], to which the second contact is grazed at the end.
 
 use hammerbeam_motion::{Stretch, exact::MotionError};
 
@@ -17,7 +22,8 @@ const TOUCHED: f64 = 1e-6;
 const LOOKS: usize = 64;
 
 impl Shooting {
-    /// Least clearance of the opposite contact beside its touch, in parts of the orbit, beyond the depth to which it is grazed; `None` if the curve has no such contact.
+    /// Least clearance of the opposite contact beside its touch, in parts of the orbit, beyond the depth to
+    /// which it is grazed; `None` if the curve has no such contact.
     pub fn opposite_clearance(&mut self, place: &Place) -> Result<Option<f64>, MotionError> {
         let Some(passing) = &self.passing else { return Ok(None) };
         let Some((touch, behind)) = passing.opposite() else { return Ok(None) };

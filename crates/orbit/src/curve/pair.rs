@@ -1,7 +1,8 @@
 //! A pair of multipliers with product one: the determinant of `A` on their invariant plane.
 //!
-//! With bases `R` and `L` of the right and left invariant planes, `L^T R = I`, the matrix on the plane is `A_c = L^T A R`, `d = det A_c` the product of the
-//! pair and `k = tr A_c / 2`. `d(ln d) = tr(A_c^-1 L^T (dA) R)`. The plane stays well defined where the pair becomes real, at `k = 1` and `k = -1`. It is the null
+//! With bases `R` and `L` of the right and left invariant planes, `L^T R = I`, the matrix on the plane is
+//! `A_c = L^T A R`, `d = det A_c` the product of the pair and `k = tr A_c / 2`. `d(ln d) = tr(A_c^-1 L^T (dA)
+//! R)`. The plane stays well defined where the pair becomes real, at `k = 1` and `k = -1`. It is the null
 //! space of `A^2 - 2 k A + d I`.
 
 use faer::c64;

@@ -1,14 +1,23 @@
 //! The flow of an orbit that touches a contact at its ends and passes it.
 //!
-//! Beside a touch the flow depends on which side of it the motion lies: where the contact closes for an instant its force acts for as short a time as one likes, its law may need the speed of the impact, and a rigid stop throws the
-//! motion back, with a fundamental matrix that is like the root of the depth. A grazing orbit is the end of those that pass without contact. So for a short time after the begin and before the end the touched element is left out, its gap opened
-//! wide: the equations are those of the motions that pass, smooth on both sides of the touch, and on the curve, where the clearance and its rate vanish, those of the system itself.
+//! Beside a touch the flow depends on which side of it the motion lies: where the contact closes for an
+//! instant its force acts for as short a time as one likes, its law may need the speed of the impact, and a
+//! rigid stop throws the motion back, with a fundamental matrix that is like the root of the depth. A grazing
+//! orbit is the end of those that pass without contact. So for a short time after the begin and before the
+//! end the touched element is left out, its gap opened wide: the equations are those of the motions that
+//! pass, smooth on both sides of the touch, and on the curve, where the clearance and its rate vanish, those
+//! of the system itself.
 //!
-//! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
+//! A closed contact that is touched from inside is kept: its force sets in with the penetration, and one that
+//! opens for an instant leaves out little: of the state the power 3/2 of the distance, or more.
 //!
-//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well, and so it is as long as the curve goes: over a parameter that breaks the symmetry too, where the curve is that of the first contact and holds only to the side on which the motion leaves the other: where it would be struck the curve ends (`opposite.rs`).
+//! A symmetric orbit touches the opposite contact half a period later: there that one is left out as well,
+//! and so it is as long as the curve goes: over a parameter that breaks the symmetry too, where the curve is
+//! that of the first contact and holds only to the side on which the motion leaves the other: where it would
+//! be struck the curve ends (`opposite.rs`).
 //!
-//! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
+//! How long: a quarter of the time to the nearest other contact of the element, at most [`WIDEST`]. The
+//! solution does not depend on it. Within [`TOUCH`] of the touch a contact is the touch.
 
 use hammerbeam_motion::{
     Parameter, Stretch,
@@ -126,7 +135,8 @@ impl Shooting {
         }
     }
 
-    /// Leaves touched elements out as long as their other contacts allow, over the orbit that begins with `state` at its touch.
+    /// Leaves touched elements out as long as their other contacts allow, over the orbit that begins with
+    /// `state` at its touch.
     pub fn fit_passing(&mut self, frequency_hz: f64, begin: f64, state: &[f64]) -> Result<(), MotionError> {
         let Some(passing) = &self.passing else { return Ok(()) };
         let (touches, opposite) = (passing.touches.clone(), passing.opposite);

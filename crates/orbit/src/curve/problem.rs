@@ -1,4 +1,5 @@
-//! Shooting equations and a condition, as a problem for the path crate: unknowns `[nodes; f]` or, at grazing, `[nodes; f; x]`, and the parameter `p`.
+//! Shooting equations and a condition, as a problem for the path crate: unknowns `[nodes; f]` or, at grazing,
+//! `[nodes; f; x]`, and the parameter `p`.
 
 use hammerbeam_motion::exact::MotionError;
 use hammerbeam_path::{DenseLu, Determinant, EvaluationError, PathProblem, SingularJacobian, TestValue};
@@ -159,7 +160,8 @@ impl CurveProblem {
         coefficient
     }
 
-    /// Adapts the condition and its test functions to an accepted point, at which the equations were evaluated last.
+    /// Adapts the condition and its test functions to an accepted point, at which the equations were
+    /// evaluated last.
     ///
     /// * `zeros`: of the test functions, found there.
     pub fn renew(&mut self, zeros: u32) {
@@ -235,7 +237,8 @@ impl PathProblem for CurveProblem {
         values.extend(opposite.map(marks::signed));
     }
 
-    /// Without the contact that a grazing orbit touches, unless it passes it: whether that touch is counted is rounding.
+    /// Without the contact that a grazing orbit touches, unless it passes it: whether that touch is counted
+    /// is rounding.
     fn signature(&self) -> u64 {
         let shooting = &self.shooting;
         let is_touched = |number: usize| match (&self.condition, &shooting.passing) {

@@ -1,13 +1,20 @@
-//! Moving the phase at which the orbits of a curve are cut into segments, before a contact comes to lie over an end of one at which fundamental matrices jump.
+//! Moving the phase at which the orbits of a curve are cut into segments, before a contact comes to lie over
+//! an end of one at which fundamental matrices jump.
 //!
-//! The gradient of a condition is made of differences of fundamental matrices. Where a stop with a damper closes, its force jumps, and with it the rate of the motion: the matrix of a segment jumps where that instant passes
-//! over the segment's end, and a difference over it is meaningless. So before each step the contacts of the present orbit are looked at (`cut.rs`), and where one is near an end, all nodes are carried by the flow to the middle of
-//! the longest time that is clear of them in every segment: `t_k' = G_k t_k + dZ_k/df t_f + dZ_k/dp t_p`.
+//! The gradient of a condition is made of differences of fundamental matrices. Where a stop with a damper
+//! closes, its force jumps, and with it the rate of the motion: the matrix of a segment jumps where that
+//! instant passes over the segment's end, and a difference over it is meaningless. So before each step the
+//! contacts of the present orbit are looked at (`cut.rs`), and where one is near an end, all nodes are
+//! carried by the flow to the middle of the longest time that is clear of them in every segment: `t_k' = G_k
+//! t_k + dZ_k/df t_f + dZ_k/dp t_p`.
 //!
-//! Multipliers do not depend on the phase: with the fundamental matrix `P` from the first node to where it is carried, `A' = P A P^-1`, so that the right null vector becomes `P v` and the left one `P^-T w`. The borders are
-//! taken at the new phase with the signs that this gives, so that the curve keeps its orientation.
+//! Multipliers do not depend on the phase: with the fundamental matrix `P` from the first node to where it is
+//! carried, `A' = P A P^-1`, so that the right null vector becomes `P v` and the left one `P^-T w`. The
+//! borders are taken at the new phase with the signs that this gives, so that the curve keeps its
+//! orientation.
 //!
-//! The start of the curve is carried along, so that a closed curve is seen to close; where it cannot be followed there, it is out of reach. Grazing curves are cut where the contact is touched, wherever that is.
+//! The start of the curve is carried along, so that a closed curve is seen to close; where it cannot be
+//! followed there, it is out of reach. Grazing curves are cut where the contact is touched, wherever that is.
 
 use hammerbeam_motion::{
     Stretch,
@@ -63,7 +70,8 @@ impl CurveWalk {
     }
 }
 
-/// Point and tangent of an orbit whose segments begin this much later, and the fundamental matrix from its first node to the new one, by rows.
+/// Point and tangent of an orbit whose segments begin this much later, and the fundamental matrix from its
+/// first node to the new one, by rows.
 fn carried(
     problem: &mut CurveProblem,
     at: &ContinuationPoint,
@@ -94,7 +102,8 @@ fn carried(
     Ok((Node { point, tangent }, first))
 }
 
-/// An orbit whose segments end away from contacts at which fundamental matrices jump, as far as there is room.
+/// An orbit whose segments end away from contacts at which fundamental matrices jump, as far as there is
+/// room.
 pub(super) fn cut_clear(
     integrator: &mut ExactIntegrator,
     orbit: &PeriodicSolution,

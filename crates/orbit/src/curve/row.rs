@@ -1,4 +1,5 @@
-//! A curve of bifurcations as it is asked for and as it comes out: kind and ranges, rows with their events, ends.
+//! A curve of bifurcations as it is asked for and as it comes out: kind and ranges, rows with their events,
+//! ends.
 
 use hammerbeam_motion::Parameter;
 
@@ -15,7 +16,8 @@ pub enum CurveKind {
     NeimarkSacker,
     /// A contact that is touched with zero velocity.
     Grazing {
-        /// Which one, in the order of the elements and their contacts; `None` for the one that comes nearest to grazing.
+        /// Which one, in the order of the elements and their contacts; `None` for the one that comes nearest
+        /// to grazing.
         contact: Option<usize>,
     },
 }
@@ -54,7 +56,8 @@ pub struct CurveEvents {
     pub double_neimark_sacker: bool,
     /// A flip that changes its criticality.
     pub degenerate_flip: bool,
-    /// A branch point, at which the orbits of a symmetric system lose their symmetry, that changes its criticality.
+    /// A branch point, at which the orbits of a symmetric system lose their symmetry, that changes its
+    /// criticality.
     pub degenerate_branch_point: bool,
     /// A Neimark-Sacker point that changes its criticality.
     pub degenerate_neimark_sacker: bool,
@@ -163,28 +166,33 @@ pub enum CurveEnd {
     Closed,
     /// A Neimark-Sacker curve ends at a resonance 1:1 or 1:2.
     Resonance,
-    /// The orbits, one of a pair of images until then, are their own image, where these branch off: the curve of their folds goes on as its own image, over the same parameters.
+    /// The orbits, one of a pair of images until then, are their own image, where these branch off: the curve
+    /// of their folds goes on as its own image, over the same parameters.
     OwnImage {
         /// Value of the second parameter there, in its unit.
         parameter: f64,
-        /// Whether the images are mirror images and the orbits become symmetric; else they become orbits of half the period.
+        /// Whether the images are mirror images and the orbits become symmetric; else they become orbits of
+        /// half the period.
         mirrored: bool,
     },
-    /// The bifurcation has met a grazing, where matrices jump or go like the root of the distance: no step led on, or rows one after the other were at it as far as can be told.
+    /// The bifurcation has met a grazing, where matrices jump or go like the root of the distance: no step
+    /// led on, or rows one after the other were at it as far as can be told.
     Grazing {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,
         /// Why no step led on.
         cause: Option<String>,
     },
-    /// The contact opposite to the one that is followed, which is touched half a period later where orbits are symmetric, is grazed as well at the last row; beyond it would be struck.
+    /// The contact opposite to the one that is followed, which is touched half a period later where orbits
+    /// are symmetric, is grazed as well at the last row; beyond it would be struck.
     GrazedAsWell {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,
         /// Name of the local element.
         element: String,
     },
-    /// Beyond the last row a contact opens and is pressed on again at once. With a law that remembers how a contact began, its force jumps there, and so does the motion.
+    /// Beyond the last row a contact opens and is pressed on again at once. With a law that remembers how a
+    /// contact began, its force jumps there, and so does the motion.
     ContactSplits {
         /// Value of the second parameter at the last row, in its unit.
         parameter: f64,

@@ -11,7 +11,8 @@ use super::{
 use crate::{OrbitError, PeriodicSolution, spectrum::Spectrum};
 
 impl CurveWalk {
-    /// Whether the contacts that are counted hold those that graze: then a change of their number says nothing of another one.
+    /// Whether the contacts that are counted hold those that graze: then a change of their number says
+    /// nothing of another one.
     fn counts_its_own_touch(&self) -> bool {
         matches!(self.kind, CurveKind::Grazing { .. }) && self.problem.shooting.passing.is_none()
     }
@@ -77,7 +78,8 @@ impl CurveWalk {
         Ok(CurveRow { parameter: place.value, solution, phase, events })
     }
 
-    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere: each from the node before it.
+    /// Nodes at equal phases, from that of the start on, of the orbit that is cut elsewhere: each from the
+    /// node before it.
     fn nodes_from_begin(&mut self, place: &Place, nodes: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, OrbitError> {
         let begin = self.problem.begin;
         let shooting = &mut self.problem.shooting;

@@ -1,7 +1,8 @@
 //! The shooting equations with two parameters and a phase.
 //!
-//! `R_k = Z_k(z_k, f, x, p) - z_{k+1}`, where segment k runs from the phase `x + k N/m` to `x + (k + 1) N/m`. By the phase at which it is cut a
-//! segment has the derivative `(F(end) - G_k F(start))/f`, with the rate `F` of the state.
+//! `R_k = Z_k(z_k, f, x, p) - z_{k+1}`, where segment k runs from the phase `x + k N/m` to `x + (k + 1) N/m`.
+//! By the phase at which it is cut a segment has the derivative `(F(end) - G_k F(start))/f`, with the rate
+//! `F` of the state.
 
 use hammerbeam_motion::{
     Parameter, Stretch,
@@ -71,7 +72,9 @@ pub(super) struct Shooting {
     /// `A_k`, the products of the first k matrices, `k = 0..=m`.
     pub products: Vec<Vec<f64>>,
     pub touches: Vec<u32>,
-    /// About how far the orbit is from grazing a contact, relative to its size, as far as the differences at the last evaluated place have seen it: 0 if one broke off at the shortest step, infinite if the longest served.
+    /// About how far the orbit is from grazing a contact, relative to its size, as far as the differences at
+    /// the last evaluated place have seen it: 0 if one broke off at the shortest step, infinite if the
+    /// longest served.
     pub grazing_distance: f64,
     /// Where the orbit touches a contact at its ends.
     pub passing: Option<Passing>,

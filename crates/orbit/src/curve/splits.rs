@@ -1,11 +1,17 @@
 //! Where a contact splits a curve ends, as a branch does (`splitting.rs`).
 //!
-//! On the side on which the contact has opened the map over a period has a part `u h^(1/5)`, with the height h of the flight. Multipliers go like `h^(-4/5)` there, and the gradient of a condition on them like `h^(-9/5)`, so that steps shrink in proportion to what is left of h: the
-//! curve comes nearer by some factor with each step, to no end but rounding. On the other side the border is not seen until a step has passed it, onto orbits of another motion. So it is the end of a curve
+//! On the side on which the contact has opened the map over a period has a part `u h^(1/5)`, with the height
+//! h of the flight. Multipliers go like `h^(-4/5)` there, and the gradient of a condition on them like
+//! `h^(-9/5)`, so that steps shrink in proportion to what is left of h: the curve comes nearer by some factor
+//! with each step, to no end but rounding. On the other side the border is not seen until a step has passed
+//! it, onto orbits of another motion. So it is the end of a curve
 //!
-//! - that a step has changed how often a contact is touched, and this contact splits in the orbit before or behind the step;
-//! - that its last [`SHORT_STEPS`] rows came no further than [`SHORT`] each, on the average, and a contact splits in the present orbit;
-//! - that no step leads on from an orbit in which a contact splits, or that derivatives of matrices could not be had there at several rows in a row, as at a grazing.
+//! - that a step has changed how often a contact is touched, and this contact splits in the orbit before or
+//!   behind the step;
+//! - that its last [`SHORT_STEPS`] rows came no further than [`SHORT`] each, on the average, and a contact
+//!   splits in the present orbit;
+//! - that no step leads on from an orbit in which a contact splits, or that derivatives of matrices could not
+//!   be had there at several rows in a row, as at a grazing.
 
 use super::{
     row::CurveEnd,
@@ -14,7 +20,8 @@ use super::{
 };
 use crate::splitting::{self, SHORT_STEPS, Splitting};
 
-/// An average step that is short [hundredths of the ranges]: other curves take half of one, some shorter ones where something happens.
+/// An average step that is short [hundredths of the ranges]: other curves take half of one, some shorter ones
+/// where something happens.
 const SHORT: f64 = 1e-3;
 
 /// An orbit of the curve.
@@ -34,7 +41,8 @@ impl CurveWalk {
         remembers.then(|| Passed { place: place(), touches: shooting.touches.clone() })
     }
 
-    /// The end, if the last step, which led away from `before`, has passed a splitting or is the last of many short ones towards one.
+    /// The end, if the last step, which led away from `before`, has passed a splitting or is the last of many
+    /// short ones towards one.
     pub(super) fn comes_to_splitting(&mut self, before: &Passed) -> Option<CurveEnd> {
         let shooting = &self.problem.shooting;
         let system = shooting.integrator.system();

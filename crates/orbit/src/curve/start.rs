@@ -46,7 +46,8 @@ pub(super) fn first_condition(
     Ok(condition.map(|condition| (condition, place)))
 }
 
-/// Settings of the path. The condition is known less exactly than an orbit: rounding of the monodromy matrix is in it.
+/// Settings of the path. The condition is known less exactly than an orbit: rounding of the monodromy matrix
+/// is in it.
 pub(super) fn path_settings(settings: &CurveSettings, units: [f64; 2]) -> Settings {
     let default = Settings::default();
     Settings {

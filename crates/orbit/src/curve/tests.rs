@@ -1,4 +1,5 @@
-//! The gradient of every condition against differences of the residual, and coefficients of normal forms against differences of the flow.
+//! The gradient of every condition against differences of the residual, and coefficients of normal forms
+//! against differences of the flow.
 #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
 
 use faer::{Mat, c64};
@@ -65,7 +66,8 @@ fn shooting(parameter: Parameter) -> Shooting {
     }
 }
 
-/// The place of the orbit from a state, cut into so many segments that lead from node to node; the last one need not close.
+/// The place of the orbit from a state, cut into so many segments that lead from node to node; the last one
+/// need not close.
 fn cut(state: &[f64], count: usize) -> (Shooting, Place) {
     let mut shooting = shooting(Parameter::ExcitationScale);
     shooting.count = count;
@@ -83,7 +85,8 @@ fn extrapolated(h: f64, mut with_step: impl FnMut(f64) -> f64) -> f64 {
     (4.0 * with_step(0.5 * h) - with_step(h)) / 3.0
 }
 
-/// `6 c w^T v` is the third derivative of `w^T Z(z + t v + t^2 s/2)` by t, `(I - A) s = D^2 Z (v, v)`: differences of states, where the coefficient is made of those of matrices, with one step.
+/// `6 c w^T v` is the third derivative of `w^T Z(z + t v + t^2 s/2)` by t, `(I - A) s = D^2 Z (v, v)`:
+/// differences of states, where the coefficient is made of those of matrices, with one step.
 #[test]
 fn coefficients_do_not_depend_on_segments_and_are_third_derivatives_of_the_flow() {
     let state = [0.9, -0.2, 0.4, 0.1];

@@ -1,7 +1,10 @@
 //! Walking along a curve of bifurcations, one row at a time.
 //!
-//! A curve has met a grazing where its rows are at one as far as can be told, where [`SHORT_AT_GRAZING`] of them one after the other were short beside one (it goes on along the grazing, and matrices like the root of the distance leave nothing of the tangent), and where no step leads on from a row beside
-//! one. Differences are made only as short as they must be, so they may know of no grazing at such a row: a step across a change of contacts tells of it.
+//! A curve has met a grazing where its rows are at one as far as can be told, where [`SHORT_AT_GRAZING`] of
+//! them one after the other were short beside one (it goes on along the grazing, and matrices like the root
+//! of the distance leave nothing of the tangent), and where no step leads on from a row beside one.
+//! Differences are made only as short as they must be, so they may know of no grazing at such a row: a step
+//! across a change of contacts tells of it.
 
 use hammerbeam_motion::{System, exact::MotionError};
 use hammerbeam_path::{Direction, Events, Follower, ParameterRange, PathProblem, StepOutcome};
@@ -30,7 +33,8 @@ const ROWS_AT_GRAZING: u32 = 10;
 const AT_GRAZING: f64 = 1e-6;
 /// Shares of that at which contacts are looked at ahead.
 const AHEAD: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
-/// Rows one after the other that are short, the last of them so near to a grazing, after which the curve has met it: one that only passes it has steps that grow again.
+/// Rows one after the other that are short, the last of them so near to a grazing, after which the curve has
+/// met it: one that only passes it has steps that grow again.
 const SHORT_AT_GRAZING: u64 = 50;
 /// So many rows that have got no further than [`CRAWLING`] crawl: two hundred go over a whole range else.
 const MANY_ROWS: u32 = 2000;
@@ -67,8 +71,9 @@ impl CurveWalk {
     /// Begins at an orbit of `system` as it is, near the event, and walks to `side` of the second parameter.
     ///
     /// # Errors
-    /// [`OrbitError::Path`] if no point of the curve is found near the start, [`OrbitError::Motion`] if the system has no such parameter,
-    /// [`OrbitError::NoEvent`] if the orbit has no such contact or pair of multipliers.
+    /// [`OrbitError::Path`] if no point of the curve is found near the start, [`OrbitError::Motion`] if the
+    /// system has no such parameter, [`OrbitError::NoEvent`] if the orbit has no such contact or pair of
+    /// multipliers.
     pub fn new(
         system: &System,
         response: &Response,
@@ -291,7 +296,8 @@ impl CurveWalk {
         way < CRAWLING
     }
 
-    /// Whether the curve ends at an orbit that is its own image, as the present row shows; that orbit is the last row, instead of this one if it lies behind.
+    /// Whether the curve ends at an orbit that is its own image, as the present row shows; that orbit is the
+    /// last row, instead of this one if it lies behind.
     fn meets_image(&mut self) -> Result<Option<CurveEnd>, OrbitError> {
         let Some(approach) = &mut self.approach else { return Ok(None) };
         let current = self.follower.current().clone();

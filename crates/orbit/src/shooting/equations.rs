@@ -137,8 +137,8 @@ impl PathProblem for ShootingProblem {
 
     /// Distance from the orbits of shorter period, by the nodes that lie whole excitation periods apart.
     ///
-    /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} - z_j`, the least one over the proper divisors k of N
-    /// for which s is a whole number.
+    /// With `z_j` the nodes and s nodes in k excitation periods it is the root mean square of `z_{j+s} -
+    /// z_j`, the least one over the proper divisors k of N for which s is a whole number.
     fn distance_to_simpler(&self, point: &[f64]) -> f64 {
         let (periods, m) = (self.period_multiple as usize, self.segments);
         let states = &point[..self.residual.len()];

@@ -1,4 +1,5 @@
-//! The flows of the segments at a point: residuals, matrices, touches; and multipliers where the orbit is cut at a touch.
+//! The flows of the segments at a point: residuals, matrices, touches; and multipliers where the orbit is cut
+//! at a touch.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +12,8 @@ use hammerbeam_path::EvaluationError;
 use super::ShootingProblem;
 use crate::{NoEigenvalues, spectrum::Spectrum};
 
-/// Parts of a segment by which nodes are carried away from a touch, tried one after the other: no two of these cuts are as far apart as instants of a symmetric motion are.
+/// Parts of a segment by which nodes are carried away from a touch, tried one after the other: no two of
+/// these cuts are as far apart as instants of a symmetric motion are.
 const ELSEWHERE: [f64; 4] = [0.382, 0.618, 0.146, 0.854];
 
 /// Excitation frequency over the lowest eigenfrequency from which on rounding of states would leave less of
@@ -154,7 +156,8 @@ impl ShootingProblem {
         }
     }
 
-    /// Multipliers of the orbit of a point with all its nodes carried on to where it is not cut at a touch at which a force sets in with a jump. The problem is then evaluated elsewhere, or not at all.
+    /// Multipliers of the orbit of a point with all its nodes carried on to where it is not cut at a touch at
+    /// which a force sets in with a jump. The problem is then evaluated elsewhere, or not at all.
     pub(super) fn spectrum_cut_elsewhere(&mut self, point: &[f64]) -> Result<Spectrum, NoEigenvalues> {
         let phase = self.phase;
         for part in ELSEWHERE {
@@ -188,7 +191,8 @@ impl ShootingProblem {
         Ok(self.point(&nodes, point[point.len() - 1]))
     }
 
-    /// Counts a touch at which the orbit is cut once, whichever side of it the states on both sides are by rounding.
+    /// Counts a touch at which the orbit is cut once, whichever side of it the states on both sides are by
+    /// rounding.
     fn put_touches_right(&mut self) {
         self.touches_lacking.fill(0);
         self.jumps_at_cut = false;

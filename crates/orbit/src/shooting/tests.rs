@@ -5,8 +5,8 @@ use hammerbeam_motion::{Law, exact::ExactSettings, law::PowerSpring};
 use super::*;
 use crate::{OrbitSettings, eigenvalues::eigenvalues, solve::correct, test_oscillator::oscillator};
 
-/// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l t)`,
-/// `l^2 + 0.1 l - 2 = 0`.
+/// `x'' + 0.1 x' + x - x^3/10 = 1e-6 cos(2 pi f t)`: on the hill at `x = sqrt(10)` motions part like `exp(l
+/// t)`, `l^2 + 0.1 l - 2 = 0`.
 fn on_the_hill(frequency_hz: f64, segments: usize) -> Result<[f64; 2], OrbitError> {
     let (system, _) = oscillator(0.1, 1e-6, Law::Power(PowerSpring::cubic(-0.1).unwrap()));
     let hill = vec![10.0_f64.sqrt(), 0.0];

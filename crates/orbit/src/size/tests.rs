@@ -16,10 +16,12 @@ use crate::{
     solve::{integrator, nodes_from, state_scale},
 };
 
-/// Below the resonance of the free mass, with the force of one cycle slow enough for the mass to come to rest on its stop.
+/// Below the resonance of the free mass, with the force of one cycle slow enough for the mass to come to rest
+/// on its stop.
 const FREQUENCY_HZ: f64 = 0.3;
 
-/// 1 kg on 100 N/m damped critically, pressed with 2 N on a stop of 1e6 N/m^1.5, under `10 N cos(2 pi (f t + phase))`.
+/// 1 kg on 100 N/m damped critically, pressed with 2 N on a stop of 1e6 N/m^1.5, under `10 N cos(2 pi (f t +
+/// phase))`.
 fn resting(phase: f64) -> (System, Response) {
     let model = ReducedModel {
         natural_frequencies: vec![10.0],
@@ -60,8 +62,9 @@ fn assert_near(found: f64, expected: f64, relative: f64) {
     assert!((found / expected - 1.0).abs() < relative, "{found}, expected {expected}");
 }
 
-/// The load a whole number of eighths later has the orbit at the same states; in between the higher harmonics of a motion that is thrown off its stop and
-/// comes back show: the eight states make the mean of the squares to about a fiftieth.
+/// The load a whole number of eighths later has the orbit at the same states; in between the higher harmonics
+/// of a motion that is thrown off its stop and comes back show: the eight states make the mean of the squares
+/// to about a fiftieth.
 #[test]
 fn size_does_not_depend_on_the_phase_at_which_an_orbit_begins() {
     let expected = found(0.0).size();

@@ -1,8 +1,10 @@
 //! Flips and Neimark-Sacker points that only the numbers of multipliers outside the unit circle show.
 //!
-//! The path keeps books of them from point to point, but not over its shortest steps; and a pair that leaves the circle and comes back within one step leaves no trace in them, where a row between the points
-//! (`density.rs`) may lie where it is outside. Of neighbours among points and rows whose numbers differ, although nothing happens at either that accounts for it, the place between is found by halving. Where the contacts
-//! change, multipliers may jump, and nothing is asked.
+//! The path keeps books of them from point to point, but not over its shortest steps; and a pair that leaves
+//! the circle and comes back within one step leaves no trace in them, where a row between the points
+//! (`density.rs`) may lie where it is outside. Of neighbours among points and rows whose numbers differ,
+//! although nothing happens at either that accounts for it, the place between is found by halving. Where the
+//! contacts change, multipliers may jump, and nothing is asked.
 
 use hammerbeam_path::{ContinuationPoint, Events, solve_between};
 
@@ -113,7 +115,8 @@ impl BranchWalk {
         Ok(one.min(other))
     }
 
-    /// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what so many more or fewer outside tell.
+    /// The row of an orbit with a multiplier at -1 or a pair on the unit circle; `None` if that is not what
+    /// so many more or fewer outside tell.
     fn event_row(
         &mut self,
         mut point: ContinuationPoint,
@@ -187,12 +190,14 @@ mod tests {
 
     use crate::{BranchWalk, OrbitSettings, Response, Side, find_start, test_oscillator::oscillator};
 
-    /// `x'' + 0.1 x' + k x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`: harmonic orbits flip between 0.2 and 0.6 Hz.
+    /// `x'' + 0.1 x' + k x = cos(2 pi f t)` with `k = 1` for `x < 0` and 20 for `x > 0`: harmonic orbits flip
+    /// between 0.2 and 0.6 Hz.
     fn bilinear() -> (System, Response) {
         oscillator(0.1, 1.0, Law::Linear(LinearStop::with_gap(19.0, 0.0).unwrap()))
     }
 
-    /// Between the points before and behind a flip that the path has found, it is found again from the numbers alone.
+    /// Between the points before and behind a flip that the path has found, it is found again from the
+    /// numbers alone.
     #[test]
     fn an_event_of_which_only_the_numbers_tell_is_found() {
         let (system, response) = bilinear();

@@ -1,9 +1,11 @@
 //! What a walk may cost, counted as work and not as time, so that no result depends on a machine.
 //!
-//! With `n` modes a shooting evaluation multiplies and solves matrices of `2n` rows, some `2 (2n)^3` operations, and a row takes some `10 (2n)^3` for its multipliers; the motion counts its own
-//! ([`ExactCounts::operations`](hammerbeam_motion::exact::ExactCounts)). An operation is about a nanosecond: the beam of the paper, with six modes, takes some 1e5 to 1e6 for a solution.
-//! A side of a branch may take [`MOST`]; and it is left before where [`MOST`]`/`[`PARTS`] of them did not move it by [`PROGRESS`] of the range in arc length: where it chatters, say, and every orbit has ten
-//! thousand impacts.
+//! With `n` modes a shooting evaluation multiplies and solves matrices of `2n` rows, some `2 (2n)^3`
+//! operations, and a row takes some `10 (2n)^3` for its multipliers; the motion counts its own
+//! ([`ExactCounts::operations`](hammerbeam_motion::exact::ExactCounts)). An operation is about a nanosecond:
+//! the beam of the paper, with six modes, takes some 1e5 to 1e6 for a solution. A side of a branch may take
+//! [`MOST`]; and it is left before where [`MOST`]`/`[`PARTS`] of them did not move it by [`PROGRESS`] of the
+//! range in arc length: where it chatters, say, and every orbit has ten thousand impacts.
 
 use super::BranchWalk;
 use crate::StopReason;
@@ -12,7 +14,8 @@ use crate::StopReason;
 const MOST: u64 = 1_000_000_000_000;
 /// Parts of them at the end of each of which a walk must have got on.
 const PARTS: u64 = 40;
-/// Arc length that is getting on, relative to the range. In arc length a change of the orbit by its own size counts like a hundredth of the range.
+/// Arc length that is getting on, relative to the range. In arc length a change of the orbit by its own size
+/// counts like a hundredth of the range.
 const PROGRESS: f64 = 1e-4;
 
 /// The work of a walk.
@@ -27,7 +30,8 @@ pub(crate) struct Effort {
 }
 
 impl BranchWalk {
-    /// What the counters of the walk say now: operations since it was begun or taken up. Differences depend on the path only.
+    /// What the counters of the walk say now: operations since it was begun or taken up. Differences depend
+    /// on the path only.
     pub(crate) fn counted_operations(&self) -> u64 {
         let cube = (self.problem.node_size() as u64).pow(3);
         let rows = self.follower.counters().accepted;

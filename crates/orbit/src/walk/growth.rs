@@ -1,15 +1,18 @@
 //! Whether a branch goes to infinity: its amplitude grows while its parameter stands still.
 //!
-//! Beside an undamped resonance at `λ*` the amplitude is `a = c / |λ - λ*|`: each further doubling takes half the way that is left, so the path is endless and its parameter is
-//! not. The walk ends where
+//! Beside an undamped resonance at `λ*` the amplitude is `a = c / |λ - λ*|`: each further doubling takes half
+//! the way that is left, so the path is endless and its parameter is not. The walk ends where
 //!
-//! - the amplitude has grown by [`GROWTH`] while the parameter moved by no more than [`STILL`] of itself ([`OF_RANGE`] of the range, if that is less), which leaves it nearer to `λ*` than a fifth
-//!   of that, and
-//! - nothing is ahead that could turn it: every element is linear beyond its outermost level, and moves [`BEYOND`] times as far as that; else
-//! - the amplitude has grown by [`FOR_ANY`], since an element that does not take part in the growth is never reached.
+//! - the amplitude has grown by [`GROWTH`] while the parameter moved by no more than [`STILL`] of itself
+//!   ([`OF_RANGE`] of the range, if that is less), which leaves it nearer to `λ*` than a fifth of that, and
+//! - nothing is ahead that could turn it: every element is linear beyond its outermost level, and moves
+//!   [`BEYOND`] times as far as that; else
+//! - the amplitude has grown by [`FOR_ANY`], since an element that does not take part in the growth is never
+//!   reached.
 //!
-//! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8 count as none. A fold is no such place: `λ - λ_f` goes with the square of the change
-//! of the amplitude there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
+//! With a damping ratio `ζ` the amplitude ends at `λ*/(2 ζ)` of that slope, so that ratios below some 1e-8
+//! count as none. A fold is no such place: `λ - λ_f` goes with the square of the change of the amplitude
+//! there. Amplitudes are sizes of the motion (`size.rs`), looked at where units are.
 
 use std::f64::consts::TAU;
 
@@ -52,7 +55,8 @@ impl Growth {
 }
 
 impl BranchWalk {
-    /// Why the walk ends, if its present orbit, of this size in the present units, belongs to a branch that goes to infinity.
+    /// Why the walk ends, if its present orbit, of this size in the present units, belongs to a branch that
+    /// goes to infinity.
     pub(super) fn grows_without_bound(&mut self, size: f64) -> Option<StopReason> {
         let parameter = self.follower.current().parameter();
         let (low, high) = self.range_hz;

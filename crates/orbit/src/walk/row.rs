@@ -21,7 +21,8 @@ impl BranchWalk {
         Ok(row)
     }
 
-    /// The flip at the present point, at which the problem was evaluated last, as a place to leave from; `None` where there is none.
+    /// The flip at the present point, at which the problem was evaluated last, as a place to leave from;
+    /// `None` where there is none.
     pub(crate) fn flip_here(&mut self) -> Result<Option<Crossing>, OrbitError> {
         if self.follower.current().events.zeros & 1 == 0 {
             return Ok(None);
@@ -115,7 +116,8 @@ impl BranchWalk {
         let error_estimate = point.correction_norm / hertz_per_norm(self.range_hz);
         let solution = solution(&mut self.problem, &point.point, error_estimate)?;
         let events = Events {
-            // Where the frequency turns at a branch point it does so on an arm of a pitchfork, which is no fold of cycles.
+            // Where the frequency turns at a branch point it does so on an arm of a pitchfork, which is no
+            // fold of cycles.
             fold: point.events.fold && !point.events.branch_point,
             branch_point: point.events.branch_point,
             grazing: point.events.signature_change,

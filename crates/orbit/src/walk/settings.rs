@@ -5,16 +5,20 @@ use hammerbeam_path::Settings;
 
 use crate::{OrbitSettings, PeriodicSolution, Segments, cut::begins_with_care};
 
-/// Shortest step with rigid stops, over that without. An impact of the speed v depends on the orbit like `1/v`, and v on the distance from grazing like its root: a point of the path, good to its
-/// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would crawl through noise; so its turn there is taken as the corner that it is.
+/// Shortest step with rigid stops, over that without. An impact of the speed v depends on the orbit like
+/// `1/v`, and v on the distance from grazing like its root: a point of the path, good to its
+/// `correction_floor`, has a speed of its own only down to about 1e-5 of the orbit's. Below, the path would
+/// crawl through noise; so its turn there is taken as the corner that it is.
 const SHORTEST_AT_IMPACTS: f64 = 100.0;
 
 /// Residual to which orbits with rigid stops are corrected: an impact of the speed v makes `1/v` times as
 /// much of what is left of the state, so a small correction tells nothing there.
 const RESIDUAL_AT_IMPACTS: f64 = 1e-11;
 
-/// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be cut into more segments. Towards the border at which a contact splits, whose law remembers its impact, multipliers grow
-/// beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz, and not to the border.
+/// Steps that do not get anywhere, over those elsewhere, with stops beside whose contacts an orbit cannot be
+/// cut into more segments. Towards the border at which a contact splits, whose law remembers its impact,
+/// multipliers grow beyond 1e7 and steps are a ten-millionth of the range: 50 000 of them led over 1e-3 Hz,
+/// and not to the border.
 const CRAWL_BESIDE_IMPACTS: f64 = 1e4;
 
 /// Hertz of arc length that a change of the orbit by the size of the start counts: a hundredth of the range.
@@ -49,8 +53,9 @@ pub(crate) fn path_settings(settings: &OrbitSettings, system: &System, length: f
     }
 }
 
-/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period, and a whole number of them per excitation period, so
-/// that an orbit of shorter period is known when it is met. Nodes must not lie in contacts whose laws remember how they began, nor on impacts: then there is one.
+/// Segments of an orbit: more where the largest multiplier would carry a guess away within the period, and a
+/// whole number of them per excitation period, so that an orbit of shorter period is known when it is met.
+/// Nodes must not lie in contacts whose laws remember how they began, nor on impacts: then there is one.
 pub(super) fn segment_count(system: &System, start: &PeriodicSolution, settings: &OrbitSettings) -> usize {
     match settings.segments {
         Segments::Fixed(count) => count.max(1),

@@ -5,15 +5,17 @@ use hammerbeam_path::{Node, PathProblem};
 use super::{BranchWalk, settings::hertz_per_norm};
 use crate::StopReason;
 
-/// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of that orbit: it is located to
-/// about the square of this in frequency.
+/// Distance from an orbit of shorter period, relative to the orbit, below which a branch point is the flip of
+/// that orbit: it is located to about the square of this in frequency.
 const MERGED: f64 = 1e-3;
 
 /// Distance from an orbit of shorter period, relative to the orbit, below which an orbit is that one.
 const SAME: f64 = 1e-7;
 
-/// Distance from an orbit of shorter period, relative to the orbit, within which a branch that goes there in steps far shorter than that has arrived, if its frequency has nothing left to change: then it is
-/// located as well as a flip has to be. What holds the steps up is the error of the motion, which changes with the choice of contact steps: it is more than what the frequency still has to change.
+/// Distance from an orbit of shorter period, relative to the orbit, within which a branch that goes there in
+/// steps far shorter than that has arrived, if its frequency has nothing left to change: then it is located
+/// as well as a flip has to be. What holds the steps up is the error of the motion, which changes with the
+/// choice of contact steps: it is more than what the frequency still has to change.
 const CRAWLS_NEAR: f64 = 1e-4;
 /// Nothing left: this part of the frequency, by the slope there times the distance.
 const STILL: f64 = 2e-9;
@@ -21,8 +23,10 @@ const STILL: f64 = 2e-9;
 const CRAWLS: f64 = 0.02;
 
 impl BranchWalk {
-    /// Where the walk ends since the present point is one of a branch of shorter period: where that flips, or so near to it that its place is known while steps are held up by rounding; or where the contacts changed and left an orbit of
-    /// shorter period, as where the impacts of an orbit that touches a rigid stop in every second period vanish.
+    /// Where the walk ends since the present point is one of a branch of shorter period: where that flips, or
+    /// so near to it that its place is known while steps are held up by rounding; or where the contacts
+    /// changed and left an orbit of shorter period, as where the impacts of an orbit that touches a rigid
+    /// stop in every second period vanish.
     pub(super) fn meets_shorter_period(&mut self) -> Option<StopReason> {
         let (events, frequency_hz) = {
             let current = self.follower.current();
@@ -33,7 +37,8 @@ impl BranchWalk {
         (flips || grazes).then_some(StopReason::ShorterPeriod { frequency_hz, grazes })
     }
 
-    /// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the orbit, in a small part of the way that is left each.
+    /// Whether the last steps have led towards an orbit of shorter period, nearer than [`CRAWLS_NEAR`] of the
+    /// orbit, in a small part of the way that is left each.
     fn crawls_to_shorter_period(&self) -> bool {
         let history = &self.follower.checkpoint().history;
         let nodes = &history.nodes[..history.used];
@@ -57,7 +62,8 @@ impl BranchWalk {
         self.distance_to_shorter_period() < MERGED
     }
 
-    /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period of its own or the motion cannot be computed.
+    /// Distance of the present orbit from one of shorter period, relative to it; infinite if it has a period
+    /// of its own or the motion cannot be computed.
     fn distance_to_shorter_period(&mut self) -> f64 {
         if self.problem.period_multiple() == 1 {
             return f64::INFINITY;

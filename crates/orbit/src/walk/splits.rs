@@ -49,7 +49,8 @@ impl Work {
 }
 
 impl BranchWalk {
-    /// If the last steps were short, and a contact of the present orbit splits: the way to the border is no longer resolved.
+    /// If the last steps were short, and a contact of the present orbit splits: the way to the border is no
+    /// longer resolved.
     pub(super) fn crawls_to_splitting(&mut self) -> Option<StopReason> {
         let short = self.follower.counters().short_in_a_row;
         if short == 0 || !short.is_multiple_of(splitting::SHORT_STEPS) {
@@ -71,7 +72,8 @@ impl BranchWalk {
         self.labours_at_splitting(before, spent)
     }
 
-    /// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and one of its contacts begins with next to no speed.
+    /// If the multipliers of the present orbit are too large to tell on which side of a splitting it is, and
+    /// one of its contacts begins with next to no speed.
     pub(super) fn is_lost_at_splitting(
         &mut self,
         departure: &Departure,
@@ -83,7 +85,8 @@ impl BranchWalk {
         }
     }
 
-    /// If the motion of the last step, which led away from `before`, took far more work than its contacts need, that of the orbit reached does, and one of its contacts begins with next to no speed.
+    /// If the motion of the last step, which led away from `before`, took far more work than its contacts
+    /// need, that of the orbit reached does, and one of its contacts begins with next to no speed.
     fn labours_at_splitting(
         &mut self,
         before: &Place,
@@ -104,7 +107,8 @@ impl BranchWalk {
         self.has_just_split(before)
     }
 
-    /// If one of the contacts of the present orbit, at which the problem is evaluated again, begins with next to no speed.
+    /// If one of the contacts of the present orbit, at which the problem is evaluated again, begins with next
+    /// to no speed.
     fn has_just_split(&mut self, before: &Place) -> Result<Option<StopReason>, OrbitError> {
         let present = self.place();
         let span = self.move_to_orbit(&present);
@@ -115,10 +119,12 @@ impl BranchWalk {
         Ok(found.map(|splitting| splits_at(before.point.parameter(), splitting)))
     }
 
-    /// If a step has passed a splitting: the number of contacts of an element has changed since the last row, and a contact of it splits in the orbit `before` the step or in the present one, at which the
-    /// problem was evaluated last.
+    /// If a step has passed a splitting: the number of contacts of an element has changed since the last row,
+    /// and a contact of it splits in the orbit `before` the step or in the present one, at which the problem
+    /// was evaluated last.
     ///
-    /// Beside a splitting two sheets of orbits lie close to one another, and a corrector may fall from one onto the other, in a step or where the orbit is cut anew. That is no way on.
+    /// Beside a splitting two sheets of orbits lie close to one another, and a corrector may fall from one
+    /// onto the other, in a step or where the orbit is cut anew. That is no way on.
     fn passes_splitting(&mut self, before: &Place) -> Result<Option<StopReason>, OrbitError> {
         let (system, now) = (self.problem.system(), self.problem.touches());
         let changed = splitting::elements_with_other_touches(system, &self.touches, now);
@@ -133,7 +139,8 @@ impl BranchWalk {
         Ok(splits.map(|splitting| splits_at(before.point.parameter(), splitting)))
     }
 
-    /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just begun to.
+    /// If a contact of the present orbit is about to open and to be pressed on again at once, or has just
+    /// begun to.
     pub(crate) fn splitting(&mut self, frequency_hz: f64) -> Option<StopReason> {
         let present = self.may_split()?;
         self.splitting_of(&present).map(|splitting| splits_at(frequency_hz, splitting))

@@ -5,22 +5,25 @@ use hammerbeam_path::{ContinuationPoint, StepOutcome, StopReason as PathStop};
 use super::{BranchWalk, Walked, splits::Departure};
 use crate::{BranchRow, OrbitError, Segments, StopReason, solve::evaluate};
 
-/// An orbit that has become so many times as large or small as the units in which it is measured gets new units.
+/// An orbit that has become so many times as large or small as the units in which it is measured gets new
+/// units.
 const OUTGROWN: f64 = 4.0;
 /// At every so many accepted points the motion is gone through for its size.
 const LOOK: u64 = 8;
 
-/// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more segments. A segment of 3e6 makes steps
-/// of a millionth of a hertz.
+/// Growth over a segment, as far as the largest multiplier tells, from which on the orbit is cut into more
+/// segments. A segment of 3e6 makes steps of a millionth of a hertz.
 const MOST_GROWTH: f64 = 1e4;
 
 /// So often a step that fails is tried again with orbits that begin at another phase.
 const MOST_FLIGHTS: u32 = 3;
 
 impl BranchWalk {
-    /// Goes to the next solution and appends its row, after those that belong between it and the row before; or says why the walk has ended.
+    /// Goes to the next solution and appends its row, after those that belong between it and the row before;
+    /// or says why the walk has ended.
     ///
-    /// Rows are dense enough that linear interpolation of the maximum displacement over the frequency is good to 1e-3.
+    /// Rows are dense enough that linear interpolation of the maximum displacement over the frequency is good
+    /// to 1e-3.
     ///
     /// # Errors
     /// See [`OrbitError`]; failures to go on are not errors but stop reasons.
@@ -100,7 +103,8 @@ impl BranchWalk {
         Ok(Departure { place, work: self.work() })
     }
 
-    /// Goes to the next point of the path, with more segments or at another phase if it does not go on with the present ones; `from` becomes the point before it.
+    /// Goes to the next point of the path, with more segments or at another phase if it does not go on with
+    /// the present ones; `from` becomes the point before it.
     fn advance(&mut self, from: &mut ContinuationPoint) -> Result<Option<PathStop>, OrbitError> {
         use PathStop::{EvaluationFailed, StepTooShort};
         let mut flights = 0;
@@ -139,8 +143,9 @@ impl BranchWalk {
 
     /// Measures in units that fit the present orbit, so that tolerances and steps stay relative to it.
     ///
-    /// Nodes may stay where they are while the orbit grows, and be far smaller than it: the motion itself decides, at every [`LOOK`]th point, or where the nodes have outgrown
-    /// the units, and then the orbit with them. Points are counted in the checkpoint.
+    /// Nodes may stay where they are while the orbit grows, and be far smaller than it: the motion itself
+    /// decides, at every [`LOOK`]th point, or where the nodes have outgrown the units, and then the orbit
+    /// with them. Points are counted in the checkpoint.
     ///
     /// # Returns
     /// Why the walk ends, if the orbit grows without bound.
@@ -163,7 +168,8 @@ impl BranchWalk {
         None
     }
 
-    /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so short that the walk crawls.
+    /// Cuts the orbit anew where its largest multiplier has outgrown the segments, before steps become so
+    /// short that the walk crawls.
     fn keep_segments_short(&mut self, largest: f64) -> Result<(), OrbitError> {
         let outgrown = largest.ln() > self.problem.segments() as f64 * MOST_GROWTH.ln();
         if self.settings.segments == Segments::Automatic && outgrown && self.follower.stop_reason().is_none()

@@ -79,8 +79,8 @@ pub fn leaving(
     (rows, reason)
 }
 
-/// The first rows of the branch that leaves at a row, over the distance from it relative to the frequency: `measure` of them as long as it grows
-/// to no more than `most`.
+/// The first rows of the branch that leaves at a row, over the distance from it relative to the frequency:
+/// `measure` of them as long as it grows to no more than `most`.
 pub fn growth(
     (system, response): &Subject,
     row: &BranchRow,
@@ -163,7 +163,8 @@ pub fn general_multipliers(system: &System, orbit: &PeriodicSolution) -> Vec<[f6
     values
 }
 
-/// How far apart the first node of an orbit and the state after its period are, by the general integrator, relative to the first.
+/// How far apart the first node of an orbit and the state after its period are, by the general integrator,
+/// relative to the first.
 pub fn misses_itself_by(system: &System, orbit: &PeriodicSolution) -> f64 {
     let settings = GeneralSettings::with_tolerance(1e-12).state_only();
     let one = |state: Vec<f64>| advance(system, &first_period(orbit), &state, &settings).unwrap().flow.state;
@@ -185,8 +186,8 @@ pub fn apart(system: &System, a: &[f64], b: &[f64]) -> f64 {
     norm(&|i| a[i] - b[i]) / norm(&|i| a[i])
 }
 
-/// After how many excitation periods, up to `most`, motion from a state repeats to `tolerance` when it has settled for `settling` periods, by
-/// the general integrator; `None` if it does not.
+/// After how many excitation periods, up to `most`, motion from a state repeats to `tolerance` when it has
+/// settled for `settling` periods, by the general integrator; `None` if it does not.
 pub fn settled_period(
     system: &System,
     frequency_hz: f64,
@@ -207,8 +208,8 @@ pub fn alternation(system: &System, orbit: &PeriodicSolution) -> f64 {
     0.5 * apart(system, &orbit.nodes[0], &later)
 }
 
-/// Exponent `p` at which `y` grows with `x` at first, `x = c y^(1/p) (1 + d y^2)`: what grows to either side alike has a next term of that
-/// order. A regression of `ln x` on `ln y` and `y^2`.
+/// Exponent `p` at which `y` grows with `x` at first, `x = c y^(1/p) (1 + d y^2)`: what grows to either side
+/// alike has a next term of that order. A regression of `ln x` on `ln y` and `y^2`.
 pub fn exponent(points: &[(f64, f64)]) -> f64 {
     let count = points.len() as f64;
     let deviations = |of: fn(&(f64, f64)) -> f64| -> Vec<f64> {

@@ -1,4 +1,5 @@
-//! Oscillators that do not touch each other, as one system, of which the solver knows no better: its multipliers are those of all of them.
+//! Oscillators that do not touch each other, as one system, of which the solver knows no better: its
+//! multipliers are those of all of them.
 
 use faer::Mat;
 use hammerbeam_motion::{Harmonic, HarmonicForce, Law, Load, LocalElement, Parameter, System, law};
@@ -40,8 +41,9 @@ pub fn stop(stiffness: f64, gap: f64) -> Law {
     Law::Linear(law::LinearStop::with_gap(stiffness, gap).unwrap())
 }
 
-/// Two equal modes at rest, so damped that `q_1 - q_2` has the damper `damping`, which an added ratio takes to zero at `-damping/(2 frequency)`: there its multipliers
-/// `exp(+-i frequency T)` are on the unit circle, whatever the rest of the system does.
+/// Two equal modes at rest, so damped that `q_1 - q_2` has the damper `damping`, which an added ratio takes
+/// to zero at `-damping/(2 frequency)`: there its multipliers `exp(+-i frequency T)` are on the unit circle,
+/// whatever the rest of the system does.
 pub fn resting_pair(frequency: f64, damping: f64) -> Part {
     Part {
         frequencies: vec![frequency; 2],
@@ -108,7 +110,8 @@ pub fn with(case: &Case, parameter: Parameter, value: f64) -> Case {
     (case.0.clone().with_parameter(parameter, value).unwrap(), case.1.clone())
 }
 
-/// Rows with an event, sharply located, of the branch through the orbit of the period of the excitation at the lower end of a range.
+/// Rows with an event, sharply located, of the branch through the orbit of the period of the excitation at
+/// the lower end of a range.
 pub fn events(case: &Case, range_hz: (f64, f64), wanted: fn(&Events) -> bool) -> Vec<BranchRow> {
     events_up_to(case, range_hz, wanted, f64::INFINITY)
 }

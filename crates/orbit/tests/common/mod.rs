@@ -54,7 +54,8 @@ pub fn beam() -> (System, Response) {
     (system, Response { shape: point.shape, support_ratio: point.support_ratio })
 }
 
-/// Three masses in a row with springs, and dampers that couple the modes; a force on the last, and a stop out of its reach or none.
+/// Three masses in a row with springs, and dampers that couple the modes; a force on the last, and a stop out
+/// of its reach or none.
 pub fn chain(with_stop: bool) -> (System, Response) {
     let mass = |name: &str, mass: f64| LumpedMass { name: name.into(), mass };
     let link =

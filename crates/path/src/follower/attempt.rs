@@ -36,8 +36,9 @@ impl Follower {
         }
     }
 
-    /// How far the corrector may move a prediction: what the settings say, but ten times what rounding left of the last correction, too. At the
-    /// shortest steps that is more than a tenth of the step; without it they could not grow any more where a solution is known less well.
+    /// How far the corrector may move a prediction: what the settings say, but ten times what rounding left
+    /// of the last correction, too. At the shortest steps that is more than a tenth of the step; without it
+    /// they could not grow any more where a solution is known less well.
     pub(super) fn allowed_displacement(&self, step: f64) -> f64 {
         let rounding = self.state.current.correction_norm.min(self.settings.correction_tolerance);
         self.settings.allowed_displacement(step).max((10.0 * rounding).min(self.settings.sheet_distance))

@@ -1,10 +1,12 @@
 //! A branch point to all digits, from points beside it.
 //!
-//! In the plane of the corrector the crossing branch leaves a branch point: rounding `r` of the residual, and whatever correction stays
-//! unapplied, becomes a displacement of `r / |D|` along it, which moves the zero of `D` itself. So a search that ends at `|D| = 0` knows the place
-//! to about the root of `r`. Beside it, at `±w` and `±2w` with `w` a fiftieth of the step, points are sharp and `D` is smooth: the cubic
-//! polynomial of the path's length over `D` through these four gives the length at `D = 0`, the Hermite polynomial through the inner two
-//! the point. The quadratic polynomial through three of them tells how far that can be trusted.
+//! In the plane of the corrector the crossing branch leaves a branch point: rounding `r` of the residual, and
+//! whatever correction stays unapplied, becomes a displacement of `r / |D|` along it, which moves the zero of
+//! `D` itself. So a search that ends at `|D| = 0` knows the place to about the root of `r`. Beside it, at
+//! `±w` and `±2w` with `w` a fiftieth of the step, points are sharp and `D` is smooth: the cubic polynomial
+//! of the path's length over `D` through these four gives the length at `D = 0`, the Hermite polynomial
+//! through the inner two the point. The quadratic polynomial through three of them tells how far that can be
+//! trusted.
 
 use super::{Follower, bracket::at_zero};
 use crate::{
@@ -17,8 +19,8 @@ use crate::{
 const ASIDE: f64 = 0.02;
 
 impl Follower {
-    /// Makes the probe, evaluated last, the branch point at this share of the step; returns the arc length within which it lies. If points beside it
-    /// do not tell, the probe stays where it was.
+    /// Makes the probe, evaluated last, the branch point at this share of the step; returns the arc length
+    /// within which it lies. If points beside it do not tell, the probe stays where it was.
     pub(super) fn sharpen_branch_point(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

@@ -1,10 +1,12 @@
 //! The place of a zero between two points of the path, by few probes.
 //!
-//! A probe costs what a point costs, so places are guessed as well as what is known allows: by the inverse polynomial through up to four values (order of convergence up to
-//! 1.93), and where that leaves the bracket or did not help last time, by the Illinois variant of regula falsi, which always converges.
+//! A probe costs what a point costs, so places are guessed as well as what is known allows: by the inverse
+//! polynomial through up to four values (order of convergence up to 1.93), and where that leaves the bracket
+//! or did not help last time, by the Illinois variant of regula falsi, which always converges.
 //!
 //! # Source
-//! Dowell and Jarratt, BIT 11 (1971), 168-174; inverse interpolation: Brent, *Algorithms for Minimization without Derivatives* (1973), chapter 4.
+//! Dowell and Jarratt, BIT 11 (1971), 168-174; inverse interpolation: Brent, *Algorithms for Minimization
+//! without Derivatives* (1973), chapter 4.
 
 use super::Follower;
 use crate::{
@@ -17,7 +19,8 @@ use crate::{
 
 /// Values that the inverse polynomial goes through.
 const MOST_KNOWN: usize = 4;
-/// A probe may be as far off the path as this share of the bracket, as long as the sign of its value is beyond doubt.
+/// A probe may be as far off the path as this share of the bracket, as long as the sign of its value is
+/// beyond doubt.
 const LOOSE: f64 = 1e-4;
 /// The sign is beyond doubt if the value is so many times what the correction still due may change of it.
 const BEYOND_DOUBT: f64 = 20.0;
@@ -51,7 +54,8 @@ impl Bracket {
         (self.high.1 - self.low.1).abs() / self.width().max(f64::MIN_POSITIVE)
     }
 
-    /// How far the zero can be from a place with this value: by the secant slope, but no further than the bracket reaches.
+    /// How far the zero can be from a place with this value: by the secant slope, but no further than the
+    /// bracket reaches.
     pub fn uncertainty(&self, value: f64) -> f64 {
         (value.abs() / self.slope().max(f64::MIN_POSITIVE)).min(self.width())
     }
@@ -103,7 +107,8 @@ pub(super) fn at_zero(known: &[(f64, f64)]) -> f64 {
 }
 
 impl Follower {
-    /// Puts the probe on the path at this place of the step to the trial, as sharply as the sign of its value needs; `None` from `value` is a zero that cannot be looked for.
+    /// Puts the probe on the path at this place of the step to the trial, as sharply as the sign of its value
+    /// needs; `None` from `value` is a zero that cannot be looked for.
     ///
     /// * `reached`: magnitude of the value at which the zero counts as reached; such a probe is sharp.
     /// * `goes_on`: the probe before was one for the same zero; it sharpens the prediction.
@@ -134,7 +139,8 @@ impl Follower {
         Ok(found)
     }
 
-    /// Predicts the probe at `σ` of the step by the polynomial through both ends, and through the best probe so far if there is one (`goes_on`).
+    /// Predicts the probe at `σ` of the step by the polynomial through both ends, and through the best probe
+    /// so far if there is one (`goes_on`).
     pub(super) fn predict_probe(&mut self, place: f64, goes_on: bool) {
         let (weights, base, trial) = (&self.weights, self.state.history.base(), &self.trial.node);
         let of = |point: &[f64]| progress(weights, &base.tangent, point, &base.point);

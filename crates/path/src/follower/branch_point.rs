@@ -1,7 +1,7 @@
 //! Locating a branch point: the zero of `D = det [R_x R_λ; (W t)ᵀ]` on the way to the trial.
 //!
-//! A jump to a sheet that runs the other way also changes the sign of `D`, but there `D` has no zero between: the
-//! bracket shrinks and `|D|` does not. That tells the two apart.
+//! A jump to a sheet that runs the other way also changes the sign of `D`, but there `D` has no zero between:
+//! the bracket shrinks and `|D|` does not. That tells the two apart.
 
 use super::{Arrival, Follower, bracket::Bracket};
 use crate::{
@@ -25,7 +25,8 @@ const JUMP_SIZE: f64 = 0.1;
 const STATIONARY: f64 = 0.02;
 
 impl Follower {
-    /// Ends the step at the branch point before the trial, keeps the direction, and anchors the orientation anew.
+    /// Ends the step at the branch point before the trial, keeps the direction, and anchors the orientation
+    /// anew.
     pub(super) fn arrive_at_branch_point(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -43,8 +44,8 @@ impl Follower {
         Ok(Arrival { events, parameter_sign, anchors_anew: true, uncertainty, ..Arrival::default() })
     }
 
-    /// Leaves the point with the smallest `|D|` found in the probe, evaluated last; returns its share of the step and
-    /// its `|D|` relative to the larger of those at both ends.
+    /// Leaves the point with the smallest `|D|` found in the probe, evaluated last; returns its share of the
+    /// step and its `|D|` relative to the larger of those at both ends.
     fn search_branch_point(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -82,8 +83,8 @@ impl Follower {
         Ok(smallest)
     }
 
-    /// As [`probe_between`](Self::probe_between), but the best probe so far sharpens the prediction: near the branch
-    /// point the direction of the path is known only as far as the prediction is close.
+    /// As [`probe_between`](Self::probe_between), but the best probe so far sharpens the prediction: near the
+    /// branch point the direction of the path is known only as far as the prediction is close.
     fn probe_near_branch_point(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -135,7 +136,8 @@ impl Follower {
         if here * before > 0.0 { Ok(None) } else { Err(Doubt::HiddenFolds) }
     }
 
-    /// At a branch point the direction from the factorisation is that of no branch; both ends of the step have one.
+    /// At a branch point the direction from the factorisation is that of no branch; both ends of the step
+    /// have one.
     fn interpolate_tangent(&mut self, share: f64) {
         let (base, node) = (self.state.history.base(), &self.trial.node);
         let tangent = &mut self.probe.node.tangent;

@@ -15,7 +15,8 @@ const FEWEST_POINTS: u64 = 3;
 const ALIGNED: f64 = 0.999;
 
 impl Follower {
-    /// The image of the start that the step to the trial passes in the direction in which it was left, if there is one; the start itself is image 0.
+    /// The image of the start that the step to the trial passes in the direction in which it was left, if
+    /// there is one; the start itself is image 0.
     pub(super) fn passes_start(&mut self, problem: &(impl PathProblem + ?Sized), step: f64) -> Option<usize> {
         let start = &self.state.start;
         let base = self.state.history.base();
@@ -55,7 +56,8 @@ impl Follower {
         distance(weights, &self.probe.point, &start.point) <= self.settings.allowed_displacement(step)
     }
 
-    /// Ends the branch in the plane through this image of the start, if the path goes through the image itself.
+    /// Ends the branch in the plane through this image of the start, if the path goes through the image
+    /// itself.
     pub(super) fn arrive_at_start(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

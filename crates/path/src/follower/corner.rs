@@ -1,11 +1,11 @@
 //! A turn sharper than the shortest step: the path has a corner.
 //!
-//! Where `R` is continuous and piecewise smooth, `[R_x R_λ]` jumps by a matrix of rank one across the surface on which
-//! its pieces meet, and tangents oriented by the determinant cross that surface in the same sense on both sides.
-//! So the determinant gives the direction behind a corner whatever the angle; but the plane normal to the old tangent
-//! may not meet the path there. The probe is therefore put behind the corner on the old tangent, linearised, moved
-//! onto the new piece and along its tangent, and corrected in the plane normal to the new tangent. The corner is
-//! where both straight lines meet.
+//! Where `R` is continuous and piecewise smooth, `[R_x R_λ]` jumps by a matrix of rank one across the surface
+//! on which its pieces meet, and tangents oriented by the determinant cross that surface in the same sense on
+//! both sides. So the determinant gives the direction behind a corner whatever the angle; but the plane
+//! normal to the old tangent may not meet the path there. The probe is therefore put behind the corner on the
+//! old tangent, linearised, moved onto the new piece and along its tangent, and corrected in the plane normal
+//! to the new tangent. The corner is where both straight lines meet.
 
 use super::{Arrival, Follower};
 use crate::{
@@ -17,16 +17,16 @@ use crate::{
     product::{add_scaled, product, progress, weigh},
 };
 
-/// Distances of the probe ahead of the last point, in steps: the first that works is taken. The longer ones are for
-/// turns that rounding hides from the shortest steps.
+/// Distances of the probe ahead of the last point, in steps: the first that works is taken. The longer ones
+/// are for turns that rounding hides from the shortest steps.
 const REACHES: [f64; 5] = [2.0, 8.0, 32.0, 128.0, 512.0];
-/// Ways along the new tangent, in distances of the probe. The longer ones are for new pieces so steep that they gain
-/// little distance from the corner.
+/// Ways along the new tangent, in distances of the probe. The longer ones are for new pieces so steep that
+/// they gain little distance from the corner.
 const ADVANCES: [f64; 3] = [2.0, 64.0, 2048.0];
 
 impl Follower {
-    /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also returns
-    /// the length over which it was turned.
+    /// Turns the corner that must lie within about the step ahead; the trial becomes the corner itself. Also
+    /// returns the length over which it was turned.
     ///
     /// # Errors
     /// There is no corner that leads on.
@@ -50,7 +50,8 @@ impl Follower {
         Err(Doubt::NotLocated)
     }
 
-    /// Leaves in the trial a point on the new piece: linearised `length` ahead, corrected `advance` behind the corner.
+    /// Leaves in the trial a point on the new piece: linearised `length` ahead, corrected `advance` behind
+    /// the corner.
     fn step_behind_corner(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -90,7 +91,8 @@ impl Follower {
         if agrees { Ok(()) } else { Err(Doubt::NotLocated) }
     }
 
-    /// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old tangent.
+    /// Oriented direction at the trial. A turn by exactly a right angle needs another border than the old
+    /// tangent.
     pub(super) fn linearise_trial(&mut self, problem: &mut (impl PathProblem + ?Sized)) -> Result<(), Doubt> {
         let first = self.trial.linearise(problem, &self.weights, &self.row, &mut self.state.counters);
         if first == Err(CorrectorError::SingularJacobian) {
@@ -116,8 +118,8 @@ impl Follower {
         }
     }
 
-    /// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead, the trial
-    /// itself, behind the turn, is the next point.
+    /// Makes the corner the trial, with the new tangent; where the tangents do not meet in a corner ahead,
+    /// the trial itself, behind the turn, is the next point.
     fn arrive_at_corner(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -170,8 +172,8 @@ impl Follower {
         Ok(())
     }
 
-    /// On the corner the matrix may be that of either side: a border for both is the sum of their tangents, unless
-    /// they are nearly opposite; then either serves.
+    /// On the corner the matrix may be that of either side: a border for both is the sum of their tangents,
+    /// unless they are nearly opposite; then either serves.
     fn border_both_sides(&mut self) {
         let base = self.state.history.base();
         if product(&self.weights, &base.tangent, &self.trial.node.tangent) < -0.5 {
@@ -183,11 +185,11 @@ impl Follower {
     }
 }
 
-/// Distance back from `b` along its tangent to the place nearest to the tangent line of `a`, if that place lies ahead of
-/// `a`, behind `b` (but for rounding), and within a few lengths of both.
+/// Distance back from `b` along its tangent to the place nearest to the tangent line of `a`, if that place
+/// lies ahead of `a`, behind `b` (but for rounding), and within a few lengths of both.
 ///
-/// Minimises `‖a + α t_a − b + β t_b‖`: with `c = ⟨t_a, t_b⟩` and `e = b − a` is `α (1 − c²) = ⟨t_a, e⟩ − c ⟨t_b, e⟩` and
-/// `β (1 − c²) = ⟨t_b, e⟩ − c ⟨t_a, e⟩`.
+/// Minimises `‖a + α t_a − b + β t_b‖`: with `c = ⟨t_a, t_b⟩` and `e = b − a` is `α (1 − c²) = ⟨t_a, e⟩ − c
+/// ⟨t_b, e⟩` and `β (1 − c²) = ⟨t_b, e⟩ − c ⟨t_a, e⟩`.
 fn meeting(weights: &[f64], a: &Node, b: &Node, length: f64) -> Option<f64> {
     let c = product(weights, &a.tangent, &b.tangent);
     let along_b = progress(weights, &b.tangent, &b.point, &a.point);

@@ -24,11 +24,14 @@ pub(super) enum Finding {
 const EDGE: f64 = 0.02;
 /// A slope that falls inside a step to this share of its smaller end value is looked at more closely.
 const DIP: f64 = 0.5;
-/// Error of the matrix where it is nearly singular, in tolerances of a point: at the distance of the whole solution that leaves the default of `fold_tolerance` in a slope.
+/// Error of the matrix where it is nearly singular, in tolerances of a point: at the distance of the whole
+/// solution that leaves the default of `fold_tolerance` in a slope.
 const MATRIX_NOISE: f64 = 1000.0;
-/// Nearer than so many distances of sheets to a simpler path the parameter has to go back by more than errors of points.
+/// Nearer than so many distances of sheets to a simpler path the parameter has to go back by more than errors
+/// of points.
 const BESIDE: f64 = 1000.0;
-/// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in them, and what it makes of slopes.
+/// So many times the rounding of a point are beyond doubt: steps, to look a second time for two folds in
+/// them, and what it makes of slopes.
 const NOISE: f64 = 100.0;
 
 impl Follower {
@@ -61,9 +64,11 @@ impl Follower {
 
     /// Whether the parameter has turned, when it has this slope at the trial.
     ///
-    /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up to `d`, and errors `ε` of a point leave `ε/d` in its
-    /// tangent: a sign of `t_λ` below that is rounding, and says nothing until the path has left. The matrix is known less well than the point, to some tolerances. Nor does a sign say anything there
-    /// while the parameter goes back by no more than errors of points.
+    /// Beside a branch point, at the distance `d` from the simpler path, the bordered matrix is singular up
+    /// to `d`, and errors `ε` of a point leave `ε/d` in its tangent: a sign of `t_λ` below that is rounding,
+    /// and says nothing until the path has left. The matrix is known less well than the point, to some
+    /// tolerances. Nor does a sign say anything there while the parameter goes back by no more than errors of
+    /// points.
     pub(super) fn turned(&self, problem: &(impl PathProblem + ?Sized), slope: f64) -> bool {
         if slope * self.state.parameter_sign >= 0.0 {
             return false;
@@ -155,7 +160,8 @@ impl ParameterSlope {
         self.start.abs().min(self.end.abs())
     }
 
-    /// Whether the slope falls inside the step to less than [`DIP`] of its smaller end value: it may be zero twice there.
+    /// Whether the slope falls inside the step to less than [`DIP`] of its smaller end value: it may be zero
+    /// twice there.
     fn dips(self) -> bool {
         let a = 3.0 * (self.start + self.end - 2.0 * self.chord);
         let b = 6.0 * self.chord - 4.0 * self.start - 2.0 * self.end;

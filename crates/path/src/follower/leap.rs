@@ -1,8 +1,9 @@
 //! Beyond a place where no short step is beyond doubt: a longer one.
 //!
-//! Beside a branch point the bordered matrix is nearly singular, and rounding of the residual moves corrected points by more than a short step
-//! allows; so it is wherever the problem is known less well than elsewhere. A longer step, straight on, may be beyond doubt where no short one is. If the
-//! sign of the determinant is another one there, a branch point was passed, which is known to lie within the step.
+//! Beside a branch point the bordered matrix is nearly singular, and rounding of the residual moves corrected
+//! points by more than a short step allows; so it is wherever the problem is known less well than elsewhere.
+//! A longer step, straight on, may be beyond doubt where no short one is. If the sign of the determinant is
+//! another one there, a branch point was passed, which is known to lie within the step.
 
 use super::{Arrival, Follower};
 use crate::{

@@ -1,8 +1,10 @@
 //! Folds beside a simpler path, at which the sign of the slope says nothing yet.
 //!
-//! There a slope that has changed its sign may be rounding ([`Follower::turned`]), and where it no longer can be, some points later, the fold is passed. So a step at whose end the sign is another one but not beyond
-//! doubt is decided by what comes: the path is followed on, without its memory, until the parameter has turned beyond doubt, and then the first change of the sign was the fold; or until the old sign comes
-//! back, and then it was none.
+//! There a slope that has changed its sign may be rounding ([`Follower::turned`]), and where it no longer can
+//! be, some points later, the fold is passed. So a step at whose end the sign is another one but not beyond
+//! doubt is decided by what comes: the path is followed on, without its memory, until the parameter has
+//! turned beyond doubt, and then the first change of the sign was the fold; or until the old sign comes back,
+//! and then it was none.
 
 use super::{Follower, StepOutcome};
 use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem, settings::Settings};
@@ -11,7 +13,8 @@ use crate::{corrector::CorrectorError, error::Doubt, problem::PathProblem, setti
 const FARTHEST: usize = 200;
 
 impl Follower {
-    /// Whether the slope of the trial, which says nothing yet, is that behind a fold. The problem is evaluated at the trial again.
+    /// Whether the slope of the trial, which says nothing yet, is that behind a fold. The problem is
+    /// evaluated at the trial again.
     pub(super) fn turns_for_good(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

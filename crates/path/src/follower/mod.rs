@@ -104,7 +104,8 @@ struct Attempts {
     most_earlier: usize,
 }
 
-/// So many steps in a row that are no longer than `Settings::crawl_step` end a branch: an ordinary turn, whatever its size, is passed with steps that grow again.
+/// So many steps in a row that are no longer than `Settings::crawl_step` end a branch: an ordinary turn,
+/// whatever its size, is passed with steps that grow again.
 pub const MOST_SHORT_STEPS: u64 = 5000;
 
 /// Share of the tolerance up to which the error of a predictor does not matter.
@@ -181,9 +182,9 @@ impl Follower {
         }
     }
 
-    /// Adds a point that was accepted before the checkpoint, in the units of the start ([`in_first_units`](Self::in_first_units)), to the memory;
-    /// the start comes first. It may be one of before a
-    /// [`transfer`](Self::transfer).
+    /// Adds a point that was accepted before the checkpoint, in the units of the start
+    /// ([`in_first_units`](Self::in_first_units)), to the memory; the start comes first. It may be one of
+    /// before a [`transfer`](Self::transfer).
     pub fn remember(&mut self, point: &ContinuationPoint) {
         self.memory.remember(point, 1.0);
     }
@@ -253,7 +254,8 @@ impl Follower {
         }
     }
 
-    /// What is left when the shortest step is still in doubt: a corner, other equations on the same path, or a place that is known less well.
+    /// What is left when the shortest step is still in doubt: a corner, other equations on the same path, or
+    /// a place that is known less well.
     fn pass_by_force(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

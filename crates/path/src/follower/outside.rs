@@ -1,11 +1,15 @@
 //! The books of stability: how many multipliers lie outside the unit circle, and which events account for it.
 //!
-//! They cross the circle at a fold or branch point (one), or at a zero of a test function (one or a pair). A pair that crosses it, turns real and comes back at
-//! +1 within one step leaves no trace in test functions that look at pairs. But at the fold where it comes back the other one still is outside, and
-//! nothing accounts for that: the step is in doubt, and its halves tell. On both sides of a smooth event the number is known from the one before: it was that with
-//! or that without the critical ones, and behind it is the other one. An event can be the second one of its step, as where a pair leaves the circle, another one that is outside turns real, and
-//! the first comes back: so the number beside a zero, where it was looked for, is compared with that at the start of the step, too. Where multipliers may jump, at corners and changes of
-//! signature, nothing is asked, and the books are opened anew; so they are in steps below [`LEAST`] of `signature_step`.
+//! They cross the circle at a fold or branch point (one), or at a zero of a test function (one or a pair). A
+//! pair that crosses it, turns real and comes back at +1 within one step leaves no trace in test functions
+//! that look at pairs. But at the fold where it comes back the other one still is outside, and nothing
+//! accounts for that: the step is in doubt, and its halves tell. On both sides of a smooth event the number
+//! is known from the one before: it was that with or that without the critical ones, and behind it is the
+//! other one. An event can be the second one of its step, as where a pair leaves the circle, another one that
+//! is outside turns real, and the first comes back: so the number beside a zero, where it was looked for, is
+//! compared with that at the start of the step, too. Where multipliers may jump, at corners and changes of
+//! signature, nothing is asked, and the books are opened anew; so they are in steps below [`LEAST`] of
+//! `signature_step`.
 
 use super::{Arrival, Follower};
 use crate::{
@@ -13,7 +17,8 @@ use crate::{
     problem::{Outside, PathProblem},
 };
 
-/// Share of `signature_step` down to which a step is in doubt whose events do not account for what crosses the circle.
+/// Share of `signature_step` down to which a step is in doubt whose events do not account for what crosses
+/// the circle.
 const LEAST: f64 = 0.02;
 
 /// How many multipliers lie outside at a place beside a zero of a test function.
@@ -25,7 +30,8 @@ pub(super) struct Counted {
 }
 
 impl Follower {
-    /// Doubts a step over which more multipliers cross the circle than its events say, and notes those behind the trial, evaluated last.
+    /// Doubts a step over which more multipliers cross the circle than its events say, and notes those behind
+    /// the trial, evaluated last.
     pub(super) fn heed_outside(
         &self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -51,7 +57,8 @@ impl Follower {
     }
 }
 
-/// Whether what lies outside at one place can be what lies outside at another, each from the least to the most.
+/// Whether what lies outside at one place can be what lies outside at another, each from the least to the
+/// most.
 fn account(before: (u32, u32), behind: (u32, u32)) -> Result<(), Doubt> {
     if before.0 > behind.1 {
         Err(Doubt::Unaccounted { before: before.0, behind: behind.1 })
@@ -62,7 +69,8 @@ fn account(before: (u32, u32), behind: (u32, u32)) -> Result<(), Doubt> {
     }
 }
 
-/// How many lie outside right before an event, from a place beside it; `None` if that is known no better than at the event.
+/// How many lie outside right before an event, from a place beside it; `None` if that is known no better than
+/// at the event.
 fn before_event(counted: Counted, at: Outside) -> Option<u32> {
     if counted.before {
         return Some(counted.count);

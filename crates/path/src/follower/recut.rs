@@ -1,7 +1,8 @@
 //! The same path in other equations: the determinant jumps to the other sign, the tangent does not turn.
 //!
-//! So it is when a problem is cut into other segments, and at grazing of laws whose force jumps. Sheets that run opposite
-//! ways beside each other would look the same within one step; they must therefore be excluded by a look ahead.
+//! So it is when a problem is cut into other segments, and at grazing of laws whose force jumps. Sheets that
+//! run opposite ways beside each other would look the same within one step; they must therefore be excluded
+//! by a look ahead.
 
 use super::{Arrival, Follower};
 use crate::{
@@ -15,8 +16,8 @@ use crate::{
 const LOOK_AHEAD: f64 = 1e3;
 
 impl Follower {
-    /// Passes a change of signature at which the determinant changes its sign without a branch point, in a step of the
-    /// shortest length, and anchors the orientation anew.
+    /// Passes a change of signature at which the determinant changes its sign without a branch point, in a
+    /// step of the shortest length, and anchors the orientation anew.
     ///
     /// # Errors
     /// The path does not go on straight: the branch stops.

@@ -1,10 +1,11 @@
 //! Going on in larger or smaller units of the unknowns.
 //!
-//! Tolerances, steps and the distance of sheets are lengths, measured in units of the unknowns that fit the start. Where the unknowns grow or
-//! shrink by orders of magnitude, a problem may change its units: `x' = x/c`, `R' = R/c`, the parameter and the weights as they are. A
-//! unit tangent `t` then has the length `ρ = ‖[t_x/c; t_λ]‖` and becomes `[t_x/c; t_λ]/ρ`; a step along it keeps its end if its length is multiplied by `ρ`.
-//! The vector `N` of the minors of `[R_x R_λ]`, which is `D t`, changes like a point, so that `D' = ρ D`: no sign changes. The memory stays in the
-//! first units.
+//! Tolerances, steps and the distance of sheets are lengths, measured in units of the unknowns that fit the
+//! start. Where the unknowns grow or shrink by orders of magnitude, a problem may change its units: `x' =
+//! x/c`, `R' = R/c`, the parameter and the weights as they are. A unit tangent `t` then has the length `ρ =
+//! ‖[t_x/c; t_λ]‖` and becomes `[t_x/c; t_λ]/ρ`; a step along it keeps its end if its length is multiplied by
+//! `ρ`. The vector `N` of the minors of `[R_x R_λ]`, which is `D t`, changes like a point, so that `D' = ρ
+//! D`: no sign changes. The memory stays in the first units.
 
 use super::Follower;
 use crate::{

@@ -1,18 +1,25 @@
 //! A corner behind which `R` changes like a square root: grazing of a rigid stop.
 //!
-//! Let `R = R⁰ + b ν`, with `R⁰` smooth, `ν = 0` where `g · (z − z_c) ≤ 0`, and `ν² = 2 g · (z − z_c)` beyond (to first order): the speed of an impact. There
-//! `[R_x R_λ] = J⁰ + b gᵀ/ν` grows without bound towards the surface, and the plane of a short step behind it meets nothing. But with ν for a coordinate all is smooth:
-//! `J⁰ w + b = 0`, `g · w = 0` give the direction `w = dz/dν` in which the path leaves the corner, and a point on it lies behind the surface by `g · (z − z_c) = ν²/2`.
+//! Let `R = R⁰ + b ν`, with `R⁰` smooth, `ν = 0` where `g · (z − z_c) ≤ 0`, and `ν² = 2 g · (z − z_c)` beyond
+//! (to first order): the speed of an impact. There `[R_x R_λ] = J⁰ + b gᵀ/ν` grows without bound towards the
+//! surface, and the plane of a short step behind it meets nothing. But with ν for a coordinate all is smooth:
+//! `J⁰ w + b = 0`, `g · w = 0` give the direction `w = dz/dν` in which the path leaves the corner, and a
+//! point on it lies behind the surface by `g · (z − z_c) = ν²/2`.
 //!
-//! **Onto the root.** The old tangent `t` (`J⁰ t = 0`, `g · t > 0`) leads through the surface. At the distance s behind it `R` is b, in units of ν in which `ν = 1` there, so `g · t = 1/(2 s)`.
-//! A second place, four times as far, tells where exactly the surface is. With x so that `J⁰ x = b`, normal to t, and `g · x` from what a displacement along x does to ν,
-//! `w = −x + 2 s (g · x) t`. A guess at the distance h along w is moved along t until R has no component along b any more, that is, until ν fits; from there Newton's method converges, since
-//! what it has to change of ν is of the order `h²`.
+//! **Onto the root.** The old tangent `t` (`J⁰ t = 0`, `g · t > 0`) leads through the surface. At the
+//! distance s behind it `R` is b, in units of ν in which `ν = 1` there, so `g · t = 1/(2 s)`. A second place,
+//! four times as far, tells where exactly the surface is. With x so that `J⁰ x = b`, normal to t, and `g · x`
+//! from what a displacement along x does to ν, `w = −x + 2 s (g · x) t`. A guess at the distance h along w is
+//! moved along t until R has no component along b any more, that is, until ν fits; from there Newton's method
+//! converges, since what it has to change of ν is of the order `h²`.
 //!
-//! **Off the root.** The path comes to the surface tangentially, so its tangent leads to neither side for sure. A small step sideways does, one way or the other. From there it is an
-//! ordinary corner: tangents oriented by the determinant cross the surface in the same sense, since `g · (cofactors of J) = det [J; gᵀ]` does not see `b gᵀ/ν`.
+//! **Off the root.** The path comes to the surface tangentially, so its tangent leads to neither side for
+//! sure. A small step sideways does, one way or the other. From there it is an ordinary corner: tangents
+//! oriented by the determinant cross the surface in the same sense, since `g · (cofactors of J) = det [J;
+//! gᵀ]` does not see `b gᵀ/ν`.
 //!
-//! A speed ν is known to the root of what a point is known to, so the corner is not looked at closely: its neighbours on either side are points of the path.
+//! A speed ν is known to the root of what a point is known to, so the corner is not looked at closely: its
+//! neighbours on either side are points of the path.
 
 use super::{Arrival, Follower};
 use crate::{
@@ -55,7 +62,8 @@ struct Root {
 }
 
 impl Follower {
-    /// Turns the corner ahead, onto the root or off it; the trial becomes a point behind it. Also returns how far behind.
+    /// Turns the corner ahead, onto the root or off it; the trial becomes a point behind it. Also returns how
+    /// far behind.
     ///
     /// # Errors
     /// There is no such corner within about the step ahead.
@@ -153,7 +161,8 @@ impl Follower {
         Ok(response)
     }
 
-    /// `g · x`, from what a displacement along x does to ν where it is 1: there `R = b (ν + ε)`, `ν² = 1 + 2 ε g · x`.
+    /// `g · x`, from what a displacement along x does to ν where it is 1: there `R = b (ν + ε)`, `ν² = 1 + 2
+    /// ε g · x`.
     fn rise_along(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

@@ -1,16 +1,19 @@
-//! Jumps onto a simpler path, of which the equations know nothing: an orbit of doubled period that goes on as the one that it doubled.
+//! Jumps onto a simpler path, of which the equations know nothing: an orbit of doubled period that goes on as
+//! the one that it doubled.
 //!
-//! The problem tells the distance `d` of a point from it. On the path `d` is as smooth as the path and zero at branch points alone; after a jump it is what
-//! Newton's method left. A step in which `d` falls to a hundredth, or to where it cannot be told from zero, is in doubt. A step that ends so
-//! close to a branch point by chance is in doubt as well, which does no harm: of a hundred steps over a branch point one is halved, and the halves are
-//! beyond doubt.
+//! The problem tells the distance `d` of a point from it. On the path `d` is as smooth as the path and zero
+//! at branch points alone; after a jump it is what Newton's method left. A step in which `d` falls to a
+//! hundredth, or to where it cannot be told from zero, is in doubt. A step that ends so close to a branch
+//! point by chance is in doubt as well, which does no harm: of a hundred steps over a branch point one is
+//! halved, and the halves are beyond doubt.
 
 use super::{Arrival, Follower};
 use crate::{error::Doubt, problem::PathProblem};
 
 /// A distance that falls in one step to less than this share was not walked.
 const FALLEN: f64 = 1e-2;
-/// Corrections still due, of the tolerance at least, below which a distance is none: Newton's method leaves errors of a few of them.
+/// Corrections still due, of the tolerance at least, below which a distance is none: Newton's method leaves
+/// errors of a few of them.
 const NOTHING: f64 = 100.0;
 
 impl Follower {

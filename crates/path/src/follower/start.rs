@@ -19,8 +19,8 @@ pub enum Direction<'a> {
     Increasing,
     /// The parameter decreases at first. The start is corrected at fixed parameter.
     Decreasing,
-    /// Along this vector `v`, length `n + 1`: the start is corrected in the plane `⟨v, z − z_start⟩ = 0`, and the
-    /// tangent has `⟨v, t⟩ > 0`. For starts at folds and beside branch points.
+    /// Along this vector `v`, length `n + 1`: the start is corrected in the plane `⟨v, z − z_start⟩ = 0`, and
+    /// the tangent has `⟨v, t⟩ > 0`. For starts at folds and beside branch points.
     Along(&'a [f64]),
 }
 

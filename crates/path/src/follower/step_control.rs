@@ -1,14 +1,15 @@
 //! Step lengths: from the angle between tangents, the corrector's displacement and its effort.
 //!
-//! With a predictor of error order `p` a step `f h` has `f^p` times the displacement and about `f` times the angle.
-//! Aimed at is half the largest angle and a quarter of the allowed displacement.
+//! With a predictor of error order `p` a step `f h` has `f^p` times the displacement and about `f` times the
+//! angle. Aimed at is half the largest angle and a quarter of the allowed displacement.
 
 use super::{Arrival, Attempts, Follower};
 use crate::{corrector::CorrectorError, error::Doubt, predictor::order, problem::PathProblem};
 
 /// Steps grow at most by this factor, so that after an event they stay in proportion to the distance from it.
 const MOST_GROWTH: f64 = 2.0;
-/// So many last corrections of the displacement are put down to rounding: steps do not shrink on account of it.
+/// So many last corrections of the displacement are put down to rounding: steps do not shrink on account of
+/// it.
 const NOISE: f64 = 4.0;
 const EFFORTLESS_ITERATIONS: u32 = 3;
 

@@ -1,12 +1,13 @@
 //! Going on with other unknowns for the same path.
 //!
-//! A problem may change its unknowns on the way, as when a boundary value problem is cut into more pieces. What a follower knows is carried over:
-//! the start, against which a closed path is recognised; the arc length, the counters, the sense of the parameter and of the
-//! determinant; and the memory, which holds only the part of the unknowns that stays
-//! ([`PathProblem::memory_weights`]).
+//! A problem may change its unknowns on the way, as when a boundary value problem is cut into more pieces.
+//! What a follower knows is carried over: the start, against which a closed path is recognised; the arc
+//! length, the counters, the sense of the parameter and of the determinant; and the memory, which holds only
+//! the part of the unknowns that stays ([`PathProblem::memory_weights`]).
 //!
-//! Where nothing of the unknowns stays, the memory begins anew ([`Follower::transfer_afresh`]): what was walked before is then not recognised again. The start may have no
-//! unknowns of the new kind; it is out of reach then, and no path closes, until a later transfer brings it back.
+//! Where nothing of the unknowns stays, the memory begins anew ([`Follower::transfer_afresh`]): what was
+//! walked before is then not recognised again. The start may have no unknowns of the new kind; it is out of
+//! reach then, and no path closes, until a later transfer brings it back.
 
 use super::{
     Follower,
@@ -22,15 +23,19 @@ use crate::{
 };
 
 impl Follower {
-    /// Goes on from the present point in the unknowns that the problem has now; the problem was then evaluated last there.
+    /// Goes on from the present point in the unknowns that the problem has now; the problem was then
+    /// evaluated last there.
     ///
-    /// The sign of `det [R_x R_λ; (W t)ᵀ]` and the memory weights must be those of before. The predictor begins anew.
+    /// The sign of `det [R_x R_λ; (W t)ᵀ]` and the memory weights must be those of before. The predictor
+    /// begins anew.
     ///
-    /// * `current`, `start`: the present point and the start in the new unknowns, with the directions of travel there (any length). Both are
-    ///   corrected in the plane normal to the direction. Without a start no path closes, until a later transfer brings it back.
+    /// * `current`, `start`: the present point and the start in the new unknowns, with the directions of
+    ///   travel there (any length). Both are corrected in the plane normal to the direction. Without a start
+    ///   no path closes, until a later transfer brings it back.
     ///
     /// # Errors
-    /// [`PathError::Start`] if one of them is not near the path, [`PathError::OtherOrientation`], [`PathError::WrongLength`]; the follower is then as it was.
+    /// [`PathError::Start`] if one of them is not near the path, [`PathError::OtherOrientation`],
+    /// [`PathError::WrongLength`]; the follower is then as it was.
     pub fn transfer(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -44,9 +49,11 @@ impl Follower {
         Ok(())
     }
 
-    /// [`transfer`](Self::transfer) to unknowns none of which is the same: the memory begins anew, with the present point.
+    /// [`transfer`](Self::transfer) to unknowns none of which is the same: the memory begins anew, with the
+    /// present point.
     ///
-    /// * `start`: in the new unknowns, and the point that it is in the old ones or was in earlier ones (whose orientation and events stay); `None` where it has none of the new kind.
+    /// * `start`: in the new unknowns, and the point that it is in the old ones or was in earlier ones (whose
+    ///   orientation and events stay); `None` where it has none of the new kind.
     ///
     /// # Errors
     /// Those of [`transfer`](Self::transfer).
@@ -81,7 +88,8 @@ impl Follower {
         self.state.start.parameter().is_finite()
     }
 
-    /// Forgets all points so far, as [`transfer_afresh`](Self::transfer_afresh) did; for [`remember`](Self::remember).
+    /// Forgets all points so far, as [`transfer_afresh`](Self::transfer_afresh) did; for
+    /// [`remember`](Self::remember).
     pub fn forget(&mut self) {
         self.memory.clear();
     }

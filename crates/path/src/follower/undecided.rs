@@ -1,11 +1,14 @@
 //! Test functions of things that stay at zero along the path.
 //!
-//! A test function `min_i |g_i|`, with the sign of `(-1)^k`, k the number of negative `g_i`, says nothing while one of the `g_i` is zero as well as it is known: its sign is rounding. Where
-//! a path crosses a zero, that is so within a tiny interval, which no point but the zero itself hits. Where it is so at two points running, the `g_i` stays at zero, and its
-//! sign is no event: the function is compared without it at both.
+//! A test function `min_i |g_i|`, with the sign of `(-1)^k`, k the number of negative `g_i`, says nothing
+//! while one of the `g_i` is zero as well as it is known: its sign is rounding. Where a path crosses a zero,
+//! that is so within a tiny interval, which no point but the zero itself hits. Where it is so at two points
+//! running, the `g_i` stays at zero, and its sign is no event: the function is compared without it at both.
 //!
-//! With the numbers u of undecided `g_i` at the last point and at the trial, `j = min(u_0, u_1)` are left out at both. At a point at which there are more than before the sign is that of the point before, and
-//! the next one tells: either the function comes out of zero, on the same side or on the other one, or it stays, and nothing has happened. Nor has anything where it leaves zero after a stretch of it.
+//! With the numbers u of undecided `g_i` at the last point and at the trial, `j = min(u_0, u_1)` are left out
+//! at both. At a point at which there are more than before the sign is that of the point before, and the next
+//! one tells: either the function comes out of zero, on the same side or on the other one, or it stays, and
+//! nothing has happened. Nor has anything where it leaves zero after a stretch of it.
 
 use super::Follower;
 use crate::{
@@ -14,7 +17,8 @@ use crate::{
 };
 
 impl Follower {
-    /// Makes the test functions of the last point and of the trial, where they were just asked for, comparable; bits of those that are not.
+    /// Makes the test functions of the last point and of the trial, where they were just asked for,
+    /// comparable; bits of those that are not.
     pub(super) fn leave_undecided_out(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -42,7 +46,8 @@ impl Follower {
         Ok(apart)
     }
 
-    /// Asks for the test functions of the last point anew where more of them is to be left out; the problem is evaluated at the trial behind.
+    /// Asks for the test functions of the last point anew where more of them is to be left out; the problem
+    /// is evaluated at the trial behind.
     fn compare_last_point_without(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

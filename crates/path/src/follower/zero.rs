@@ -1,12 +1,16 @@
 //! Events that are told by the problem: zeros of its test functions, and changes of its signature.
 //!
-//! A step over which a test function changes its sign ends at the zero instead, found by few probes (`bracket.rs`). A function may also jump
-//! through zero (when what it is made of changes its kind); then the bracket shrinks and the value does not, and nothing is recorded.
-//! Two zeros within one step leave no trace in the signs; where a parabola through three values nearly meets zero between the last two, the step is in doubt. So is one at whose end a function has no
-//! value any more (it is infinite), and one would have met zero by the line through its last two, and a step at whose end a function has a value that it had not before, and one comes from zero by the line
-//! through its value there and one a little behind. Any of them: functions may be the smallest of several values, and what begins or ends among them moves those behind by one place.
-//! So is one over which the problem itself knows of zeros that undo each other: on the way to its end, or to the zero that was found before it.
-//! A change of signature is bracketed by bisection, since a signature has no size.
+//! A step over which a test function changes its sign ends at the zero instead, found by few probes
+//! (`bracket.rs`). A function may also jump through zero (when what it is made of changes its kind); then the
+//! bracket shrinks and the value does not, and nothing is recorded. Two zeros within one step leave no trace
+//! in the signs; where a parabola through three values nearly meets zero between the last two, the step is in
+//! doubt. So is one at whose end a function has no value any more (it is infinite), and one would have met
+//! zero by the line through its last two, and a step at whose end a function has a value that it had not
+//! before, and one comes from zero by the line through its value there and one a little behind. Any of them:
+//! functions may be the smallest of several values, and what begins or ends among them moves those behind by
+//! one place. So is one over which the problem itself knows of zeros that undo each other: on the way to its
+//! end, or to the zero that was found before it. A change of signature is bracketed by bisection, since a
+//! signature has no size.
 
 use super::{Arrival, Follower, bracket::Bracket, outside::Counted};
 use crate::{
@@ -19,7 +23,8 @@ use crate::{
 const MOST_PROBES: u32 = 60;
 /// Value relative to the ends of the step at which a zero counts as reached.
 const SHARP: f64 = 1e-10;
-/// If the value did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it jumps.
+/// If the value did not fall below `JUMP_SIZE` of the ends when the bracket has this share of the step, it
+/// jumps.
 const JUMP_WIDTH: f64 = 1e-3;
 const JUMP_SIZE: f64 = 0.05;
 /// Value relative to that behind a zero at which the zero is left.
@@ -77,7 +82,8 @@ impl Follower {
         Ok(arrival)
     }
 
-    /// Zeros of other functions that were found just there belong to the same point: at it their signs are rounding.
+    /// Zeros of other functions that were found just there belong to the same point: at it their signs are
+    /// rounding.
     ///
     /// * `behind`: test functions as they were noted with those.
     fn keep_zeros(&mut self, arrival: &mut Arrival, found: Arrival, behind: &[TestValue]) {
@@ -95,8 +101,9 @@ impl Follower {
         !self.changes_signature() && problem.hides_zeros(&self.state.noted, &self.trial.noted)
     }
 
-    /// Whether a test function may have two zeros within the step to the trial, though its count is the same on both sides: the parabola through its values at the last
-    /// two points and the trial comes closer to zero inside the step than [`DIP`] of both ends.
+    /// Whether a test function may have two zeros within the step to the trial, though its count is the same
+    /// on both sides: the parabola through its values at the last two points and the trial comes closer to
+    /// zero inside the step than [`DIP`] of both ends.
     fn dips(&self, index: usize) -> bool {
         let Some((earlier, behind)) = self.test_before(index) else { return false };
         let (before, after) = (self.state.tests[index], self.trial.tests[index]);
@@ -112,7 +119,8 @@ impl Follower {
         inside && second + place * (slope + bend * (place - behind)) < DIP * second.min(third)
     }
 
-    /// A test function at the point before the last one, and how far that lies behind it, which is negative; `None` where it is not known.
+    /// A test function at the point before the last one, and how far that lies behind it, which is negative;
+    /// `None` where it is not known.
     fn test_before(&self, index: usize) -> Option<(TestValue, f64)> {
         let history = &self.state.history;
         let earlier = self.state.tests_before.get(index).filter(|_| history.used >= 2)?;
@@ -121,7 +129,8 @@ impl Follower {
         Some((*earlier, behind))
     }
 
-    /// Whether a test function has no value any more at the trial, and the line through the values of one of them at the last two points meets zero before.
+    /// Whether a test function has no value any more at the trial, and the line through the values of one of
+    /// them at the last two points meets zero before.
     fn ends_at_zero(&self) -> bool {
         let ends =
             |(before, after): (&TestValue, &TestValue)| before.value.is_finite() && !after.value.is_finite();
@@ -137,7 +146,8 @@ impl Follower {
             })
     }
 
-    /// Whether a test function has a value at the trial that it had not before, and the line through the values of one of them there and a little behind comes from zero within the step.
+    /// Whether a test function has a value at the trial that it had not before, and the line through the
+    /// values of one of them there and a little behind comes from zero within the step.
     fn begins_at_zero(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -158,7 +168,8 @@ impl Follower {
         Ok(hides)
     }
 
-    /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was found to be behind the zero.
+    /// Beside a zero the sign of a test function is rounding: as long as it is small it counts as what it was
+    /// found to be behind the zero.
     ///
     /// * `but`: the function whose zero the trial is.
     fn stay_behind_zeros(&mut self, but: Option<usize>) -> u32 {
@@ -191,7 +202,8 @@ impl Follower {
         arrival
     }
 
-    /// Makes the zero of one test function before the trial the trial; `None`, with the trial as it was, if the function jumps.
+    /// Makes the zero of one test function before the trial the trial; `None`, with the trial as it was, if
+    /// the function jumps.
     fn arrive_at_zero(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),
@@ -246,8 +258,8 @@ impl Follower {
         Ok(Some(arrival))
     }
 
-    /// Evaluates the trial again, so that the problem holds the point that is accepted. Its test functions stay as they are noted: of one whose zero
-    /// was located there before, the sign at the trial is rounding.
+    /// Evaluates the trial again, so that the problem holds the point that is accepted. Its test functions
+    /// stay as they are noted: of one whose zero was located there before, the sign at the trial is rounding.
     pub(super) fn return_to_trial(
         &mut self,
         problem: &mut (impl PathProblem + ?Sized),

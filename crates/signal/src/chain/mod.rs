@@ -2,13 +2,15 @@
 //!
 //! A computed motion becomes comparable with a measured one when it goes through the same chain:
 //!
-//! 1. **Sensor**: displacement, velocity or acceleration of a point. If the record holds only another of the three, it is differentiated or integrated by
-//!    the spectrum, `X_k (i w_k)^n`, which takes the record as whole periods ([`Motion::Periodic`]); integration leaves the mean at zero. A record that is not
+//! 1. **Sensor**: displacement, velocity or acceleration of a point. If the record holds only another of the
+//!    three, it is differentiated or integrated by the spectrum, `X_k (i w_k)^n`, which takes the record as
+//!    whole periods ([`Motion::Periodic`]); integration leaves the mean at zero. A record that is not
 //!    periodic has to hold the quantity itself.
-//! 2. **Filter**: Butterworth, causal as in an instrument, or without phase as afterwards in software. A periodic record is filtered as if it had
-//!    run for ever: its end goes before its beginning until the filter has settled.
-//! 3. **Sampling**: the filtered signal is read at the new rate by interpolation. Nothing is filtered besides: what the filter lets
-//!    pass above half the new rate is folded down, as in a converter.
+//! 2. **Filter**: Butterworth, causal as in an instrument, or without phase as afterwards in software. A
+//!    periodic record is filtered as if it had run for ever: its end goes before its beginning until the
+//!    filter has settled.
+//! 3. **Sampling**: the filtered signal is read at the new rate by interpolation. Nothing is filtered
+//!    besides: what the filter lets pass above half the new rate is folded down, as in a converter.
 //! 4. **Noise**: normal, white, with a standard deviation and a seed.
 //! 5. **Converter**: range and bits. What is beyond the range is clipped.
 //!
@@ -72,8 +74,8 @@ impl MeasuringChain {
     /// # Returns
     /// A record with one channel.
     /// # Errors
-    /// [`SignalError::NoSuchQuantity`] if the record holds neither the quantity nor, being periodic, one it follows from; [`SignalError::Input`],
-    /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
+    /// [`SignalError::NoSuchQuantity`] if the record holds neither the quantity nor, being periodic, one it
+    /// follows from; [`SignalError::Input`], [`SignalError::TooShort`], [`SignalError::NotFinite`].
     pub fn measure(&self, record: &Record, motion: Motion) -> Result<Record, SignalError> {
         ensure(
             "the noise",
@@ -197,7 +199,8 @@ pub fn differentiated(series: &[f64], sampling_rate_hz: f64, order: i32) -> Vec<
     backward(spectrum, length)
 }
 
-/// Periods that go before and behind a periodic record: at least so many samples, since a filter with poles of modulus `r` forgets like `r^n`.
+/// Periods that go before and behind a periodic record: at least so many samples, since a filter with poles
+/// of modulus `r` forgets like `r^n`.
 const SETTLING: usize = 20_000;
 
 fn filtered(

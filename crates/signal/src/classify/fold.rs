@@ -91,7 +91,8 @@ impl Folded {
         let turns: Vec<Complex<f64>> = (0..self.period)
             .map(|k| Complex::from_polar(1.0, -2.0 * PI * k as f64 / self.period as f64))
             .collect();
-        // Subharmonics of order two, three, four and six have whole periods in a part of twelve: they do not turn the phase.
+        // Subharmonics of order two, three, four and six have whole periods in a part of twelve: they do not
+        // turn the phase.
         let part = periods / parts;
         let part = [12, 6, 2, 1].into_iter().map(|n| part / n * n).find(|part| *part > 0).unwrap_or(1);
         let length = part * self.period;
@@ -102,7 +103,8 @@ impl Folded {
         };
         let phasors: Vec<Complex<f64>> = self.samples.chunks_exact(length).map(phasor).collect();
         let level = phasors.iter().map(|z| z.norm()).sum::<f64>() / phasors.len() as f64;
-        // A fundamental of a tenth of the motion at least: half of its squared amplitude against the variance.
+        // A fundamental of a tenth of the motion at least: half of its squared amplitude against the
+        // variance.
         let power = 2.0 * (level / length as f64).powi(2) / self.variance;
         if power < 0.01 || phasors.iter().any(|z| z.norm() < 0.5 * level) {
             return None;

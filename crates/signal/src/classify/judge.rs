@@ -14,7 +14,8 @@ const BANDS: usize = 16;
 const BAND_END: f64 = 0.8;
 /// Power of a subharmonic's lines over that of the scatter in as many lines.
 const STANDS_OUT: f64 = 4.0;
-/// Change of the mean square from one half of the record to the other beyond which it is not settled: a fifth of the amplitude.
+/// Change of the mean square from one half of the record to the other beyond which it is not settled: a fifth
+/// of the amplitude.
 const UNSETTLED: f64 = 1.44;
 
 /// Limits of the criterion.
@@ -113,8 +114,8 @@ pub struct Classification {
 /// * `excitation_hz`: excitation frequency [Hz].
 ///
 /// # Errors
-/// [`SignalError::Input`] for a frequency above an eighth of the sampling rate; [`SignalError::TooShort`] for fewer than five periods;
-/// [`SignalError::Constant`], [`SignalError::NotFinite`].
+/// [`SignalError::Input`] for a frequency above an eighth of the sampling rate; [`SignalError::TooShort`] for
+/// fewer than five periods; [`SignalError::Constant`], [`SignalError::NotFinite`].
 pub fn classify(
     series: &[f64],
     sampling_rate_hz: f64,
@@ -173,10 +174,12 @@ fn on_frequency(series: &[f64], given: f64) -> (Folded, f64) {
     (folded, frequency)
 }
 
-/// Largest variance that white noise can have in a series: the smallest density in any band, over all frequencies.
+/// Largest variance that white noise can have in a series: the smallest density in any band, over all
+/// frequencies.
 ///
-/// An average over `a` segments of `w` neighbouring values has the relative standard error `sqrt(1.5 / (a w))` (neighbours overlap by the window); three of them
-/// are added, since the smallest of many is too small by chance.
+/// An average over `a` segments of `w` neighbouring values has the relative standard error `sqrt(1.5 / (a
+/// w))` (neighbours overlap by the window); three of them are added, since the smallest of many is too small
+/// by chance.
 fn white_noise(rest: &[f64], period: usize) -> Result<f64, SignalError> {
     let segment = (8 * period).max(256).min(rest.len());
     let density = welch(rest, 1.0, &WelchSettings::with_segment(segment))?;
@@ -230,7 +233,8 @@ fn verdict(
     weak.map_or(Motion::Periodic { period_multiple: n }, doubt)
 }
 
-/// Amplitude part of what repeats after `m` but not after `n` periods, 0 if it does not stand out of the scatter.
+/// Amplitude part of what repeats after `m` but not after `n` periods, 0 if it does not stand out of the
+/// scatter.
 fn subharmonic(folded: &Folded, n: usize, m: usize) -> f64 {
     let (mean, count) = folded.waveform(m);
     let short = n * folded.period;

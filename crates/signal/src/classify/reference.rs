@@ -1,4 +1,5 @@
-//! The excitation frequency from a channel that shows the excitation: an accelerometer on the table, the signal of the generator.
+//! The excitation frequency from a channel that shows the excitation: an accelerometer on the table, the
+//! signal of the generator.
 
 use super::super::{
     decay::{Oscillation, fit},
@@ -29,7 +30,8 @@ pub fn excitation_frequency(series: &[f64], sampling_rate_hz: f64) -> Result<f64
     let spectrum = fourier::forward(windowed);
     let size = |k: usize| spectrum.get(k).map_or(0.0, |value| value.norm());
     let line = (1..spectrum.len()).max_by(|&a, &b| size(a).total_cmp(&size(b))).unwrap_or(1);
-    // For a Hann window the two largest values of a line have the ratio (1 + d)/(2 - d), d bins from the larger one.
+    // For a Hann window the two largest values of a line have the ratio (1 + d)/(2 - d), d bins from the
+    // larger one.
     let (neighbour, sign) =
         if size(line + 1) > size(line - 1) { (size(line + 1), 1.0) } else { (size(line - 1), -1.0) };
     let ratio = neighbour / size(line);

@@ -1,8 +1,10 @@
 //! The classical logarithmic decrement: the slope of the logarithms of successive maxima.
 //!
-//! The strongest mode is looked at; other modes that were fitted and the offset are taken off first. Each maximum is that of the parabola which is
-//! fitted to the samples within an eighth of a period about it. With maxima `y_k` of noise `e`, `ln y_k` has the standard error `e / y_k`; so the
-//! regression `ln y_k = c - k L` is weighted by `y_k²` (that of the fitted mode: weights from the maxima themselves would favour those which noise has raised), and it ends where `y_k` falls below [`LOWEST`] times the noise.
+//! The strongest mode is looked at; other modes that were fitted and the offset are taken off first. Each
+//! maximum is that of the parabola which is fitted to the samples within an eighth of a period about it. With
+//! maxima `y_k` of noise `e`, `ln y_k` has the standard error `e / y_k`; so the regression `ln y_k = c - k L`
+//! is weighted by `y_k²` (that of the fitted mode: weights from the maxima themselves would favour those
+//! which noise has raised), and it ends where `y_k` falls below [`LOWEST`] times the noise.
 
 use std::f64::consts::PI;
 
@@ -34,7 +36,8 @@ pub struct Decrement {
 }
 
 impl Decrement {
-    /// Whether the decrement changes over the decay: the intervals of both halves do not meet. Nothing if there are too few maxima to tell.
+    /// Whether the decrement changes over the decay: the intervals of both halves do not meet. Nothing if
+    /// there are too few maxima to tell.
     #[must_use]
     pub fn changes(&self) -> Option<bool> {
         let [first, second] = self.halves?;

@@ -1,8 +1,10 @@
 //! Least squares: damped oscillations and an offset fitted to a series.
 //!
-//! Parameters `p = (y0; s_m, w_m, a_m, b_m)`. Gauss-Newton with Levenberg's and Marquardt's damping: `(A + mu diag A) dp = J^T r`, `A = J^T J`, `r` the residual; `mu` falls
-//! tenfold where a step lessens the sum of squares, and grows tenfold where not. It ends where a step changes no parameter by more than 1e-9 of its
-//! standard error's scale, `dp^T A dp < 1e-16 r^T r`, or moves no sample beyond rounding, or where no step lessens the sum any more.
+//! Parameters `p = (y0; s_m, w_m, a_m, b_m)`. Gauss-Newton with Levenberg's and Marquardt's damping: `(A + mu
+//! diag A) dp = J^T r`, `A = J^T J`, `r` the residual; `mu` falls tenfold where a step lessens the sum of
+//! squares, and grows tenfold where not. It ends where a step changes no parameter by more than 1e-9 of its
+//! standard error's scale, `dp^T A dp < 1e-16 r^T r`, or moves no sample beyond rounding, or where no step
+//! lessens the sum any more.
 
 use faer::{
     Mat, Side,
@@ -22,7 +24,8 @@ pub(crate) struct Fit {
     pub oscillations: Vec<Oscillation>,
     /// Samples less what was fitted.
     pub residual: Vec<f64>,
-    /// `(J^T J)^-1`; parameter 0 is the offset, then four for each oscillation: rate, frequency, cosine, sine.
+    /// `(J^T J)^-1`; parameter 0 is the offset, then four for each oscillation: rate, frequency, cosine,
+    /// sine.
     pub inverse: Mat<f64>,
 }
 

@@ -1,7 +1,7 @@
 //! The sum of damped oscillations, sample by sample, and its derivatives.
 //!
-//! With `z = exp((-s + i w) h)` for a step `h`, an oscillation is `Re((a - i b) z^k)` at sample `k`. Powers are carried on by
-//! multiplication and begun anew every 256 samples, so that rounding does not grow.
+//! With `z = exp((-s + i w) h)` for a step `h`, an oscillation is `Re((a - i b) z^k)` at sample `k`. Powers
+//! are carried on by multiplication and begun anew every 256 samples, so that rounding does not grow.
 
 use realfft::num_complex::Complex;
 

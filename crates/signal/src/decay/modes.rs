@@ -75,7 +75,8 @@ pub struct Decay {
     pub offset: f64,
     /// Root mean square of what is not explained.
     pub residual: f64,
-    /// Correlation of neighbouring residuals; beyond 3 / sqrt(N) they are not white, and intervals allow for that.
+    /// Correlation of neighbouring residuals; beyond 3 / sqrt(N) they are not white, and intervals allow for
+    /// that.
     pub residual_correlation: f64,
     /// Whether residuals are taken as white.
     pub white: bool,
@@ -87,8 +88,9 @@ pub struct Decay {
 /// Modes are added one after the other, each where it takes most off the residual, and all are fitted again.
 ///
 /// # Errors
-/// [`SignalError::NoDecay`] if nothing stands out of the noise; [`SignalError::FitNotConverged`] if a number of modes is given and cannot be
-/// fitted; [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`], [`SignalError::Input`].
+/// [`SignalError::NoDecay`] if nothing stands out of the noise; [`SignalError::FitNotConverged`] if a number
+/// of modes is given and cannot be fitted; [`SignalError::TooShort`], [`SignalError::NotFinite`],
+/// [`SignalError::Constant`], [`SignalError::Input`].
 pub fn free_decay(
     series: &[f64],
     sampling_rate_hz: f64,
@@ -126,7 +128,8 @@ pub fn free_decay(
     Ok(describe(&fit, sampling_rate_hz))
 }
 
-/// Whether all oscillations are modes of their own: none outside of what can be sampled, none growing beyond doubt, none on another.
+/// Whether all oscillations are modes of their own: none outside of what can be sampled, none growing beyond
+/// doubt, none on another.
 fn is_sound(fit: &Fit, step: f64, length: usize) -> bool {
     let duration = length as f64 * step;
     let inside = |o: &Oscillation| {
@@ -168,9 +171,11 @@ fn describe(fit: &Fit, sampling_rate_hz: f64) -> Decay {
 /// Values of the spectrum to each side of a mode's frequency over which the density is averaged.
 const NEIGHBOURS: usize = 30;
 
-/// Variance of white noise that has the residual's density about a mode's frequency, and its degrees of freedom.
+/// Variance of white noise that has the residual's density about a mode's frequency, and its degrees of
+/// freedom.
 ///
-/// The average is over [`NEIGHBOURS`] values to each side, or all within the line's width if that is more. The fit has taken two of them away: four parameters.
+/// The average is over [`NEIGHBOURS`] values to each side, or all within the line's width if that is more.
+/// The fit has taken two of them away: four parameters.
 fn local_variance(fit: &Fit, m: usize, step: f64) -> (f64, f64) {
     let length = fit.residual.len();
     let spectrum = fourier::forward(fit.residual.clone());

@@ -1,10 +1,13 @@
-//! Where oscillations are, roughly: the decay rate and frequency at which a damped oscillation takes most off a series.
+//! Where oscillations are, roughly: the decay rate and frequency at which a damped oscillation takes most off
+//! a series.
 //!
-//! For one oscillation of given `s` and `w` the least-squares fit takes about `2 |X|² / sum exp(-2 s t)` off the sum of squares, with
-//! `X = sum_k y_k exp(-s t_k) exp(-i w t_k)`: one Fourier transform for each decay rate. The rates looked at halve the error from one to the next. In white
-//! noise of variance `v`, `|X|² / (v sum exp(-2 s t))` is distributed exponentially with mean 1, so a maximum over `n` independent values exceeds
-//! `ln(n / p)` with the probability `p`. The variance is taken from the surroundings of each frequency in the spectrum without damping (the median over
-//! neighbouring values over `ln 2`), so that coloured noise does not look like a mode.
+//! For one oscillation of given `s` and `w` the least-squares fit takes about `2 |X|² / sum exp(-2 s t)` off
+//! the sum of squares, with `X = sum_k y_k exp(-s t_k) exp(-i w t_k)`: one Fourier transform for each decay
+//! rate. The rates looked at halve the error from one to the next. In white noise of variance `v`, `|X|² / (v
+//! sum exp(-2 s t))` is distributed exponentially with mean 1, so a maximum over `n` independent values
+//! exceeds `ln(n / p)` with the probability `p`. The variance is taken from the surroundings of each
+//! frequency in the spectrum without damping (the median over neighbouring values over `ln 2`), so that
+//! coloured noise does not look like a mode.
 
 use std::f64::consts::{LN_2, PI};
 

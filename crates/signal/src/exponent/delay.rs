@@ -1,6 +1,7 @@
 //! The delay.
 
-/// Smaller of the first minimum of the average mutual information and the first lag with an autocorrelation below `1 - 1/e`; at least 1.
+/// Smaller of the first minimum of the average mutual information and the first lag with an autocorrelation
+/// below `1 - 1/e`; at least 1.
 pub(super) fn choose(series: &[f64]) -> usize {
     let longest = series.len() / 10;
     let by_correlation = (1..longest).find(|&lag| autocorrelation(series, lag) < 1.0 - (-1.0_f64).exp());

@@ -1,6 +1,7 @@
 //! The embedding dimension by false nearest neighbours.
 //!
-//! A neighbour on the same spot is none: in a record that repeats each state comes again, whatever the dimension.
+//! A neighbour on the same spot is none: in a record that repeats each state comes again, whatever the
+//! dimension.
 
 use super::{embedding::States, tree::Tree};
 

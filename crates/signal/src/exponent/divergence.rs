@@ -25,14 +25,16 @@ pub enum StraightPart {
     Found,
     /// From one step to another.
     Given(usize, usize),
-    /// The mean period in which the curve grows most, after the first one: for flows that go round with one period, whose curves wave with it.
+    /// The mean period in which the curve grows most, after the first one: for flows that go round with one
+    /// period, whose curves wave with it.
     SteepestPeriod,
 }
 
 /// How neighbours are followed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct DivergenceSettings {
-    /// Steps for which they are followed; `None`: 25 steps of a map; seven mean periods of a flow, doubled until distances grow no more.
+    /// Steps for which they are followed; `None`: 25 steps of a map; seven mean periods of a flow, doubled
+    /// until distances grow no more.
     pub steps: Option<usize>,
     /// The straight part.
     pub fit: StraightPart,
@@ -56,7 +58,8 @@ pub struct Divergence {
 /// By nearest neighbours.
 ///
 /// # Errors
-/// [`SignalError::NoScaling`] if there is no straight part, [`SignalError::TooFewNeighbours`], [`SignalError::Input`].
+/// [`SignalError::NoScaling`] if there is no straight part, [`SignalError::TooFewNeighbours`],
+/// [`SignalError::Input`].
 pub fn rosenstein(
     series: &[f64],
     sampling_rate_hz: f64,
@@ -75,7 +78,8 @@ pub fn rosenstein(
     work.average(follow, sampling_rate_hz, settings, None)
 }
 
-/// By all neighbours within a radius: the smallest of those doubling from 1/1000 of the range of the series with which four states in five have five neighbours.
+/// By all neighbours within a radius: the smallest of those doubling from 1/1000 of the range of the series
+/// with which four states in five have five neighbours.
 ///
 /// # Errors
 /// As [`rosenstein`].

@@ -33,7 +33,8 @@ pub struct EmbeddingChoice {
 /// Chooses an embedding for a series.
 ///
 /// # Errors
-/// [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`]; [`SignalError::Repeats`] for a motion that is periodic; [`SignalError::Input`] for a choice that makes no sense.
+/// [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`]; [`SignalError::Repeats`]
+/// for a motion that is periodic; [`SignalError::Input`] for a choice that makes no sense.
 pub fn embedding(series: &[f64], choice: &EmbeddingChoice) -> Result<Embedding, SignalError> {
     ensure_series("an exponent", series, FEWEST)?;
     let mean = series.iter().sum::<f64>() / series.len() as f64;

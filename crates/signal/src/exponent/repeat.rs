@@ -1,8 +1,10 @@
 //! Whether a record repeats itself: then there is no exponent in it.
 //!
-//! With `D(L)` the mean square of `x_{k+L} - x_k`, `D(L) = (sum of squares from L on and up to N-L, minus twice the correlation at L) / (N - L)`, a record
-//! repeats after the first `L` up to half of its length at which `D` falls below [`SAME`] of the variance, once it has been above half of the variance (a signal that
-//! changes little from sample to sample does not repeat after one). Coinciding states are no neighbours: their distance is rounding.
+//! With `D(L)` the mean square of `x_{k+L} - x_k`, `D(L) = (sum of squares from L on and up to N-L, minus
+//! twice the correlation at L) / (N - L)`, a record repeats after the first `L` up to half of its length at
+//! which `D` falls below [`SAME`] of the variance, once it has been above half of the variance (a signal that
+//! changes little from sample to sample does not repeat after one). Coinciding states are no neighbours:
+//! their distance is rounding.
 
 use crate::fourier;
 

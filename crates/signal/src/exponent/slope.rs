@@ -10,7 +10,8 @@ const NEAR_THE_LEVEL: f64 = 0.8;
 /// Part of the rise below which distances do not fall again once they have grown.
 const STAYS: f64 = 0.5;
 
-/// Part of the whole rise by which the last fifth of a curve may lie above the fifth before it and still be level.
+/// Part of the whole rise by which the last fifth of a curve may lie above the fifth before it and still be
+/// level.
 const LEVEL: f64 = 0.05;
 
 /// Whether a curve still rises at its end: then its final level is not known.
@@ -24,7 +25,8 @@ pub(super) fn rises(curve: &[f64]) -> bool {
 
 /// First and last step of the straight part, looked for between two parts of the rise.
 ///
-/// The first step of a map does not count: in it the difference of two neighbours turns into the direction that grows.
+/// The first step of a map does not count: in it the difference of two neighbours turns into the direction
+/// that grows.
 ///
 /// # Errors
 /// [`SignalError::NoScaling`].
@@ -46,7 +48,8 @@ pub(super) fn straight_part(curve: &[f64], flow: bool) -> Result<(usize, usize),
     Err(SignalError::NoScaling { reason: "it rises until the end: follow neighbours for longer" })
 }
 
-/// First and last step of the mean period in which the curve grows most, after the first one and before it is near its final level.
+/// First and last step of the mean period in which the curve grows most, after the first one and before it is
+/// near its final level.
 ///
 /// Growth over a whole period, not the slope of a regression line: waves of that period cancel.
 ///

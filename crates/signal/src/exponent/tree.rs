@@ -1,4 +1,5 @@
-//! Nearest neighbours: a tree that halves states along their widest coordinate (Bentley, Commun. ACM 18 (1975), 509-517).
+//! Nearest neighbours: a tree that halves states along their widest coordinate (Bentley, Commun. ACM 18
+//! (1975), 509-517).
 
 use super::embedding::States;
 
@@ -7,7 +8,8 @@ const LEAF: usize = 12;
 /// States in the order of the tree, with its inner nodes.
 pub(super) struct Tree {
     order: Vec<usize>,
-    /// Coordinate and value at which a node is divided, for the stretch of `order` from and to; leaves have none.
+    /// Coordinate and value at which a node is divided, for the stretch of `order` from and to; leaves have
+    /// none.
     nodes: Vec<Node>,
 }
 
@@ -62,7 +64,8 @@ impl Tree {
         index
     }
 
-    /// The nearest state more than `window` samples away in time and farther than `beyond`, and the squared distance.
+    /// The nearest state more than `window` samples away in time and farther than `beyond`, and the squared
+    /// distance.
     pub(super) fn nearest(
         &self,
         states: &States,

@@ -1,9 +1,10 @@
 //! Wolf's method with a fixed evolution time.
 //!
-//! One pair of states is followed: the record itself and a neighbour. After `E` samples their distance has grown from `d` to `d'`, and `ln(d'/d)` is summed up. Then
-//! the neighbour is replaced by a state not farther than `largest` whose direction from the record differs least from the old one's; if
-//! none is within 0.3 rad the distance is allowed to be up to five times larger, then the angle twice as large, and so on; if there is none at
-//! all the old neighbour stays. `l = sum / (number of stretches E / f_s)`.
+//! One pair of states is followed: the record itself and a neighbour. After `E` samples their distance has
+//! grown from `d` to `d'`, and `ln(d'/d)` is summed up. Then the neighbour is replaced by a state not farther
+//! than `largest` whose direction from the record differs least from the old one's; if none is within 0.3 rad
+//! the distance is allowed to be up to five times larger, then the angle twice as large, and so on; if there
+//! is none at all the old neighbour stays. `l = sum / (number of stretches E / f_s)`.
 //!
 //! Distances below `smallest` do not count: there noise decides on the direction.
 
@@ -133,7 +134,8 @@ impl Pair<'_> {
         distances.filter(|(_, square)| *square >= self.smallest * self.smallest).collect()
     }
 
-    /// The state whose direction differs least from that of the old neighbour, within the smallest bounds that leave any.
+    /// The state whose direction differs least from that of the old neighbour, within the smallest bounds
+    /// that leave any.
     fn replacement(&self, state: usize, old: usize) -> Option<usize> {
         let difference =
             |other: usize, c: usize| self.states.coordinate(other, c) - self.states.coordinate(state, c);

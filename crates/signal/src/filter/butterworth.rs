@@ -1,6 +1,7 @@
 //! Design of Butterworth filters.
 //!
-//! Poles of the analogue low-pass filter of cut-off 1: `p_k = exp(i pi (2k + n + 1) / (2n))`, `k = 0 .. n-1`. With `c = tan(pi f_c / f_s)`:
+//! Poles of the analogue low-pass filter of cut-off 1: `p_k = exp(i pi (2k + n + 1) / (2n))`, `k = 0 .. n-1`.
+//! With `c = tan(pi f_c / f_s)`:
 //!
 //! | band | poles in s | zeros in z |
 //! |---|---|---|
@@ -8,7 +9,9 @@
 //! | high-pass | `c / p` | `n` at 1 |
 //! | band-pass | both roots of `s² - (c₂ - c₁) p s + c₁ c₂ = 0` | `n` at -1, `n` at 1 |
 //!
-//! then `z = (1 + s)/(1 - s)`, of which only `1 - z = -2 s/(1 - s)` is computed, since poles may lie close to one. The gain is one at zero, at half the sampling rate, or in the middle of the band, `s = i sqrt(c₁ c₂)`.
+//! then `z = (1 + s)/(1 - s)`, of which only `1 - z = -2 s/(1 - s)` is computed, since poles may lie close to
+//! one. The gain is one at zero, at half the sampling rate, or in the middle of the band, `s = i sqrt(c₁
+//! c₂)`.
 
 use std::{cmp::Ordering, f64::consts::PI};
 
@@ -113,7 +116,8 @@ struct Poles {
     single: bool,
 }
 
-/// Poles by sections, given by their distances from one. What is left of the imaginary part of a real pole is rounding.
+/// Poles by sections, given by their distances from one. What is left of the imaginary part of a real pole is
+/// rounding.
 fn grouped(poles: &[Complex<f64>]) -> Vec<Poles> {
     let is_real = |p: &Complex<f64>| p.im.abs() < 1e-12 * p.norm().max(1e-300);
     let pair = |p: &Complex<f64>| {
@@ -137,11 +141,13 @@ const BOTH_LOW: [f64; 3] = [1.0, 4.0, 4.0];
 const BOTH_HIGH: [f64; 3] = [1.0, 0.0, 0.0];
 const ONE_EACH: [f64; 3] = [1.0, 2.0, 0.0];
 
-/// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance sees what the others have damped.
+/// Sections in the order of their poles, the closest to the unit circle last, so that the sharpest resonance
+/// sees what the others have damped.
 ///
-/// The zeros of a band-pass filter go to the poles nearest to them: both at 1 to those of the lower edge, both at -1 to those of the upper one, one of each to what is
-/// left in the middle. Sections with a zero at each end pass what lies below a far higher upper edge nearly unweakened to sharp poles at the lower one, and
-/// their rounding is a thousand times larger.
+/// The zeros of a band-pass filter go to the poles nearest to them: both at 1 to those of the lower edge,
+/// both at -1 to those of the upper one, one of each to what is left in the middle. Sections with a zero at
+/// each end pass what lies below a far higher upper edge nearly unweakened to sharp poles at the lower one,
+/// and their rounding is a thousand times larger.
 fn chain(poles: &[Complex<f64>], zeros: Zeros, reference: Complex<f64>) -> Sections {
     let mut groups = grouped(poles);
     groups.sort_by(|one, other| one.angle.unwrap_or(0.0).total_cmp(&other.angle.unwrap_or(0.0)));

@@ -1,11 +1,13 @@
 //! A low-pass filter on a motion that repeats: what an instrument shows once it has settled.
 //!
-//! A periodic signal `x = sum_k c_k exp(2 pi i k f t)` leaves a linear filter as `sum_k H(2 pi i k f) c_k exp(2 pi i k f t)`: no transient, no time step. `H` is that of
-//! the analogue Butterworth filter,
+//! A periodic signal `x = sum_k c_k exp(2 pi i k f t)` leaves a linear filter as `sum_k H(2 pi i k f) c_k
+//! exp(2 pi i k f t)`: no transient, no time step. `H` is that of the analogue Butterworth filter,
 //!
-//! `H(s) = prod_k -p_k/(s/w_c - p_k)`, `p_k = exp(i pi (2k + n + 1)/(2n))`, `|H(i w)|^2 = 1/(1 + (w/w_c)^(2n))`.
+//! `H(s) = prod_k -p_k/(s/w_c - p_k)`, `p_k = exp(i pi (2k + n + 1)/(2n))`, `|H(i w)|^2 = 1/(1 +
+//! (w/w_c)^(2n))`.
 //!
-//! The coefficients are those of the samples; a signal with lines above half the sampling rate is folded down before.
+//! The coefficients are those of the samples; a signal with lines above half the sampling rate is folded down
+//! before.
 
 use std::f64::consts::PI;
 
@@ -93,8 +95,9 @@ mod tests {
         assert!((first - Complex::new(0.5, -0.5)).norm() < 1e-15);
     }
 
-    /// A square wave through `1/(1 + T s)` is, in closed form, `1 - 2 exp(-t/T)/(1 + exp(-P/2T))` over its positive half; here the harmonics of a ramped wave, whose
-    /// coefficients fall like `1/k^2`, so that folding is small: a triangle of slope `4/P` leaves as `y' = (x - y)/T`.
+    /// A square wave through `1/(1 + T s)` is, in closed form, `1 - 2 exp(-t/T)/(1 + exp(-P/2T))` over its
+    /// positive half; here the harmonics of a ramped wave, whose coefficients fall like `1/k^2`, so that
+    /// folding is small: a triangle of slope `4/P` leaves as `y' = (x - y)/T`.
     #[test]
     fn triangle_through_a_filter_of_first_order_is_the_closed_form() {
         let (period, count) = (0.02, 1 << 14);

@@ -4,12 +4,14 @@
 //!
 //! `H = g (c0 d² + c1 d + c2)/(d² + a1 d + a2)`, for poles `z = 1 - p`: `a1 = p + p*`, `a2 = p p*`
 //!
-//! A filter far below the sampling rate has its poles near `z = 1`. In `z` their distance from one is a difference of coefficients that are nearly 2 and 1, and their rounding
-//! is amplified by the square of the sampling rate over the cut-off; in `d` it is a coefficient. The two memories are
+//! A filter far below the sampling rate has its poles near `z = 1`. In `z` their distance from one is a
+//! difference of coefficients that are nearly 2 and 1, and their rounding is amplified by the square of the
+//! sampling rate over the cut-off; in `d` it is a coefficient. The two memories are
 //!
 //! `w0 <- w0 + w1`, `w1 <- w1 - (a1 w1 + a2 w0) + x`, `y = g (c0 (x - a1 w1 - a2 w0) + c1 w1 + c2 w0)`
 //!
-//! and in the steady state of a constant input `w0 = x/a2`, `w1 = 0`. A section of first order is `H = g (c1 d + c2)/(d + a2)`, with `w0 <- w0 - a2 w0 + x`.
+//! and in the steady state of a constant input `w0 = x/a2`, `w1 = 0`. A section of first order is `H = g (c1
+//! d + c2)/(d + a2)`, with `w0 <- w0 - a2 w0 + x`.
 //!
 //! # Source
 //! Middleton and Goodwin, IEEE Trans. Autom. Control 31 (1986), 1015-1021, on the operator `d`.
@@ -21,7 +23,8 @@ use realfft::num_complex::Complex;
 /// One section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// Numerator in powers of `z - 1`, the highest first, gain included; of a section of first order without the first one.
+    /// Numerator in powers of `z - 1`, the highest first, gain included; of a section of first order without
+    /// the first one.
     pub numerator: [f64; 3],
     /// Denominator without its leading 1: `a1, a2`; `0, a2` in a section of first order.
     pub denominator: [f64; 2],

@@ -12,10 +12,12 @@ impl Sections {
 
     /// Filters forwards and backwards: no delay, the gain squared.
     ///
-    /// The series is continued at both ends by `2 x_end - x_mirrored`, and each run begins in the steady state of its first value.
+    /// The series is continued at both ends by `2 x_end - x_mirrored`, and each run begins in the steady
+    /// state of its first value.
     ///
     /// # Errors
-    /// [`SignalError::TooShort`] if the series is not longer than what it is continued by; [`SignalError::NotFinite`].
+    /// [`SignalError::TooShort`] if the series is not longer than what it is continued by;
+    /// [`SignalError::NotFinite`].
     pub fn zero_phase(&self, series: &[f64]) -> Result<Vec<f64>, SignalError> {
         let padding = self.padding();
         ensure_series("filtering forwards and backwards", series, padding + 1)?;

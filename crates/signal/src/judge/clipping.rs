@@ -1,12 +1,14 @@
 //! Flat tops: does a channel stand at the end of its range because the instrument could not follow?
 //!
-//! With `q` the resolution at that level, the smallest difference of two values about as large, a smooth maximum
-//! `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a step of about `c n/2 = 4 q/n`,
-//! at most `4/3 q` for three samples. So a run of three or more equal samples at the largest or smallest value that is entered or left with a
-//! step of more than `2 q` is no smooth maximum: it is counted as clipped. Standing at exactly zero does not count: a contact force does.
+//! With `q` the resolution at that level, the smallest difference of two values about as large, a smooth
+//! maximum `y = -c k²/2` stays on one level for `n` samples while `c n²/8` is below `q`, and leaves it with a
+//! step of about `c n/2 = 4 q/n`, at most `4/3 q` for three samples. So a run of three or more equal samples
+//! at the largest or smallest value that is entered or left with a step of more than `2 q` is no smooth
+//! maximum: it is counted as clipped. Standing at exactly zero does not count: a contact force does.
 //!
-//! Numbers with so many significant digits are the finer the smaller they are, in steps at the powers of ten, or of two. So values down to the next such power below the level tell its resolution;
-//! where there are none but the level itself, ten times what the values below that power tell.
+//! Numbers with so many significant digits are the finer the smaller they are, in steps at the powers of ten,
+//! or of two. So values down to the next such power below the level tell its resolution; where there are none
+//! but the level itself, ten times what the values below that power tell.
 
 use crate::{finding::Finding, raw::RawChannel};
 
@@ -61,7 +63,8 @@ fn resolution(samples: &[f64], level: f64) -> f64 {
     if here.is_finite() { here } else { 10.0 * smallest_difference(&sizes, (0.5 * power, power)) }
 }
 
-/// Smallest difference of two values within a range, whenever they were taken: successive samples of a fast signal differ by more.
+/// Smallest difference of two values within a range, whenever they were taken: successive samples of a fast
+/// signal differ by more.
 fn smallest_difference(values: &[f64], (low, high): (f64, f64)) -> f64 {
     let mut values: Vec<f64> = values.iter().copied().filter(|value| (low..=high).contains(value)).collect();
     values.sort_unstable_by(f64::total_cmp);

@@ -86,7 +86,8 @@ pub struct Terms {
     pub sampling_rate_hz: Option<f64>,
     /// What may be repaired.
     pub repairs: Repairs,
-    /// Names or numbers (from 1 on, in the order of the file) of channels to keep; all if empty. The rest is not judged.
+    /// Names or numbers (from 1 on, in the order of the file) of channels to keep; all if empty. The rest is
+    /// not judged.
     pub channels: Vec<String>,
 }
 

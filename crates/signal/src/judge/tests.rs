@@ -55,7 +55,8 @@ fn uneven_sampling_is_refused_or_evened() {
     assert!(matches!(record.findings[..], [Finding::Evened { .. }]));
     for (k, value) in record.channels[0].samples.iter().enumerate() {
         let time = record.start_s + k as f64 / record.sampling_rate_hz;
-        // Cubic interpolation over four samples: (2 pi 12 / 1000)^4 * 3/128 is 8e-7; steps here differ by half.
+        // Cubic interpolation over four samples: (2 pi 12 / 1000)^4 * 3/128 is 8e-7; steps here differ by
+        // half.
         assert!((value / 9.80665 - signal(time)).abs() < 1e-5, "sample {k}");
     }
 }
@@ -202,7 +203,8 @@ fn clean_sine_is_clipped_wherever_the_range_ends() {
     assert_eq!(raw(even_times(2000), whole).judge(&Terms::default()).unwrap().findings, []);
 }
 
-/// Written with significant digits, or in single precision, a record is much finer near zero than at its tops, which are flat for many samples.
+/// Written with significant digits, or in single precision, a record is much finer near zero than at its
+/// tops, which are flat for many samples.
 #[test]
 fn smooth_tops_of_numbers_with_few_digits_are_not_clipped() {
     let sine =

@@ -1,8 +1,10 @@
 //! The times of samples: order, repetitions, gaps, jitter; and the even grid that is taken or made of them.
 //!
-//! The step is the median of the differences, made more accurate by the whole length where there are no gaps. A difference of more than
-//! 1.5 steps is a gap, unless differences jump about everywhere (a tenth of them are gaps, or half of them are off by 10 %). Without gaps, with `e` the largest distance of a time from its place on the even grid: up to
-//! 1 % of a step it is rounding and not told, up to 10 % it is told and taken as even, beyond that it is refused.
+//! The step is the median of the differences, made more accurate by the whole length where there are no gaps.
+//! A difference of more than 1.5 steps is a gap, unless differences jump about everywhere (a tenth of them
+//! are gaps, or half of them are off by 10 %). Without gaps, with `e` the largest distance of a time from its
+//! place on the even grid: up to 1 % of a step it is rounding and not told, up to 10 % it is told and taken
+//! as even, beyond that it is refused.
 
 use crate::{
     finding::Finding,

@@ -1,6 +1,7 @@
 //! Measured points: one row for each excitation frequency, with the largest values that were seen there.
 //!
-//! A table has a line of titles with units, `frequency [Hz],max acceleration [m/s^2],kind,period`, and one row for each measurement:
+//! A table has a line of titles with units, `frequency [Hz],max acceleration [m/s^2],kind,period`, and one
+//! row for each measurement:
 //!
 //! | column | told by | meaning |
 //! |---|---|---|
@@ -10,8 +11,8 @@
 //! | kind | the name `kind`, `motion` or `class` | `periodic`, `aperiodic` (or `chaotic`, `quasi-periodic`), `doubtful`; nothing: not known |
 //! | period | the name `period`, `multiple` or `period_multiple` | excitation periods after which the motion repeats |
 //!
-//! Other columns are left out, and that is told. Every column that looks like a quantity needs its unit. What a row says is judged at once:
-//! nothing is taken for a number that is none, and nothing is guessed.
+//! Other columns are left out, and that is told. Every column that looks like a quantity needs its unit. What
+//! a row says is judged at once: nothing is taken for a number that is none, and nothing is guessed.
 //!
 //! | file | what |
 //! |---|---|
@@ -123,7 +124,8 @@ pub struct MeasuredPoint {
 }
 
 impl MeasuredPoint {
-    /// Amplitude of the excitation as a displacement [m] (from a harmonic velocity or acceleration) or a force [N].
+    /// Amplitude of the excitation as a displacement [m] (from a harmonic velocity or acceleration) or a
+    /// force [N].
     #[must_use]
     pub fn excitation_amplitude(&self) -> Option<(Quantity, f64)> {
         let rate = std::f64::consts::TAU * self.frequency_hz;

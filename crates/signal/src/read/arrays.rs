@@ -1,6 +1,7 @@
 //! Which of named arrays are channels, which is the time, which the sampling rate.
 //!
-//! * A single number named `fs`, `sampling_rate`, `rate`, ... is the sampling rate, one named `dt`, `ts`, ... the step.
+//! * A single number named `fs`, `sampling_rate`, `rate`, ... is the sampling rate, one named `dt`, `ts`, ...
+//!   the step.
 //! * A vector is a channel. A matrix holds channels along its shorter side; `x[1]`, `x[2]`, ...
 //! * A vector whose name is that of a time, or whose name ends in a unit of time, is the time of all of them.
 //! * Without any of these, a matrix whose first column rises evenly holds the time there (told as a finding).

@@ -1,7 +1,7 @@
 //! Files of measurements, as users have them.
 //!
-//! Readers take bytes and give a [`RawRecord`]: what the file says, in its units. Whether that is a usable record is judged
-//! elsewhere ([`RawRecord::judge`]).
+//! Readers take bytes and give a [`RawRecord`]: what the file says, in its units. Whether that is a usable
+//! record is judged elsewhere ([`RawRecord::judge`]).
 //!
 //! | file | format |
 //! |---|---|

@@ -1,6 +1,8 @@
-//! NumPy arrays (`.npy`, versions 1 to 3): numbers of any size, real and complex, and tables with named columns.
+//! NumPy arrays (`.npy`, versions 1 to 3): numbers of any size, real and complex, and tables with named
+//! columns.
 //!
-//! The header is a Python dictionary with `descr`, `fortran_order` and `shape`. Objects and texts are refused.
+//! The header is a Python dictionary with `descr`, `fortran_order` and `shape`. Objects and texts are
+//! refused.
 //!
 //! # Source
 //! NumPy Enhancement Proposal 1, "A simple file format for NumPy arrays", and the format's version 2 and 3.

@@ -1,6 +1,7 @@
 //! NumPy archives (`.npz`): a zip archive of arrays, stored or deflated.
 //!
-//! Only what such archives need of the zip format is read: the central directory at the end, and each file by what stands there.
+//! Only what such archives need of the zip format is read: the central directory at the end, and each file by
+//! what stands there.
 //!
 //! # Source
 //! PKWARE, APPNOTE.TXT "ZIP File Format Specification", sections 4.3.7, 4.3.12, 4.3.16.

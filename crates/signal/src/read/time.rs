@@ -13,7 +13,8 @@ type Title<'a> = (&'a str, Option<&'a str>);
 
 /// Index of the column that is the time by its name or unit.
 ///
-/// A name says more than a unit: a column named time in seconds or in no unit that is known comes before others in a unit of time.
+/// A name says more than a unit: a column named time in seconds or in no unit that is known comes before
+/// others in a unit of time.
 ///
 /// * `columns`: name and unit of each.
 pub(super) fn time_column(columns: &[Title]) -> Option<usize> {
@@ -33,7 +34,8 @@ pub(super) fn rises_evenly(values: &[f64]) -> bool {
     step > 0.0 && values.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 0.1 * step)
 }
 
-/// Tells if a rate named beside the times is not theirs: neither by the median step, which knows no gaps, nor by the mean one, which knows no rounding.
+/// Tells if a rate named beside the times is not theirs: neither by the median step, which knows no gaps, nor
+/// by the mean one, which knows no rounding.
 pub(super) fn compare_rates(named_hz: Option<f64>, times: &[f64], findings: &mut Vec<Finding>) {
     let Some(named_hz) = named_hz else { return };
     let mut steps: Vec<f64> =
@@ -45,7 +47,8 @@ pub(super) fn compare_rates(named_hz: Option<f64>, times: &[f64], findings: &mut
     let middle = steps.len() / 2;
     let median = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
     if [mean, median].iter().all(|step| (step * named_hz - 1.0).abs() > SAME_RATE) {
-        // A few long steps are gaps, which lengthen the mean; many are rounded times, which have no usual step.
+        // A few long steps are gaps, which lengthen the mean; many are rounded times, which have no usual
+        // step.
         let long = steps.iter().filter(|step| **step > 1.5 * median).count();
         let step = if 10 * long < steps.len() { median } else { mean };
         findings.push(Finding::NamedRateDisagrees { named_hz, found_hz: 1.0 / step });

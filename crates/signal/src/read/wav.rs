@@ -46,7 +46,8 @@ const FLOAT: u16 = 3;
 const EXTENSIBLE: u16 = 0xfffe;
 
 impl<'a> Double<'a> {
-    /// The `fmt` chunk, if it is that of such numbers: format, channels, rate, bytes a second, bytes of all channels, bits; in the extensible form the format stands at 24.
+    /// The `fmt` chunk, if it is that of such numbers: format, channels, rate, bytes a second, bytes of all
+    /// channels, bits; in the extensible form the format stands at 24.
     fn find(bytes: &'a [u8]) -> Option<Self> {
         let (chunk, rest) = chunk(bytes.get(12..)?, b"fmt ")?;
         let short = |at: usize| Some(u16::from_le_bytes([*chunk.get(at)?, *chunk.get(at + 1)?]));

@@ -9,8 +9,8 @@ use crate::{
 
 /// Resamples a series that is taken as periodic.
 ///
-/// The spectrum is cut or continued by zeros. The value at half of the lower rate belongs to a positive and a negative frequency; it is split
-/// when it gets a place of its own, and both are joined when it loses it.
+/// The spectrum is cut or continued by zeros. The value at half of the lower rate belongs to a positive and a
+/// negative frequency; it is split when it gets a place of its own, and both are joined when it loses it.
 ///
 /// * `length`: samples of the same stretch of time afterwards.
 ///

@@ -1,11 +1,14 @@
 //! Resampling by a rational factor.
 //!
-//! In thought the series is filled up with `up - 1` zeros between samples, filtered, and every `down`-th value kept: with the filter `h`, centred,
-//! `y_m = sum_k h(m down - k up) x_k`. The filter is a sinc of cut-off `1 / max(up, down)` of half the fine rate, over 10 zeros to each side, times a Kaiser window
-//! with `beta = 5` (ripple and stop band about 0.3 % and 53 dB), scaled to gain one. Before and after the series zeros are assumed.
+//! In thought the series is filled up with `up - 1` zeros between samples, filtered, and every `down`-th
+//! value kept: with the filter `h`, centred, `y_m = sum_k h(m down - k up) x_k`. The filter is a sinc of
+//! cut-off `1 / max(up, down)` of half the fine rate, over 10 zeros to each side, times a Kaiser window with
+//! `beta = 5` (ripple and stop band about 0.3 % and 53 dB), scaled to gain one. Before and after the series
+//! zeros are assumed.
 //!
 //! # Source
-//! Kaiser and Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980), 105-107; the choices are those of SciPy's `resample_poly`.
+//! Kaiser and Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980), 105-107; the choices are those
+//! of SciPy's `resample_poly`.
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,8 @@
 //! Values between samples: a windowed sinc.
 //!
-//! `x(t) = sum_k x_k sinc(t - k) w(t - k)`, `t` in samples, over 16 samples to each side, `w` a Kaiser window with `beta = 10`. For signals below 0.4 of the
-//! sampling rate the error is below 2e-5 of their amplitude. Within 16 samples of an end the outer sample stands for what is missing.
+//! `x(t) = sum_k x_k sinc(t - k) w(t - k)`, `t` in samples, over 16 samples to each side, `w` a Kaiser window
+//! with `beta = 10`. For signals below 0.4 of the sampling rate the error is below 2e-5 of their amplitude.
+//! Within 16 samples of an end the outer sample stands for what is missing.
 
 use std::f64::consts::PI;
 
@@ -12,7 +13,8 @@ pub(crate) const REACH: usize = 16;
 /// Part of the sampling rate below which the error is as stated.
 pub(crate) const KNOWN_BELOW: f64 = 0.4;
 const BETA: f64 = 10.0;
-/// Places between two samples for which weights are kept; between them they are linear, with an error of about `(pi/1024)²/8`, 1e-6.
+/// Places between two samples for which weights are kept; between them they are linear, with an error of
+/// about `(pi/1024)²/8`, 1e-6.
 const PLACES: usize = 1024;
 
 /// Weights of neighbouring samples for places between them.

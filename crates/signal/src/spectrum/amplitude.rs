@@ -1,9 +1,11 @@
 //! Amplitude spectrum of a whole record, and the lines in it.
 //!
-//! A line between two bins is located by the parabola through the logarithms of the three values about a maximum: at `delta` bins from it,
-//! `delta = (a - c) / (2 (a - 2b + c))` with `a, b, c` these logarithms, and the line's amplitude is `exp(b - (a - c) delta / 4)`. For a Hann window that is
-//! within 0.016 bins and 4 %. The rectangular window knows no such rule: its values are those of the bin. Nor is there one beside the ends of the spectrum, where a
-//! line is folded upon itself, or for what is narrower than the line of a window.
+//! A line between two bins is located by the parabola through the logarithms of the three values about a
+//! maximum: at `delta` bins from it, `delta = (a - c) / (2 (a - 2b + c))` with `a, b, c` these logarithms,
+//! and the line's amplitude is `exp(b - (a - c) delta / 4)`. For a Hann window that is within 0.016 bins and
+//! 4 %. The rectangular window knows no such rule: its values are those of the bin. Nor is there one beside
+//! the ends of the spectrum, where a line is folded upon itself, or for what is narrower than the line of a
+//! window.
 
 use super::Window;
 use crate::{
@@ -26,7 +28,8 @@ pub struct Spectrum {
 
 /// Part of the largest sample that may be rounding in a spectrum of amplitudes.
 pub(super) const ROUNDING: f64 = 1e-14;
-/// Part of a line's value that both neighbours have at least, with any window but the rectangular one. For a Hann window it is 0.2 or more, squared 0.04.
+/// Part of a line's value that both neighbours have at least, with any window but the rectangular one. For a
+/// Hann window it is 0.2 or more, squared 0.04.
 const NARROW: f64 = 0.01;
 
 /// A maximum of a spectrum.
@@ -40,7 +43,8 @@ pub struct Line {
 
 /// Amplitudes of a series.
 ///
-/// The mean is taken off before the window is put on, so that it does not leak into low frequencies; it stands at zero.
+/// The mean is taken off before the window is put on, so that it does not leak into low frequencies; it
+/// stands at zero.
 ///
 /// # Errors
 /// [`SignalError::TooShort`], [`SignalError::NotFinite`].
@@ -151,7 +155,8 @@ mod tests {
         }
     }
 
-    /// A line at half the sampling rate, and one below the first bin, are folded upon themselves: nothing is made up about them.
+    /// A line at half the sampling rate, and one below the first bin, are folded upon themselves: nothing is
+    /// made up about them.
     #[test]
     fn lines_at_the_ends_of_the_spectrum_keep_their_values() {
         let alternating: Vec<f64> = (0..1000).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
@@ -171,7 +176,8 @@ mod tests {
         assert_eq!(spectrum.lines(3, 3), []);
     }
 
-    /// Nothing between bins for a rectangular window: what it shows of 50.37 Hz is the value at 50.5 Hz. A line on a bin has zeros beside it.
+    /// Nothing between bins for a rectangular window: what it shows of 50.37 Hz is the value at 50.5 Hz. A
+    /// line on a bin has zeros beside it.
     #[test]
     fn rectangular_window_is_not_interpolated() {
         for (frequency, shown) in [(50.37, 50.5), (50.0, 50.0)] {

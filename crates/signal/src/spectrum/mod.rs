@@ -1,6 +1,7 @@
 //! Spectra: amplitudes of lines, and densities of what has none.
 //!
-//! With window `w`, `X_k = sum_n w_n x_n exp(-2 pi i k n / N)`, one-sided (`c_k = 2`, but 1 at zero and at half the sampling rate):
+//! With window `w`, `X_k = sum_n w_n x_n exp(-2 pi i k n / N)`, one-sided (`c_k = 2`, but 1 at zero and at
+//! half the sampling rate):
 //!
 //! * amplitude `c_k |X_k| / sum w`: a harmonic signal on a line shows its amplitude [unit];
 //! * power `c_k |X_k|² / (sum w)²`: half the square of that amplitude [unit²];

@@ -57,7 +57,8 @@ impl WelchSettings {
 /// Spectral density or power, averaged over segments.
 ///
 /// # Errors
-/// [`SignalError::TooShort`] if there is no whole segment, [`SignalError::Input`] for a segment or overlap that is none.
+/// [`SignalError::TooShort`] if there is no whole segment, [`SignalError::Input`] for a segment or overlap
+/// that is none.
 pub fn welch(
     series: &[f64],
     sampling_rate_hz: f64,

@@ -11,7 +11,8 @@
 //! Widths are equivalent noise bandwidths.
 //!
 //! # Source
-//! Harris, Proc. IEEE 66 (1978), 51-83; flat-top: D'Antona and Ferrero, *Digital Signal Processing for Measurement Systems*, 2006, p. 70.
+//! Harris, Proc. IEEE 66 (1978), 51-83; flat-top: D'Antona and Ferrero, *Digital Signal Processing for
+//! Measurement Systems*, 2006, p. 70.
 
 use std::f64::consts::PI;
 

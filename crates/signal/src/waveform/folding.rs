@@ -26,14 +26,17 @@ const PIECES: usize = 2;
 
 /// Folds a record.
 ///
-/// Pieces begin at one time, and whole pieces before and after it. An error of the frequency moves a piece by as much more as it is further from that time, so take one within the record, or a frequency that is exact.
+/// Pieces begin at one time, and whole pieces before and after it. An error of the frequency moves a piece by
+/// as much more as it is further from that time, so take one within the record, or a frequency that is exact.
 ///
-/// * `begin_s`: a time at which a piece begins, from the first sample on; it need not be within the record [s].
+/// * `begin_s`: a time at which a piece begins, from the first sample on; it need not be within the record
+///   [s].
 /// * `frequency_hz`: of the excitation.
 /// * `periods`, `per_period`: excitation periods of a piece, and samples in each of them.
 ///
 /// # Errors
-/// [`SignalError::TooShort`] if fewer than two pieces are in it, [`SignalError::NotFinite`], [`SignalError::Input`].
+/// [`SignalError::TooShort`] if fewer than two pieces are in it, [`SignalError::NotFinite`],
+/// [`SignalError::Input`].
 pub fn folded(
     samples: &[f64],
     (sampling_rate_hz, begin_s): (f64, f64),
@@ -51,7 +54,8 @@ pub fn folded(
     ensure("the number of samples in a piece", samples_of_piece.min(length as f64), allowed, lines > 0)?;
     let begin = -begin_s * frequency_hz / periods as f64;
     let end = begin + (samples.len() - 1) as f64 / samples_of_piece;
-    // Beside the ends interpolation has too few samples: such pieces are taken only where there are too few others.
+    // Beside the ends interpolation has too few samples: such pieces are taken only where there are too few
+    // others.
     let margin = REACH as f64 / samples_of_piece;
     let inner = ((begin + margin).ceil() as i64, (end - margin).floor() as i64);
     let enough = inner.1 - inner.0 >= PIECES as i64;

@@ -81,7 +81,8 @@ impl Alignment {
 /// Lays the second waveform over the first.
 ///
 /// # Errors
-/// [`SignalError::Input`] if the lengths differ, [`SignalError::TooShort`], [`SignalError::NotFinite`], [`SignalError::Constant`] if one of them does not move.
+/// [`SignalError::Input`] if the lengths differ, [`SignalError::TooShort`], [`SignalError::NotFinite`],
+/// [`SignalError::Constant`] if one of them does not move.
 pub fn align(first: &[f64], second: &[f64], shifts: Shifts) -> Result<Alignment, SignalError> {
     for series in [first, second] {
         ensure_series("laying one waveform over another", series, 4)?;
@@ -129,7 +130,8 @@ pub fn delayed(series: &[f64], shift: f64) -> Result<Vec<f64>, SignalError> {
     Ok(backward(spectrum, length))
 }
 
-/// Most Newton steps, most halvings of one, and the step that is the last one [samples]: behind it 1e-12 is left.
+/// Most Newton steps, most halvings of one, and the step that is the last one [samples]: behind it 1e-12 is
+/// left.
 const STEPS: usize = 20;
 const HALVINGS: i32 = 20;
 const LAST: f64 = 1e-6;

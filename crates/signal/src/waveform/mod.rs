@@ -1,18 +1,24 @@
 //! Waveforms over the periods of an excitation, and one laid over another.
 //!
-//! **Folding.** A record is read at phases of its excitation and averaged over all its pieces of `n` periods. The pieces scatter about their mean; that is what the measurement itself leaves open.
+//! **Folding.** A record is read at phases of its excitation and averaged over all its pieces of `n` periods.
+//! The pieces scatter about their mean; that is what the measurement itself leaves open.
 //!
-//! **Lines.** The mean is kept by the lines of its spectrum that both the record and the samples of the waveform hold: below 0.4 of the record's sampling rate, up to where values between its samples are known
-//! ([`resample`](crate::resample)), and below half of the samples in a period. It is read at no fewer phases than the record has samples, so that nothing is folded down from above. What is to be compared
-//! with it has to be cut to the same lines ([`within_lines`]): an orbit shows more than a record does.
+//! **Lines.** The mean is kept by the lines of its spectrum that both the record and the samples of the
+//! waveform hold: below 0.4 of the record's sampling rate, up to where values between its samples are known
+//! ([`resample`](crate::resample)), and below half of the samples in a period. It is read at no fewer phases
+//! than the record has samples, so that nothing is folded down from above. What is to be compared with it has
+//! to be cut to the same lines ([`within_lines`]): an orbit shows more than a record does.
 //!
-//! **Laying over.** Two waveforms `a`, `b` of one length, about their means: with the coefficients `A_k`, `B_k` of their Fourier series
+//! **Laying over.** Two waveforms `a`, `b` of one length, about their means: with the coefficients `A_k`,
+//! `B_k` of their Fourier series
 //!
 //! `r(s) = sum a(t) b(t - s) = (2/N) Re sum_{k = 1}^{k < N/2} A_k conj(B_k) exp(2 pi i k s/N)`
 //!
-//! is the product of `a` with `b` delayed by `s` samples. The shift is where `r` is largest: on the grid of samples, then between them by Newton's method on
-//! `r'`, which is exact for series that their samples determine; a step that overshoots is halved. With `aa`, `bb` the squares of both, the correlation is `r/sqrt(aa bb)`, the factor that brings `a` closest to `b`
-//! is `r/aa`, and a factor `g` leaves the residual `sqrt((g^2 aa - 2 g r + bb)/bb)` of the root mean square of `b`.
+//! is the product of `a` with `b` delayed by `s` samples. The shift is where `r` is largest: on the grid of
+//! samples, then between them by Newton's method on `r'`, which is exact for series that their samples
+//! determine; a step that overshoots is halved. With `aa`, `bb` the squares of both, the correlation is
+//! `r/sqrt(aa bb)`, the factor that brings `a` closest to `b` is `r/aa`, and a factor `g` leaves the residual
+//! `sqrt((g^2 aa - 2 g r + bb)/bb)` of the root mean square of `b`.
 //!
 //! | file | what |
 //! |---|---|
@@ -38,7 +44,8 @@ use crate::{
 /// * `lines`: the highest line that is kept, in cycles over the stretch.
 ///
 /// # Errors
-/// [`SignalError::TooShort`], [`SignalError::NotFinite`]; [`SignalError::Input`] if half of the samples, before or afterwards, do not hold so many lines.
+/// [`SignalError::TooShort`], [`SignalError::NotFinite`]; [`SignalError::Input`] if half of the samples,
+/// before or afterwards, do not hold so many lines.
 pub fn within_lines(series: &[f64], length: usize, lines: usize) -> Result<Vec<f64>, SignalError> {
     ensure_series("cutting a waveform to lines", series, 1)?;
     let most = (series.len().min(length).max(1) - 1) / 2;

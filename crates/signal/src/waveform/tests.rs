@@ -52,7 +52,8 @@ fn shifts_are_kept_near_whole_periods() {
 
 #[test]
 fn record_is_folded_from_the_time_on_that_is_told() {
-    // 2 Hz, whose waveform repeats after two periods, from 1.3 s on at 1 kHz; pieces begin where the clock has whole ones.
+    // 2 Hz, whose waveform repeats after two periods, from 1.3 s on at 1 kHz; pieces begin where the clock
+    // has whole ones.
     let value = |t: f64| (TAU * 2.0 * t).cos() + 0.5 * (TAU * t + 0.3).sin();
     let samples: Vec<f64> = (0..9_000).map(|k| value(1.3 + f64::from(k) * 1e-3)).collect();
     let found = folded(&samples, (1000.0, -1.3), 2.0, (2, 512)).unwrap();
@@ -65,7 +66,8 @@ fn record_is_folded_from_the_time_on_that_is_told() {
     assert!(found.scatter < 1e-4);
 }
 
-/// 4000 samples a period, read at 64 phases: the fortieth harmonic is above what these hold, and folded down it would be the 24th.
+/// 4000 samples a period, read at 64 phases: the fortieth harmonic is above what these hold, and folded down
+/// it would be the 24th.
 #[test]
 fn what_the_samples_of_a_waveform_do_not_hold_is_left_out() {
     let slow = |t: f64| (TAU * t).cos() + 0.3 * (TAU * 31.0 * t).sin();
@@ -81,7 +83,8 @@ fn what_the_samples_of_a_waveform_do_not_hold_is_left_out() {
     }
 }
 
-/// Ten samples a period hold four lines to the interpolation's accuracy; a computed waveform with more is cut to them.
+/// Ten samples a period hold four lines to the interpolation's accuracy; a computed waveform with more is cut
+/// to them.
 #[test]
 fn what_a_record_does_not_hold_is_left_out_of_both() {
     let lines = |most: u32, t: f64| {
@@ -99,7 +102,8 @@ fn what_a_record_does_not_hold_is_left_out_of_both() {
     assert!(matches!(within_lines(&computed, 64, 32), Err(SignalError::Input { .. })));
 }
 
-/// A pulse of all lines and its summit half a sample from the nearest one: there the first Newton step lands beyond the summit, lower than it began.
+/// A pulse of all lines and its summit half a sample from the nearest one: there the first Newton step lands
+/// beyond the summit, lower than it began.
 #[test]
 fn summit_far_from_the_samples_is_found() {
     let mut pulse = vec![0.0; 64];

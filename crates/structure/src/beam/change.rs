@@ -4,9 +4,11 @@
 //!
 //! `dw/dp = (phi^T dK/dp phi - w^2 phi^T dM/dp phi)/(2 w)`,
 //!
-//! since the derivative of the mode itself does not enter. With strains, `phi^T dK phi = 2 (G phi) . (dG phi)` over the elements, and `dk phi_c^2` for a spring at the coordinate c.
-//! Nodes move with the ends and points between which they lie, so the number of elements on a stretch does not change, as it may between two beams that are computed
-//! one after the other. Multiple eigenfrequencies do not occur in the bending of a beam that hangs together.
+//! since the derivative of the mode itself does not enter. With strains, `phi^T dK phi = 2 (G phi) . (dG
+//! phi)` over the elements, and `dk phi_c^2` for a spring at the coordinate c. Nodes move with the ends and
+//! points between which they lie, so the number of elements on a stretch does not change, as it may between
+//! two beams that are computed one after the other. Multiple eigenfrequencies do not occur in the bending of
+//! a beam that hangs together.
 //!
 //! # Source
 //! Fox and Kapoor, AIAA J. 6 (1968), 2426-2429.
@@ -57,9 +59,11 @@ pub struct PointChange {
 }
 
 impl Beam {
-    /// Derivatives of the eigenfrequencies [Hz] by a parameter, in the order of the eigenfrequencies; 0 for rigid-body modes.
+    /// Derivatives of the eigenfrequencies [Hz] by a parameter, in the order of the eigenfrequencies; 0 for
+    /// rigid-body modes.
     ///
-    /// `None` where the change would tear apart points that share a place, so that the mesh has no derivative.
+    /// `None` where the change would tear apart points that share a place, so that the mesh has no
+    /// derivative.
     ///
     /// * `moving`: points whose motion is prescribed.
     ///

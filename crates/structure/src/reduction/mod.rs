@@ -25,12 +25,14 @@ pub enum Reduction {
         /// Highest eigenfrequency kept [Hz].
         cut_off_hz: f64,
     },
-    /// Fixed-interface modes up to a cut-off frequency, and a static constraint mode for each interface point.
+    /// Fixed-interface modes up to a cut-off frequency, and a static constraint mode for each interface
+    /// point.
     FixedInterface {
         /// Highest eigenfrequency kept [Hz].
         cut_off_hz: f64,
     },
-    /// The modes of the supported structure up to a cut-off frequency, without static corrections: a local force meets too stiff a structure.
+    /// The modes of the supported structure up to a cut-off frequency, without static corrections: a local
+    /// force meets too stiff a structure.
     Truncation {
         /// Highest eigenfrequency kept [Hz].
         cut_off_hz: f64,

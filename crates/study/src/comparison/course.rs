@@ -1,4 +1,5 @@
-//! An orbit in samples: displacement, velocity and acceleration of the response point over one of its periods.
+//! An orbit in samples: displacement, velocity and acceleration of the response point over one of its
+//! periods.
 
 use hammerbeam_attractor::{AttractorError, Simulation};
 use hammerbeam_motion::exact::{ExactIntegrator, ExactSettings, MotionError};
@@ -38,7 +39,8 @@ pub type Sampled<T, E> = Result<Result<T, CourseError>, E>;
 /// What was made of each orbit, `None` for one that could not be gone over, and how many of these there are.
 ///
 /// # Errors
-/// [`NoneSampled`] if there are orbits and none could be gone over; the first error that is of something else.
+/// [`NoneSampled`] if there are orbits and none could be gone over; the first error that is of something
+/// else.
 pub fn sampled<T, E: From<NoneSampled>>(
     tried: impl IntoIterator<Item = Sampled<T, E>>,
 ) -> Result<(Vec<Option<T>>, usize), E> {
@@ -120,7 +122,8 @@ pub fn follow(
     Ok(course)
 }
 
-/// Part of the motion that a filter has to leave: one step of a converter of 24 bits. What rounding leaves of the mean is 1e-16 of it, and would be compared otherwise.
+/// Part of the motion that a filter has to leave: one step of a converter of 24 bits. What rounding leaves of
+/// the mean is 1e-16 of it, and would be compared otherwise.
 pub const LEFT: f64 = 1.0 / (1 << 24) as f64;
 
 /// Largest absolute value of a periodic series behind a filter, and the part of its motion that is left.

@@ -106,14 +106,16 @@ impl Curves {
         hits.collect()
     }
 
-    /// Whether a stable branch of this period meets a frequency with the value 0: a contact force where nothing touches.
+    /// Whether a stable branch of this period meets a frequency with the value 0: a contact force where
+    /// nothing touches.
     #[must_use]
     pub fn rests(&self, frequency_hz: f64, period_multiple: Option<u32>) -> bool {
         self.segments(frequency_hz, period_multiple)
             .any(|(_, a, b)| a.stable && b.stable && (a.value == 0.0 || b.value == 0.0))
     }
 
-    /// Where branches of a period meet a frequency: the ends of the segment that crosses it, or the same node twice where it lies there exactly.
+    /// Where branches of a period meet a frequency: the ends of the segment that crosses it, or the same node
+    /// twice where it lies there exactly.
     fn segments(
         &self,
         frequency_hz: f64,
@@ -134,7 +136,8 @@ impl Curves {
         nearest(self.at(frequency_hz, period).into_iter().filter(|hit| hit.stable), value)
     }
 
-    /// The frequency nearest to one at which a stable solution of a period exists, with a value that is not 0.
+    /// The frequency nearest to one at which a stable solution of a period exists, with a value that is not
+    /// 0.
     #[must_use]
     pub fn nearest_frequency(&self, frequency_hz: f64, period: Option<u32>) -> Option<f64> {
         let wanted = |branch: &&BranchCurve| period.is_none_or(|period| period == branch.period_multiple);
@@ -145,7 +148,8 @@ impl Curves {
     }
 }
 
-/// How the first segment of a part of a branch meets a frequency. The node between two segments belongs to the second one, so that it is met once; the last node of a branch belongs to the last segment.
+/// How the first segment of a part of a branch meets a frequency. The node between two segments belongs to
+/// the second one, so that it is met once; the last node of a branch belongs to the last segment.
 fn meets(points: &[CurvePoint], frequency_hz: f64) -> Option<[CurvePoint; 2]> {
     let [a, b] = [points[0], points[1]];
     if a.frequency_hz == frequency_hz {
@@ -190,7 +194,8 @@ mod tests {
         curves.at(frequency_hz, None).iter().map(|hit| hit.value).collect()
     }
 
-    /// Up to a fold at 14 Hz and back to one at 3 Hz, so that all nodes are at the ends of the range or shared.
+    /// Up to a fold at 14 Hz and back to one at 3 Hz, so that all nodes are at the ends of the range or
+    /// shared.
     #[test]
     fn branch_is_met_at_both_ends_and_each_node_once() {
         for (low, high) in [(3.0, 14.0), (19.0, 110.0), (0.1, 0.7), (20.3, 69.9)] {

@@ -91,7 +91,8 @@ pub struct PointOutcome {
     pub shifted_hz: f64,
     /// and shifted value.
     pub shifted_value: f64,
-    /// The nearest stable branch of its period; of points that do not repeat, and where there is none, the nearest branch of any kind.
+    /// The nearest stable branch of its period; of points that do not repeat, and where there is none, the
+    /// nearest branch of any kind.
     pub nearest: Option<Match>,
     /// Period multiples of the stable solutions at the shifted frequency, rising, each once.
     pub stable_periods: Vec<u32>,

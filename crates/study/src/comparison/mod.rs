@@ -1,31 +1,43 @@
 //! Measured points held against branches of periodic solutions.
 //!
-//! A point `i` was measured at the excitation frequency `f_i` with the largest value `A_i` of some quantity. The model answers at a shifted frequency, and
-//! values differ by a factor:
+//! A point `i` was measured at the excitation frequency `f_i` with the largest value `A_i` of some quantity.
+//! The model answers at a shifted frequency, and values differ by a factor:
 //!
 //! `f_i' = c f_i` or `f_i' = f_i + d`, `A_i' = a A_i`, `r_i = ln(a A_i) - ln M(f_i')`
 //!
-//! with the value `M` of the *nearest stable* solution of the measured period at `f_i'` (every stable one where the period is not known). Logarithms, since values span decades
-//! and a factor on them is what is sought; a difference of 0.1 is about 10 %.
+//! with the value `M` of the *nearest stable* solution of the measured period at `f_i'` (every stable one
+//! where the period is not known). Logarithms, since values span decades and a factor on them is what is
+//! sought; a difference of 0.1 is about 10 %.
 //!
-//! **Factor or offset.** A model whose modulus, density or contact mass is off has all eigenfrequencies off by about one factor, and with them every resonance, superharmonic or
-//! subharmonic: a factor is the usual choice, and the paper's (+6 %). An offset describes a wrong reading of the frequency.
+//! **Factor or offset.** A model whose modulus, density or contact mass is off has all eigenfrequencies off
+//! by about one factor, and with them every resonance, superharmonic or subharmonic: a factor is the usual
+//! choice, and the paper's (+6 %). An offset describes a wrong reading of the frequency.
 //!
-//! **The fit** minimises `sum min(r_i^2, R^2)` over what is not given, where a point that no stable branch of its period meets counts `R^2` too: points farther off than the factor
-//! `exp(R)` pull at nothing, and no shift is rewarded for losing points. `R` is twice the logarithm of the reach within which a branch explains a point: with the reach itself, a shift that happens to fit
-//! half of the points closely may win over one that fits all of them fairly. At a shift the best factor follows from going over all of them in their order (`fit/problem.rs`); over the shift the sum has many minima, since branches have many peaks, so all shifts of a grid are tried,
-//! the lowest valleys are gone over with finer and finer grids, and the lowest place is taken (`fit/search.rs`). Nothing leaves what is tried: a number that stays at an end of it is no minimum and has no standard error, and
-//! those of the other one are for that end. With `n` points nearer than `R`, `p` fitted numbers and `J = dr/dp`, standard errors (`fit/errors.rs`) are the
-//! roots of the diagonal of `(J^T J)^-1 sum r_i^2 / (n - p)`. Slopes of branches in `J` are secants over 0.5 % of the frequency: at a fold the tangent says nothing of
-//! where points will lie. The errors hold for the matching that was found, and for differences that are independent; a model that is wrong makes them too small.
+//! **The fit** minimises `sum min(r_i^2, R^2)` over what is not given, where a point that no stable branch of
+//! its period meets counts `R^2` too: points farther off than the factor `exp(R)` pull at nothing, and no
+//! shift is rewarded for losing points. `R` is twice the logarithm of the reach within which a branch
+//! explains a point: with the reach itself, a shift that happens to fit half of the points closely may win
+//! over one that fits all of them fairly. At a shift the best factor follows from going over all of them in
+//! their order (`fit/problem.rs`); over the shift the sum has many minima, since branches have many peaks, so
+//! all shifts of a grid are tried, the lowest valleys are gone over with finer and finer grids, and the
+//! lowest place is taken (`fit/search.rs`). Nothing leaves what is tried: a number that stays at an end of it
+//! is no minimum and has no standard error, and those of the other one are for that end. With `n` points
+//! nearer than `R`, `p` fitted numbers and `J = dr/dp`, standard errors (`fit/errors.rs`) are the roots of
+//! the diagonal of `(J^T J)^-1 sum r_i^2 / (n - p)`. Slopes of branches in `J` are secants over 0.5 % of the
+//! frequency: at a fold the tangent says nothing of where points will lie. The errors hold for the matching
+//! that was found, and for differences that are independent; a model that is wrong makes them too small.
 //!
-//! **The residual** is told of the points within the reach, and of all that meet a branch. The latter is not what the fit makes small: a shift at which more points meet a branch, one of them far off, has a smaller sum and
-//! a larger residual of all that meet one.
+//! **The residual** is told of the points within the reach, and of all that meet a branch. The latter is not
+//! what the fit makes small: a shift at which more points meet a branch, one of them far off, has a smaller
+//! sum and a larger residual of all that meet one.
 //!
-//! **Another minimum** that is about as good is told, the lowest of those that worse shifts part from the best one; with sums `F` and `F'` over all points, and `S` over the `n` points nearer than `R` to the best one, it counts if
-//! `(n - p)(F' - F)/S` is below 3.84 (chi-squared of one freedom, 95 %), or `(F' - F)/S` below 0.1. What points that never fit add to `F` and `F'` drops out.
+//! **Another minimum** that is about as good is told, the lowest of those that worse shifts part from the
+//! best one; with sums `F` and `F'` over all points, and `S` over the `n` points nearer than `R` to the best
+//! one, it counts if `(n - p)(F' - F)/S` is below 3.84 (chi-squared of one freedom, 95 %), or `(F' - F)/S`
+//! below 0.1. What points that never fit add to `F` and `F'` drops out.
 //!
-//! Aperiodic and doubtful points take no part: branches are of periodic solutions. They are listed with the branch that is nearest, stable or not.
+//! Aperiodic and doubtful points take no part: branches are of periodic solutions. They are listed with the
+//! branch that is nearest, stable or not.
 //!
 //! | file | what |
 //! |---|---|

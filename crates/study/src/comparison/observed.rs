@@ -1,7 +1,9 @@
 //! From stored branches to curves of what an instrument would show.
 //!
-//! Largest displacements and accelerations of the response point, and contact forces, are stored with each solution, exact on the continuous motion. Velocities, other points, and everything behind a filter, are
-//! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no feature narrower than the branch itself.
+//! Largest displacements and accelerations of the response point, and contact forces, are stored with each
+//! solution, exact on the continuous motion. Velocities, other points, and everything behind a filter, are
+//! computed again from the stored orbit, for solutions that are far enough apart: a filtered course has no
+//! feature narrower than the branch itself.
 
 use hammerbeam_signal::{Quantity, SignalError};
 
@@ -101,7 +103,8 @@ fn behind(series: &[f64], duration_s: f64, filter: Filter) -> Result<f64, Observ
     Ok(largest)
 }
 
-/// Curves of stored solutions that are some distance apart and gone over again: `value` gives that of an orbit. One whose motion cannot be gone over leaves a gap; it is an error only if none can.
+/// Curves of stored solutions that are some distance apart and gone over again: `value` gives that of an
+/// orbit. One whose motion cannot be gone over leaves a gap; it is an error only if none can.
 fn gone_over(
     branches: &StoredBranches,
     model: &Model,

@@ -8,7 +8,8 @@ use std::{
 
 use super::Problem;
 
-/// Faults that are kept; nobody reads more, and of a file that is something else altogether there would be thousands.
+/// Faults that are kept; nobody reads more, and of a file that is something else altogether there would be
+/// thousands.
 const MOST_PROBLEMS: usize = 100;
 
 /// Collects faults and the places of keys while a document is read.

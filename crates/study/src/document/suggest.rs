@@ -23,8 +23,9 @@ const SYNONYMS: [(&str, &str); 17] = [
 
 /// The candidate that `word` was probably meant to be.
 ///
-/// In this order: the one that differs by few edits, ours for a word that others use, and a key that has the word
-/// for its stem (`density` or `density_g_cm3` for `density_kg_m3`) or its end (`ratio` for `modal_ratio`).
+/// In this order: the one that differs by few edits, ours for a word that others use, and a key that has the
+/// word for its stem (`density` or `density_g_cm3` for `density_kg_m3`) or its end (`ratio` for
+/// `modal_ratio`).
 pub(crate) fn closest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.into_iter().collect();
     by_edits(word, &candidates)
@@ -47,7 +48,8 @@ fn by_meaning<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     candidates.iter().copied().find(|candidate| *candidate == meant)
 }
 
-/// Parts of keys stand between underscores, the unit last: the longest stem of the word that a key has as well.
+/// Parts of keys stand between underscores, the unit last: the longest stem of the word that a key has as
+/// well.
 fn by_stem<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
     let has_stem = |key: &str, stem: &str| key.strip_prefix(stem).is_some_and(|rest| rest.starts_with('_'));
     let has_end = |key: &str| key.strip_suffix(word).is_some_and(|rest| rest.ends_with('_'));

@@ -38,7 +38,8 @@ impl<'a> Table<'a> {
         if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
     }
 
-    /// The value of a key, if it is there: under its name, or without the unit at the end of its name and with a unit.
+    /// The value of a key, if it is there: under its name, or without the unit at the end of its name and
+    /// with a unit.
     pub(crate) fn optional(&self, key: &'static str) -> Option<Value<'a>> {
         self.asked.borrow_mut().push(key);
         let (value, stem) = match (self.entries.get(key), self.with_unit(key)) {

@@ -1,10 +1,12 @@
-//! Numbers with their units, as in `length = "258 mm"`: what a unit is worth in SI, and of what dimension it is.
+//! Numbers with their units, as in `length = "258 mm"`: what a unit is worth in SI, and of what dimension it
+//! is.
 //!
-//! A unit is a product of powers: `N s/m`, `N/m^1.5`, `kg m^2`, `1/s`; what follows a stroke is divided by, up to
-//! the next stroke or blank. A cycle is `2 pi` rad, so `1 Hz = 2 pi rad/s`, and `1/s` is something else.
+//! A unit is a product of powers: `N s/m`, `N/m^1.5`, `kg m^2`, `1/s`; what follows a stroke is divided by,
+//! up to the next stroke or blank. A cycle is `2 pi` rad, so `1 Hz = 2 pi rad/s`, and `1/s` is something
+//! else.
 //!
-//! A key of the study file that ends in an SI unit (`length_m`) has a form without it (`length`) that takes such a
-//! text; [`SUFFIXES`] says which ends these are.
+//! A key of the study file that ends in an SI unit (`length_m`) has a form without it (`length`) that takes
+//! such a text; [`SUFFIXES`] says which ends these are.
 
 use std::f64::consts::{PI, TAU};
 

@@ -128,7 +128,8 @@ impl<'a> Value<'a> {
         }
     }
 
-    /// Refuses a text that is very long or has characters that are not seen, which terminals obey and tables stumble over.
+    /// Refuses a text that is very long or has characters that are not seen, which terminals obey and tables
+    /// stumble over.
     fn visible(&self, text: &'a str) -> Option<&'a str> {
         let fault = if let Some(found) = text.chars().find(|character| is_control(*character)) {
             format!("`{}` has the control character U+{:04X}", self.key(), u32::from(found))

@@ -33,7 +33,8 @@ pub const PARAMETER_END_COLUMNS: [&str; 10] = [
     "state",
 ];
 
-/// One row per side of a branch: how it ended, and the state `[q; q']` of its last solution at the phase at which that begins.
+/// One row per side of a branch: how it ended, and the state `[q; q']` of its last solution at the phase at
+/// which that begins.
 pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) -> Result<(), ExportError> {
     let failed = |source| ExportError::from(WriteError { path: path.to_owned(), source });
     writeln!(writer, "{}", END_COLUMNS.join(",")).map_err(failed)?;
@@ -64,7 +65,8 @@ pub(super) fn write_ends(store: &Store, writer: &mut impl Write, path: &Path) ->
     Ok(())
 }
 
-/// One row per side of a branch in a parameter or of a curve: how it ended, in words, and the state of its last orbit.
+/// One row per side of a branch in a parameter or of a curve: how it ended, in words, and the state of its
+/// last orbit.
 pub(super) fn write_varied_ends(
     store: &Store,
     pieces: &[&PieceRecord],

@@ -73,13 +73,15 @@ pub struct Exported {
     pub events_path: PathBuf,
     /// How branches ended.
     pub ends_path: PathBuf,
-    /// `parameter_branches.csv`, `parameter_events.csv` and `parameter_ends.csv`, `curves.csv` and `curve_ends.csv`, where the study asks for them.
+    /// `parameter_branches.csv`, `parameter_events.csv` and `parameter_ends.csv`, `curves.csv` and
+    /// `curve_ends.csv`, where the study asks for them.
     pub varied_paths: Vec<PathBuf>,
     /// Tables of motions, sweeps, exponents and basins, with the numbers of their requests.
     pub motion_paths: Vec<PathBuf>,
 }
 
-/// Writes `branches.csv`, one row per solution, end to end along each branch, `events.csv`, one row per event, and `ends.csv`, one row per end of a branch, into a folder.
+/// Writes `branches.csv`, one row per solution, end to end along each branch, `events.csv`, one row per
+/// event, and `ends.csv`, one row per end of a branch, into a folder.
 ///
 /// Numbers are the shortest that read back to the same double. The files appear complete or not at all.
 ///
@@ -99,7 +101,8 @@ pub fn export_csv(store: &Store, folder: &Path) -> Result<Exported, ExportError>
     Ok(Exported { path, rows, events_path, ends_path, varied_paths, motion_paths })
 }
 
-/// Writes `states.csv` into a folder: the state and all multipliers of every solution, which take several times the room of the rest.
+/// Writes `states.csv` into a folder: the state and all multipliers of every solution, which take several
+/// times the room of the rest.
 ///
 /// # Returns
 /// The file.

@@ -1,6 +1,7 @@
 //! Motions that need not repeat as CSV: sweeps, exponents, basins; motions in time see `simulation.rs`.
 //!
-//! The commands write the tables of what they were asked; an export writes those of every request in the store, with its number in their names.
+//! The commands write the tables of what they were asked; an export writes those of every request in the
+//! store, with its number in their names.
 
 use std::path::{Path, PathBuf};
 
@@ -62,8 +63,8 @@ pub fn write_sweep(
     Ok(vec![table.finish()?, samples.finish()?])
 }
 
-/// Writes `spectra.csv`, one row per frequency, `exponents.csv`, one per exponent, `convergence.csv`, one per place of the
-/// convergence curves, and `section.csv`, one per point of the stroboscopic sections.
+/// Writes `spectra.csv`, one row per frequency, `exponents.csv`, one per exponent, `convergence.csv`, one per
+/// place of the convergence curves, and `section.csv`, one per point of the stroboscopic sections.
 ///
 /// * `suffix`: follows the names of the files.
 ///
@@ -138,10 +139,12 @@ fn spectrum_row(record: &ExponentRecord) -> [String; 11] {
     ]
 }
 
-/// Writes `basins.csv`, one row per cell, and `attractors.csv`, one per attractor, with its first state (modal displacements and velocities at phase 0).
+/// Writes `basins.csv`, one row per cell, and `attractors.csv`, one per attractor, with its first state
+/// (modal displacements and velocities at phase 0).
 ///
 /// * `suffix`: follows the names of the files.
-/// * `cells`: number of the attractor of each cell of the grid, counted from 1; 0 where the motion cannot be computed.
+/// * `cells`: number of the attractor of each cell of the grid, counted from 1; 0 where the motion cannot be
+///   computed.
 /// * `branches`: the branch each attractor lies on, of the same length, or empty where that is not known.
 ///
 /// # Errors

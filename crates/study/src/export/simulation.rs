@@ -40,7 +40,8 @@ fn section_header(layout: &SimulationLayout) -> Vec<String> {
     columns
 }
 
-/// `samples.csv`, one row per sample, `contacts.csv`, one per contact, and `stroboscopic.csv`, one per period, that are being written.
+/// `samples.csv`, one row per sample, `contacts.csv`, one per contact, and `stroboscopic.csv`, one per
+/// period, that are being written.
 ///
 /// They are begun with the first period that is written down: a transient leaves no tables.
 #[derive(Debug)]
@@ -133,7 +134,8 @@ impl SimulationTables {
     }
 }
 
-/// The row is also a point of the section at this contact: displacement and velocity of the response point as it closes.
+/// The row is also a point of the section at this contact: displacement and velocity of the response point as
+/// it closes.
 fn contact_row(layout: &SimulationLayout, contact: &SimulatedContact) -> Vec<String> {
     let touch = contact.touch.as_ref();
     vec![

@@ -35,7 +35,8 @@ pub const PARAMETER_COLUMNS: [&str; 18] = [
     "event",
 ];
 
-/// Writes `parameter_branches.csv` with `parameter_events.csv` and `parameter_ends.csv`, and `curves.csv` with `curve_ends.csv`, into a folder, each only if there is something in it.
+/// Writes `parameter_branches.csv` with `parameter_events.csv` and `parameter_ends.csv`, and `curves.csv`
+/// with `curve_ends.csv`, into a folder, each only if there is something in it.
 ///
 /// Tables of curves have a further column `of` in front, which says what the curve is of.
 pub(crate) fn export_varied(store: &Store, folder: &Path) -> Result<Vec<PathBuf>, ExportError> {

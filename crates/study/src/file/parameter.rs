@@ -1,4 +1,5 @@
-//! The name of a parameter of the study, and its range: `parameter` and `range` of `[[vary]]` and `[[curve]]`.
+//! The name of a parameter of the study, and its range: `parameter` and `range` of `[[vary]]` and
+//! `[[curve]]`.
 
 use serde::Serialize;
 

@@ -21,7 +21,8 @@ pub struct Stop {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
-    /// Between a point and its surroundings: `r` is the displacement of the point relative to what the stop is fixed to.
+    /// Between a point and its surroundings: `r` is the displacement of the point relative to what the stop
+    /// is fixed to.
     At {
         /// Point.
         point: String,

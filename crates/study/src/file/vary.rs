@@ -1,4 +1,5 @@
-//! `[[vary]]` and `[[curve]]`: branches in another parameter than the frequency, and curves of bifurcations in two.
+//! `[[vary]]` and `[[curve]]`: branches in another parameter than the frequency, and curves of bifurcations
+//! in two.
 
 use serde::Serialize;
 

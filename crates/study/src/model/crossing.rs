@@ -1,8 +1,12 @@
 //! Eigenfrequencies that cross over the range of a number.
 //!
-//! The modes of a study with another number are in the order of their frequencies. Where two frequencies cross, which they do where nothing couples their modes, two modes change places, and states mean another motion behind. Where
-//! something couples them they only come near each other and the shapes change over within some distance, smoothly. Two values of the number are held against each other by the modal assurance criterion of the shapes,
-//! `(phi . psi)^2 / (phi . phi)(psi . psi)`: each mode is most alike to its own number, or the stretch between the two is halved. What is still not in order over a stretch of rounding is a crossing.
+//! The modes of a study with another number are in the order of their frequencies. Where two frequencies
+//! cross, which they do where nothing couples their modes, two modes change places, and states mean another
+//! motion behind. Where something couples them they only come near each other and the shapes change over
+//! within some distance, smoothly. Two values of the number are held against each other by the modal
+//! assurance criterion of the shapes, `(phi . psi)^2 / (phi . phi)(psi . psi)`: each mode is most alike to
+//! its own number, or the stretch between the two is halved. What is still not in order over a stretch of
+//! rounding is a crossing.
 
 use super::{family::nodes_before_points, interface, structure::reduce};
 use crate::{
@@ -22,7 +26,8 @@ pub(super) struct Crossing {
     pub modes: [usize; 2],
 }
 
-/// The crossing found first between the value of the study and the ends of a range; `None` if there is none, or no model beside which there could be one.
+/// The crossing found first between the value of the study and the ends of a range; `None` if there is none,
+/// or no model beside which there could be one.
 pub(super) fn crossing(file: &StudyFile, number: &Number, range: [f64; 2]) -> Option<Crossing> {
     let shapes = |value: f64| shapes(file, number, value);
     let here = shapes(number.value)?;
@@ -31,7 +36,8 @@ pub(super) fn crossing(file: &StudyFile, number: &Number, range: [f64; 2]) -> Op
 
 /// The modes of one study.
 struct Shapes {
-    /// Numbers of nodes before the points of a beam: where they differ, the mesh is another and the modes have jumped.
+    /// Numbers of nodes before the points of a beam: where they differ, the mesh is another and the modes
+    /// have jumped.
     nodes: Vec<usize>,
     /// Displacements of the places of the outline in each mode.
     of_modes: Vec<Vec<f64>>,
@@ -60,7 +66,8 @@ fn between(
         .or_else(|| between(shapes, (value, &middle), (to, after)))
 }
 
-/// A mode and another one that it is more alike to behind; `None` if there is none, or the shapes are not to be compared.
+/// A mode and another one that it is more alike to behind; `None` if there is none, or the shapes are not to
+/// be compared.
 fn first_out_of_order(before: &Shapes, after: &Shapes) -> Option<[usize; 2]> {
     let places = |shapes: &Shapes| shapes.of_modes.iter().map(Vec::len).collect::<Vec<_>>();
     if before.nodes != after.nodes || places(before) != places(after) {

@@ -1,6 +1,8 @@
-//! Parts of the damping of the structure that vary: what a unit of each constant adds to the equations of motion.
+//! Parts of the damping of the structure that vary: what a unit of each constant adds to the equations of
+//! motion.
 //!
-//! The damping is linear in its constants, and the modes do not depend on it. So the matrix of a part is that of the study in which this constant is one and all others are zero.
+//! The damping is linear in its constants, and the modes do not depend on it. So the matrix of a part is that
+//! of the study in which this constant is one and all others are zero.
 
 use hammerbeam_motion::DampingPart;
 use hammerbeam_structure::StructureError;
@@ -47,7 +49,8 @@ pub(super) fn value(study: &Study, key: DampingKey) -> f64 {
     found
 }
 
-/// Shows every constant of the damping of the structure; a ratio that all modes have in common is put to zero.
+/// Shows every constant of the damping of the structure; a ratio that all modes have in common is put to
+/// zero.
 fn constants(study: &mut Study, mut show: impl FnMut(DampingKey, &mut f64)) {
     match &mut study.damping {
         Damping::Modal(ModalRatio::Every(ratio)) => *ratio = 0.0,

@@ -1,11 +1,13 @@
 //! Directions in which a structure can drift: rigid-body motions that no spring and no stop holds.
 //!
-//! Let `d` be a combination of the rigid-body modes (`w = 0`), so that `K d = 0`. Local forces depend on `s_j . q`, where `s_j` is the shape of element j. If `s_j . d = 0`
-//! for all of them, `q + c d` solves the equations of motion with `q`, for every constant c: periodic orbits are never isolated, their monodromy matrix
-//! always has the multiplier +1, and shooting has no unique answer. If elements hold `d`, but all of them can open, this is so for the orbits
-//! on which none of them acts.
+//! Let `d` be a combination of the rigid-body modes (`w = 0`), so that `K d = 0`. Local forces depend on `s_j
+//! . q`, where `s_j` is the shape of element j. If `s_j . d = 0` for all of them, `q + c d` solves the
+//! equations of motion with `q`, for every constant c: periodic orbits are never isolated, their monodromy
+//! matrix always has the multiplier +1, and shooting has no unique answer. If elements hold `d`, but all of
+//! them can open, this is so for the orbits on which none of them acts.
 //!
-//! The directions are the orthogonal complement of the shapes within the rigid-body modes, first for all elements, then for those that always act.
+//! The directions are the orthogonal complement of the shapes within the rigid-body modes, first for all
+//! elements, then for those that always act.
 
 use hammerbeam_motion::{Law, System};
 

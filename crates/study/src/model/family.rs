@@ -1,7 +1,8 @@
 //! Other numbers of the study as parameters: the study is built anew with each value, as in an update.
 //!
-//! The state of a motion is that of the modes, which change with the number. They do so smoothly as long as they keep their order and the mesh its shares; their signs, which a point of the structure decides, are those of the modes of the
-//! study as it is.
+//! The state of a motion is that of the modes, which change with the number. They do so smoothly as long as
+//! they keep their order and the mesh its shares; their signs, which a point of the structure decides, are
+//! those of the modes of the study as it is.
 
 use std::sync::Arc;
 

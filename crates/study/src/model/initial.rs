@@ -1,9 +1,10 @@
 //! A modal state from displacements and velocities of named points.
 //!
-//! The displacement of a point is `y_p = phi_p . q + s_p u` and its velocity `phi_p . q' + s_p u'`, with the support motion
-//! `u` at that moment. Fewer points than modes leave the state open. Of all states in which the points move as given
-//! the one of the smallest norm is taken, of `q` and of `q'` by themselves. Modes are mass-normalised, so `|q'|^2` is
-//! twice the kinetic energy relative to the support: a mass that is not mentioned rests relative to it.
+//! The displacement of a point is `y_p = phi_p . q + s_p u` and its velocity `phi_p . q' + s_p u'`, with the
+//! support motion `u` at that moment. Fewer points than modes leave the state open. Of all states in which
+//! the points move as given the one of the smallest norm is taken, of `q` and of `q'` by themselves. Modes
+//! are mass-normalised, so `|q'|^2` is twice the kinetic energy relative to the support: a mass that is not
+//! mentioned rests relative to it.
 
 use hammerbeam_structure::PointOutput;
 
@@ -46,7 +47,8 @@ pub enum PointStartError {
 }
 
 impl Model {
-    /// The state `[q; q']` at phase 0 in which points move as given, and everything else as little as possible.
+    /// The state `[q; q']` at phase 0 in which points move as given, and everything else as little as
+    /// possible.
     ///
     /// # Errors
     /// [`PointStartError`]: an unknown name, or values that no state of the reduced model has.

@@ -120,13 +120,15 @@ impl Model {
         self.system.model().points.iter().map(|point| point.name.as_str()).collect()
     }
 
-    /// How the response point moves at a frequency, read off states and the forces of all local elements then.
+    /// How the response point moves at a frequency, read off states and the forces of all local elements
+    /// then.
     #[must_use]
     pub fn response_motion(&self, frequency_hz: f64) -> PointMotion {
         self.system.point_motion(frequency_hz, &self.response.shape, self.response.support_ratio)
     }
 
-    /// Refuses parameters that the system does not have, and ranges that leave out the value from which they are followed.
+    /// Refuses parameters that the system does not have, and ranges that leave out the value from which they
+    /// are followed.
     fn check_varied(&self, file: &StudyFile) -> Result<(), StudyError> {
         let study = &file.study;
         for (key, varied) in study.varied() {

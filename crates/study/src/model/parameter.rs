@@ -83,7 +83,8 @@ impl Model {
             }
             ParameterKind::Gap { stop } => {
                 let parameter = Parameter::Gap { element: self.element_of(study, stop)? };
-                // A gap that is measured from the rest position differs from the level of the element by the sag.
+                // A gap that is measured from the rest position differs from the level of the element by the
+                // sag.
                 let level = self.system.parameter(parameter).map_err(|error| error.to_string())?;
                 let gap = study.stops[stop].law.gap_m().unwrap_or(level);
                 Ok(StudyParameter { offset: gap - level, ..plain(parameter) })

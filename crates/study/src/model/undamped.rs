@@ -1,14 +1,16 @@
 //! Modes without damping.
 //!
-//! With the modal damping matrix C a free vibration of mode i alone decays with the damping ratio `C_ii/(2 w_i)`. C is positive semidefinite, so where `C_ii` vanishes the mode is not
-//! coupled to others by it either: it never decays, and a pair of multipliers of every orbit on which no stop acts has modulus one. Below a ratio of 1e-10 or so these multipliers
-//! are not told from the unit circle.
+//! With the modal damping matrix C a free vibration of mode i alone decays with the damping ratio `C_ii/(2
+//! w_i)`. C is positive semidefinite, so where `C_ii` vanishes the mode is not coupled to others by it
+//! either: it never decays, and a pair of multipliers of every orbit on which no stop acts has modulus one.
+//! Below a ratio of 1e-10 or so these multipliers are not told from the unit circle.
 
 use std::f64::consts::TAU;
 
 use super::Model;
 
-/// Damping ratio below which a mode counts as undamped: that which changes a multiplier over a period of the mode by less than it is known to.
+/// Damping ratio below which a mode counts as undamped: that which changes a multiplier over a period of the
+/// mode by less than it is known to.
 pub(super) const NOTHING: f64 = 1e-10;
 
 /// A mode that nothing damps.

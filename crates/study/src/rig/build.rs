@@ -3,7 +3,8 @@
 use super::RigError;
 use crate::file::StudyFile;
 
-/// Puts `[rig.changes]` over the study: tables are merged key by key, everything else, lists of tables included, is replaced.
+/// Puts `[rig.changes]` over the study: tables are merged key by key, everything else, lists of tables
+/// included, is replaced.
 ///
 /// # Errors
 /// [`RigError`]: there is no rig, or the result is no study. Faults name the merged text, which is not the file.

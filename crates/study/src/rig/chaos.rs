@@ -1,7 +1,10 @@
-//! Whether aperiodic motions of the rig are chaotic: their largest Lyapunov exponents, from the record and from the motion itself.
+//! Whether aperiodic motions of the rig are chaotic: their largest Lyapunov exponents, from the record and
+//! from the motion itself.
 //!
-//! The paper calls most of its aperiodic signals chaotic and points to exponents of the series by Wolf's method. The same is done with the record here, behind the filter and with its noise. Beside it stands what no
-//! real rig can tell: the exponent of the motion by its tangent vectors, from the last state of the record on.
+//! The paper calls most of its aperiodic signals chaotic and points to exponents of the series by Wolf's
+//! method. The same is done with the record here, behind the filter and with its noise. Beside it stands what
+//! no real rig can tell: the exponent of the motion by its tangent vectors, from the last state of the record
+//! on.
 
 use hammerbeam_attractor::{LyapunovSettings, SystemMap, lyapunov};
 use hammerbeam_motion::exact::ExactSettings;
@@ -12,7 +15,8 @@ use hammerbeam_signal::{
 
 use crate::Model;
 
-/// Excitation periods in which tangent vectors turn into their directions, and over which their growth is averaged.
+/// Excitation periods in which tangent vectors turn into their directions, and over which their growth is
+/// averaged.
 const ALIGNING: u64 = 20;
 const AVERAGED: u64 = 200;
 
@@ -21,7 +25,8 @@ const AVERAGED: u64 = 200;
 pub struct MotionExponents {
     /// From the record by Wolf's method [1/s]; `None` if it has none.
     pub of_record: Option<Scattered>,
-    /// Of the motion, with the half width of its interval of 95 % [1/s]; `None` where tangent vectors cannot be followed.
+    /// Of the motion, with the half width of its interval of 95 % [1/s]; `None` where tangent vectors cannot
+    /// be followed.
     pub of_motion: Option<(f64, f64)>,
 }
 

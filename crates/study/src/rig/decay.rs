@@ -1,7 +1,10 @@
-//! A free decay of the rig's structure without its stops, as an accelerometer at the response point records it.
+//! A free decay of the rig's structure without its stops, as an accelerometer at the response point records
+//! it.
 //!
-//! The response point is pulled aside by a force and let go: `q_i(0) = phi_i F/w_i^2`, `q_i'(0) = 0`, and with `d = z w`, `p = w sqrt(1 - z^2)`
-//! `q = q(0) exp(-d t)(cos p t + (d/p) sin p t)`, so `q'' = -w^2 q - 2 d q'`, `q' = -q(0) exp(-d t) (w^2/p) sin p t`. Every mode begins with the same acceleration per `phi_i^2`: high ones show.
+//! The response point is pulled aside by a force and let go: `q_i(0) = phi_i F/w_i^2`, `q_i'(0) = 0`, and
+//! with `d = z w`, `p = w sqrt(1 - z^2)` `q = q(0) exp(-d t)(cos p t + (d/p) sin p t)`, so `q'' = -w^2 q - 2
+//! d q'`, `q' = -q(0) exp(-d t) (w^2/p) sin p t`. Every mode begins with the same acceleration per `phi_i^2`:
+//! high ones show.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +20,8 @@ use crate::{Model, file::Rig};
 
 /// Displacement of the response point from which it is let go [m].
 const PULLED: f64 = 5e-3;
-/// Length of the record in periods of the lowest mode, and what goes before it, in which the filter settles, in periods of its cut-off.
+/// Length of the record in periods of the lowest mode, and what goes before it, in which the filter settles,
+/// in periods of its cut-off.
 const PERIODS: f64 = 70.0;
 const LEAD_IN: f64 = 15.0;
 /// Rate of the motion before the chain, as a multiple of the sampling rate.

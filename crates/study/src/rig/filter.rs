@@ -1,7 +1,9 @@
 //! What low-pass filters leave of the maxima along the branches.
 //!
-//! Each orbit is taken over its period and multiplied, line by line, with the response of the filter (`hammerbeam_signal::filter::periodic_low_pass`): no transient. The unfiltered
-//! maxima are those that are stored, exact on the continuous motion. An orbit whose motion cannot be gone over again leaves a gap and is counted; it is an error only if none can.
+//! Each orbit is taken over its period and multiplied, line by line, with the response of the filter
+//! (`hammerbeam_signal::filter::periodic_low_pass`): no transient. The unfiltered maxima are those that are
+//! stored, exact on the continuous motion. An orbit whose motion cannot be gone over again leaves a gap and
+//! is counted; it is an error only if none can.
 
 use std::sync::atomic::AtomicBool;
 

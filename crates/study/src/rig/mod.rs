@@ -1,8 +1,10 @@
 //! A virtual rig: a "measurement" made with another model than the one it is held against.
 //!
-//! The rig is a study of its own, made of a study by the changes of its table `[rig.changes]`: another stiffness, a contact that loses energy, a shaker that does not keep its
-//! amplitude. Its motion is swept up and down in steps; at each frequency it settles, is recorded through a measuring chain, and the record is classified as
-//! a measured one would be. What the rig knows of itself (the state once in each period, without noise) is kept beside it, to tell how often that is right.
+//! The rig is a study of its own, made of a study by the changes of its table `[rig.changes]`: another
+//! stiffness, a contact that loses energy, a shaker that does not keep its amplitude. Its motion is swept up
+//! and down in steps; at each frequency it settles, is recorded through a measuring chain, and the record is
+//! classified as a measured one would be. What the rig knows of itself (the state once in each period,
+//! without noise) is kept beside it, to tell how often that is right.
 //!
 //! | file | what |
 //! |---|---|
@@ -14,7 +16,8 @@
 //! | `filter.rs` | what low-pass filters leave of the maxima along the branches |
 //! | `signals.rs` | measured and computed signals laid over one another |
 //!
-//! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and threads take whole sweeps, signals or solutions.
+//! Everything follows from the study and the seed: noise has a seed for each frequency and direction, and
+//! threads take whole sweeps, signals or solutions.
 
 mod build;
 mod chaos;

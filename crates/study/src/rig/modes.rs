@@ -1,7 +1,8 @@
 //! Which mode of the rig a measured one is.
 //!
-//! A decay numbers no modes, and one that fades too fast is missing in it. A measured eigenfrequency and a mode of the rig belong together where each is the nearest to the other by the ratio of frequencies. The mode of the model is that
-//! with the same number as the rig's.
+//! A decay numbers no modes, and one that fades too fast is missing in it. A measured eigenfrequency and a
+//! mode of the rig belong together where each is the nearest to the other by the ratio of frequencies. The
+//! mode of the model is that with the same number as the rig's.
 
 use std::f64::consts::TAU;
 
@@ -33,7 +34,8 @@ pub struct RigMode {
     pub measured: Option<MeasuredMode>,
 }
 
-/// The modes of the rig up to the highest frequency that a decay is looked at for, and what a decay shows of them.
+/// The modes of the rig up to the highest frequency that a decay is looked at for, and what a decay shows of
+/// them.
 ///
 /// # Errors
 /// [`RigError::Signal`].

@@ -1,6 +1,7 @@
 //! Measured and computed signals laid over one another: figures 7 to 14 of the paper.
 //!
-//! The rig is measured at a frequency, and its filtered acceleration folded onto as many excitation periods as the figure has. It is laid over the stable orbits of that period whose frequency is near
+//! The rig is measured at a frequency, and its filtered acceleration folded onto as many excitation periods
+//! as the figure has. It is laid over the stable orbits of that period whose frequency is near
 //! (`comparison/overlay/`), with delays of whole excitation periods and a lag of at most a tenth of one.
 
 use std::sync::atomic::AtomicBool;
@@ -83,7 +84,8 @@ pub fn compare_signal(
         filter: Some((filter, false)),
         sought: Sought::Near { frequency_hz: factor * measured_hz, part: NEAR },
         branch: None,
-        // The phase of the table is known; two structures of different damping do not answer with the same one.
+        // The phase of the table is known; two structures of different damping do not answer with the same
+        // one.
         shifts: Shifts::NearWhole { period: SHOWN, most: MOST_LAG * SHOWN as f64 },
         factor: None,
     };

@@ -19,7 +19,8 @@ use crate::{
     file::Rig,
 };
 
-/// Rate at which a motion is gone over before the chain, over the sampling rate: at 10 kHz twelve microseconds, where a contact lasts fifty or more.
+/// Rate at which a motion is gone over before the chain, over the sampling rate: at 10 kHz twelve
+/// microseconds, where a contact lasts fifty or more.
 pub(super) const FINER: f64 = 8.0;
 /// Excitation periods that go before a record, in which the causal filter settles.
 pub(super) const LEAD_IN: u32 = 4;
@@ -59,13 +60,15 @@ pub struct RigPoint {
     pub point: MeasuredPoint,
     /// What the filtered acceleration was taken for.
     pub classification: Classification,
-    /// Excitation periods after which the states come back, without noise; `None` if they do not within eight.
+    /// Excitation periods after which the states come back, without noise; `None` if they do not within
+    /// eight.
     pub period_of_states: Option<u32>,
     /// Largest Lyapunov exponents, if the record was taken for aperiodic.
     pub exponents: Option<MotionExponents>,
     /// Largest acceleration before the filter [m/s²].
     pub unfiltered: f64,
-    /// Whether the motion was begun anew at or near rest, since the contact was closed when the frequency was changed, or the motion from there could not be computed.
+    /// Whether the motion was begun anew at or near rest, since the contact was closed when the frequency was
+    /// changed, or the motion from there could not be computed.
     pub begun_anew: bool,
     /// State at phase 0 at the end.
     pub state: Vec<f64>,
@@ -113,7 +116,8 @@ fn one_way(
     Ok(points)
 }
 
-/// Measures at a frequency; if the motion from a state cannot be computed (steps of a contact may become too short to go on), that from rest, or near rest: it is as good a measurement.
+/// Measures at a frequency; if the motion from a state cannot be computed (steps of a contact may become too
+/// short to go on), that from rest, or near rest: it is as good a measurement.
 fn at_or_anew(
     rig: &Rig,
     model: &Model,
@@ -227,7 +231,8 @@ fn second_derivative(model: &Model, course: &Course, samples: usize, frequency_h
     (0..course.acceleration.len()).map(at).collect()
 }
 
-/// What the chain makes of a quantity: filtered if it is an acceleration, sampled, with noise, without the lead-in.
+/// What the chain makes of a quantity: filtered if it is an acceleration, sampled, with noise, without the
+/// lead-in.
 fn measured(
     rig: &Rig,
     quantity: Quantity,

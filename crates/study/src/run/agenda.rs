@@ -53,7 +53,8 @@ impl Sketch {
     }
 }
 
-/// Whether a solution at a bifurcation is as stable as that allows: its leading multiplier is the one on the unit circle.
+/// Whether a solution at a bifurcation is as stable as that allows: its leading multiplier is the one on the
+/// unit circle.
 fn is_on_circle([re, im]: [f64; 2]) -> bool {
     re.hypot(im) < 1.0 + ON_CIRCLE
 }
@@ -143,7 +144,8 @@ pub(super) struct Agenda {
 impl Agenda {
     /// What the store holds; the plan's first jobs are added to a store that has none.
     ///
-    /// A branch that has more budget now goes on, and what was decided after it is decided again with all of it.
+    /// A branch that has more budget now goes on, and what was decided after it is decided again with all of
+    /// it.
     pub fn load(store: &mut Store, solver: &dyn Solver, plan: &Plan) -> Result<Self, StoreError> {
         if store.jobs()?.is_empty() {
             store.add_jobs(&plan.first_jobs(&solver.resonances_hz()))?;
@@ -181,7 +183,8 @@ impl Agenda {
         Ok(agenda)
     }
 
-    /// Adds the jobs of finished branches that a greater depth asks for; those that are there already are left out.
+    /// Adds the jobs of finished branches that a greater depth asks for; those that are there already are
+    /// left out.
     fn add_what_is_wanted_now(&mut self, store: &mut Store, plan: &Plan) -> Result<(), StoreError> {
         let finished = self.jobs.iter().filter(|job| job.record.outcome.is_some());
         let jobs: Vec<_> = finished

@@ -1,4 +1,5 @@
-//! The jobs that a branch gives: where a flip or a branch point lets another branch leave, and beyond a frequency at which it goes to infinity.
+//! The jobs that a branch gives: where a flip or a branch point lets another branch leave, and beyond a
+//! frequency at which it goes to infinity.
 
 use hammerbeam_orbit::Side;
 
@@ -14,7 +15,8 @@ pub(super) fn of_branch(start: &Start, depth: u32, plan: &Plan) -> Vec<(JobKind,
     events.chain(beyond.filter(|_| start.period_multiple == 1)).collect()
 }
 
-/// Distance from a frequency at which a branch goes to infinity to where the next harmonic one is looked for, in parts of the range.
+/// Distance from a frequency at which a branch goes to infinity to where the next harmonic one is looked for,
+/// in parts of the range.
 const BEYOND: f64 = 1e-3;
 
 /// A search for the harmonic branch on the other side of a frequency at which a side goes to infinity.
@@ -43,7 +45,8 @@ fn at_row(
     if at_flip && plan.wants_doubling(start.period_multiple, depth) {
         return Some((JobKind::Doubling, row.frequency_hz, Some(key), depth + 1));
     }
-    // The first row of a branch that leaves another one is where it does so; the last one where it comes to one of shorter period is there, too.
+    // The first row of a branch that leaves another one is where it does so; the last one where it comes to
+    // one of shorter period is there, too.
     let is_root = side == Side::Up && number == 0;
     let meets_shorter = number + 1 == walk.rows.len()
         && walk.reason.as_ref().is_some_and(|reason| reason.kind == "shorter-period");

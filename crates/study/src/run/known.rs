@@ -1,11 +1,14 @@
 //! Whether a solution lies on a branch that is already there.
 //!
-//! Maxima over a whole orbit do not depend on its phase; neighbouring rows between whose maxima those of the solution lie, within a margin, are
-//! candidates. Then the states decide: the state between the rows, interpolated to the frequency of the solution, is compared with the states of the solution at
-//! the beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the solution itself.
+//! Maxima over a whole orbit do not depend on its phase; neighbouring rows between whose maxima those of the
+//! solution lie, within a margin, are candidates. Then the states decide: the state between the rows,
+//! interpolated to the frequency of the solution, is compared with the states of the solution at the
+//! beginnings of all its excitation periods, and the orbit that Newton's method finds from there must be the
+//! solution itself.
 //!
-//! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point there: the same frequency and the same state.
-//! A point that was bracketed and not located is taken to lie within [`DOUBTS`] times its uncertainty.
+//! A branch that leaves a flip or branch point is known if another one ends, begins or has a branch point
+//! there: the same frequency and the same state. A point that was bracketed and not located is taken to lie
+//! within [`DOUBTS`] times its uncertainty.
 
 use hammerbeam_orbit::{PeriodicSolution, Side};
 
@@ -17,11 +20,14 @@ use crate::store::{Store, StoreError, solution_key};
 
 /// Relative margin of the maxima of candidates.
 const MARGIN: f64 = 0.02;
-/// Relative difference of frequencies up to which two branch points can be the same, besides what their place is uncertain by.
+/// Relative difference of frequencies up to which two branch points can be the same, besides what their place
+/// is uncertain by.
 const SAME_FREQUENCY: f64 = 1e-7;
-/// Uncertainties within which a bracketed point lies: they are what the last steps of its search moved it by, and have been seen to be a third of its error.
+/// Uncertainties within which a bracketed point lies: they are what the last steps of its search moved it by,
+/// and have been seen to be a third of its error.
 const DOUBTS: f64 = 10.0;
-/// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the same.
+/// Distance of states, relative to the orbit, up to which two branch points of the same frequency are the
+/// same.
 const SAME_STATE: f64 = 5e-3;
 /// So much further than the interval between two rows reaches a solution may lie, in parts of the interval.
 const OVERHANG: f64 = 1e-3;
@@ -137,7 +143,8 @@ fn is_between(
 ) -> Result<bool, StoreError> {
     let (first, second) = (store.solution_of_key(first)?, store.solution_of_key(second)?);
     if first.phase != second.phase {
-        // The orbits were cut anew between them: their nodes are no neighbours, but each is near the solution.
+        // The orbits were cut anew between them: their nodes are no neighbours, but each is near the
+        // solution.
         let near = |stored: PeriodicSolution| matcher.is_near((stored.phase, &stored.nodes[0]));
         return Ok(near(first) || near(second));
     }

@@ -1,21 +1,24 @@
-//! Running a study: finding starts, following branches, storing as it goes, on all cores, and going on after an end of any kind.
+//! Running a study: finding starts, following branches, storing as it goes, on all cores, and going on after
+//! an end of any kind.
 //!
 //! # The order of work
-//! The *agenda* is a list of jobs: a search at a frequency, or a flip or branch point at which another branch leaves. Each gives *starts*. What a run
-//! computes is defined by doing the jobs one after the other: each start of a job that does not lie on a known branch is the start of a new one, which
-//! is followed to both ends before the next start is looked at; the flips and branch points of the new branches are added to the end of the agenda.
-//! When it is done, searches are added at frequencies at which no stable solution is known by then, and again,
-//! as long as they find branches (`none_stable.rs`).
-//! So branches, their numbers and every bit of them follow from the study alone.
+//! The *agenda* is a list of jobs: a search at a frequency, or a flip or branch point at which another branch
+//! leaves. Each gives *starts*. What a run computes is defined by doing the jobs one after the other: each
+//! start of a job that does not lie on a known branch is the start of a new one, which is followed to both
+//! ends before the next start is looked at; the flips and branch points of the new branches are added to the
+//! end of the agenda. When it is done, searches are added at frequencies at which no stable solution is known
+//! by then, and again, as long as they find branches (`none_stable.rs`). So branches, their numbers and every
+//! bit of them follow from the study alone.
 //!
 //! # All cores
-//! Searching and walking are pure functions of their input, so they may be done ahead of their turn: threads evaluate later jobs and walk from starts that
-//! are likely to be new. Only the *decision* whether a start is new is made in order. What was walked for nothing is thrown away. The threads
-//! compute and send; one thread decides and writes.
+//! Searching and walking are pure functions of their input, so they may be done ahead of their turn: threads
+//! evaluate later jobs and walk from starts that are likely to be new. Only the *decision* whether a start is
+//! new is made in order. What was walked for nothing is thrown away. The threads compute and send; one thread
+//! decides and writes.
 //!
 //! # Going on
-//! Everything that comes in is committed at once, with the checkpoint of its walk, whether decided or not. A run that is started again reads the
-//! agenda and does what is left.
+//! Everything that comes in is committed at once, with the checkpoint of its walk, whether decided or not. A
+//! run that is started again reads the agenda and does what is left.
 //!
 //! | file | what it does |
 //! |---|---|

@@ -30,15 +30,16 @@ pub struct Plan {
     pub budget: u64,
     /// Time after which no new piece of work is begun.
     pub time: Option<Duration>,
-    /// Solutions after which a walk that takes turns makes room for another one; what is computed does not depend on it.
+    /// Solutions after which a walk that takes turns makes room for another one; what is computed does not
+    /// depend on it.
     pub turn: u64,
 }
 
 /// Some seconds of the paper's beam: long beside what it costs to take a walk up again.
 const TURN: u64 = 4096;
 
-/// Frequencies, as parts of the range from its upper end, at which harmonic starts are sought one after the other
-/// where no harmonic branch passes yet.
+/// Frequencies, as parts of the range from its upper end, at which harmonic starts are sought one after the
+/// other where no harmonic branch passes yet.
 const HARMONIC: [f64; 9] = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
 
 impl Plan {

@@ -238,7 +238,8 @@ impl Run<'_> {
         });
     }
 
-    /// Part of the work that is done, as far as that can be told: finished jobs, and how much of the range the branches reach that are walked.
+    /// Part of the work that is done, as far as that can be told: finished jobs, and how much of the range
+    /// the branches reach that are walked.
     fn estimate(&self) -> f64 {
         let jobs = self.agenda.jobs.len().max(1) as f64;
         let finished = self.agenda.jobs.iter().filter(|job| job.record.outcome.is_some()).count() as f64;

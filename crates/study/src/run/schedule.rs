@@ -1,11 +1,15 @@
-//! What an idle thread does next: what the next decision waits for, then later jobs, then walks from starts that are likely to be new.
+//! What an idle thread does next: what the next decision waits for, then later jobs, then walks from starts
+//! that are likely to be new.
 //!
-//! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was walked so far, and first for period multiples
-//! that nobody is walking, then far from the starts of the walks under way: the other end of a branch is often near. The second side of a branch waits for the first one,
-//! which may close the branch, as long as there is anything else to do.
+//! Walking ahead of a decision may be in vain. It is done only where the start lies on nothing that was
+//! walked so far, and first for period multiples that nobody is walking, then far from the starts of the
+//! walks under way: the other end of a branch is often near. The second side of a branch waits for the first
+//! one, which may close the branch, as long as there is anything else to do.
 //!
-//! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So walks of branches that leave another one, awaited or not, go on in turns: always the one that has the fewest
-//! turns behind it. Walks from searches take no turns: many searches find the same branch, and the first walk of it, once at its end, spares the others.
+//! How long a walk is shows only at its end, and a long one that begins last keeps one thread busy alone. So
+//! walks of branches that leave another one, awaited or not, go on in turns: always the one that has the
+//! fewest turns behind it. Walks from searches take no turns: many searches find the same branch, and the
+//! first walk of it, once at its end, spares the others.
 
 use std::sync::{Arc, atomic::AtomicBool};
 
@@ -84,7 +88,8 @@ fn second_side(agenda: &Agenda, plan: &Plan) -> Option<((u32, Side), Option<u64>
     })
 }
 
-/// The first open job that is not evaluated. Whether a harmonic start is needed at all is known only when its turn comes.
+/// The first open job that is not evaluated. Whether a harmonic start is needed at all is known only when its
+/// turn comes.
 fn job_to_evaluate(agenda: &Agenda, first: usize) -> Option<usize> {
     (first..agenda.jobs.len()).find(|&index| {
         let job = &agenda.jobs[index];

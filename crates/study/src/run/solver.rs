@@ -16,8 +16,8 @@ pub trait Solver: Sync {
         interrupted: Interruption<'_>,
     ) -> Result<PeriodicSolution, String>;
 
-    /// Periodic solutions of these minimal periods that simulation leads to at a frequency, and harmonic ones that few trials find elsewhere in its
-    /// part of the range.
+    /// Periodic solutions of these minimal periods that simulation leads to at a frequency, and harmonic ones
+    /// that few trials find elsewhere in its part of the range.
     ///
     /// * `width_hz`: of the part, of which the frequency is the middle.
     /// * `interrupted`: asked now and then; the search ends with an error when it says true.

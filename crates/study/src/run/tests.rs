@@ -180,7 +180,8 @@ fn progress_counts_and_its_fraction_never_decreases() {
     assert!(watch.0 > 0.0, "{}", watch.0);
 }
 
-/// States of six modes and four shooting segments; a real run also keeps a journal, which is thrown away at the end.
+/// States of six modes and four shooting segments; a real run also keeps a journal, which is thrown away at
+/// the end.
 #[test]
 fn a_hundred_thousand_solutions_take_less_than_200_megabytes() {
     let study = study_with("");

@@ -1,7 +1,7 @@
 //! Basins of attraction: the cells of a grid, and the attractors they lead to.
 //!
-//! A round of cells goes in as one transaction, with the attractors that it found. So after a kill whole rounds are there, which is
-//! what the computation goes on from, to the same bits.
+//! A round of cells goes in as one transaction, with the attractors that it found. So after a kill whole
+//! rounds are there, which is what the computation goes on from, to the same bits.
 
 use hammerbeam_attractor::{Attractor, Round};
 use rusqlite::{Row as SqlRow, params, types::Value};

@@ -1,8 +1,10 @@
-//! Checksums of stored rows: a bit that a disk, a cable or a copy has changed is found before it becomes a result.
+//! Checksums of stored rows: a bit that a disk, a cable or a copy has changed is found before it becomes a
+//! result.
 //!
-//! Every table has a column `checksum`, which SQLite computes from all other columns of the row, its key included, whenever the row is inserted
-//! or updated (a stored generated column). So nothing that writes rows knows of it, and none can be left out. It is the CRC-32 (IEEE 802.3) of the
-//! values one after the other, each as
+//! Every table has a column `checksum`, which SQLite computes from all other columns of the row, its key
+//! included, whenever the row is inserted or updated (a stored generated column). So nothing that writes rows
+//! knows of it, and none can be left out. It is the CRC-32 (IEEE 802.3) of the values one after the other,
+//! each as
 //!
 //! ```text
 //! 0                       nothing
@@ -12,10 +14,12 @@
 //! 4, 8 bytes, the bytes   a blob behind its length
 //! ```
 //!
-//! in little-endian order: any change of up to 32 bits in a row is found for certain, of all others one in 4e9 is not.
+//! in little-endian order: any change of up to 32 bits in a row is found for certain, of all others one in
+//! 4e9 is not.
 //!
-//! Whoever opens the database reads it once from end to end: its tables have to be those that this version makes, its pages whole
-//! (`PRAGMA integrity_check`: a page that has lost the count of its rows would hide some), each checksum that of its row.
+//! Whoever opens the database reads it once from end to end: its tables have to be those that this version
+//! makes, its pages whole (`PRAGMA integrity_check`: a page that has lost the count of its rows would hide
+//! some), each checksum that of its row.
 
 use crc32fast::Hasher;
 use rusqlite::{
@@ -26,7 +30,8 @@ use rusqlite::{
 
 use super::{StoreError, schema};
 
-/// Adds the function of rows by which the tables compute their checksums; whatever inserts or updates rows needs it.
+/// Adds the function of rows by which the tables compute their checksums; whatever inserts or updates rows
+/// needs it.
 ///
 /// # Errors
 /// The database refuses.

@@ -1,4 +1,5 @@
-//! The kind of a motion, as six columns: class, period, doubt, largest exponent, its half width, K of the 0-1 test.
+//! The kind of a motion, as six columns: class, period, doubt, largest exponent, its half width, K of the 0-1
+//! test.
 
 use hammerbeam_attractor::{Class, Doubt, Estimate};
 use rusqlite::{Row as SqlRow, types::Value};

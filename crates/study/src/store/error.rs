@@ -95,7 +95,8 @@ impl StoreError {
         Self::Folder { folder: folder.to_owned(), source }
     }
 
-    /// Whether solutions are missing or cannot be read, as opposed to a whole folder: what does not need them can be had.
+    /// Whether solutions are missing or cannot be read, as opposed to a whole folder: what does not need them
+    /// can be had.
     #[must_use]
     pub fn is_of_solutions(&self) -> bool {
         matches!(self, Self::DamagedSolution { .. } | Self::MissingSolutions { .. })

@@ -18,7 +18,8 @@ pub struct ExponentRecord {
     pub divergence: f64,
     /// K of the 0-1 test.
     pub zero_one: Option<f64>,
-    /// Displacement [m] and velocity [m/s] of the response point at phase 0 of the periods averaged over, the first ones of very many.
+    /// Displacement [m] and velocity [m/s] of the response point at phase 0 of the periods averaged over, the
+    /// first ones of very many.
     pub section: Vec<[f64; 2]>,
 }
 

@@ -38,7 +38,8 @@ pub struct JobRecord {
     pub kind: JobKind,
     /// Where [Hz].
     pub frequency_hz: f64,
-    /// Key of the solution at the flip or branch point, or with which a branch ends that goes to infinity where the search begins beyond.
+    /// Key of the solution at the flip or branch point, or with which a branch ends that goes to infinity
+    /// where the search begins beyond.
     pub source: Option<i64>,
     /// Period doublings that lead to the branches it finds.
     pub depth: u32,
@@ -96,8 +97,9 @@ impl JobKind {
     }
 }
 
-/// What is known of the event at which a branch leaves another one, as an event of the new branch: it lies as closely as on the old one, the direction is that in which the
-/// branch leaves, and the critical multiplier is the one at +1 of the orbit with the periods of the new branch.
+/// What is known of the event at which a branch leaves another one, as an event of the new branch: it lies as
+/// closely as on the old one, the direction is that in which the branch leaves, and the critical multiplier
+/// is the one at +1 of the orbit with the periods of the new branch.
 fn seen_from_new_branch(source: &LocatedEvent, root: &PeriodicSolution) -> LocatedEvent {
     let from_one = |[re, im]: &[f64; 2]| (1.0 - re).hypot(*im);
     let multipliers = root.floquet_multipliers.iter().copied();
@@ -194,7 +196,8 @@ impl Store {
     ///
     /// Those beyond the first 1024 are left out.
     ///
-    /// A branch of doubled period is walked away from its flip only: the other way it is its own copy, a period later.
+    /// A branch of doubled period is walked away from its flip only: the other way it is its own copy, a
+    /// period later.
     ///
     /// # Errors
     /// The database refuses.
@@ -298,8 +301,8 @@ impl Store {
         Ok(())
     }
 
-    /// Takes everything back that was decided after a start: its job is looked at again, later ones are as if they had never been begun, and those that
-    /// came of later branches go.
+    /// Takes everything back that was decided after a start: its job is looked at again, later ones are as if
+    /// they had never been begun, and those that came of later branches go.
     ///
     /// # Errors
     /// The database refuses.

@@ -1,11 +1,11 @@
 //! The results folder: one database with every solution, which survives being killed at any instant.
 //!
-//! `results.db` is written in transactions (write-ahead log), each of which holds some solutions of a walk together
-//! with the checkpoint from which the walk goes on: after a kill, what was committed is there, what was not is
-//! computed again, and both agree to the last bit. `run.lock` is held while a run writes.
+//! `results.db` is written in transactions (write-ahead log), each of which holds some solutions of a walk
+//! together with the checkpoint from which the walk goes on: after a kill, what was committed is there, what
+//! was not is computed again, and both agree to the last bit. `run.lock` is held while a run writes.
 //!
-//! Solutions are keyed by walk and number, so that a walk only ever appends, and read one after the other, so that
-//! no branch has to fit into memory.
+//! Solutions are keyed by walk and number, so that a walk only ever appends, and read one after the other, so
+//! that no branch has to fit into memory.
 
 mod basins;
 mod blob;
@@ -86,7 +86,8 @@ struct Writing {
 /// How a walk ended, as it is stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StoredReason {
-    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`, `contact-splits`, `crawls`, `unbounded`, `too-laborious`, `motion`.
+    /// `range-end`, `closed`, `shorter-period`, `crossing`, `budget`, `step-too-short`, `runs-back`,
+    /// `contact-splits`, `crawls`, `unbounded`, `too-laborious`, `motion`.
     pub kind: String,
     /// Where [Hz], if there is a place.
     pub frequency_hz: Option<f64>,
@@ -140,10 +141,11 @@ impl Store {
         Ok(Self { connection, folder: folder.to_owned(), damaged, writing: None })
     }
 
-    /// Begins a transaction that writes, if this is still the run that writes, to the database that is still there.
+    /// Begins a transaction that writes, if this is still the run that writes, to the database that is still
+    /// there.
     ///
-    /// The lock of the folder alone does not say so: someone may have removed it, and then another run takes it as well. That run has the
-    /// next number, and the one before it adds nothing more.
+    /// The lock of the folder alone does not say so: someone may have removed it, and then another run takes
+    /// it as well. That run has the next number, and the one before it adds nothing more.
     fn write(&mut self) -> Result<Transaction<'_>, StoreError> {
         let transaction = self.connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
         if let Some(writing) = &self.writing {
@@ -161,8 +163,9 @@ impl Store {
         &self.folder
     }
 
-    /// Leaves one plain file behind and lets the lock go. While someone reads the folder (to draw it, say) that cannot be: it waits for the
-    /// reader, and after some seconds leaves the file with its log beside it, which is as good to read.
+    /// Leaves one plain file behind and lets the lock go. While someone reads the folder (to draw it, say)
+    /// that cannot be: it waits for the reader, and after some seconds leaves the file with its log beside
+    /// it, which is as good to read.
     ///
     /// # Errors
     /// The disk refuses; everything is stored all the same.
@@ -369,7 +372,8 @@ fn first_key(walk: i64) -> i64 {
     walk << 32
 }
 
-/// Undoes what was half written when a run was killed while it left one plain file behind; only a connection that may write can do so.
+/// Undoes what was half written when a run was killed while it left one plain file behind; only a connection
+/// that may write can do so.
 fn roll_back(database: &Path) -> Result<(), StoreError> {
     let journal = database.with_file_name(format!("{DATABASE}-journal"));
     if database.is_file() && journal.is_file() {

@@ -1,4 +1,5 @@
-//! Whether the database is still the file that was opened: of one that was removed SQLite goes on to write what nobody can read.
+//! Whether the database is still the file that was opened: of one that was removed SQLite goes on to write
+//! what nobody can read.
 
 use std::{
     fs, io,

@@ -146,7 +146,8 @@ impl Store {
         Ok(())
     }
 
-    /// Hands over the multipliers of the solutions of a branch, end to end as [`Self::each_row`] does; largest modulus first. Where they are damaged it says so.
+    /// Hands over the multipliers of the solutions of a branch, end to end as [`Self::each_row`] does;
+    /// largest modulus first. Where they are damaged it says so.
     ///
     /// # Errors
     /// The database refuses, or `take` does.
@@ -172,7 +173,8 @@ impl Store {
         Ok(())
     }
 
-    /// Refuses a walk of which not every solution that it has counted is there, so that no other one takes its number.
+    /// Refuses a walk of which not every solution that it has counted is there, so that no other one takes
+    /// its number.
     fn check_complete(&self, walk: i64) -> Result<(), StoreError> {
         // Counted first: a run that writes meanwhile only adds.
         let count = "SELECT solutions FROM walk WHERE id = ?1";

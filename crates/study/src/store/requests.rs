@@ -1,7 +1,9 @@
-//! Requests: what was asked of motions that need not repeat (`simulate`, `sweep`, `lyapunov`, `basins`), and how far it is done.
+//! Requests: what was asked of motions that need not repeat (`simulate`, `sweep`, `lyapunov`, `basins`), and
+//! how far it is done.
 //!
-//! A request is known by its kind and by its words, lines `key = value` with everything that its results depend on besides the study. Asked again it is
-//! found, and goes on where it was left: results and the number of pieces done are committed together.
+//! A request is known by its kind and by its words, lines `key = value` with everything that its results
+//! depend on besides the study. Asked again it is found, and goes on where it was left: results and the
+//! number of pieces done are committed together.
 
 use rusqlite::{OptionalExtension, Transaction, params};
 

@@ -1,6 +1,8 @@
-//! Motions in time: what `simulate` wrote down, in chunks of whole periods, each with what the motion needs to go on behind it with the same bits.
+//! Motions in time: what `simulate` wrote down, in chunks of whole periods, each with what the motion needs
+//! to go on behind it with the same bits.
 //!
-//! Samples and sections are kept as numbers, so that tables are written without computing anything again. Where the chunks are cut changes nothing in what they hold together.
+//! Samples and sections are kept as numbers, so that tables are written without computing anything again.
+//! Where the chunks are cut changes nothing in what they hold together.
 
 use hammerbeam_attractor::{ContactRecord, SimulationCheckpoint};
 use hammerbeam_motion::exact::{Jump, Touchdown};
@@ -13,9 +15,11 @@ use super::{SimulationLayout, Store, StoreError, blob, requests};
 pub struct SimulatedChunk {
     /// Their number; those of a transient leave only the checkpoint.
     pub periods: u64,
-    /// Of each sample: displacement [m], velocity [m/s] and acceleration [m/s^2] of the response point, then relative displacement [m] and force [N] of every local element.
+    /// Of each sample: displacement [m], velocity [m/s] and acceleration [m/s^2] of the response point, then
+    /// relative displacement [m] and force [N] of every local element.
     pub samples: Vec<f64>,
-    /// Of each period, at the phase of the section: displacement [m] and velocity [m/s] of the response point, then the modal state.
+    /// Of each period, at the phase of the section: displacement [m] and velocity [m/s] of the response
+    /// point, then the modal state.
     pub section: Vec<f64>,
     /// Contacts that ended in these periods, in the order in which they ended.
     pub contacts: Vec<SimulatedContact>,
@@ -64,11 +68,12 @@ impl SimulatedContact {
 }
 
 impl Store {
-    /// Goes through the chunks of a request, in their order; all is of one moment, even while a command writes.
+    /// Goes through the chunks of a request, in their order; all is of one moment, even while a command
+    /// writes.
     ///
     /// # Errors
-    /// The database refuses, or what is stored is damaged: periods that are done are missing, or something has not the length or the number that the layout
-    /// gives; or what `take` refuses with.
+    /// The database refuses, or what is stored is damaged: periods that are done are missing, or something
+    /// has not the length or the number that the layout gives; or what `take` refuses with.
     pub fn each_simulated<E: From<StoreError>>(
         &self,
         request: i64,
@@ -219,7 +224,8 @@ fn some(number: f64) -> Option<f64> {
     (!number.is_nan()).then_some(number)
 }
 
-/// A contact that is open in a checkpoint: [`OF_OPEN`] numbers, the state at its touch, and that right after it.
+/// A contact that is open in a checkpoint: [`OF_OPEN`] numbers, the state at its touch, and that right after
+/// it.
 fn open_numbers(record: &ContactRecord, state_length: usize) -> Vec<f64> {
     let nothing = vec![f64::NAN; state_length];
     let (touch, jump) = (record.begin.as_ref(), record.jump.as_ref());

@@ -32,7 +32,8 @@ fn read(store: &Store, request: i64, transient_periods: u64) -> Result<Vec<Simul
     Ok(found)
 }
 
-/// Periods with numbers that are not whole, with contacts open on both sides; the last ones are of a motion that ends within an impact.
+/// Periods with numbers that are not whole, with contacts open on both sides; the last ones are of a motion
+/// that ends within an impact.
 fn chunks() -> [SimulatedChunk; 3] {
     let touch = SimulatedTouch { time_s: 0.1, phase: 1.0 / 3.0, speed: 1e-310, response: [-0.0, 1.0 / 7.0] };
     let contact = |touch, end_s| SimulatedContact {

@@ -1,4 +1,5 @@
-//! How the stability of a solution is stored: 0 unstable, 1 stable, 2 marginal; and which multipliers are on the unit circle, one byte each.
+//! How the stability of a solution is stored: 0 unstable, 1 stable, 2 marginal; and which multipliers are on
+//! the unit circle, one byte each.
 
 use hammerbeam_orbit::Stability;
 use rusqlite::types::{FromSql, FromSqlError, FromSqlResult, ValueRef};

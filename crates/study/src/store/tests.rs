@@ -170,7 +170,8 @@ fn reading_where_nothing_is_writes_nothing() {
     assert_eq!(listing(folder.path()), []);
 }
 
-/// A kill while a transaction is being written leaves its journal behind: the copy of both files is what the next run finds.
+/// A kill while a transaction is being written leaves its journal behind: the copy of both files is what the
+/// next run finds.
 #[test]
 fn a_journal_left_by_a_kill_is_rolled_back_by_whoever_comes_next() {
     for reads in [true, false] {
@@ -280,7 +281,8 @@ fn a_damaged_file_gives_an_error_or_what_was_stored() {
     assert!(found > DAMAGES / 4, "only {found}");
 }
 
-/// The number of a peak, one bit of it changed: what needs the row is refused, and a run does not go on behind it.
+/// The number of a peak, one bit of it changed: what needs the row is refused, and a run does not go on
+/// behind it.
 #[test]
 fn a_changed_bit_of_a_number_is_found_and_named_by_its_place() {
     let folder = tempdir().unwrap();

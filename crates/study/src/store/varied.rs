@@ -1,7 +1,9 @@
-//! What is computed beside the branches in the frequency: branches in other parameters, and curves of bifurcations.
+//! What is computed beside the branches in the frequency: branches in other parameters, and curves of
+//! bifurcations.
 //!
-//! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition; its number is its place in the study. A piece is stored whole, in one
-//! transaction, so a run that is stopped computes again only the pieces that it was at.
+//! Each `[[vary]]` and `[[curve]]` of the study is a *piece*, known by its definition; its number is its
+//! place in the study. A piece is stored whole, in one transaction, so a run that is stopped computes again
+//! only the pieces that it was at.
 
 use std::collections::BTreeMap;
 
@@ -78,7 +80,8 @@ pub struct VariedRow {
     pub solution: PeriodicSolution,
     /// Events joined by `+`.
     pub event: String,
-    /// What is known of them, uncertainty and direction in the unit of the name; `None` on a curve of bifurcations.
+    /// What is known of them, uncertainty and direction in the unit of the name; `None` on a curve of
+    /// bifurcations.
     pub located: Option<LocatedEvent>,
 }
 
@@ -140,7 +143,8 @@ pub struct StoredVariedRow {
     pub parameter: f64,
     /// Excitation frequency [Hz].
     pub frequency_hz: f64,
-    /// `max |y|`, `max |y''|`, contact force, impact velocity, impulse, leading multiplier, residual and error estimate.
+    /// `max |y|`, `max |y''|`, contact force, impact velocity, impulse, leading multiplier, residual and
+    /// error estimate.
     pub numbers: [f64; 9],
     /// Number of contacts.
     pub contacts: u32,
@@ -174,7 +178,8 @@ impl Store {
         Ok(count > 0)
     }
 
-    /// Throws away pieces that the study does not ask for any more, and gives the others the numbers of their places in it.
+    /// Throws away pieces that the study does not ask for any more, and gives the others the numbers of their
+    /// places in it.
     ///
     /// # Errors
     /// The database refuses; nothing is changed then.

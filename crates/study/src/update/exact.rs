@@ -1,4 +1,5 @@
-//! Exact derivatives of the eigenfrequencies of a beam, where they are known: unreduced, supported or with its moving support let go.
+//! Exact derivatives of the eigenfrequencies of a beam, where they are known: unreduced, supported or with
+//! its moving support let go.
 
 use hammerbeam_structure::{BeamChange, Boundary, PointChange};
 
@@ -10,7 +11,8 @@ use crate::{
 
 use super::data::FrequencyTable;
 
-/// Derivatives of a table of eigenfrequencies [Hz] by a number of the study; `None` where they have to be taken by differences.
+/// Derivatives of a table of eigenfrequencies [Hz] by a number of the study; `None` where they have to be
+/// taken by differences.
 ///
 /// * `file`: the study with the values at which derivatives are wanted.
 /// * `value`: that of the number among them.

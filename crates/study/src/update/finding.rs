@@ -110,7 +110,8 @@ pub(super) fn all(
     findings
 }
 
-/// The lowest of the other minima, if its `chi^2` lies within the level of the intervals and its parameters beyond them.
+/// The lowest of the other minima, if its `chi^2` lies within the level of the intervals and its parameters
+/// beyond them.
 fn another_minimum(
     data: &UpdateData,
     found: &Fit,

@@ -1,4 +1,5 @@
-//! The measured numbers of a data file: eigenfrequencies, damping ratios, responses, each with its standard deviation.
+//! The measured numbers of a data file: eigenfrequencies, damping ratios, responses, each with its standard
+//! deviation.
 
 use crate::document::{Quantity, Table, Value, quantity};
 

@@ -17,8 +17,9 @@ pub(super) fn table(tables: &ModeTables, which: FrequencyTable) -> &[f64] {
 
 /// Damping ratios of the oscillating modes, lowest frequency first.
 ///
-/// Of the eigenvalues `l` of the damped structure with an imaginary part, `-Re l/|l|`, in the order of `|l|`. Modal damping of a ratio z gives z for every mode; discrete dampers couple
-/// modes, and then the ratio is that of the decay of each.
+/// Of the eigenvalues `l` of the damped structure with an imaginary part, `-Re l/|l|`, in the order of `|l|`.
+/// Modal damping of a ratio z gives z for every mode; discrete dampers couple modes, and then the ratio is
+/// that of the decay of each.
 pub(super) fn damping_ratios(model: &ReducedModel) -> Vec<f64> {
     let (n, w) = (model.dof(), &model.natural_frequencies);
     // In the variables w q and q' the matrix is as well scaled as the modes are.

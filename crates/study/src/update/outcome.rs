@@ -27,7 +27,8 @@ pub struct UpdateSettings {
     pub confidence: f64,
     /// Whether intervals are also taken from the profile of `chi^2`, which costs many more fits.
     pub profiles: bool,
-    /// Further starts besides that of the data file; `None` for [`FURTHER_STARTS`] where no response was measured, and none where one was, since its orbits are sought at each.
+    /// Further starts besides that of the data file; `None` for [`FURTHER_STARTS`] where no response was
+    /// measured, and none where one was, since its orbits are sought at each.
     pub further_starts: Option<u32>,
     /// Most iterations of the fit.
     pub max_iterations: u32,

@@ -1,6 +1,7 @@
 //! Residuals of a study against its data, and their derivatives.
 //!
-//! Orbits are followed from an anchor: the parameters and orbits at which derivatives were taken last. What a trial finds does not depend on the trials before it.
+//! Orbits are followed from an anchor: the parameters and orbits at which derivatives were taken last. What a
+//! trial finds does not depend on the trials before it.
 
 use faer::Mat;
 use hammerbeam_fit::{Bounds, FitProblem};
@@ -137,7 +138,8 @@ impl<'a> UpdateProblem<'a> {
         Ok(column.into_iter().flatten().collect())
     }
 
-    /// Derivatives of all values by one parameter, by differences: central ones, or of three points on the side that exists.
+    /// Derivatives of all values by one parameter, by differences: central ones, or of three points on the
+    /// side that exists.
     fn differences(&self, index: usize) -> Result<Vec<f64>, CandidateError> {
         let size = self.anchor.parameters[index].abs().max(1e-3 * self.data.parameters[index].typical);
         let step = STEP * size;

@@ -198,7 +198,8 @@ fn read_key(value: &Value<'_>, numbers: &[Number]) -> Option<(String, Number)> {
     None
 }
 
-/// Points stay on a beam whose length is not fitted, and a beam stays as long as its points ask that are not fitted.
+/// Points stay on a beam whose length is not fitted, and a beam stays as long as its points ask that are not
+/// fitted.
 fn keep_points_on_the_beam(parameters: &mut [FittedKey], study: &StudyFile) {
     let Structure::Beam(beam) = &study.study.structure else { return };
     let is = |parameter: &FittedKey, key: &str| parameter.number.keys.last().is_some_and(|last| last == key);

@@ -95,7 +95,8 @@ pub(super) fn maximum(model: &Model, orbit: &PeriodicSolution, of: Maximum) -> R
     })
 }
 
-/// Largest absolute velocity of the response point: of samples, and between them by a parabola, whose error is of the fourth order where the velocity is smooth.
+/// Largest absolute velocity of the response point: of samples, and between them by a parabola, whose error
+/// is of the fourth order where the velocity is smooth.
 fn largest_velocity(model: &Model, orbit: &PeriodicSolution) -> Result<f64, CandidateError> {
     let frequency_hz = orbit.frequency_hz;
     let course = course(model, orbit, SAMPLES);
@@ -109,7 +110,8 @@ fn largest_velocity(model: &Model, orbit: &PeriodicSolution) -> Result<f64, Cand
     Ok(if place.abs() <= 0.5 { here - 0.25 * (before - after) * place } else { here })
 }
 
-/// Sum of squares of an orbit's residuals in the logarithms of its maxima, so that a wrong level of the whole model does not decide.
+/// Sum of squares of an orbit's residuals in the logarithms of its maxima, so that a wrong level of the whole
+/// model does not decide.
 fn distance(
     model: &Model,
     orbit: &PeriodicSolution,

@@ -1,7 +1,8 @@
 //! The best of fits from several starts.
 //!
-//! `chi^2` may have several minima, and which one a fit ends in hangs on its start. Besides the start of the data file others are tried, at the points of Halton's sequence: each parameter
-//! within [`SPREAD`] of its value either way, and within its bounds.
+//! `chi^2` may have several minima, and which one a fit ends in hangs on its start. Besides the start of the
+//! data file others are tried, at the points of Halton's sequence: each parameter within [`SPREAD`] of its
+//! value either way, and within its bounds.
 //!
 //! # Source
 //! Halton, Numer. Math. 2 (1960), 84-90.
@@ -14,7 +15,8 @@ use super::{candidate::CandidateError, data::UpdateData, problem::UpdateProblem}
 
 /// Largest relative distance of a further start from the one of the data file.
 const SPREAD: f64 = 0.3;
-/// Two minima are the same if their `chi^2` differ by less than this, relatively or in standard deviations, and their parameters by less than this part.
+/// Two minima are the same if their `chi^2` differ by less than this, relatively or in standard deviations,
+/// and their parameters by less than this part.
 const SAME: f64 = 1e-4;
 const BASES: [u32; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
 
@@ -38,7 +40,8 @@ pub(super) struct Found<'a> {
     pub elsewhere: Vec<Fit>,
 }
 
-/// Fits from the start of the data file and from `more` others; the smallest `chi^2` of those that converge is taken, or the first fit if none does.
+/// Fits from the start of the data file and from `more` others; the smallest `chi^2` of those that converge
+/// is taken, or the first fit if none does.
 ///
 /// # Errors
 /// What is wrong at the start of the data file; other starts are passed over.

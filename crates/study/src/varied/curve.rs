@@ -164,7 +164,8 @@ fn nearest_event(
     Ok(Some((store.solution_of_key(key)?, event)))
 }
 
-/// Of events that cannot be told from the nearest one by their places, as at a corner that several rows mark, the one that is known best.
+/// Of events that cannot be told from the nearest one by their places, as at a corner that several rows mark,
+/// the one that is known best.
 ///
 /// * `found`: frequencies [Hz] and keys.
 fn best_known(

@@ -1,9 +1,12 @@
-//! What a study asks for beside its branches in the frequency: branches in other parameters (`[[vary]]`) and curves of bifurcations (`[[curve]]`).
+//! What a study asks for beside its branches in the frequency: branches in other parameters (`[[vary]]`) and
+//! curves of bifurcations (`[[curve]]`).
 //!
-//! A *vary* finds all orbits of the study as it is at its frequency, and follows each that does not lie on a branch already followed to both ends of the
-//! range. A *curve* begins at the event of a stored branch that is nearest to its frequency, and is followed to both sides. Pieces do not depend
-//! on each other: each is computed by one thread and stored whole under its place in the study, so results are the same for any number of threads.
-//! What is stored is not done again; of an interrupted run all pieces are kept that were finished.
+//! A *vary* finds all orbits of the study as it is at its frequency, and follows each that does not lie on a
+//! branch already followed to both ends of the range. A *curve* begins at the event of a stored branch that
+//! is nearest to its frequency, and is followed to both sides. Pieces do not depend on each other: each is
+//! computed by one thread and stored whole under its place in the study, so results are the same for any
+//! number of threads. What is stored is not done again; of an interrupted run all pieces are kept that were
+//! finished.
 
 mod branch;
 mod curve;

@@ -46,7 +46,8 @@ impl Way {
         Self { range, start, reached: 0.0 }
     }
 
-    /// Goes to a value on the first or second side; the part of both sides that is done, which never decreases.
+    /// Goes to a value on the first or second side; the part of both sides that is done, which never
+    /// decreases.
     pub fn at(&mut self, value: f64, second_side: bool) -> f64 {
         let [low, high] = self.range;
         let [down, up] =

@@ -11,7 +11,8 @@ use super::{
 };
 use crate::store::Row;
 
-/// How far a multiplier may be from where an event puts it: events are located to a part of the step, and multipliers change fast there.
+/// How far a multiplier may be from where an event puts it: events are located to a part of the step, and
+/// multipliers change fast there.
 const EVENT: f64 = 1e-5;
 /// Accuracy of the stored maxima beside that of the motion.
 const FORCE: f64 = 1e-9;
@@ -33,7 +34,8 @@ pub(super) struct Comparison {
 /// The measures of an orbit by which differences are judged.
 struct Measures {
     gain: f64,
-    /// Largest relative displacement [m] and velocity [m/s] of an element that a unit of the relative state makes.
+    /// Largest relative displacement [m] and velocity [m/s] of an element that a unit of the relative state
+    /// makes.
     contact: [f64; 2],
     /// Bound of the relative acceleration of an element just before it touches [m/s^2].
     approach: f64,
@@ -73,17 +75,22 @@ impl Measures {
 
     /// `g_v = 1 + V_r / v + W L_r / v^2`, for the velocity at a touch.
     ///
-    /// A state that is wrong by `e` changes the penetration by `L_r e` and its velocity by `V_r e`. The touch, where the penetration is zero, comes earlier or later by
-    /// `L_r e / v`, over which the acceleration, `W` at most, changes the velocity by `W L_r e / v`. So `|dv| <= (V_r + W L_r / v) e`.
-    /// `W` is what a state of size one, all loads (a weight among them) and the largest force of another element make of it. A weak touch need not be one of a shallow contact: where a deep contact just opens, the flight between is as low as
-    /// `v^2 / 2 W` and the penetration behind the touch as deep as ever, and says nothing of `v`.
+    /// A state that is wrong by `e` changes the penetration by `L_r e` and its velocity by `V_r e`. The
+    /// touch, where the penetration is zero, comes earlier or later by `L_r e / v`, over which the
+    /// acceleration, `W` at most, changes the velocity by `W L_r e / v`. So `|dv| <= (V_r + W L_r / v) e`.
+    /// `W` is what a state of size one, all loads (a weight among them) and the largest force of another
+    /// element make of it. A weak touch need not be one of a shallow contact: where a deep contact just
+    /// opens, the flight between is as low as `v^2 / 2 W` and the penetration behind the touch as deep as
+    /// ever, and says nothing of `v`.
     fn touch_factor(&self, impact: f64) -> f64 {
         let [length, velocity] = self.contact;
         1.0 + velocity / impact + self.approach * length / (impact * impact)
     }
 
-    /// `g = 1 + min(g_v - 1, L_r / p)`, for what the contacts of an element do, by its own impacts and its own deepest penetration: its force follows the penetration, which is wrong by `L_r e` of `p`.
-    /// A rigid stop that holds the structure all the time presses with what keeps it from being accelerated, by `W` at most over the mobility.
+    /// `g = 1 + min(g_v - 1, L_r / p)`, for what the contacts of an element do, by its own impacts and its
+    /// own deepest penetration: its force follows the penetration, which is wrong by `L_r e` of `p`. A rigid
+    /// stop that holds the structure all the time presses with what keeps it from being accelerated, by `W`
+    /// at most over the mobility.
     fn contact_factor(&self, (rigid, element): (Option<f64>, &ElementMaxima)) -> f64 {
         if let (Some(mobility), 0.0) = (rigid, element.impact_velocity) {
             return 1.0 + self.approach / (mobility * element.contact_force);
@@ -171,7 +178,8 @@ pub(super) fn compare(
         list.iter_mut().for_each(|comparison| comparison.grazing = true);
     }
     let unknown = tolerance * (1.0 + norm(&found.monodromy) + sensitivity);
-    // Beside a rigid stop multipliers are far outside the unit circle; at a damper they jump on the row of the grazing.
+    // Beside a rigid stop multipliers are far outside the unit circle; at a damper they jump on the row of
+    // the grazing.
     let at_jump = rigid.min(if row.events.grazing { damped } else { f64::INFINITY });
     list.extend(events(row, found, &measures, (unknown, at_jump)));
     list
@@ -274,10 +282,12 @@ fn leading(row: &Row, solution: &PeriodicSolution) -> Option<Comparison> {
     (!same).then(|| plain(Quantity::Multipliers, row_re.hypot(row_im), re.hypot(im), f64::INFINITY))
 }
 
-/// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a penetration at zero.
+/// Where each event puts a multiplier, apart from what is not known of it; a grazing has an extremum of a
+/// penetration at zero.
 ///
-/// * `(unknown, jump)`: how well multipliers are known, for one of condition one, and how near a contact is to a grazing at which they jump: from one side of the place of such an event to the other, so that
-///   none need be there.
+/// * `(unknown, jump)`: how well multipliers are known, for one of condition one, and how near a contact is
+///   to a grazing at which they jump: from one side of the place of such an event to the other, so that none
+///   need be there.
 fn events(
     row: &Row,
     found: &Recomputed,

@@ -1,10 +1,13 @@
-//! Stored solutions, computed again by the general integrator, which shares nothing with the one that made them but the laws.
+//! Stored solutions, computed again by the general integrator, which shares nothing with the one that made
+//! them but the laws.
 //!
 //! # Formulae
-//! States are scaled: displacements with `V / max(w_i, 2 pi f)`, velocities with `V`, so that the orbit has the size 1: the root mean square of the norms of its
-//! states at equal phases, eight or more in each excitation period; `|.|` is the Euclidean norm, of matrices Frobenius'. From the first node `z_0` of a solution the motion goes over the whole orbit period; `Z_k` is its
-//! state at the phase of node k, `A_k = dZ_k/dz_0`, `k = 1..=m`, `z_m = z_0`. What is wrong with the first node by `e` is wrong by
-//! `|A_k| e` later, so all errors are judged by `G = 1 + max_k |A_k|`. With the tolerance `tau`:
+//! States are scaled: displacements with `V / max(w_i, 2 pi f)`, velocities with `V`, so that the orbit has
+//! the size 1: the root mean square of the norms of its states at equal phases, eight or more in each
+//! excitation period; `|.|` is the Euclidean norm, of matrices Frobenius'. From the first node `z_0` of a
+//! solution the motion goes over the whole orbit period; `Z_k` is its state at the phase of node k, `A_k =
+//! dZ_k/dz_0`, `k = 1..=m`, `z_m = z_0`. What is wrong with the first node by `e` is wrong by `|A_k| e`
+//! later, so all errors are judged by `G = 1 + max_k |A_k|`. With the tolerance `tau`:
 //!
 //! | quantity | agrees if |
 //! |---|---|
@@ -18,21 +21,32 @@
 //! | contacts | as many differ as contacts graze or are touched within `tau G L_r` of a node, at most |
 //! | events | fold, flip, Neimark-Sacker: a multiplier within 1e-5 of +1, -1, the circle; grazing: `|s| <= 1e-5 L_r` |
 //!
-//! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and elements by `L_r` with the
-//! velocity `V_r`; `W` bounds the acceleration with which they approach, by state, loads and other elements. `g_v = 1 + V_r / v' + W L_r / v'^2`: the instant of a weak touch, and with it its velocity, is known less
-//! well, be it one of a shallow contact or one of a deep contact that just opens. `g_j = 1 + min(g_v - 1, L_r / p)` for each element, with its own
-//! largest impact velocity and deepest penetration p: what a
-//! contact does depends on the velocity it begins with, which just behind grazing is `sqrt(2 W p)`, so shallow contacts are known less well, however hard another stop is struck. `g` is that of the element
-//! with the largest contact force, or, where none presses, of the one struck hardest. A rigid stop that holds the structure all the time has `1 + W / (m F)`, with the mobility m. A contact grazes where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
+//! A unit of the relative state moves the response point by `L` at most, with the acceleration `w`, and
+//! elements by `L_r` with the velocity `V_r`; `W` bounds the acceleration with which they approach, by state,
+//! loads and other elements. `g_v = 1 + V_r / v' + W L_r / v'^2`: the instant of a weak touch, and with it
+//! its velocity, is known less well, be it one of a shallow contact or one of a deep contact that just opens.
+//! `g_j = 1 + min(g_v - 1, L_r / p)` for each element, with its own largest impact velocity and deepest
+//! penetration p: what a contact does depends on the velocity it begins with, which just behind grazing is
+//! `sqrt(2 W p)`, so shallow contacts are known less well, however hard another stop is struck. `g` is that
+//! of the element with the largest contact force, or, where none presses, of the one struck hardest. A rigid
+//! stop that holds the structure all the time has `1 + W / (m F)`, with the mobility m. A contact grazes
+//! where an extremum `s` of its penetration has `|s| <= tau G L_r`; these are counted apart.
 //!
-//! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, the larger one of both signs, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
-//! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within `tau` of the stored one.
+//! `S = sqrt(2n) |A_m(z_0 + tau d) - A_m(z_0)| / tau`, with a unit vector d that holds all modes, the larger
+//! one of both signs, is computed for multipliers that do not agree with `S = 0`: near grazing the monodromy
+//! matrix changes within `tau` of an orbit. The multipliers then agree if they are those of a motion within
+//! `tau` of the stored one.
 //!
-//! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b that a unit
-//! impulse gives: multipliers may differ there, and a fold, flip or Neimark-Sacker point on the row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops. Such a touch may have a speed of up to `v_s = sqrt(2 W tau G L_r)` or not be there: speeds below it and forces below `c v_s` agree, and accelerations to what the response
-//! gets from that. A touch at a node belongs to either segment, or, by rounding, to none.
+//! Where a contact grazes whose force begins with a jump (a stop with a damper `c`), the monodromy matrix
+//! itself jumps, by the factor `1 - c b n^T` at the touch, with the row n of the penetration and the state b
+//! that a unit impulse gives: multipliers may differ there, and a fold, flip or Neimark-Sacker point on the
+//! row of the grazing is that jump, without a multiplier at its place. So it is with rigid stops. Such a
+//! touch may have a speed of up to `v_s = sqrt(2 W tau G L_r)` or not be there: speeds below it and forces
+//! below `c v_s` agree, and accelerations to what the response gets from that. A touch at a node belongs to
+//! either segment, or, by rounding, to none.
 //!
-//! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for. A force that is no larger than that of a penetration of `T G L_r`, and of an element that comes no deeper, agrees with none.
+//! Bounds of 1e-9 and 1e-7 above are what the stored maxima are good for. A force that is no larger than that
+//! of a penetration of `T G L_r`, and of an element that comes no deeper, agrees with none.
 //!
 //! | file | idea |
 //! |---|---|
@@ -88,7 +102,8 @@ pub const TOLERANCE: f64 = 1e-9;
 /// The general integrator is not asked for more, see [`GeneralSettings::tolerance`].
 const FINEST_MOTION: f64 = 3e-13;
 
-/// Tolerance of the steps of the general integrator: a hundredth of that of the comparisons, since steps add up and contacts amplify.
+/// Tolerance of the steps of the general integrator: a hundredth of that of the comparisons, since steps add
+/// up and contacts amplify.
 fn motion_tolerance(tolerance: f64) -> f64 {
     (0.01 * tolerance).clamp(FINEST_MOTION, 1e-6)
 }

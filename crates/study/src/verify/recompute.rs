@@ -54,7 +54,8 @@ const PER_PERIOD: usize = 8;
 /// Tolerance of the steps to them: the size is a measure, not a result.
 const SIZE: f64 = 1e-6;
 
-/// Scales of a state: displacements `V / max(w_i, 2 pi f)`, velocities `V`, so that the states of the orbit have the norm 1 in the root mean square.
+/// Scales of a state: displacements `V / max(w_i, 2 pi f)`, velocities `V`, so that the states of the orbit
+/// have the norm 1 in the root mean square.
 pub(super) fn scales(system: &System, solution: &PeriodicSolution) -> Result<Vec<f64>, Failed> {
     let size = 2 * system.dof();
     if solution.nodes.is_empty() || solution.nodes.iter().any(|node| node.len() != size) {
@@ -166,9 +167,10 @@ fn join(earlier: Observed, later: Observed) -> Observed {
     }
 }
 
-/// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a direction that has all modes in it: along
-/// the worst direction the change is about `sqrt(2n)` times that along any one. The larger one of both signs; that of the one from which a motion can begin, where the other leads into a contact
-/// whose law remembers how it began.
+/// `sqrt(2n) |A_m(z_0 + e d) - A_m(z_0)| / e` for a change of the first node by `e` in norm, along a
+/// direction that has all modes in it: along the worst direction the change is about `sqrt(2n)` times that
+/// along any one. The larger one of both signs; that of the one from which a motion can begin, where the
+/// other leads into a contact whose law remembers how it began.
 pub(super) fn sensitivity(
     model: &Model,
     solution: &PeriodicSolution,
@@ -177,7 +179,8 @@ pub(super) fn sensitivity(
     settings: &GeneralSettings,
 ) -> Result<f64, Failed> {
     let each = change / (scales.len() as f64).sqrt();
-    // Beside a border at which the motion changes its kind, the way towards it matters more than the way back.
+    // Beside a border at which the motion changes its kind, the way towards it matters more than the way
+    // back.
     let (mut largest, mut one_is_within) = (0.0_f64, false);
     for side in [each, -each] {
         let mut changed = solution.clone();

@@ -21,7 +21,8 @@ impl SplitMix {
     }
 }
 
-/// `count` of the numbers from 0 to below `total`, ascending, each choice as likely; all if there are no more.
+/// `count` of the numbers from 0 to below `total`, ascending, each choice as likely; all if there are no
+/// more.
 ///
 /// # Source
 /// Knuth, *The Art of Computer Programming*, volume 2, section 3.4.2, algorithm S.

@@ -2,8 +2,8 @@
 
 use faer::{Mat, c64, linalg::solvers::DenseSolveCore};
 
-/// An eigenvalue and its condition number `k = |x| |y| / |y^H x|`, with its right and left vectors: a change of the matrix by `d` in norm
-/// changes it by `k d` at most, to first order.
+/// An eigenvalue and its condition number `k = |x| |y| / |y^H x|`, with its right and left vectors: a change
+/// of the matrix by `d` in norm changes it by `k d` at most, to first order.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Multiplier {
     pub(super) value: c64,

@@ -1,4 +1,5 @@
-//! What of an orbit cannot be told from nothing at the accuracy of a verification: touches at grazing, and touches where the orbit is cut.
+//! What of an orbit cannot be told from nothing at the accuracy of a verification: touches at grazing, and
+//! touches where the orbit is cut.
 
 use hammerbeam_motion::{LocalElement, System};
 use hammerbeam_orbit::PeriodicSolution;
@@ -14,12 +15,14 @@ pub(super) struct Unknown {
     pub speed: f64,
     /// How much such a touch changes the acceleration of the response [m/s^2].
     pub acceleration: f64,
-    /// Largest speed of a touch that lies where the orbit is cut, so that it belongs to either end or to none [m/s].
+    /// Largest speed of a touch that lies where the orbit is cut, so that it belongs to either end or to none
+    /// [m/s].
     pub touch_at_node: f64,
 }
 
 impl Unknown {
-    /// * `(margin, slow)`: to which distance it is not known whether contacts touch [m], and with which speed a damper [m/s].
+    /// * `(margin, slow)`: to which distance it is not known whether contacts touch [m], and with which speed
+    ///   a damper [m/s].
     /// * `cut`: of [`touches_at_nodes`].
     pub fn of(
         (system, response): (&System, &[f64]),

@@ -31,7 +31,8 @@ pub fn document(
     })
 }
 
-/// A comparison of one quantity, how many points the range of the study leaves out, and how many solutions could not be gone over.
+/// A comparison of one quantity, how many points the range of the study leaves out, and how many solutions
+/// could not be gone over.
 fn of_study(compared: &Compared) -> Value {
     let mut document = comparison_document(&compared.comparison);
     document["beyond_the_range"] = json!(compared.beyond());

@@ -1,4 +1,5 @@
-//! The response diagram with the measured points over it, shifted as the comparison has it: figure 6 of the paper.
+//! The response diagram with the measured points over it, shifted as the comparison has it: figure 6 of the
+//! paper.
 
 use hammerbeam_figure::{
     MeasuredMark, MeasuredMotion, Quantity as Drawing, ResponseCurve, ResponseDiagram, ResponsePoint,

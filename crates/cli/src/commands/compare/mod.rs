@@ -28,7 +28,8 @@ use crate::{
     output::Output,
 };
 
-/// Distance of orbits that are computed again as a part of the middle of the frequency range, and their samples in an excitation period.
+/// Distance of orbits that are computed again as a part of the middle of the frequency range, and their
+/// samples in an excitation period.
 const SPACING: f64 = 1e-3;
 const SAMPLES: usize = 4096;
 

@@ -1,4 +1,5 @@
-//! Records of single excitation frequencies, reduced to points: the kind of the motion, and the largest value of each quantity.
+//! Records of single excitation frequencies, reduced to points: the kind of the motion, and the largest value
+//! of each quantity.
 
 use std::path::Path;
 

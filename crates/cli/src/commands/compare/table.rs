@@ -83,13 +83,15 @@ pub struct Amplitudes {
     pub notes: Vec<String>,
 }
 
-/// Parts by which amplitudes at one frequency may differ, and by which one may lie beside its neighbours, at least.
+/// Parts by which amplitudes at one frequency may differ, and by which one may lie beside its neighbours, at
+/// least.
 const SPREAD: f64 = 0.05;
 const BESIDE: f64 = 0.1;
 /// The same in usual distances from the neighbours.
 const UNUSUAL: f64 = 6.0;
 
-/// Writes the measured amplitudes of the excitation as a study file takes them, if there are two at least: means of what was measured at the same frequency.
+/// Writes the measured amplitudes of the excitation as a study file takes them, if there are two at least:
+/// means of what was measured at the same frequency.
 pub fn write_amplitudes(folder: &Path, points: &[MeasuredPoint]) -> Result<Option<Amplitudes>, Failure> {
     let all = |wanted: Quantity| -> Vec<(f64, f64)> {
         let of = |point: &MeasuredPoint| {
@@ -145,7 +147,9 @@ fn spread(means: &[Amplitude]) -> impl Iterator<Item = String> {
     })
 }
 
-/// Amplitudes far from the line between their neighbours: by more than a tenth, and by six times the median distance. The farthest is taken out before the next one is looked for, since it spoils its neighbours' lines.
+/// Amplitudes far from the line between their neighbours: by more than a tenth, and by six times the median
+/// distance. The farthest is taken out before the next one is looked for, since it spoils its neighbours'
+/// lines.
 fn beside(means: &[Amplitude]) -> impl Iterator<Item = String> {
     let mut left = means.to_vec();
     let mut far = Vec::new();

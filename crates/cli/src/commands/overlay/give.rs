@@ -19,7 +19,8 @@ impl Laid {
         self.input.record.start_s + cycles / self.classification.frequency_hz
     }
 
-    /// The first time in the record at which the orbit begins, with the excitation of the study at its phase 0, on the clock of the record [s].
+    /// The first time in the record at which the orbit begins, with the excitation of the study at its phase
+    /// 0, on the clock of the record [s].
     fn phase_zero_s(&self) -> f64 {
         self.time_s(self.overlay.alignment.shift)
     }

@@ -6,13 +6,16 @@ use hammerbeam_signal::{
 };
 use hammerbeam_study::comparison::Overlay;
 
-/// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed freely.
+/// Correlation below which nothing is laid over: a hundredth of the measured power, its square, is that of
+/// the most alike orbit, which any two waveforms share by chance or rounding where one of them is delayed
+/// freely.
 const NOTHING: f64 = 0.1;
 /// Correlation below which less than half of the measured power is that of the orbit (its square).
 const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Correlation of a course turned around beyond which it is told: half of what is left without.
 const TURNED: f64 = 0.5;
-/// Difference of correlations that is none: values between samples of a record are known to some 1e-5, and it is the square that counts.
+/// Difference of correlations that is none: values between samples of a record are known to some 1e-5, and it
+/// is the square that counts.
 const ROUNDING: f64 = 1e-9;
 /// Scatter of pieces that shows in a tenth of a per cent.
 const SHOWS: f64 = 5e-4;

@@ -1,4 +1,5 @@
-//! `hammerbeam rig`: a measurement made with another model, and the whole comparison of it with the branches of a study.
+//! `hammerbeam rig`: a measurement made with another model, and the whole comparison of it with the branches
+//! of a study.
 
 mod document;
 mod report;
@@ -26,7 +27,8 @@ use crate::{
     progress::Terminal,
 };
 
-/// Distance of orbits that are put behind filters as a part of the middle of the frequency range, and their samples in an excitation period.
+/// Distance of orbits that are put behind filters as a part of the middle of the frequency range, and their
+/// samples in an excitation period.
 const SPACING: f64 = 1e-3;
 const SAMPLES: usize = 4096;
 
@@ -132,7 +134,8 @@ fn branches(
     }
 }
 
-/// The paper's comparison (filtered accelerations over computed ones), the same over branches behind the filter, and displacements.
+/// The paper's comparison (filtered accelerations over computed ones), the same over branches behind the
+/// filter, and displacements.
 fn comparisons(
     stored: &StoredBranches,
     model: &Model,

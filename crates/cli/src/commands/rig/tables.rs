@@ -203,7 +203,8 @@ pub fn largest_displacement(found: &Found) -> f64 {
 #[derive(Default)]
 pub struct Chaos {
     pub aperiodic: usize,
-    /// With a positive exponent from the record, and those with one from the motion (its interval above zero).
+    /// With a positive exponent from the record, and those with one from the motion (its interval above
+    /// zero).
     pub by_record: usize,
     pub by_motion: usize,
     /// With both.

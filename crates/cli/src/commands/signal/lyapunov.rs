@@ -62,7 +62,8 @@ struct Found {
 }
 
 impl Found {
-    /// One method that finds nothing does not hide the others; if none finds anything, or the input is at fault, it is a failure.
+    /// One method that finds nothing does not hide the others; if none finds anything, or the input is at
+    /// fault, it is a failure.
     fn checked(self) -> Result<Self, Failure> {
         let given = |failed: Option<bool>| failed == Some(false);
         let any = given(self.wolf.as_ref().map(Result::is_err))

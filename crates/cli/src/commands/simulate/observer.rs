@@ -9,7 +9,8 @@ use hammerbeam_study::{
     store::{SimulatedChunk, SimulatedContact, SimulatedTouch, SimulationLayout},
 };
 
-/// A chunk goes into the store after this time, which is what a kill loses at most, besides the period under way,
+/// A chunk goes into the store after this time, which is what a kill loses at most, besides the period under
+/// way,
 const LONGEST: Duration = Duration::from_millis(500);
 /// or when it holds so many numbers, 2 MB; what it holds together with others does not depend on either.
 const MOST_NUMBERS: usize = 1 << 18;

@@ -13,7 +13,8 @@ use crate::failure::Failure;
 
 /// Samples in an excitation period.
 pub(super) const SAMPLES: usize = 2048;
-/// How far from an impact its accelerations are taken (excitation periods): far less than a pixel, far more than rounding.
+/// How far from an impact its accelerations are taken (excitation periods): far less than a pixel, far more
+/// than rounding.
 const BESIDE: f64 = 1e-9;
 
 /// Samples of an orbit from phase 0 on, and its impacts on rigid stops.
@@ -60,9 +61,11 @@ pub(super) fn course(
     Ok((samples, impulses))
 }
 
-/// Accelerations of the response point just before and just after instants of a motion, with all forces that act then: also that of a stop to which the structure sticks.
+/// Accelerations of the response point just before and just after instants of a motion, with all forces that
+/// act then: also that of a stop to which the structure sticks.
 ///
-/// * `first`, `periods`: the state at phase 0, and for how many excitation periods the motion goes on before it repeats.
+/// * `first`, `periods`: the state at phase 0, and for how many excitation periods the motion goes on before
+///   it repeats.
 /// * `cycles`: the instants, in excitation periods.
 fn accelerations_beside(
     model: &Model,
@@ -123,8 +126,9 @@ mod tests {
     const DAMPING: f64 = 0.04;
     const RESTITUTION: f64 = 0.5;
 
-    /// Unit mass that a constant force brings to rest on its stop after some bounces: held there its acceleration is 0; an impact that does not stick changes `x'` by
-    /// `-(1 + e) v`, and so `x'' = F - x - c x'` by `c (1 + e) v`.
+    /// Unit mass that a constant force brings to rest on its stop after some bounces: held there its
+    /// acceleration is 0; an impact that does not stick changes `x'` by `-(1 + e) v`, and so `x'' = F - x - c
+    /// x'` by `c (1 + e) v`.
     #[test]
     fn an_impact_that_sticks_leaves_no_acceleration_and_any_other_that_of_the_equation_of_motion() {
         let load = "[[load]]\nkind = \"force\"\nat = \"mass\"\namplitude_n = 0.9\norder = 0\n";
@@ -155,7 +159,8 @@ mod tests {
                 assert!(after.abs() < 1e-12, "{after}");
             } else if touch.velocity > 1e-3 {
                 bouncing += 1;
-                // The states lie 2e-9 periods of 20 s apart, in which the acceleration of order one changes by as little.
+                // The states lie 2e-9 periods of 20 s apart, in which the acceleration of order one changes
+                // by as little.
                 let jump = DAMPING * (1.0 + RESTITUTION) * touch.velocity;
                 assert!((after - before - jump).abs() < 1e-6, "{before} {after} {jump}");
             }

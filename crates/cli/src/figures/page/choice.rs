@@ -1,7 +1,8 @@
 //! Which orbits a page carries: in which order they are taken until it is full.
 //!
-//! First the ends of every branch and the bifurcations of stable solutions, since a reader goes there. Then every 2^k-th solution of all branches end to end, with smaller and
-//! smaller k, so that wherever the page is full the orbits are spread evenly along the branches; among them, one to three, the other bifurcations.
+//! First the ends of every branch and the bifurcations of stable solutions, since a reader goes there. Then
+//! every 2^k-th solution of all branches end to end, with smaller and smaller k, so that wherever the page is
+//! full the orbits are spread evenly along the branches; among them, one to three, the other bifurcations.
 
 use super::Placed;
 

@@ -22,7 +22,8 @@ pub fn of_sweeps(store: &Store) -> Result<Vec<PageMotion>, StoreError> {
     Ok(found)
 }
 
-/// Stroboscopic points of every motion whose exponents are stored, and of those of sweeps that do not repeat, by their frequencies.
+/// Stroboscopic points of every motion whose exponents are stored, and of those of sweeps that do not repeat,
+/// by their frequencies.
 pub fn sections(store: &Store) -> Result<Vec<PageSection>, StoreError> {
     let mut sections = Vec::new();
     for request in store.requests()? {

@@ -11,7 +11,8 @@ use hammerbeam_signal::{
 
 use super::Drawn;
 
-/// Tables of `compare` in its own folder, and of `rig`, with what they are called: of what `rig` compares, that over branches without a filter.
+/// Tables of `compare` in its own folder, and of `rig`, with what they are called: of what `rig` compares,
+/// that over branches without a filter.
 const TABLES: [(&str, &str, Quantity, Drawing); 5] = [
     ("compare/points_displacement.csv", "compare", Quantity::Displacement, Drawing::Displacement),
     ("compare/points_acceleration.csv", "compare", Quantity::Acceleration, Drawing::Acceleration),

@@ -20,9 +20,11 @@ use spectrum::spectrum;
 use super::{Album, Drawn, Placed, choice};
 use crate::{interrupt::Interrupt, ticker::Ticker};
 
-/// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do not depend on the number of threads.
+/// Orbits that one integrator computes one after the other. It remembers what it did last, so that these do
+/// not depend on the number of threads.
 const PART: usize = 64;
-/// Parts between two looks at whether the page is full: what is short may still fit where something else did not.
+/// Parts between two looks at whether the page is full: what is short may still fit where something else did
+/// not.
 const ROUND: usize = 8;
 /// Parts that are under way for each thread.
 const UNDER_WAY: usize = 2;
@@ -36,8 +38,8 @@ const VISIBLE: f64 = 2e-3;
 /// * `most`: length of their records (bytes).
 /// * `drawn`: whose threads compute them.
 ///
-/// An orbit whose motion cannot be computed is left out: the page shows the nearest one. Records are taken in in the order in which they are wanted, whichever is
-/// done first.
+/// An orbit whose motion cannot be computed is left out: the page shows the nearest one. Records are taken in
+/// in the order in which they are wanted, whichever is done first.
 pub fn carried(
     store: &Store,
     model: &Model,
@@ -114,7 +116,8 @@ impl Drawing {
         Self { model: model.clone(), is_moved, highest_hz, interrupt }
     }
 
-    /// Orbits of solutions, in their order, by an integrator of their own; `None` where the motion cannot be computed, fewer when the user asks to stop.
+    /// Orbits of solutions, in their order, by an integrator of their own; `None` where the motion cannot be
+    /// computed, fewer when the user asks to stop.
     fn records(&self, solutions: &[Option<PeriodicSolution>]) -> Vec<Option<OrbitRecord>> {
         let settings = ExactSettings::default();
         let Ok(mut integrator) = ExactIntegrator::new(self.model.system.clone(), settings) else {
@@ -196,7 +199,8 @@ fn page_impulse(impulse: &Impulse, response: &PointMotion) -> PageImpulse {
 /// A step of which nothing is known yet.
 const NOTHING: [f64; 2] = [f64::NAN; 2];
 
-/// Takes a value, later than those before, into the least and the largest of a step, which stay in their order in time.
+/// Takes a value, later than those before, into the least and the largest of a step, which stay in their
+/// order in time.
 fn widen(pair: &mut [f64; 2], value: f64) {
     let [first, second] = *pair;
     *pair = if first.is_nan() {
@@ -210,8 +214,9 @@ fn widen(pair: &mut [f64; 2], value: f64) {
     };
 }
 
-/// Samples in an excitation period, and from one of a mode to the next, which divides them. A phase portrait bends within each excitation period as it does in one: 192 samples in each,
-/// where an orbit has more than about a thousand of them fewer.
+/// Samples in an excitation period, and from one of a mode to the next, which divides them. A phase portrait
+/// bends within each excitation period as it does in one: 192 samples in each, where an orbit has more than
+/// about a thousand of them fewer.
 fn sampling(period_multiple: u32) -> (usize, usize) {
     let samples = (960 / period_multiple.max(1) as usize).clamp(12, 192) / 12 * 12;
     (samples, if period_multiple > 2 { 4 } else { 3 })

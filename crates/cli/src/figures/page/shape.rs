@@ -71,7 +71,8 @@ fn stops(file: &StudyFile, model: &Model) -> Vec<PageStop> {
     drawn
 }
 
-/// Displacements of the point relative to what carries the stop at which contacts begin, and whether the stop lies above.
+/// Displacements of the point relative to what carries the stop at which contacts begin, and whether the stop
+/// lies above.
 fn levels(element: &LocalElement, model: &Model, name: &str, other: Option<&String>) -> Vec<(f64, bool)> {
     let shape =
         |name: &str| model.system.model().point(name).map(|point| point.shape.clone()).unwrap_or_default();

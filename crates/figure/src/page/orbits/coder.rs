@@ -1,14 +1,18 @@
 //! Whole numbers as bits: an adaptive range coder of two symbols.
 //!
-//! Numbers come in series of some kinds. Of a number the length of its magnitude in bits is written first, one after the other "it is longer than `j`", then its sign, then the bits
-//! below the leading one. Each "longer than `j`" has odds of its own, for each kind and for each sum of the lengths of the two numbers before it in the series: what is small is
-//! followed by what is small. The bit below the leading one has odds, too, for each kind and length; the sign and the others are written as they are.
+//! Numbers come in series of some kinds. Of a number the length of its magnitude in bits is written first,
+//! one after the other "it is longer than `j`", then its sign, then the bits below the leading one. Each
+//! "longer than `j`" has odds of its own, for each kind and for each sum of the lengths of the two numbers
+//! before it in the series: what is small is followed by what is small. The bit below the leading one has
+//! odds, too, for each kind and length; the sign and the others are written as they are.
 //!
-//! Odds are the probability of "no", in 65 536ths, with the number of times that they were met: each time they go to what came by one part in that number plus one, rounded towards zero.
-//! Before that they say that a length is like the mean of the two before.
+//! Odds are the probability of "no", in 65 536ths, with the number of times that they were met: each time
+//! they go to what came by one part in that number plus one, rounded towards zero. Before that they say that
+//! a length is like the mean of the two before.
 //!
 //! # Source
-//! Martin, *Range encoding*, Video and Data Recording Conference, Southampton 1979; how carries are handled is that of Pavlov's LZMA.
+//! Martin, *Range encoding*, Video and Data Recording Conference, Southampton 1979; how carries are handled
+//! is that of Pavlov's LZMA.
 
 /// Below this range another byte is written.
 const LEAST_RANGE: u32 = 1 << 24;
@@ -282,7 +286,8 @@ mod tests {
         assert_eq!(read(&[], 4), read(&written(&read(&[], 4)), 4));
     }
 
-    /// Signs by chance cost a bit each; of magnitudes that are always 0 or 1, with equal chances, a bit. So 1.5 bits a number; 3 per cent more is what learning costs.
+    /// Signs by chance cost a bit each; of magnitudes that are always 0 or 1, with equal chances, a bit. So
+    /// 1.5 bits a number; 3 per cent more is what learning costs.
     #[test]
     fn numbers_take_hardly_more_than_their_entropy() {
         let mut state = 1_u64;

@@ -1,11 +1,16 @@
 //! An orbit as a record, and what is rounded in it.
 //!
-//! A record is written by the range coder of `coder.rs`; zeros follow up to a multiple of three bytes. First, as numbers of a kind of their own, the counts of `counts` below, and the distance of
-//! samples in s; then the series of `packed`, each with the size of its steps. Such a size is the upper half of an f32, 16 plain bits. A value is a whole number of steps.
+//! A record is written by the range coder of `coder.rs`; zeros follow up to a multiple of three bytes. First,
+//! as numbers of a kind of their own, the counts of `counts` below, and the distance of samples in s; then
+//! the series of `packed`, each with the size of its steps. Such a size is the upper half of an f32, 16 plain
+//! bits. A value is a whole number of steps.
 //!
-//! Of a series stand, as numbers of the kind of the series, the order of its predictor and what it misses each value by: order `n` continues the polynomial through the `n` values before, with zeros
-//! before the first. Velocity and displacement are continued otherwise: a velocity by the integral of the acceleration by Simpson's rule, a displacement by that of the velocity by
-//! the trapezoidal rule with its correction by the acceleration, both rounded down from a half more. So they cost little but where a contact makes the acceleration something else between its samples.
+//! Of a series stand, as numbers of the kind of the series, the order of its predictor and what it misses
+//! each value by: order `n` continues the polynomial through the `n` values before, with zeros before the
+//! first. Velocity and displacement are continued otherwise: a velocity by the integral of the acceleration
+//! by Simpson's rule, a displacement by that of the velocity by the trapezoidal rule with its correction by
+//! the acceleration, both rounded down from a half more. So they cost little but where a contact makes the
+//! acceleration something else between its samples.
 
 use super::{
     PageImpulse, PageOrbit,
@@ -96,7 +101,8 @@ impl Writer {
 
     /// Writes a series that something else continues.
     ///
-    /// * `change`: by how many steps of this size it changes behind its value of that number, which may depend on its values.
+    /// * `change`: by how many steps of this size it changes behind its value of that number, which may
+    ///   depend on its values.
     fn continued(&mut self, of: Of, values: &[f64], change: impl Fn(f64, usize) -> f64) -> Stepped {
         let size = self.size(step(values, STEPS));
         let counts = stepped(values, size);
@@ -150,7 +156,8 @@ pub(super) fn packed(orbit: &PageOrbit) -> Vec<u8> {
     bytes
 }
 
-/// Lengths of the series: samples, local elements, samples of the support, modes, their samples, harmonics, samples in contacts, impulses.
+/// Lengths of the series: samples, local elements, samples of the support, modes, their samples, harmonics,
+/// samples in contacts, impulses.
 fn counts(orbit: &PageOrbit) -> [usize; 8] {
     [
         orbit.displacement_m.len(),
@@ -170,7 +177,8 @@ pub(super) fn numbers(impulse: &PageImpulse) -> [f64; 5] {
     [impulse.cycles, impulse.impulse_n_s, impulse.displacement_m, before, after]
 }
 
-/// Each number less the one before, with a zero before the first: what a predictor misses numbers by becomes what that of the next order does.
+/// Each number less the one before, with a zero before the first: what a predictor misses numbers by becomes
+/// what that of the next order does.
 fn differences(numbers: &mut [i32]) {
     for k in (1..numbers.len()).rev() {
         numbers[k] -= numbers[k - 1];
@@ -220,7 +228,8 @@ fn range(values: &[f64]) -> [f64; 2] {
     if low <= high { [low, high] } else { [0.0, 0.0] }
 }
 
-/// Values as whole numbers of steps; an infinite value is the least or the largest one, what is not a number the least.
+/// Values as whole numbers of steps; an infinite value is the least or the largest one, what is not a number
+/// the least.
 fn stepped(values: &[f64], size: f64) -> Vec<i32> {
     let [low, high] = range(values);
     let count = |value: &f64| {

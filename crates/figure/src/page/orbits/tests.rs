@@ -57,7 +57,8 @@ impl Reader<'_> {
 /// Numbers of impulses, each with its element.
 type Impulses = Vec<(i32, [f64; 5])>;
 
-/// Displacement, velocity, acceleration, support, forces, modes, spectrum, the three of contacts; then numbers of impulses.
+/// Displacement, velocity, acceleration, support, forces, modes, spectrum, the three of contacts; then
+/// numbers of impulses.
 fn read(record: &[u8]) -> (Vec<Vec<f64>>, Impulses) {
     let kinds = std::array::from_fn(|_| Kind::default());
     let mut reader = Reader { decoder: Decoder::new(record), kinds };
@@ -118,7 +119,8 @@ fn orbit(samples: usize) -> PageOrbit {
     }
 }
 
-/// Half a step, of which an upper half of an f32 may be longer by 2^-7, and the rounding of what stands in it.
+/// Half a step, of which an upper half of an f32 may be longer by 2^-7, and the rounding of what stands in
+/// it.
 fn half_a_step(steps: f64) -> f64 {
     0.5 / steps * (1.0 + 2.0_f64.powi(-7)) + 1e-6
 }
@@ -154,7 +156,8 @@ fn values_are_good_to_half_a_step() {
     assert_eq!(impulses, [(1, [0.75, -0.5, f64::from(2e-3_f32), 1.0, -0.25]); 2]);
 }
 
-/// The tallest plots of an orbit have 300 pixels, the structure in motion moves over 190; a spectrum has its decades and a third more on less than 260.
+/// The tallest plots of an orbit have 300 pixels, the structure in motion moves over 190; a spectrum has its
+/// decades and a third more on less than 260.
 #[test]
 fn what_is_rounded_is_less_than_half_a_pixel() {
     assert!(half_a_step(STEPS) * 300.0 < 0.2);
@@ -170,7 +173,8 @@ fn spectra_are_logarithms_and_what_is_far_below_the_largest_stands_at_the_depth_
     assert!(still[4].iter().all(|level| *level <= -300.0), "no amplitude is none");
 }
 
-/// `y = a cos(wt)`: velocity and displacement follow from the acceleration to a step or so; with it they cost less than half a byte a value.
+/// `y = a cos(wt)`: velocity and displacement follow from the acceleration to a step or so; with it they cost
+/// less than half a byte a value.
 #[test]
 fn a_harmonic_motion_takes_less_than_half_a_byte_a_value() {
     let count = 192;

@@ -11,7 +11,8 @@ use crate::{
 };
 
 impl Place<'_> {
-    /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from what moves to them.
+    /// The bodies that move with the support: bars that carry the stops which ride on it, and columns from
+    /// what moves to them.
     pub(super) fn draw_carriers(&self, svg: &mut SvgWriter) {
         let moving: Vec<f64> = self.diagram.moving.iter().filter_map(|name| self.of(name)).collect();
         let has_bar = [false, true].map(|above| self.draw_bar(svg, &moving, above));

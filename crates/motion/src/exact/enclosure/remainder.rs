@@ -13,7 +13,8 @@ use super::{
 pub(super) const BINOMIALS: [f64; NODES] = binomials();
 
 impl ExactIntegrator {
-    /// `r_n` of the guard with these parts of an element's displacement and velocity in the solved step; infinite where a load is resonant.
+    /// `r_n` of the guard with these parts of an element's displacement and velocity in the solved step;
+    /// infinite where a load is resonant.
     pub(super) fn remainder(&self, run: &Run, element: usize, [alpha, beta]: [f64; 2]) -> f64 {
         let Some(orders) = self.drive.amplitudes(element) else { return f64::INFINITY };
         let (n, step, output) = (self.blocks.count(), &self.step, &self.outputs[element]);

@@ -62,7 +62,8 @@ fn value(coefficients: &[f64], s: f64) -> f64 {
     values[0]
 }
 
-/// How far the polynomials of one step are from the motion in it, relative to what is allowed, for penetration and pressure of both contacts.
+/// How far the polynomials of one step are from the motion in it, relative to what is allowed, for
+/// penetration and pressure of both contacts.
 fn largest_distance((integrator, run): &(ExactIntegrator, Run)) -> f64 {
     let (grading, length) = (integrator.step.grading(), integrator.step.length);
     let hermite = Hermite::of(grading);
@@ -177,7 +178,8 @@ fn bernstein(of: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64) -> [f64; MOST]
     Hermite::of(Grading::Smooth).lower(&guard, 1.0, 0.0)
 }
 
-/// Simple and double zeros at either end of the step, those of contacts that were just touched and of a turn at the level, are no openings.
+/// Simple and double zeros at either end of the step, those of contacts that were just touched and of a turn
+/// at the level, are no openings.
 #[test]
 fn zeros_at_the_ends_of_a_step_do_not_hinder_the_proof() {
     for (from, to) in [(1, 0), (0, 1), (1, 1), (2, 0), (0, 2), (2, 2), (1, 2)] {

@@ -80,7 +80,8 @@ impl Observer<'_> {
         self.take_at(field, step, place);
     }
 
-    /// The largest force of a law that depends on the velocity, which need not be where the penetration is largest.
+    /// The largest force of a law that depends on the velocity, which need not be where the penetration is
+    /// largest.
     pub(super) fn largest_force(&mut self, field: &mut SystemField<'_>, step: &Accepted<'_>, element: usize) {
         let mut state = vec![0.0; self.state.len()];
         let mut negative = |observer: &Self, field: &SystemField<'_>, x: f64| {

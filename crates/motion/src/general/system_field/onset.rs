@@ -20,7 +20,8 @@ impl SystemField<'_> {
         Ok(())
     }
 
-    /// What the frequency changes in the rates of the velocities at a fixed state and phase, apart from the length of time.
+    /// What the frequency changes in the rates of the velocities at a fixed state and phase, apart from the
+    /// length of time.
     pub(super) fn add_change_of_forces(&self, at: Point<'_>, sum: &mut [f64]) {
         self.add_load(|load| &load.by_frequency, TAU * self.period, sum);
         for (element, &(slope, damping)) in self.system.elements().iter().zip(&self.slopes) {
@@ -64,7 +65,8 @@ impl SystemField<'_> {
         closing
     }
 
-    /// Keeps the speeds of impacts in memory: those of the motion before all velocities and forces that jump in this instant. A contact that rested has none.
+    /// Keeps the speeds of impacts in memory: those of the motion before all velocities and forces that jump
+    /// in this instant. A contact that rested has none.
     pub(super) fn remember_impacts(
         &mut self,
         time: f64,

@@ -28,7 +28,8 @@ const DIALECTS: [Dialect; 7] = [
 const LOOKED_AT: usize = 200;
 
 impl Dialect {
-    /// That of a table whose titles are known: the separator that stands in them most often. A decimal comma is read wherever it does not separate.
+    /// That of a table whose titles are known: the separator that stands in them most often. A decimal comma
+    /// is read wherever it does not separate.
     pub(super) fn of_titles(titles: &str) -> Self {
         let count = |separator: char| titles.matches(separator).count();
         let most = ['\t', ';', ','].into_iter().rev().max_by_key(|separator| count(*separator));
@@ -55,7 +56,8 @@ impl Dialect {
         numbers.then_some(fields.len())
     }
 
-    /// Whether rows of two columns, separated by commas, could as well be one column of numbers with decimal commas.
+    /// Whether rows of two columns, separated by commas, could as well be one column of numbers with decimal
+    /// commas.
     pub(super) fn may_be_decimal(self, rows: &[Line]) -> bool {
         self.separator == Some(',') && rows.iter().all(|(_, line)| halves(line).is_some())
     }
@@ -68,7 +70,8 @@ impl Dialect {
             })
     }
 
-    /// Whether a line has the titles of so many columns: it is no row of numbers in any dialect, and has no commas over a single column.
+    /// Whether a line has the titles of so many columns: it is no row of numbers in any dialect, and has no
+    /// commas over a single column.
     fn has_titles(self, line: &str, width: usize) -> bool {
         self.split(line).len() == width
             && !(width == 1 && line.contains(','))
@@ -109,12 +112,12 @@ fn quoted(line: &str, separator: char) -> Vec<Cow<'_, str>> {
 
 /// The dialect of a file.
 ///
-/// Each dialect is judged by whether the line before its first row of numbers has as many fields (the titles), then by the length of
-/// its longest stretch of rows among the first lines, then by the width.
+/// Each dialect is judged by whether the line before its first row of numbers has as many fields (the
+/// titles), then by the length of its longest stretch of rows among the first lines, then by the width.
 ///
 /// # Returns
-/// The dialect, the index of the first row of numbers that has the width of the longest stretch, and that width. What breaks the rows
-/// apart between is for the reader to refuse.
+/// The dialect, the index of the first row of numbers that has the width of the longest stretch, and that
+/// width. What breaks the rows apart between is for the reader to refuse.
 pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize, usize)> {
     let looked_at = &lines[..lines.len().min(LOOKED_AT)];
     let mut best: Option<((bool, usize, usize), Dialect, usize)> = None;
@@ -125,7 +128,8 @@ pub(super) fn detect(lines: &[Line]) -> Option<(Dialect, usize, usize)> {
             continue;
         };
         let above = first.checked_sub(1).map(|before| looked_at[before].1);
-        // Commas in the line above separate: as decimal signs of a single column they would hide that a row of two is too short.
+        // Commas in the line above separate: as decimal signs of a single column they would hide that a row
+        // of two is too short.
         if width == 1 && dialect.decimal_comma && above.is_some_and(|above| above.contains(',')) {
             continue;
         }

@@ -1,8 +1,9 @@
 //! What stands before the first row of numbers: titles, units, comments, a sampling rate.
 //!
-//! The titles are the last line with as many fields as the rows. If all its fields are units (known ones, in brackets, or empty) and the
-//! line before it has as many fields too, it is the row of units and the line before it the titles. Without such a line the last comment is
-//! taken if it has as many fields, separated as the rows or by blanks. Without titles, channels are `column 1`, `column 2`, ...
+//! The titles are the last line with as many fields as the rows. If all its fields are units (known ones, in
+//! brackets, or empty) and the line before it has as many fields too, it is the row of units and the line
+//! before it the titles. Without such a line the last comment is taken if it has as many fields, separated as
+//! the rows or by blanks. Without titles, channels are `column 1`, `column 2`, ...
 
 use super::{Line, dialect::Dialect, is_comment};
 use crate::unit::{split_title, unit};

@@ -1,9 +1,11 @@
 //! Separated values with a header.
 //!
-//! Nothing about the dialect has to be said: separator and decimal sign are those with which the most lines are rows of numbers
-//! (`dialect.rs`). The first row of numbers as wide as most is the beginning of the table; no line behind it is passed over. What stands before it is the header (`header.rs`): titles with units, a row of units, comments, a
-//! sampling rate. Lines that begin with `#`, `%` or `//` are comments anywhere. Empty fields and words like `NaN` are missing samples.
-//! A field that ends rows of a file from some row on is the end of a shorter channel.
+//! Nothing about the dialect has to be said: separator and decimal sign are those with which the most lines
+//! are rows of numbers (`dialect.rs`). The first row of numbers as wide as most is the beginning of the
+//! table; no line behind it is passed over. What stands before it is the header (`header.rs`): titles with
+//! units, a row of units, comments, a sampling rate. Lines that begin with `#`, `%` or `//` are comments
+//! anywhere. Empty fields and words like `NaN` are missing samples. A field that ends rows of a file from
+//! some row on is the end of a shorter channel.
 
 mod dialect;
 mod header;
@@ -111,7 +113,8 @@ fn is_comment(line: &str) -> bool {
     line.starts_with(['#', '%', '!']) || line.starts_with("//")
 }
 
-/// Refuses rows of numbers before the first row of the table. A single number above the titles of several columns is no row: a count, a time of day.
+/// Refuses rows of numbers before the first row of the table. A single number above the titles of several
+/// columns is no row: a count, a time of day.
 fn ensure_no_rows(before: &[Line], dialect: Dialect, width: usize) -> Result<(), ReadError> {
     let mut titles = false;
     for &(line, text) in before {

@@ -19,7 +19,8 @@ pub(super) fn parse(field: &str, decimal_comma: bool) -> Option<f64> {
         .or_else(|| clock(field, decimal_comma))
 }
 
-/// Numbers that instruments send for what is out of range or no number (SCPI 1999, volume 1, 7.2.1.4 and 7.2.1.5).
+/// Numbers that instruments send for what is out of range or no number (SCPI 1999, volume 1, 7.2.1.4 and
+/// 7.2.1.5).
 fn is_overflow(value: f64) -> bool {
     [9.9e37, 9.91e37].contains(&value.abs())
 }
@@ -68,7 +69,8 @@ fn days_since_1970(date: &str) -> Option<f64> {
     }
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
     let leap_days = year.div_euclid(4) - year.div_euclid(100) + year.div_euclid(400);
-    // Months from March on have 31, 30, 31, 30, 31 days over and over: 153 in five. 719 468 days lie between 0000-03-01 and 1970-01-01.
+    // Months from March on have 31, 30, 31, 30, 31 days over and over: 153 in five. 719 468 days lie between
+    // 0000-03-01 and 1970-01-01.
     Some((365 * year + leap_days + (153 * month + 2) / 5 + day - 1 - 719_468) as f64)
 }
 

@@ -23,7 +23,8 @@ pub(super) struct Element<'a> {
     pub data: &'a [u8],
 }
 
-/// The next element. Small ones have their data in the tag; others are filled up to eight bytes, except compressed ones.
+/// The next element. Small ones have their data in the tag; others are filled up to eight bytes, except
+/// compressed ones.
 pub(super) fn next<'a>(bytes: &mut Bytes<'a>) -> Result<Element<'a>, ReadError> {
     let first = bytes.u32("the tag of an element")?;
     let (small, kind) = (first >> 16, first & 0xffff);

@@ -1,7 +1,7 @@
 //! MATLAB files of level 5 (`save -v6` and `-v7`, also what SciPy writes).
 //!
-//! Numeric arrays are read, compressed or not, also as fields of structures (`data.acc`). Cells, texts, sparse matrices and objects are
-//! left out and told. Files of version 7.3 are HDF5 and are refused.
+//! Numeric arrays are read, compressed or not, also as fields of structures (`data.acc`). Cells, texts,
+//! sparse matrices and objects are left out and told. Files of version 7.3 are HDF5 and are refused.
 //!
 //! # Source
 //! The MathWorks, "MAT-File Format", chapter 1, "Level 5 MAT-File Format".
@@ -29,7 +29,8 @@ pub(super) fn begins(bytes: &[u8]) -> bool {
 
 const HDF: &[u8] = b"\x89HDF";
 
-/// Level 4 begins with five whole numbers: a type in decimal digits, rows, columns, whether it is complex, and the length of the name with its ending zero.
+/// Level 4 begins with five whole numbers: a type in decimal digits, rows, columns, whether it is complex,
+/// and the length of the name with its ending zero.
 fn is_level_4(bytes: &[u8]) -> bool {
     let Some((header, rest)) = bytes.split_at_checked(20) else { return false };
     let number = |k: usize| u32::from_le_bytes([header[k], header[k + 1], header[k + 2], header[k + 3]]);

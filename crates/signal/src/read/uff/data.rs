@@ -27,7 +27,8 @@ pub(super) fn of_bytes(bytes: &[u8], header: &Header, binary: &Binary) -> Vec<f6
 
 /// Values of the text form, up to the line that ends the dataset.
 ///
-/// Columns may touch where a number has a sign; a sign that does not follow an exponent's letter begins a number.
+/// Columns may touch where a number has a sign; a sign that does not follow an exponent's letter begins a
+/// number.
 pub(super) fn of_text(file: &mut Lines, header: &Header, number: usize) -> Result<Vec<f64>, ReadError> {
     let expected = header.points * header.values_per_point();
     let mut values = Vec::with_capacity(expected.min(1 << 24));

@@ -1,18 +1,20 @@
 //! Universal files: functions at nodal degrees of freedom, dataset 58 (text) and 58b (binary).
 //!
-//! A file is a row of datasets, each between two lines with `-1`. Functions over time become channels; other functions (over frequency, say) and
-//! other datasets are left out, the former told. Values are text in columns of 13 or 20 characters, or binary of 4 or 8 bytes:
+//! A file is a row of datasets, each between two lines with `-1`. Functions over time become channels; other
+//! functions (over frequency, say) and other datasets are left out, the former told. Values are text in
+//! columns of 13 or 20 characters, or binary of 4 or 8 bytes:
 //!
 //! | ordinate | even abscissa | uneven abscissa |
 //! |---|---|---|
 //! | real | `y` | `x, y` |
 //! | complex | `re, im` | `x, re, im` |
 //!
-//! In binary data of 8 bytes the abscissa has 8 bytes too, as the programs write it; whether it has 4 instead (as the text form suggests) is told
-//! by the number of bytes.
+//! In binary data of 8 bytes the abscissa has 8 bytes too, as the programs write it; whether it has 4 instead
+//! (as the text form suggests) is told by the number of bytes.
 //!
 //! # Source
-//! Structural Dynamics Research Laboratory, University of Cincinnati, "Universal file format, dataset 58", and its binary variant.
+//! Structural Dynamics Research Laboratory, University of Cincinnati, "Universal file format, dataset 58",
+//! and its binary variant.
 
 mod data;
 mod header;
@@ -24,8 +26,9 @@ use header::{Binary, Header};
 /// Lines between the type of a dataset and its values.
 const HEADER_LINES: usize = 11;
 
-/// Whether a file begins with a line of nothing but -1, and a line with the number of a dataset below. The -1 has blanks before it, as in its columns 5 and 6; at the very edge, where it may be a
-/// number of a table, the dataset has to be 58.
+/// Whether a file begins with a line of nothing but -1, and a line with the number of a dataset below. The -1
+/// has blanks before it, as in its columns 5 and 6; at the very edge, where it may be a number of a table,
+/// the dataset has to be 58.
 pub(super) fn begins(bytes: &[u8]) -> bool {
     let mut lines =
         bytes.split(|byte| *byte == b'\n').map(|line| line.trim_ascii_end()).filter(|line| !line.is_empty());

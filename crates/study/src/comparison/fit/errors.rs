@@ -1,4 +1,5 @@
-//! How well the numbers are known: the differences within the reach, their slopes, and the covariance that follows.
+//! How well the numbers are known: the differences within the reach, their slopes, and the covariance that
+//! follows.
 
 use super::Used;
 use super::{

@@ -70,7 +70,8 @@ pub enum Origin {
         /// Its standard error; that of one number beside another that is at an end holds for that end.
         standard_error: f64,
     },
-    /// It is at an end of what is tried, beyond which the sum of squares may fall: no minimum, so that there is no standard error.
+    /// It is at an end of what is tried, beyond which the sum of squares may fall: no minimum, so that there
+    /// is no standard error.
     AtEnd {
         /// Lower end.
         low: f64,
@@ -123,7 +124,8 @@ pub struct SecondMinimum {
     pub frequency: f64,
     /// Factor on values.
     pub amplitude: f64,
-    /// Sum of squares of the points that the best one goes by, and what this one has more, over the former: 1 at least. Points that fit neither do not count.
+    /// Sum of squares of the points that the best one goes by, and what this one has more, over the former: 1
+    /// at least. Points that fit neither do not count.
     pub cost_ratio: f64,
     /// Points that it goes by.
     pub points: usize,
@@ -168,7 +170,8 @@ impl FitSettings {
 }
 
 impl Fixed {
-    /// Offsets that are tried usually: what the usual factors are at the median frequency of the points, -15 to 18 % of it [Hz].
+    /// Offsets that are tried usually: what the usual factors are at the median frequency of the points, -15
+    /// to 18 % of it [Hz].
     #[must_use]
     pub fn offsets(points: &[MeasuredPoint]) -> Self {
         let middle = median(points.iter().map(|point| point.frequency_hz));

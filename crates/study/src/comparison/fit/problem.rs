@@ -1,8 +1,11 @@
 //! The sum of squares, and the factor that makes it smallest at a shift.
 //!
-//! At a shift each point `i` has the stable values `M_ij` that it could belong to, and with the factor `a`, `x = ln a`, it adds `min_j min((x - c_ij)^2, R^2)`, where `c_ij = ln M_ij - ln A_i` is the factor that would
-//! bring it there. Along `x` that is a parabola about each `c_ij`, as far as no other one is nearer and as far as `R`, and the level `R^2` elsewhere. So the sum is a parabola between
-//! neighbouring ends of such pieces, and going over these ends in their order, with running sums of the pieces that are open, gives the smallest of all: not a local minimum.
+//! At a shift each point `i` has the stable values `M_ij` that it could belong to, and with the factor `a`,
+//! `x = ln a`, it adds `min_j min((x - c_ij)^2, R^2)`, where `c_ij = ln M_ij - ln A_i` is the factor that
+//! would bring it there. Along `x` that is a parabola about each `c_ij`, as far as no other one is nearer and
+//! as far as `R`, and the level `R^2` elsewhere. So the sum is a parabola between neighbouring ends of such
+//! pieces, and going over these ends in their order, with running sums of the pieces that are open, gives the
+//! smallest of all: not a local minimum.
 
 use super::{Used, shift};
 use crate::comparison::{Curves, Shift};
@@ -74,7 +77,8 @@ impl Problem<'_> {
         })
     }
 
-    /// For each point the logarithms of the factors that would bring it onto the stable solutions that it could belong to, in ascending order.
+    /// For each point the logarithms of the factors that would bring it onto the stable solutions that it
+    /// could belong to, in ascending order.
     fn centres(&self, frequency: f64) -> Vec<Vec<f64>> {
         let shift = self.shift([frequency, 0.0]).frequency;
         let of = |point: &Used| {

@@ -1,23 +1,28 @@
 //! The grid of shifts, its valleys, and the minima in them.
 //!
-//! With the best factor at each shift (`problem.rs`), what is left is a function of the shift alone. It is tried on a grid, and the lowest valleys of that are gone over with finer and finer grids: a valley can lie beside
-//! the end of a branch, where the sum jumps since a point more or less meets it, and slopes say nothing of that.
+//! With the best factor at each shift (`problem.rs`), what is left is a function of the shift alone. It is
+//! tried on a grid, and the lowest valleys of that are gone over with finer and finer grids: a valley can lie
+//! beside the end of a branch, where the sum jumps since a point more or less meets it, and slopes say
+//! nothing of that.
 //!
-//! **The step** of the grid goes by the branches: over a step the logarithm of a branch changes by no more than a tenth, but for the steepest parts, which make up a twentieth of all its rise and fall (at a fold the slope has no
-//! bound). A valley that is narrower than the grid is missed.
+//! **The step** of the grid goes by the branches: over a step the logarithm of a branch changes by no more
+//! than a tenth, but for the steepest parts, which make up a twentieth of all its rise and fall (at a fold
+//! the slope has no bound). A valley that is narrower than the grid is missed.
 
 use super::{
     SecondMinimum,
     problem::{Place, Problem, SAME, Trial},
 };
 
-/// Fewest and most trials of the shift of frequencies, change of the logarithm of a branch over a step, and part of the variation that may be steeper.
+/// Fewest and most trials of the shift of frequencies, change of the logarithm of a branch over a step, and
+/// part of the variation that may be steeper.
 const TRIALS: (usize, usize) = (660, 4000);
 const CHANGE: f64 = 0.1;
 const STEEPER: f64 = 0.05;
 /// Valleys that are gone over, the lowest first.
 const VALLEYS: usize = 60;
-/// Trials to each side of the lowest place so far, how much finer each time, and how often: a third more than the last step to each side, down to 8e-9 of the first one.
+/// Trials to each side of the lowest place so far, how much finer each time, and how often: a third more than
+/// the last step to each side, down to 8e-9 of the first one.
 const ABOUT: i32 = 4;
 const FINER: f64 = 3.0;
 const LEVELS: i32 = 17;
@@ -56,7 +61,8 @@ impl Problem<'_> {
         (wanted.ceil() as usize).clamp(TRIALS.0, TRIALS.1)
     }
 
-    /// `|d ln M / d ln f|` of stable branches where points may come to lie; steeper parts make up a small part of the variation.
+    /// `|d ln M / d ln f|` of stable branches where points may come to lie; steeper parts make up a small
+    /// part of the variation.
     fn steepness(&self) -> f64 {
         let places = self.used.iter().flat_map(|point| {
             self.tried[0].map(|end| self.shift([end, 0.0]).frequency.apply(point.frequency_hz))
@@ -106,8 +112,11 @@ impl Problem<'_> {
         *minima.iter().fold(&minima[0], |best, one| if better(one, best) { one } else { best })
     }
 
-    /// The best minimum beyond shifts that fit worse, if it is about as good: with the `n` points within the reach of the best one, their sum of squares `S`, and sums of all points `F` and `F'`, the data would prefer the best one to it with a
-    /// probability of less than 95 %, `(n - p)(F' - F)/S < 3.84` (chi-squared of one freedom), or by less than a tenth of `S`. Points that fit neither are in both `F` and `F'`, and drop out.
+    /// The best minimum beyond shifts that fit worse, if it is about as good: with the `n` points within the
+    /// reach of the best one, their sum of squares `S`, and sums of all points `F` and `F'`, the data would
+    /// prefer the best one to it with a probability of less than 95 %, `(n - p)(F' - F)/S < 3.84`
+    /// (chi-squared of one freedom), or by less than a tenth of `S`. Points that fit neither are in both `F`
+    /// and `F'`, and drop out.
     pub fn second(&self, best: Trial, minima: &[Trial]) -> Option<SecondMinimum> {
         let rows = self.rows(best.place);
         let fitted = self.free().into_iter().filter(|free| *free).count();
@@ -127,7 +136,8 @@ impl Problem<'_> {
         })
     }
 
-    /// Whether somewhere between the shifts of two places no factor near theirs or between them keeps the sum of squares below a limit.
+    /// Whether somewhere between the shifts of two places no factor near theirs or between them keeps the sum
+    /// of squares below a limit.
     fn parted(&self, one: Place, other: Place, limit: f64) -> bool {
         let [low, high] = self.tried[1];
         let near = [one[1].min(other[1]) - self.reach, one[1].max(other[1]) + self.reach];

@@ -1,15 +1,24 @@
 //! The orbit that is most alike, and those that the record cannot tell from it.
 //!
-//! The noise is in the record: its waveform is `a = h b + e`, with the orbit `b` as it is delayed, so that an orbit leaves `u = |a - h b|^2/aa`. With the correlation `c` and `x = h sqrt(bb/aa)` that is
+//! The noise is in the record: its waveform is `a = h b + e`, with the orbit `b` as it is delayed, so that an
+//! orbit leaves `u = |a - h b|^2/aa`. With the correlation `c` and `x = h sqrt(bb/aa)` that is
 //!
 //! `u = 1 - 2 x c + x^2`
 //!
-//! The most alike orbit leaves least. A given factor `g` on the record is `h = 1/|g|`: `u = |g a - b|^2/(g^2 aa)`, where `|g a - b|^2/bb` would be small for whatever orbit is large. Without it `h` is whatever leaves least, `x = c` and `u = 1 - c^2`; where `c` is negative, nothing of the orbit leaves less than its mirror image, `x = 0`. (The fitted factor
-//! is not `1/h`: it brings `a` closest to `b`, and `g^2` takes a part `c^2` of the orbit for the record. `|g a - b|^2/(g^2 aa) = (1 - c^2)/c^2` would blow differences up by `1/c^4`.)
+//! The most alike orbit leaves least. A given factor `g` on the record is `h = 1/|g|`: `u = |g a - b|^2/(g^2
+//! aa)`, where `|g a - b|^2/bb` would be small for whatever orbit is large. Without it `h` is whatever leaves
+//! least, `x = c` and `u = 1 - c^2`; where `c` is negative, nothing of the orbit leaves less than its mirror
+//! image, `x = 0`. (The fitted factor is not `1/h`: it brings `a` closest to `b`, and `g^2` takes a part
+//! `c^2` of the orbit for the record. `|g a - b|^2/(g^2 aa) = (1 - c^2)/c^2` would blow differences up by
+//! `1/c^4`.)
 //!
-//! Let the record be of an orbit of a branch. If `e` is small and white, the frequency that leaves least is off by what one degree of freedom of `e`, along the change of `h b` with the frequency, makes of it; there `u` is less than
-//! at the true one by the square of this one degree. So the true one is among those whose `u` is above the least by less than 3.84 variances of a degree of freedom (chi-squared, 95 %). Pieces scatter by `s` (root mean square), their mean over `P` pieces by `s/sqrt(P)`, in `2 L` degrees for `L` lines: the variance is
-//! `s^2/(2 L P)` over the mean square of `a`. Noise that is not white, as from before a filter, has more in some degrees than in others; then this is an order of magnitude.
+//! Let the record be of an orbit of a branch. If `e` is small and white, the frequency that leaves least is
+//! off by what one degree of freedom of `e`, along the change of `h b` with the frequency, makes of it; there
+//! `u` is less than at the true one by the square of this one degree. So the true one is among those whose
+//! `u` is above the least by less than 3.84 variances of a degree of freedom (chi-squared, 95 %). Pieces
+//! scatter by `s` (root mean square), their mean over `P` pieces by `s/sqrt(P)`, in `2 L` degrees for `L`
+//! lines: the variance is `s^2/(2 L P)` over the mean square of `a`. Noise that is not white, as from before
+//! a filter, has more in some degrees than in others; then this is an order of magnitude.
 
 use hammerbeam_signal::waveform::{Alignment, Waveform};
 
@@ -31,7 +40,8 @@ pub struct Alike {
     pub frequency_hz: (f64, f64),
 }
 
-/// The place of the orbit that leaves least of the measured waveform; of equal ones that with the largest correlation, and the first of those, whatever the number of threads.
+/// The place of the orbit that leaves least of the measured waveform; of equal ones that with the largest
+/// correlation, and the first of those, whatever the number of threads.
 pub(super) fn most_alike(laid: &[Overlay], given: Option<f64>) -> Option<usize> {
     let order = |one: &Overlay| (left(one.alignment, given), -one.alignment.correlation);
     (0..laid.len()).reduce(|best, one| if order(&laid[one]) < order(&laid[best]) { one } else { best })
@@ -68,7 +78,8 @@ pub(super) fn told(measured: &Waveform, size: f64) -> f64 {
     NONE.max(CHI_SQUARED * (measured.scatter / size).powi(2) / freedom)
 }
 
-/// Square of what an orbit leaves of the measured waveform, over the square of that; `given` is the factor on the measured one, if it is.
+/// Square of what an orbit leaves of the measured waveform, over the square of that; `given` is the factor on
+/// the measured one, if it is.
 fn left(alignment: Alignment, given: Option<f64>) -> f64 {
     let ((measured, computed), correlation) = (alignment.sizes, alignment.correlation);
     let explained = given.map_or(correlation.max(0.0), |factor| computed / (factor.abs() * measured));
@@ -90,7 +101,8 @@ mod tests {
     const LINES: usize = 120;
     const PIECES: usize = 20;
 
-    /// An orbit of a branch along which the second harmonic makes room for the third; its frequency is `1 + p`.
+    /// An orbit of a branch along which the second harmonic makes room for the third; its frequency is `1 +
+    /// p`.
     fn orbit(p: f64) -> Vec<f64> {
         let at =
             |t: f64| (TAU * t).cos() + p * (2.0 * TAU * t).sin() + (1.0 - p) * (3.0 * TAU * t + 1.0).cos();
@@ -124,7 +136,8 @@ mod tests {
         }
     }
 
-    /// The mean of pieces of the orbit in the middle, delayed by a tenth and half as large, with white noise of so many times its size.
+    /// The mean of pieces of the orbit in the middle, delayed by a tenth and half as large, with white noise
+    /// of so many times its size.
     fn record(noise: f64, random: &mut Random) -> Waveform {
         let orbit = orbit(0.5);
         let size = (orbit.iter().map(|b| b * b).sum::<f64>() / LENGTH as f64).sqrt();
@@ -139,7 +152,8 @@ mod tests {
         Waveform { samples, per_period: LENGTH, lines: LINES, pieces: PIECES, scatter }
     }
 
-    /// Of 400 records 380 ± 4.4 should have the orbit that they are of among those that are told: within three of these standard deviations.
+    /// Of 400 records 380 ± 4.4 should have the orbit that they are of among those that are told: within
+    /// three of these standard deviations.
     fn assert_covered(noise: f64, given: Option<f64>, correlations: std::ops::Range<f64>) {
         let mut random = Random::new(11);
         let (mut covered, mut correlation) = (0, 0.0);
@@ -165,7 +179,8 @@ mod tests {
         }
     }
 
-    /// Cosines of one form, 0.2 to 4.2 times as large as the one of the record. With noise of its own size the residual over the orbit is least at the size 2, since `|a - s b|^2 = 2 bb - 2 s bb + s^2 bb`.
+    /// Cosines of one form, 0.2 to 4.2 times as large as the one of the record. With noise of its own size
+    /// the residual over the orbit is least at the size 2, since `|a - s b|^2 = 2 bb - 2 s bb + s^2 bb`.
     #[test]
     fn given_factor_finds_the_size_of_the_orbit_through_noise() {
         let cosine: Vec<f64> = (0..LENGTH).map(|k| (TAU * k as f64 / LENGTH as f64).cos()).collect();

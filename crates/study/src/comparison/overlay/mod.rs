@@ -1,10 +1,14 @@
 //! A measured course laid over computed orbits.
 //!
-//! The measurement is a waveform over `n` excitation periods ([`hammerbeam_signal::waveform`]). Of the stable orbits of that period in a range of frequencies each goes through the
-//! same sensor and filter (line by line of its spectrum, so that there is no transient), is cut to the lines that the record holds, is delayed until it is most alike, and the most alike of all is taken: the
-//! one that leaves least of the record (`alike.rs`), with the factor on measured values if that is given. The paper does the same by eye (figures 7 to 14).
+//! The measurement is a waveform over `n` excitation periods ([`hammerbeam_signal::waveform`]). Of the stable
+//! orbits of that period in a range of frequencies each goes through the same sensor and filter (line by line
+//! of its spectrum, so that there is no transient), is cut to the lines that the record holds, is delayed
+//! until it is most alike, and the most alike of all is taken: the one that leaves least of the record
+//! (`alike.rs`), with the factor on measured values if that is given. The paper does the same by eye (figures
+//! 7 to 14).
 //!
-//! An orbit whose motion cannot be gone over again is left out and counted; it is an error only if none is left.
+//! An orbit whose motion cannot be gone over again is left out and counted; it is an error only if none is
+//! left.
 //!
 //! | file | what |
 //! |---|---|
@@ -78,11 +82,13 @@ pub struct Overlay {
     pub turned_correlation: f64,
     /// Factor on measured values: given, or the best one.
     pub factor: f64,
-    /// Root mean square of what is left over that of the computed course: with the factor 1, or -1 where [`Overlay::factor`] is negative,
+    /// Root mean square of what is left over that of the computed course: with the factor 1, or -1 where
+    /// [`Overlay::factor`] is negative,
     pub residual_before: f64,
     /// and with that factor.
     pub residual_after: f64,
-    /// The measured quantity behind the filter and with the lines that the record holds, as it is delayed, at the samples of the waveform,
+    /// The measured quantity behind the filter and with the lines that the record holds, as it is delayed, at
+    /// the samples of the waveform,
     pub filtered: Vec<f64>,
     /// and without filter, with all its lines.
     pub unfiltered: Vec<f64>,
@@ -92,7 +98,8 @@ pub struct Overlay {
     pub support: Vec<f64>,
     /// Largest value of the quantity before and behind the filter, of all samples of the orbit.
     pub largest: (f64, f64),
-    /// Others that are as alike, as far as the record can tell: of other branches, or farther away than neighbours on a branch.
+    /// Others that are as alike, as far as the record can tell: of other branches, or farther away than
+    /// neighbours on a branch.
     pub alike: Option<Alike>,
     /// Orbits that were tried,
     pub tried: usize,

@@ -6,7 +6,8 @@ use hammerbeam_motion::{
 };
 use hammerbeam_orbit::PeriodicSolution;
 
-/// Samples in each of the steps, some three, in which a contact is integrated, unless as many regular ones lie in it.
+/// Samples in each of the steps, some three, in which a contact is integrated, unless as many regular ones
+/// lie in it.
 const IN_A_STEP: usize = 6;
 
 /// A state of an orbit.
@@ -45,7 +46,8 @@ pub struct Course {
 
 /// States at every half step and within contacts, and impacts.
 ///
-/// Each node of the orbit gives those up to the next one, so that also an orbit that is left fast is followed.
+/// Each node of the orbit gives those up to the next one, so that also an orbit that is left fast is
+/// followed.
 ///
 /// * `steps`: in an excitation period.
 pub fn of_orbit(

@@ -7,10 +7,12 @@ use hammerbeam_signal::spectrum::{Window, amplitude_spectrum};
 /// Harmonics that are carried at most.
 const MOST_HARMONICS: usize = 600;
 
-/// Amplitudes of the harmonics of the acceleration up to a frequency, from samples of the displacement `y` at equal steps: `(2 pi k f)^2 |y_k|`.
+/// Amplitudes of the harmonics of the acceleration up to a frequency, from samples of the displacement `y` at
+/// equal steps: `(2 pi k f)^2 |y_k|`.
 ///
-/// The displacement is smoother than the acceleration by two orders, so that what aliasing adds is smaller by as much; the harmonics of a Hertz contact fall like `k^-3.5`.
-/// There are none of a displacement that is not finite.
+/// The displacement is smoother than the acceleration by two orders, so that what aliasing adds is smaller by
+/// as much; the harmonics of a Hertz contact fall like `k^-3.5`. There are none of a displacement that is not
+/// finite.
 pub fn spectrum(samples: &[f64], base_hz: f64, highest_hz: f64) -> Vec<f64> {
     let count = samples.len();
     let harmonics =
