@@ -4,8 +4,8 @@
 //! b; k d]`. An orbit with one impact of the speed v in a period has, with the particular motion p and its
 //! velocity p' at the impact, `X = g - p`:
 //!
-//! `-p' - e v = X (1 - a)/b`, `(1 + e) v = X (k - (1 - d)(1 - a)/b)`, `p^2 + (p'/W)^2 = A^2`, `A = F/|1 - W^2
-//! + i c W|`,
+//! `-p' - e v = X (1 - a)/b`, `(1 + e) v = X (k - (1 - d)(1 - a)/b)`, `p^2 + (p'/W)^2 = A^2`, `A = F/|1 -
+//! W^2 + i c W|`,
 //!
 //! a quadratic equation for X. Its multipliers have the product `e^2 exp(-c T)` and the sum `-e (a + d) + b
 //! (a_+ + e a_-)/v`, with the accelerations `a_- = F cos W t - c v - g` and `a_+ = a_- + c (1 + e) v`.

@@ -234,8 +234,8 @@ mod tests {
     }
 
     /// What eyes see: all three kinds of cones, without those for long, medium or short waves. Machado,
-    /// Oliveira and Fernandes, IEEE Trans. Visualization and Computer Graphics 15 (2009), 1291-1298, severity
-    /// 1.
+    /// Oliveira and Fernandes, IEEE Trans. Visualization and Computer Graphics 15 (2009), 1291-1298,
+    /// severity 1.
     const EYES: [[[f64; 3]; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],

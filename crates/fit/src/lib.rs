@@ -12,8 +12,8 @@
 //! **Uncertainty** (`inference.rs`). To first order the parameters are normal with the covariance `S = v (J^T
 //! J)^-1`. If the standard deviations are known, `v = 1` and intervals use the quantile of the normal
 //! distribution; `chi^2` itself is then tested against its distribution with `m - n` degrees of freedom. If
-//! they are known up to a common factor, `v = chi^2/(m - n)` and intervals use Student's distribution with `m
-//! - n` degrees of freedom; nothing is left to test.
+//! they are known up to a common factor, `v = chi^2/(m - n)` and intervals use Student's distribution with
+//! `m - n` degrees of freedom; nothing is left to test.
 //!
 //! **Profiles** (`profile.rs`). Where the model bends within the interval, the first order is not enough. The
 //! profile of a parameter is `chi^2` minimised over all others; its interval holds the values at which the

@@ -31,8 +31,8 @@ fn line(places: &[f64], data: &[f64]) -> Linear {
     Linear { design, data: data.to_vec() }
 }
 
-/// Simple linear regression: with `S = sum (x - mean)^2`, `b = sum (x - mean) y / S`, `var b = s^2/S`, `var a
-/// = s^2 (1/m + mean^2/S)`, `cov = -s^2 mean/S`; and the quantiles of the tables.
+/// Simple linear regression: with `S = sum (x - mean)^2`, `b = sum (x - mean) y / S`, `var b = s^2/S`, `var
+/// a = s^2 (1/m + mean^2/S)`, `cov = -s^2 mean/S`; and the quantiles of the tables.
 #[test]
 fn a_straight_line_has_the_intervals_of_the_textbook() {
     let (x, y) = ([0.0, 1.0, 2.0, 4.0, 5.0, 7.0, 8.0], [1.1, 2.9, 5.2, 8.8, 11.1, 15.2, 16.7]);

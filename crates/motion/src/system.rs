@@ -1,7 +1,7 @@
 //! A reduced structure with its load and its local elements: the equations of motion.
 //!
-//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e . q
-//! + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency
+//! `q'' + C q' + diag(w^2) q = Re sum_m b_m(W) exp(i 2 pi m cycles) + sum_e phi_e f_e(r_e)`, `r_e = phi_e .
+//! q + s_e u`, with the circular excitation frequency `W = 2 pi f`. Amplitudes may depend on the frequency
 //! (`amplitude.rs`): then so do `u` and `b_m`, besides the powers of `W` in `b_m`, and derivatives by the
 //! frequency hold the slope of that curve.
 

@@ -56,8 +56,8 @@ fn a_spring_with_a_damper_sends_back_the_closed_form() {
             ((-2.0 * ratio * ratio.acosh() / root).exp(), 2.0 * ratio.acosh() / root)
         };
         assert!((found / expected - 1.0).abs() < 1e-10, "ratio {ratio}: {found} against {expected}");
-        // Liouville: the damper acts over the time of the contact; the saltation matrix has the determinant
-        // 1.
+        // Liouville: the damper acts over the time of the contact; the saltation matrix has the
+        // determinant 1.
         let shrunk = (-damping / mass * time / (stiffness / mass).sqrt()).exp();
         let determinant = flow.by_state.determinant();
         assert!((determinant / shrunk - 1.0).abs() < 1e-9, "ratio {ratio}: {determinant} against {shrunk}");

@@ -1,5 +1,5 @@
-//! A cascade of period doublings: `x'' + 0.1 x' + k(x) x = cos(2 pi f t)`, `k = 1` for `x < 0` and 20 for `x
-//! > 0`, from 0.172 Hz down.
+//! A cascade of period doublings: `x'' + 0.1 x' + k(x) x = cos(2 pi f t)`, `k = 1` for `x < 0` and 20 for
+//! `x > 0`, from 0.172 Hz down.
 //!
 //! The distances of successive doublings tend to the ratio 4.669 (Feigenbaum, J. Stat. Phys. 19 (1978),
 //! 25-52); after three of them it is near, not there.

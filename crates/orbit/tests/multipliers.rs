@@ -231,8 +231,8 @@ fn multipliers_beside_a_stop_out_of_reach_are_those_of_the_linear_system() {
     assert_exponentials(&chain(true));
 }
 
-/// `q'' + C q' + diag(w^2) q = b`: multipliers are `exp(lambda T)` with the eigenvalues of `[0 W; -W -C]`, `W
-/// = diag(w)`, displacements scaled with `W`.
+/// `q'' + C q' + diag(w^2) q = b`: multipliers are `exp(lambda T)` with the eigenvalues of `[0 W; -W -C]`,
+/// `W = diag(w)`, displacements scaled with `W`.
 fn assert_exponentials((system, response): &(System, Response)) {
     let (model, n) = (system.model(), system.dof());
     let w = &model.natural_frequencies;

@@ -39,7 +39,7 @@ impl<P: PathProblem> PathProblem for Circle<P> {
         let kept = &parts[left_out[0] as usize..];
         let count = kept.iter().filter(|part| **part < 0.0).count() as u32;
         let least = kept.first().map_or(1.0, |part| part.abs());
-        let value = if count % 2 == 0 { least } else { -least };
+        let value = if count.is_multiple_of(2) { least } else { -least };
         *values = vec![TestValue { undecided, left_out: left_out[0], ..TestValue::new(value, count) }];
     }
 }

@@ -1,15 +1,15 @@
 //! Sines, cosines and exponentials of several numbers at once, without branches, so that the compiler makes
 //! vectors of them ([`vectorised`](super::lanes::vectorised)).
 //!
-//! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k pi/2
-//! + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have 33 bits each, so `k A` and `k B` are
+//! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k
+//! pi/2 + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have 33 bits each, so `k A` and `k B` are
 //! exact up to `|k| < 2^20`, and so is `x - k A`. What r rounds is kept as the tail t, half a unit of r at
 //! most. The same for the exponential with `ln 2 = A + B`, where `|k| < 2^11` and A has 40 bits.
 //!
 //! **Series.** With `w = 1 - r^2/2`,
 //!
-//! `sin(r + t) = r + (r^3 S(r^2) + t w)`, `cos(r + t) = w + ((1 - w - r^2/2) + (r^4 C(r^2) - r t))`, `exp(r)
-//! = 1 + (r + r^2 E(r))`
+//! `sin(r + t) = r + (r^3 S(r^2) + t w)`, `cos(r + t) = w + ((1 - w - r^2/2) + (r^4 C(r^2) - r t))`,
+//! `exp(r) = 1 + (r + r^2 E(r))`
 //!
 //! by Taylor up to `r^17`, `r^16` and `r^13`, `|r| <= ln(2)/2` in the last: what is left is below `8e-20`,
 //! `3e-18` and `4e-18`, relative to the function.

@@ -22,9 +22,9 @@
 //! Orthogonal Polynomials, 1975, theorem 7.32.1).
 //!
 //! So `g >= P - Omega r_n w`, a polynomial of degree `n - 1`, and that lies in the convex hull of its
-//! Bernstein coefficients `b_i - Omega r_n w_i`. Zeros of g at the ends of the step need no care: there `b_0
-//! = g(0)` and `b_1 - b_0` is the slope, without any margin, since the coefficients `w_i` with `i < a` or `i
-//! > n - 1 - b` vanish. Nor does it need to be known which of them there are.
+//! Bernstein coefficients `b_i - Omega r_n w_i`. Zeros of g at the ends of the step need no care: there
+//! `b_0 = g(0)` and `b_1 - b_0` is the slope, without any margin, since the coefficients `w_i` with `i < a` or
+//! `i > n - 1 - b` vanish. Nor does it need to be known which of them there are.
 //!
 //! # The remainder
 //! For functions f on [0, 1] and power series `F(x)` let `f << F` say `|f^(j)(s)|/j! <= F_j` for all j and s.
@@ -43,8 +43,8 @@
 //! `d_2 << z D`.
 //!
 //! *Proof.* By s both derivatives have the factor c'. If the claim holds up to the coefficient j, that of
-//! `d_1'` is at most that of `gamma (z D + h^2 sigma phi)`, and that of `d_2'` at most that of `gamma ((h c z
-//! + h^2 k) D + h^2 z sigma phi)`; since `h c z + h^2 k <= z^2`, that is z times the first.
+//! `d_1'` is at most that of `gamma (z D + h^2 sigma phi)`, and that of `d_2'` at most that of `gamma ((h c
+//! z + h^2 k) D + h^2 z sigma phi)`; since `h c z + h^2 k <= z^2`, that is z times the first.
 //!
 //! As `D_0` serves what the energy norm E of the block can be in the step, `E(0) + h sum_a |B_a| max |F_a|`,
 //! times the output's factors for first and second derivatives. A harmonic of the load with the amplitude A

@@ -1,7 +1,7 @@
 //! Impacts on rigid stops, and what comes of chatter.
 //!
-//! **One impact.** At a touch with `r' = v > 0` the modal velocities jump by `phi P`, and so, with `phi^T phi
-//! = C A B = D`,
+//! **One impact.** At a touch with `r' = v > 0` the modal velocities jump by `phi P`, and so, with `phi^T
+//! phi = C A B = D`,
 //!
 //! `P = -(1 + e) v/D`, `r' -> -e v`; energy lost `(1 - e^2) v^2/(2 D)`.
 //!

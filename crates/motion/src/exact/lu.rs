@@ -147,8 +147,8 @@ impl<const N: usize> FixedLu<N> {
         }
     }
 
-    /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row * columns
-    /// + column]`).
+    /// Solves in place for `columns` right-hand sides, a multiple of four, stored row by row (`[row *
+    /// columns + column]`).
     pub fn solve_rows(&self, right: &mut [f64], columns: usize) {
         for (k, &pivot) in self.pivots.iter().enumerate() {
             if pivot != k {

@@ -285,8 +285,8 @@ impl ExactIntegrator {
     }
 }
 
-/// About the part of `exp(i z t)` over a step in the polynomial of a degree: `(z/4)^degree/degree!`, at most
-/// 1.
+/// About the part of `exp(i z t)` over a step in the polynomial of a degree: `(z/4)^degree/degree!`, at
+/// most 1.
 fn highest_part(z: f64, (degree, factorial): &(i32, f64)) -> f64 {
     ((0.25 * z).powi(*degree) / factorial).min(1.0)
 }

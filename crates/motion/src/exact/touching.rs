@@ -5,8 +5,8 @@
 //! a known function too. With the homogeneous block state `x(t)` of the step, `x' = A x + sum_a B_a F_a(t)`,
 //! over the row `C` of the element and with the mobility `G = C A B` (`C B` vanishes):
 //!
-//! `r'' = r_particular'' + C A^2 x + sum_a G_a F_a`, `r''' = r_particular''' + C A^3 x + sum_a (C A^2 B_a F_a
-//! + G_a F_a')`.
+//! `r'' = r_particular'' + C A^2 x + sum_a G_a F_a`, `r''' = r_particular''' + C A^3 x + sum_a (C A^2 B_a
+//! F_a + G_a F_a')`.
 //!
 //! **What is proved.** A constant part `M_a` of each force, the middle of its range, only moves the rest
 //! position of every block: with `y = x + sum_a A^-1 B_a M_a`, `r'' = r_particular'' + C A^2 y + sum_a G_a

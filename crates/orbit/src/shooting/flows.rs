@@ -62,7 +62,8 @@ impl ShootingProblem {
     /// Whether the excitation is so fast that a period leaves the slowest mode nearly as it was.
     fn is_fast(&self, frequency_hz: f64) -> bool {
         let frequencies = &self.integrator.system().model().natural_frequencies;
-        let slowest = frequencies.iter().copied().fold(f64::INFINITY, f64::min);
+        // Rigid modes stand still in no steady motion.
+        let slowest = frequencies.iter().copied().filter(|w| *w > 0.0).fold(f64::INFINITY, f64::min);
         TAU * frequency_hz > FAST * slowest
     }
 

@@ -136,8 +136,8 @@ impl Curves {
         nearest(self.at(frequency_hz, period).into_iter().filter(|hit| hit.stable), value)
     }
 
-    /// The frequency nearest to one at which a stable solution of a period exists, with a value that is not
-    /// 0.
+    /// The frequency nearest to one at which a stable solution of a period exists, with a value that is
+    /// not 0.
     #[must_use]
     pub fn nearest_frequency(&self, frequency_hz: f64, period: Option<u32>) -> Option<f64> {
         let wanted = |branch: &&BranchCurve| period.is_none_or(|period| period == branch.period_multiple);

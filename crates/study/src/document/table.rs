@@ -67,11 +67,7 @@ impl<'a> Table<'a> {
     fn with_unit(&self, key: &'static str) -> Option<(&'static str, &'a toml::Spanned<DeValue<'a>>)> {
         let (stem, dimension) = without_unit(key)?;
         let value = self.entries.get(stem)?;
-        let first = match value.get_ref() {
-            DeValue::Array(elements) => elements.get(0)?.get_ref(),
-            other => other,
-        };
-        let DeValue::String(text) = first else { return None };
+        let text = text_of(value.get_ref())?;
         (measured(text)?.dimension == dimension).then_some((stem, value))
     }
 
@@ -138,7 +134,8 @@ impl<'a> Table<'a> {
     /// Whether this is a known key without its unit; what is wrong with its value is noted then.
     fn has_other_unit(&self, name: &str, asked: &[&'static str]) -> bool {
         let is_form = |key: &&&'static str| without_unit(key).is_some_and(|(stem, _)| stem == name);
-        let Some(key) = asked.iter().find(is_form) else { return false };
+        let is_text = self.entries.get(name).is_some_and(|value| text_of(value.get_ref()).is_some());
+        let Some(key) = asked.iter().find(is_form).filter(|_| is_text) else { return false };
         let unit = without_unit(key).and_then(|(_, dimension)| dimension.unit()).unwrap_or_default();
         let help = vec![format!("allowed: a text such as `{name} = \"1 {unit}\"`, or a number as `{key}`")];
         self.problem(name, format!("`{name}` has to be a number with a unit that fits {unit}"), help);
@@ -147,5 +144,14 @@ impl<'a> Table<'a> {
 
     fn place_name(&self) -> String {
         if self.path.is_empty() { String::new() } else { format!(" in [{}]", self.path) }
+    }
+}
+
+/// The text that a value is, or the first of a list.
+fn text_of<'v>(value: &'v DeValue<'_>) -> Option<&'v str> {
+    match value {
+        DeValue::Array(elements) => text_of(elements.first()?.get_ref()),
+        DeValue::String(text) => Some(text),
+        _ => None,
     }
 }
