@@ -33,6 +33,7 @@ impl Pace {
     /// What is left in words, when so much is done.
     pub fn left(&self, fraction: f64) -> String {
         match left(self.elapsed(), self.first, fraction) {
+            Some(Duration::ZERO) => "all done".to_owned(),
             Some(left) => format!("about {} left", rounded(left)),
             None => "time left not known yet".to_owned(),
         }

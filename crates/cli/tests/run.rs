@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout};
+use crate::common::{TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout, told};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
@@ -145,7 +145,7 @@ fn without_a_terminal_a_run_says_only_its_summary() {
     let workshop = Workshop::changed(TWO_MASSES, "[3.0, 14.0]", "[13.5, 14.0]");
     let output = workshop.hammerbeam(&RUN);
     assert_success(&output);
-    assert_eq!(stderr(&output), "");
+    assert_eq!(told(&output), "");
     assert!(stdout(&output).contains("solutions on 1 branch(es) in results"));
     for figure in ["response_displacement.svg", "response_displacement.png", "response_acceleration.svg"] {
         assert!(fs::metadata(workshop.path("results").join(figure)).unwrap().len() > 1000, "{figure}");

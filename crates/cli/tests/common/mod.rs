@@ -196,6 +196,15 @@ pub fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
+/// Standard error without the lines of progress that work of more than ten seconds has.
+pub fn told(output: &Output) -> String {
+    stderr(output)
+        .lines()
+        .filter(|line| !line.starts_with("progress: "))
+        .map(|line| format!("{line}\n"))
+        .collect()
+}
+
 /// Presses Ctrl-C, and waits for the end.
 #[cfg(unix)]
 pub fn interrupted(child: Child) -> Output {
