@@ -91,7 +91,7 @@ fn always_acts(law: &Law) -> bool {
 }
 
 /// Orthonormal bases of what these rows span in so many dimensions, and of its complement.
-fn complement(dimension: usize, rows: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
+pub(super) fn complement(dimension: usize, rows: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<Vec<f64>>) {
     let mut span: Vec<Vec<f64>> = Vec::new();
     for row in rows {
         let mut row = row.clone();

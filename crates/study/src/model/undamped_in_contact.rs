@@ -20,6 +20,7 @@ use faer::{Mat, Side};
 
 use super::{
     Model,
+    drift::complement,
     undamped::{Digits, NOTHING},
 };
 
@@ -87,7 +88,8 @@ impl Model {
         let model = self.system.model();
         let n = self.system.dof();
         let shapes = elements.iter().map(|&index| self.system.elements()[index].shape.as_slice());
-        let free = null_space(n, shapes);
+        let shapes: Vec<Vec<f64>> = shapes.map(<[f64]>::to_vec).collect();
+        let free = complement(n, &shapes).1;
         if free.is_empty() {
             return Vec::new();
         }
@@ -133,39 +135,4 @@ impl Model {
         let scaled = moved.into_iter().map(|(name, size)| (name, size / largest));
         scaled.filter(|(_, size)| size.abs() > ROUNDING).collect()
     }
-}
-
-/// An orthonormal basis of what is orthogonal to these rows.
-fn null_space<'a>(dimension: usize, rows: impl Iterator<Item = &'a [f64]>) -> Vec<Vec<f64>> {
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    let reduced = |vector: &mut Vec<f64>, basis: &[Vec<f64>]| {
-        let before = norm(vector);
-        // Twice is enough for rounding.
-        for direction in basis.iter().chain(basis) {
-            let share: f64 = vector.iter().zip(direction).map(|(a, b)| a * b).sum();
-            vector.iter_mut().zip(direction).for_each(|(a, b)| *a -= share * b);
-        }
-        let left = norm(vector);
-        vector.iter_mut().for_each(|entry| *entry /= left);
-        left > ROUNDING * before
-    };
-    for row in rows {
-        let mut row = row.to_vec();
-        if reduced(&mut row, &basis) {
-            basis.push(row);
-        }
-    }
-    let rank = basis.len();
-    for i in 0..dimension {
-        let mut unit = vec![0.0; dimension];
-        unit[i] = 1.0;
-        if basis.len() < dimension && reduced(&mut unit, &basis) {
-            basis.push(unit);
-        }
-    }
-    basis.split_off(rank)
-}
-
-fn norm(vector: &[f64]) -> f64 {
-    vector.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
