@@ -33,6 +33,7 @@ stiffness_n_m3 = 1.0
 [search]
 frequencies = 1
 starts = 8
+trials = 40
 [continuation]
 max_step_hz = 0.002
 "#
