@@ -191,7 +191,8 @@ impl Summary<'_> {
             others => format!(" (nor have {others} others)"),
         };
         Some(format!(
-            "\n{first}{others}: {marginal} solution(s), those at bifurcations included, have multipliers on the unit circle as well as these are known; \
+            "\n{first}{others}: {marginal} solution(s), those at bifurcations included, \
+             have multipliers on the unit circle as well as these are known; \
              {UNDAMPED_ADVICE}"
         ))
     }
@@ -273,7 +274,8 @@ fn image_text(image: MirrorImage) -> Option<String> {
         MirrorImage::Itself => None,
         MirrorImage::Branch(other) => Some(format!("  its mirror image -q(t + T/2) is branch {other}")),
         MirrorImage::Given => Some(
-            "  its mirror image -q(t + T/2) is another branch, with the same frequencies, maxima and multipliers"
+            "  its mirror image -q(t + T/2) is another branch, with the same frequencies, maxima and \
+             multipliers"
                 .to_owned(),
         ),
     }
@@ -326,7 +328,7 @@ fn branch_text(branch: &BranchSummary) -> String {
             branch.record.period_multiple,
             branch.solutions,
             branch.stable,
-            if branch.marginal > 0 { format!(", {} marginal", branch.marginal) } else { String::new() }
+            marginal_words(branch.marginal)
         ),
         format!(
             "  folds {}, flips {}, Neimark-Sacker points {}, branch points {}, grazings {}",
@@ -382,6 +384,11 @@ fn peak_stability(peak: &Peak) -> &'static str {
     peak.stability.map_or("in part stable", Stability::word)
 }
 
+/// How many solutions are marginal, behind the number of those that are stable; nothing if none is.
+fn marginal_words(marginal: u64) -> String {
+    if marginal > 0 { format!(", {marginal} marginal") } else { String::new() }
+}
+
 fn piece_document(piece: &PieceRecord) -> Value {
     let branches = piece.branches.iter().map(|branch| {
         json!({
@@ -417,7 +424,7 @@ fn piece_text(piece: &PieceRecord) -> String {
             branch.period_multiple,
             branch.rows,
             branch.stable,
-            if branch.marginal > 0 { format!(", {} marginal", branch.marginal) } else { String::new() }
+            marginal_words(u64::from(branch.marginal))
         ));
         let events = branch.events.iter().filter(|(word, _)| !matches!(word.as_str(), "start" | "end"));
         let events: Vec<String> = events.map(|(word, count)| format!("{word} {count}")).collect();

@@ -1,8 +1,8 @@
 //! Sines, cosines and exponentials of several numbers at once, without branches, so that the compiler makes
 //! vectors of them ([`vectorised`](super::lanes::vectorised)).
 //!
-//! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k
-//! pi/2 + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have 33 bits each, so `k A` and `k B` are
+//! **Reduction** (Cody and Waite 1980, chapter 8). With the nearest multiple k of a quarter turn, `x = k pi/2
+//! + r + t`, `|r| <= pi/4`. Of `pi/2 = A + B + C` the parts A and B have 33 bits each, so `k A` and `k B` are
 //! exact up to `|k| < 2^20`, and so is `x - k A`. What r rounds is kept as the tail t, half a unit of r at
 //! most. The same for the exponential with `ln 2 = A + B`, where `|k| < 2^11` and A has 40 bits.
 //!

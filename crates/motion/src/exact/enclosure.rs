@@ -22,9 +22,9 @@
 //! Orthogonal Polynomials, 1975, theorem 7.32.1).
 //!
 //! So `g >= P - Omega r_n w`, a polynomial of degree `n - 1`, and that lies in the convex hull of its
-//! Bernstein coefficients `b_i - Omega r_n w_i`. Zeros of g at the ends of the step need no care: there
-//! `b_0 = g(0)` and `b_1 - b_0` is the slope, without any margin, since the coefficients `w_i` with `i < a` or
-//! `i > n - 1 - b` vanish. Nor does it need to be known which of them there are.
+//! Bernstein coefficients `b_i - Omega r_n w_i`. Zeros of g at the ends of the step need no care: there `b_0
+//! = g(0)` and `b_1 - b_0` is the slope, without any margin, since the coefficients `w_i` with `i < a` or `i
+//! > n - 1 - b` vanish. Nor does it need to be known which of them there are.
 //!
 //! # The remainder
 //! For functions f on [0, 1] and power series `F(x)` let `f << F` say `|f^(j)(s)|/j! <= F_j` for all j and s.

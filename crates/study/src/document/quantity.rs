@@ -145,7 +145,8 @@ pub(crate) const ADDED_MASS: Quantity = Quantity::new("kg", Including(0.0), Incl
 pub(crate) const ROTARY_INERTIA: Quantity = Quantity::new("kg m^2", Including(0.0), Including(1e9));
 /// Stiffness of a linear spring.
 pub(crate) const STIFFNESS: Quantity = Quantity::new("N/m", Excluding(0.0), Including(1e18)).hints(
-    "a stiffness that pushes away from the middle is a [[stop]] of law \"cubic\" with a negative `stiffness_n_m`",
+    "a stiffness that pushes away from the middle is a [[stop]] of law \"cubic\" with a negative \
+     `stiffness_n_m`",
     "",
 );
 /// Stiffness of an added spring that may be absent.
