@@ -4,7 +4,7 @@ use super::{
     Kind, Maxima, MeasuredPoint, MeasuredTable, PointsError,
     columns::{Column, Role, roles},
 };
-use crate::read::csv::{Line, TextTable};
+use crate::read::csv::{Line, TextTable, excerpt};
 
 /// Reads a table of measured points.
 ///
@@ -81,7 +81,7 @@ fn positive(
     let value = table.number(field).ok_or_else(|| PointsError::NotANumber {
         line,
         column: column(),
-        text: field.to_owned(),
+        text: excerpt(field),
     })?;
     match value {
         value if value.is_nan() => Ok(None),
@@ -96,7 +96,7 @@ fn kind_of(line: usize, text: &str) -> Result<Kind, PointsError> {
         "periodic" => Ok(Kind::Periodic { period_multiple: None }),
         "aperiodic" | "chaotic" | "chaos" | "quasi-periodic" | "quasiperiodic" => Ok(Kind::Aperiodic),
         "doubtful" => Ok(Kind::Doubtful),
-        _ => Err(PointsError::UnknownKind { line, text: text.to_owned() }),
+        _ => Err(PointsError::UnknownKind { line, text: excerpt(text) }),
     }
 }
 
@@ -105,7 +105,7 @@ fn period_of(line: usize, text: &str) -> Result<Option<u32>, PointsError> {
         "" | "-" => Ok(None),
         text => match text.parse::<u32>() {
             Ok(period) if (1..=64).contains(&period) => Ok(Some(period)),
-            _ => Err(PointsError::BadPeriod { line, text: text.to_owned() }),
+            _ => Err(PointsError::BadPeriod { line, text: excerpt(text) }),
         },
     }
 }

@@ -11,6 +11,8 @@ mod dialect;
 mod header;
 mod number;
 
+use std::collections::{HashMap, HashSet};
+
 use dialect::Dialect;
 
 use crate::{
@@ -24,6 +26,9 @@ use crate::{
 
 /// A line of text with its number, from 1 on.
 pub(crate) type Line<'a> = (usize, &'a str);
+
+/// Characters of a field that a message shows.
+const LONGEST_EXCERPT: usize = 60;
 
 /// How the fields of a table with words in it are separated.
 pub(crate) struct TextTable(Dialect);
@@ -129,6 +134,14 @@ fn ensure_no_rows(before: &[Line], dialect: Dialect, width: usize) -> Result<(),
     Ok(())
 }
 
+/// The beginning of a field, for a message: a damaged file may be one line.
+pub(crate) fn excerpt(field: &str) -> String {
+    match field.char_indices().nth(LONGEST_EXCERPT) {
+        Some((end, _)) => format!("{}...", &field[..end]),
+        None => field.to_owned(),
+    }
+}
+
 /// Values by columns. Empty ends of columns are cut off.
 fn columns(rows: &[Line], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>>, ReadError> {
     let mut columns = vec![Vec::with_capacity(rows.len()); width];
@@ -138,7 +151,7 @@ fn columns(rows: &[Line], dialect: Dialect, width: usize) -> Result<Vec<Vec<f64>
             let value = number::parse(field, dialect.decimal_comma).ok_or_else(|| ReadError::NotANumber {
                 line,
                 column: index + 1,
-                text: field.to_string(),
+                text: excerpt(field),
             })?;
             if let Some(column) = columns.get_mut(index) {
                 column.push(value);
@@ -188,13 +201,19 @@ fn arrange(
 
 /// Names that stand twice get a number.
 pub(crate) fn unique(channels: &mut [RawChannel]) {
-    for index in 1..channels.len() {
-        let (before, rest) = channels.split_at_mut(index);
-        let name = rest[0].name.clone();
-        let mut number = 2;
-        while before.iter().any(|channel| channel.name == rest[0].name) {
-            rest[0].name = format!("{name} ({number})");
-            number += 1;
+    let mut taken = HashSet::new();
+    // The next number of each name: all below are taken.
+    let mut next: HashMap<String, usize> = HashMap::new();
+    for channel in channels {
+        if !taken.insert(channel.name.clone()) {
+            let number = next.entry(channel.name.clone()).or_insert(2);
+            let mut name = format!("{} ({number})", channel.name);
+            while !taken.insert(name.clone()) {
+                *number += 1;
+                name = format!("{} ({number})", channel.name);
+            }
+            *number += 1;
+            channel.name = name;
         }
     }
 }

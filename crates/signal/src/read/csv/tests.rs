@@ -283,4 +283,13 @@ fn equal_names_get_numbers() {
     let raw = read_text("time [s],a,a,a\n0,1,2,3\n1,1,2,3\n");
     let names: Vec<&str> = raw.groups[0].channels.iter().map(|channel| channel.name.as_str()).collect();
     assert_eq!(names, ["a", "a (2)", "a (3)"]);
+    let raw = read_text("time [s],a,a (2),a,a,a (2)\n0,1,2,3,4,5\n1,1,2,3,4,5\n");
+    let names: Vec<&str> = raw.groups[0].channels.iter().map(|channel| channel.name.as_str()).collect();
+    assert_eq!(names, ["a", "a (2)", "a (3)", "a (4)", "a (2) (2)"]);
+}
+
+#[test]
+fn messages_show_the_beginning_of_a_long_field() {
+    let error = refused(&format!("t,a\n0,1\n1,{}\n", "x".repeat(100_000)));
+    assert_eq!(error, ReadError::NotANumber { line: 3, column: 2, text: format!("{}...", "x".repeat(60)) });
 }
