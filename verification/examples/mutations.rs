@@ -1,4 +1,5 @@
-//! Mutates inputs of every reader for so many seconds, and counts: `mutations [SECONDS] [SEED]`.
+//! Mutates inputs of every reader, or of one, for so many seconds, and counts:
+//! `mutations [SECONDS] [SEED] [READER]`.
 //!
 //! An input that makes a reader fail is written to `mutation-READER-NUMBER`, and the program ends with exit
 //! code 1. Ended by the system (memory, a signal), the last input is in the folder named at the beginning.
@@ -38,17 +39,21 @@ max_step_hz = 0.002
 "#;
 
 fn main() -> Result<ExitCode, Failure> {
-    let numbers: Vec<u64> = env::args().skip(1).map(|text| text.parse()).collect::<Result<_, _>>()?;
-    let time = Duration::from_secs(numbers.first().copied().unwrap_or(60));
-    let seed = numbers.get(1).copied().unwrap_or(1);
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let number = |index: usize| arguments.get(index).map(|text| text.parse::<u64>()).transpose();
+    let (time, seed) = (Duration::from_secs(number(0)?.unwrap_or(60)), number(1)?.unwrap_or(1));
+    let mut readers = Reader::ALL.to_vec();
+    if let Some(name) = arguments.get(2) {
+        readers.retain(|reader| reader.name() == name);
+    }
     let folder = env::temp_dir().join(format!("hammerbeam-mutations-{}", std::process::id()));
     fs::create_dir_all(&folder)?;
     println!("seed {seed}, {} s, last inputs in {}", time.as_secs(), folder.display());
     // A panic is counted here; its message would be one of many.
     std::panic::set_hook(Box::new(|_| {}));
     let mut failed = 0;
-    for reader in Reader::ALL {
-        failed += work(reader, &folder, time / Reader::ALL.len() as u32, seed)?;
+    for &reader in &readers {
+        failed += work(reader, &folder, time / readers.len() as u32, seed)?;
     }
     fs::remove_dir_all(&folder)?;
     Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
@@ -65,11 +70,15 @@ fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usiz
     }
     let (begun, mut random) = (Instant::now(), Random::new(seed));
     let (mut taken, mut refused, mut failed) = (0_u64, 0_u64, 0);
+    let mut slowest = Duration::ZERO;
     while begun.elapsed() < time {
         let pick = |random: &mut Random| (random.part() * inputs.len() as f64) as usize % inputs.len();
         let (input, other) = (pick(&mut random), pick(&mut random));
         let bytes = mutated(&inputs[input], &inputs[other], &mut random);
-        match watched(reader, folder, bytes.clone())? {
+        let started = Instant::now();
+        let outcome = watched(reader, folder, bytes.clone())?;
+        slowest = slowest.max(started.elapsed());
+        match outcome {
             Outcome::Taken => taken += 1,
             Outcome::Refused => refused += 1,
             outcome => {
@@ -80,7 +89,8 @@ fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usiz
             }
         }
     }
-    println!("{}: {taken} taken, {refused} refused, {failed} failed", reader.name());
+    let slowest = slowest.as_secs_f64();
+    println!("{}: {taken} taken, {refused} refused, {failed} failed, slowest {slowest:.2} s", reader.name());
     Ok(failed)
 }
 

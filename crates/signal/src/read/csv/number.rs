@@ -57,14 +57,15 @@ fn clock(field: &str, decimal_comma: bool) -> Option<f64> {
         return None;
     }
     let days = date.map_or(Some(0.0), days_since_1970)?;
-    Some(86_400.0 * days + f64::from(3600 * hours + 60 * minutes) + seconds)
+    Some(86_400.0 * days + 3600.0 * f64::from(hours) + 60.0 * f64::from(minutes) + seconds)
 }
 
 /// Days of a date of the Gregorian calendar, by counting years from March on.
 fn days_since_1970(date: &str) -> Option<f64> {
     let mut parts = date.split('-').map(|part| part.parse::<i64>().ok());
     let (year, month, day) = (parts.next()??, parts.next()??, parts.next()??);
-    if parts.next().is_some() || !(1..=12).contains(&month) || !(1..=31).contains(&day) {
+    let is_date = (0..=9999).contains(&year) && (1..=12).contains(&month) && (1..=31).contains(&day);
+    if parts.next().is_some() || !is_date {
         return None;
     }
     let (year, month) = if month > 2 { (year, month - 3) } else { (year - 1, month + 9) };
@@ -110,5 +111,7 @@ mod tests {
         assert_eq!(parse("1970-01-02T00:00:01", false), Some(86_401.0));
         assert_eq!(parse("2000-03-01 00:00:00", false), Some(951_868_800.0));
         assert_eq!(parse("12:99:00", false), None);
+        assert_eq!(parse("4000000000:00:00", false), Some(1.44e13));
+        assert_eq!(parse("9000000000000000000-01-01 00:00:00", false), None);
     }
 }
