@@ -75,9 +75,8 @@ fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usiz
         let pick = |random: &mut Random| (random.part() * inputs.len() as f64) as usize % inputs.len();
         let (input, other) = (pick(&mut random), pick(&mut random));
         let bytes = mutated(&inputs[input], &inputs[other], &mut random);
-        let started = Instant::now();
-        let outcome = watched(reader, folder, bytes.clone())?;
-        slowest = slowest.max(started.elapsed());
+        let (outcome, took) = watched(reader, folder, bytes.clone())?;
+        slowest = slowest.max(took);
         match outcome {
             Outcome::Taken => taken += 1,
             Outcome::Refused => refused += 1,
@@ -95,14 +94,14 @@ fn work(reader: Reader, folder: &Path, time: Duration, seed: u64) -> Result<usiz
 }
 
 /// The outcome of an input, on a thread of its own: one that never ends is slow, too, and ends the program.
-fn watched(reader: Reader, folder: &Path, bytes: Vec<u8>) -> Result<Outcome, Failure> {
+fn watched(reader: Reader, folder: &Path, bytes: Vec<u8>) -> Result<(Outcome, Duration), Failure> {
     fs::write(folder.join("input"), &bytes)?;
     let (sender, receiver) = mpsc::channel();
     let folder = folder.to_owned();
     thread::spawn(move || sender.send(outcome(reader, &folder, &bytes)));
-    match receiver.recv_timeout(10 * PATIENCE) {
+    match receiver.recv_timeout(60 * PATIENCE) {
         Ok(outcome) => Ok(outcome),
-        Err(RecvTimeoutError::Disconnected) => Ok(Outcome::Panicked),
+        Err(RecvTimeoutError::Disconnected) => Ok((Outcome::Panicked, Duration::ZERO)),
         Err(RecvTimeoutError::Timeout) => Err(format!("{} does not end", reader.name()).into()),
     }
 }

@@ -5,7 +5,13 @@
 
 use hammerbeam_motion::{
     Stretch, System,
-    exact::{ExactIntegrator, ExactSettings, MotionError},
+    exact::{ExactIntegrator, ExactSettings},
+};
+use hammerbeam_study::{Model, PointStart, PointStartKind};
+
+use crate::{
+    plain::{Equations, PlainMotion},
+    results::Failure,
 };
 
 /// How much is simulated.
@@ -36,6 +42,82 @@ impl Attractor {
     pub fn period(&self) -> usize {
         self.states.len()
     }
+}
+
+/// What follows motion, at one frequency.
+#[derive(Debug)]
+pub enum Simulator<'a> {
+    /// The library's own integrator.
+    Exact(Box<ExactIntegrator>, Stretch),
+    /// One that shares nothing with it, for a model whose points are all its masses.
+    Plain(PlainMotion<'a>, &'a Model, f64),
+}
+
+impl<'a> Simulator<'a> {
+    /// The library's own at a frequency [Hz].
+    ///
+    /// # Errors
+    /// The system has something that it cannot follow.
+    pub fn exact(system: &System, frequency_hz: f64) -> Result<Self, Failure> {
+        let integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
+        Ok(Self::Exact(Box::new(integrator), Stretch { frequency_hz, start: 0.0, end: 1.0 }))
+    }
+
+    /// The other one at a frequency [Hz].
+    #[must_use]
+    pub fn plain(equations: &'a Equations, model: &'a Model, frequency_hz: f64) -> Self {
+        Self::Plain(PlainMotion::new(equations, frequency_hz), model, frequency_hz)
+    }
+
+    /// The state `[q; q']` of the modes one excitation period later.
+    ///
+    /// # Errors
+    /// The motion cannot be computed.
+    pub fn period(&mut self, state: &[f64]) -> Result<Vec<f64>, Failure> {
+        match self {
+            Self::Exact(integrator, stretch) => Ok(integrator.advance(stretch, state)?),
+            Self::Plain(motion, model, frequency_hz) => {
+                let next = motion.period(&of_masses(motion, model, state));
+                of_modes(motion, model, *frequency_hz, &next)
+            }
+        }
+    }
+
+    /// Whether motion may begin at a state: not beyond a rigid stop.
+    #[must_use]
+    pub fn may_begin(&self, state: &[f64]) -> bool {
+        match self {
+            Self::Exact(..) => true,
+            Self::Plain(motion, model, _) => motion.may_begin(&of_masses(motion, model, state)),
+        }
+    }
+}
+
+/// Displacements and velocities of the masses, in the order of the equations.
+fn of_masses(motion: &PlainMotion, model: &Model, state: &[f64]) -> Vec<f64> {
+    let n = model.system.dof();
+    let points = motion.names().iter().filter_map(|name| model.system.model().point(name));
+    let moved = |modes: &[f64], ground: f64| -> Vec<f64> {
+        let of_point = |shape: &[f64]| shape.iter().zip(modes).map(|(a, b)| a * b).sum::<f64>();
+        points.clone().map(|point| of_point(&point.shape) + point.support_ratio * ground).collect()
+    };
+    let [u, v] = motion.ground();
+    [moved(&state[..n], u), moved(&state[n..], v)].concat()
+}
+
+fn of_modes(
+    motion: &PlainMotion,
+    model: &Model,
+    frequency_hz: f64,
+    state: &[f64],
+) -> Result<Vec<f64>, Failure> {
+    let (y, v) = state.split_at(motion.names().len());
+    let starts = |values: &[f64], kind: PointStartKind| -> Vec<PointStart> {
+        let start = |(name, value): (&String, &f64)| PointStart { point: name.clone(), kind, value: *value };
+        motion.names().iter().zip(values).map(start).collect()
+    };
+    let starts = [starts(y, PointStartKind::Displacement), starts(v, PointStartKind::Velocity)].concat();
+    Ok(model.state_of_points(frequency_hz, &starts)?)
 }
 
 /// The same numbers from the same seed (a linear congruence, Knuth's constants).
@@ -73,27 +155,31 @@ pub fn distance(system: &System, a: &[f64], b: &[f64]) -> f64 {
     norm(&|i| a[i] - b[i]) / norm(&|i| a[i]).max(f64::MIN_POSITIVE)
 }
 
-/// Attractors that random states settle to at a frequency, and the number of motions that did not settle.
+/// Attractors that random states settle to, and the number of motions that did not settle.
 ///
 /// * `size`: energy norm of the largest motions to be expected [kg^1/2 m/s]; states reach to one and a half
 ///   times of it.
 ///
 /// # Errors
-/// [`MotionError`] if a motion cannot be computed.
+/// A motion cannot be computed.
 pub fn attractors(
     system: &System,
+    simulator: &mut Simulator,
     frequency_hz: f64,
     size: f64,
     effort: &Effort,
     random: &mut Random,
-) -> Result<(Vec<Attractor>, usize), MotionError> {
-    let mut integrator = ExactIntegrator::new(system.clone(), ExactSettings::default())?;
+) -> Result<(Vec<Attractor>, usize), Failure> {
     let (mut found, mut restless): (Vec<Attractor>, usize) = (Vec::new(), 0);
     for _ in 0..effort.states {
-        let mut states = vec![random_state(system, size, random)];
+        let mut start = random_state(system, size, random);
+        while !simulator.may_begin(&start) {
+            start = random_state(system, size, random);
+        }
+        let mut states = vec![start];
         let mut settled = false;
         for _ in 0..effort.patience / BETWEEN_LOOKS {
-            states = followed(&mut integrator, states, frequency_hz, effort.longest)?;
+            states = followed(simulator, states, effort.longest)?;
             let last = states.len() - 1;
             if let Some(known) = found.iter_mut().find(|known| is_on(system, known, &states[last])) {
                 known.motions += 1;
@@ -115,14 +201,12 @@ pub fn attractors(
 
 /// The last states, one more than the longest period, after some more periods.
 fn followed(
-    integrator: &mut ExactIntegrator,
+    simulator: &mut Simulator,
     mut states: Vec<Vec<f64>>,
-    frequency_hz: f64,
     longest: usize,
-) -> Result<Vec<Vec<f64>>, MotionError> {
-    let stretch = Stretch { frequency_hz, start: 0.0, end: 1.0 };
+) -> Result<Vec<Vec<f64>>, Failure> {
     for _ in 0..BETWEEN_LOOKS {
-        let next = integrator.advance(&stretch, &states[states.len() - 1])?;
+        let next = simulator.period(&states[states.len() - 1])?;
         states.push(next);
     }
     let surplus = states.len().saturating_sub(longest + 1);

@@ -12,7 +12,8 @@ use hammerbeam_orbit::{OrbitMaxima, PeriodicSolution, states_at_phase};
 use hammerbeam_study::corrected;
 
 use crate::{
-    attractors::{Attractor, Effort, Random, attractors, distance},
+    attractors::{Attractor, Effort, Random, Simulator, attractors, distance},
+    plain::Equations,
     results::{Failure, Results},
 };
 
@@ -44,15 +45,23 @@ impl Report {
 
 /// Compares the branches of some results with what simulation finds at `frequencies` random frequencies.
 ///
+/// * `plain`: equations for the integrator that shares nothing with the library; its own without.
+///
 /// # Errors
 /// A motion cannot be computed, or the store refuses.
-pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) -> Result<Report, Failure> {
+pub fn check(
+    results: &Results,
+    plain: Option<&Equations>,
+    frequencies: usize,
+    effort: &Effort,
+    seed: u64,
+) -> Result<Report, Failure> {
     let mut random = Random::new(seed);
     let [low, high] = results.range_hz;
     let mut report = Report::of(effort);
     for _ in 0..frequencies {
         let frequency_hz = low + (high - low) * random.part();
-        report.look_at(results, frequency_hz, effort, &mut random)?;
+        report.look_at(results, plain, frequency_hz, effort, &mut random)?;
     }
     Ok(report)
 }
@@ -63,6 +72,7 @@ pub fn check(results: &Results, frequencies: usize, effort: &Effort, seed: u64) 
 /// A motion cannot be computed, or the store refuses.
 pub fn check_at(
     results: &Results,
+    plain: Option<&Equations>,
     frequencies_hz: &[f64],
     effort: &Effort,
     seed: u64,
@@ -70,7 +80,7 @@ pub fn check_at(
     let mut random = Random::new(seed);
     let mut report = Report::of(effort);
     for frequency_hz in frequencies_hz {
-        report.look_at(results, *frequency_hz, effort, &mut random)?;
+        report.look_at(results, plain, *frequency_hz, effort, &mut random)?;
     }
     Ok(report)
 }
@@ -83,6 +93,7 @@ impl Report {
     fn look_at(
         &mut self,
         results: &Results,
+        plain: Option<&Equations>,
         frequency_hz: f64,
         effort: &Effort,
         random: &mut Random,
@@ -94,7 +105,11 @@ impl Report {
         }
         let size = orbits.iter().flatten().map(|orbit| energy_norm(results, orbit)).fold(0.0, f64::max);
         let system = &results.model.system;
-        let (found, restless) = attractors(system, frequency_hz, size, effort, random)?;
+        let mut simulator = match plain {
+            Some(equations) => Simulator::plain(equations, &results.model, frequency_hz),
+            None => Simulator::exact(system, frequency_hz)?,
+        };
+        let (found, restless) = attractors(system, &mut simulator, frequency_hz, size, effort, random)?;
         self.frequencies += 1;
         self.motions += effort.states;
         self.restless += restless;

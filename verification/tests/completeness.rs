@@ -70,7 +70,7 @@ fn every_periodic_attractor_of_the_beam_is_on_a_branch() {
     let results = Results::of_run(&beam(), folder.path(), 2).unwrap();
     let (frequencies, states) = if extensive() { (200, 100) } else { (12, 12) };
     let effort = Effort { states, longest: 8, patience: 1200 };
-    let report = check(&results, frequencies, &effort, 1).unwrap();
+    let report = check(&results, None, frequencies, &effort, 1).unwrap();
     assert!(report.attractors() > frequencies / 2, "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);
 }
@@ -80,7 +80,7 @@ fn every_periodic_attractor_of_random_motions_is_on_a_branch() {
     let guard = results().lock().unwrap();
     let (frequencies, states) = if extensive() { (200, 100) } else { (12, 12) };
     let effort = Effort { states, longest: 6, patience: 1200 };
-    let report = check(&guard.0, frequencies, &effort, 1).unwrap();
+    let report = check(&guard.0, None, frequencies, &effort, 1).unwrap();
     assert!(report.attractors() > frequencies, "{report:?}");
     assert!(report.missing.is_empty(), "{:?}", report.missing);
 }

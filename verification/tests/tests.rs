@@ -15,6 +15,7 @@ mod many_attractors;
 mod marginal;
 mod measuring_filter;
 mod mutations;
+mod plain_motion;
 mod relations;
 mod shaw_holmes_1983;
 mod two_masses;

@@ -6,7 +6,7 @@
 
 use hammerbeam_orbit::OrbitSettings;
 use hammerbeam_verification::{
-    attractors::{Effort, Random, attractors, distance},
+    attractors::{Effort, Random, Simulator, attractors, distance},
     results::Results,
 };
 
@@ -85,7 +85,8 @@ fn simulation_finds_period_three_within_the_isola_only() {
     for share in [-0.05, 0.15, 0.5, 1.05] {
         let at = folds[0] + share * (folds[1] - folds[0]);
         let system = &results.model.system;
-        let (found, _) = attractors(system, at, 6.0, &effort, &mut random).unwrap();
+        let mut simulator = Simulator::exact(system, at).unwrap();
+        let (found, _) = attractors(system, &mut simulator, at, 6.0, &effort, &mut random).unwrap();
         let subharmonic: Vec<_> = found.iter().filter(|attractor| attractor.period() == 3).collect();
         assert_eq!(subharmonic.len(), usize::from((0.0..1.0).contains(&share)), "{at} Hz");
         for attractor in subharmonic {
