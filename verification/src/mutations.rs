@@ -267,8 +267,8 @@ mod tests {
         let folder = Path::new(".");
         let panics = catch_unwind(AssertUnwindSafe(|| -> bool { panic!("as a reader may not") }));
         assert!(panics.is_err());
-        assert_eq!(outcome(Reader::Study, folder, b"title = 1"), Outcome::Refused);
-        assert_eq!(outcome(Reader::Study, folder, &[0xff]), Outcome::Refused);
+        assert_eq!(outcome(Reader::Study, folder, b"title = 1").0, Outcome::Refused);
+        assert_eq!(outcome(Reader::Study, folder, &[0xff]).0, Outcome::Refused);
         assert!(!Outcome::Panicked.is_allowed() && !Outcome::Slow.is_allowed());
     }
 }

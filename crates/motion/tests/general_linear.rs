@@ -99,6 +99,17 @@ fn damped_forced_oscillators_agree_with_the_closed_form() {
     }
 }
 
+/// An undamped motion turns where its excitation does, and what is left of its velocity there is rounding.
+#[test]
+fn a_motion_that_turns_at_the_start_is_followed() {
+    for speed in [1e-13, -1e-15, 3e-17, -1e-19] {
+        let state = [0.02, speed];
+        let settings = GeneralSettings::with_tolerance(1e-12);
+        let flow = advance(&oscillator_system(900.0, 0.0), &STRETCH, &state, &settings).unwrap().flow;
+        assert_flow(&flow, &Oscillator::new(900.0, 0.0).flow(&STRETCH, state), 1e-10);
+    }
+}
+
 /// A rigid-body mode without damping: `q'' = F cos(2 pi cycles)`.
 #[test]
 fn an_undamped_rigid_mode_agrees_with_the_closed_form() {

@@ -13,6 +13,7 @@ mod coupled_damping;
 mod damping_column;
 mod elements;
 mod energy_loss;
+mod fast_loads;
 mod general_common;
 mod general_contact;
 mod general_fields;

@@ -11,8 +11,10 @@
 //! is the relative error of the force. On Gauss nodes it is orthogonal to all that is smooth over the step,
 //! so the state at the end has about its square; `T D^2`, the force in the polynomials of twice the degree,
 //! if that is larger: near a half-integer power outside the step the coefficients fall slowly. Of the share
-//! `S` of the blocks that are not smooth over the step it has the error itself, and blocks so fast that the
-//! nodes do not resolve their part `U` in the force leave that part. The step is accepted if
+//! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
+//! so fast that the nodes do not resolve their part `U` in the force leave that part. What U leaves of a
+//! velocity moves the release, up to which the sensitivities follow the force, so where they are wanted it
+//! counts `1 + h^2 G f' + h G f_v` times. The step is accepted if
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
@@ -24,11 +26,11 @@
 //! rounding `e` of a displacement. So of the tails of that column, whatever the parameter, [`ROUNDING`] times
 //! the largest such part of the elements that act is taken off.
 
-use std::sync::Arc;
+use std::{f64::consts::TAU, sync::Arc};
 
 use super::{
     ExactIntegrator,
-    collocation::NODES,
+    collocation::{Grading, NODES},
     run::{ElementStart, Run},
 };
 
@@ -75,7 +77,7 @@ const HIGHEST: (i32, f64) = degree(NODES - 1);
 const TWICE_THE_NODES: (i32, f64) = degree(2 * NODES);
 /// Largest factor from one step to the next.
 pub(super) const LONGEST_GROWTH: f64 = 5.0;
-/// Turning of a block over a step, in radians, below which the nodes resolve it to rounding.
+/// Turning of a block or of the load over a step, in radians, below which the nodes resolve it to rounding.
 const RESOLVED: f64 = 5.5;
 
 impl ExactIntegrator {
@@ -96,7 +98,7 @@ impl ExactIntegrator {
     pub(super) fn state_error(&mut self, run: &Run) -> f64 {
         let mut amplitudes = std::mem::take(&mut self.step.unresolved);
         amplitudes.clear();
-        amplitudes.resize(self.rates.len(), 0.0);
+        amplitudes.resize(self.rates.len() + self.drive.orders.len(), 0.0);
         let mut largest = 0.0_f64;
         for (a, &element) in self.step.active.iter().enumerate() {
             let (step, nodes) = (&self.step, a * NODES..(a + 1) * NODES);
@@ -117,11 +119,24 @@ impl ExactIntegrator {
                 fast_share: response.fast_share,
             };
             largest = largest.max(self.relative_to_bound(errors));
-            let follows = self.following(element, nodes);
-            for (i, amplitude) in
-                amplitudes.iter_mut().enumerate().filter(|(i, _)| self.may_be_unresolved(*i))
+            let follows = self.following(element, nodes.clone());
+            for (i, amplitude) in amplitudes[..self.rates.len()]
+                .iter_mut()
+                .enumerate()
+                .filter(|(i, _)| self.may_be_unresolved(*i))
             {
                 let own = response.mobility * follows(i) * self.vibration(run, i) / velocity;
+                *amplitude = amplitude.max(own);
+            }
+            let follows = self.following_load(element, nodes);
+            // What moves the release, up to which sensitivities follow the force.
+            let count = match run.sensitivity {
+                Some(_) => 1.0 + step.length.powi(2) * follows(step.length.recip()),
+                None => 1.0,
+            };
+            let loads = self.load_rates().zip(&self.drive.orders);
+            for (amplitude, (rate, order)) in amplitudes[self.rates.len()..].iter_mut().zip(loads) {
+                let own = count * follows(rate) * order.outputs[element].0.norm() / velocity;
                 *amplitude = amplitude.max(own);
             }
         }
@@ -139,6 +154,22 @@ impl ExactIntegrator {
         let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
         let viscous = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
         move |block| stiffest * output.value_bound[block] + viscous * output.first_bound[block]
+    }
+
+    /// The acceleration by the force that follows an order of the load in the solved step, per displacement of
+    /// the element in it, for a circular frequency of the order.
+    fn following_load(&self, element: usize, nodes: std::ops::Range<usize>) -> impl Fn(f64) -> f64 {
+        let (step, mobility) = (&self.step, self.response(element).mobility);
+        let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
+        let viscous = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
+        move |rate| mobility * (stiffest + viscous * rate)
+    }
+
+    /// Circular frequencies of the orders of the load, as the nodes of the step see them: time in a graded one
+    /// goes like the square of its variable, so at its end a load turns twice as fast.
+    fn load_rates(&self) -> impl Iterator<Item = f64> {
+        let pace = if self.step.grading() == Grading::Smooth { 1.0 } else { 2.0 };
+        self.drive.orders.iter().map(move |order| pace * order.order * self.drive.circular_frequency())
     }
 
     /// Energy norm of a block apart from what follows the present forces and their rates without vibrating:
@@ -185,13 +216,14 @@ impl ExactIntegrator {
         Response { mobility: mobility * self.mobility[element][element], fast_share }
     }
 
-    /// `U` of a step of that length, from what the last step solved has left of it.
+    /// `U` of a step of that length, from what the last step solved has left of it: blocks, then orders.
     fn unresolved(&self, length: f64) -> f64 {
-        let part = |(rate, amplitude): (&f64, &f64)| {
+        let part = |(rate, amplitude): (f64, &f64)| {
             let z = rate * length;
             if z > RESOLVED { highest_part(z, &TWICE_THE_NODES) * amplitude } else { 0.0 }
         };
-        self.rates.iter().zip(&self.step.unresolved).map(part).sum::<f64>() * length
+        let rates = self.rates.iter().copied().chain(self.load_rates());
+        rates.zip(&self.step.unresolved).map(part).sum::<f64>() * length
     }
 
     /// `U` relative to its bound, if it is above.
@@ -240,6 +272,7 @@ impl ExactIntegrator {
         let frequencies = &self.system.model().natural_frequencies;
         let scale = |column: usize| frequencies.get(column).map_or(1.0, |w| w.max(slowest));
         let (mut errors, mut norm) = (Errors::default(), f64::MIN_POSITIVE);
+        let mut by_frequency = f64::MIN_POSITIVE;
         // By the frequency and by a parameter.
         let mut further = [Errors::default(); 2];
         let elements = 0..self.step.active.len();
@@ -251,6 +284,9 @@ impl ExactIntegrator {
                 let size = found.velocity + impulse * found.largest;
                 let mut highest = found.tail.highest;
                 let (scale, into) = if column >= sensitivity.frequency_column() {
+                    if column == sensitivity.frequency_column() {
+                        by_frequency = by_frequency.max(size);
+                    }
                     if sensitivity.parameter_column() == Some(column) {
                         highest = (highest - rounding * found.largest).max(0.0);
                     }
@@ -273,11 +309,21 @@ impl ExactIntegrator {
         for &element in &self.step.active {
             let follows = self.following(element, 0..self.step.slope.len());
             let mobility = self.response(element).mobility.sqrt();
-            for (i, amplitude) in
-                amplitudes.iter_mut().enumerate().filter(|(i, _)| self.may_be_unresolved(*i))
+            for (i, amplitude) in amplitudes[..self.rates.len()]
+                .iter_mut()
+                .enumerate()
+                .filter(|(i, _)| self.may_be_unresolved(*i))
             {
                 let largest = sensitivity.largest_energy_norm(i, self.blocks.stiffness[i], &scale);
                 *amplitude = amplitude.max(mobility * follows(i) * largest / norm);
+            }
+            let follows = self.following_load(element, 0..self.step.slope.len());
+            let turned = TAU * (run.time + self.step.length);
+            let loads = self.load_rates().zip(&self.drive.orders);
+            for (amplitude, (rate, order)) in amplitudes[self.rates.len()..].iter_mut().zip(loads) {
+                let (value, slope) = order.outputs[element];
+                let slope = slope.norm() + turned * order.order * value.norm();
+                *amplitude = amplitude.max(follows(rate) * slope / by_frequency);
             }
         }
         self.step.unresolved = amplitudes;

@@ -284,11 +284,15 @@ fn negligible(smooth_step: f64, settings: &GeneralSettings) -> f64 {
     smooth_step * settings.tolerance.powf(2.0 / 3.0)
 }
 
+/// Shortest first step, in parts of the stretch: a velocity that is rounding alone, where the motion turns,
+/// doubles in no time. A step that is too long is done again.
+const SHORTEST_FIRST: f64 = 1e-6;
+
 /// A hundredth of the time in which a part of the state would double, at most a tenth of the stretch.
 fn first_step(field: &impl VectorField, stepper: &Stepper, duration: f64) -> f64 {
     let part = stepper.state().len() / field.parts();
     let norm = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
     let parts = stepper.state().chunks_exact(part).zip(stepper.slope(0).chunks_exact(part));
     let times = parts.map(|(value, slope)| 0.01 * norm(value) / norm(slope)).filter(|&time| time > 0.0);
-    times.fold(0.1 * duration, f64::min)
+    times.fold(0.1 * duration, f64::min).max(SHORTEST_FIRST * duration)
 }
