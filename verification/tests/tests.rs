@@ -18,6 +18,7 @@ mod mutations;
 mod plain_motion;
 mod relations;
 mod shaw_holmes_1983;
+mod surveys;
 mod two_masses;
 mod two_wells;
 mod van_de_vorst_conclusions;
