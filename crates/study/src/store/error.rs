@@ -7,6 +7,8 @@ use std::{
 
 use rusqlite::ErrorCode;
 
+use crate::whole_file::is_wrong_place;
+
 /// Why a results folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -108,6 +110,9 @@ impl StoreError {
         use ErrorCode::{CannotOpen, PermissionDenied, ReadOnly};
         if let Self::Database(error) = self {
             return matches!(error.sqlite_error_code(), Some(CannotOpen | PermissionDenied | ReadOnly));
+        }
+        if let Self::Folder { source, .. } = self {
+            return is_wrong_place(source);
         }
         !matches!(
             self,
