@@ -76,6 +76,23 @@ export function eventNames(flags: number): string {
     return names.filter(([bit]) => (flags & bit) !== 0).map(([, name]) => name).join(", ");
 }
 
+/** A mark that another one stands for where both are at one place: at each flip a branch of twice the period begins. */
+export function standsFor(mark: Mark): (other: Mark) => boolean {
+    return (other) => (mark.bits & BRANCH_POINT) !== 0 && (other.bits & FLIP) !== 0;
+}
+
+/** Of the places those that are no place of the others, as far as can be seen (canvas pixels). */
+export function apart(places: readonly [number, number][], others: readonly [number, number][], density: number): [number, number][] {
+    const cell = density;
+    const key = (column: number, row: number): number => column * 65536 + row;
+    const taken = new Set(others.map(([x, y]) => key(Math.floor(x / cell), Math.floor(y / cell))));
+    const beside = [-1, 0, 1];
+    return places.filter(([x, y]) => {
+        const [column, row] = [Math.floor(x / cell), Math.floor(y / cell)];
+        return !beside.some((across) => beside.some((down) => taken.has(key(column + across, row + down))));
+    });
+}
+
 /** Draws marks of a kind at places in canvas pixels, those that do not cover another one. */
 export function drawMarks(context: CanvasRenderingContext2D, mark: Mark, places: readonly [number, number][], density: number, look: Look): void {
     const cell = mark.distance * density;
