@@ -109,8 +109,8 @@ export function namedMarks(solutions: Solutions): [Mark, string][] {
         return ends;
     };
     const [[least, greatest], [, largest]] = [extent(frequency), extent(displacement)];
-    // A thousandth of the diagram, as in print.
-    const [perHz, perM] = [1e3 / (greatest - least || 1), 1e3 / (largest || 1)];
+    // In ten-thousandths of the diagram.
+    const [perHz, perM] = [1e4 / (greatest - least || 1), 1e4 / (largest || 1)];
     const place = (k: number): [number, number] => [((frequency[k] ?? NaN) - least) * perHz, (displacement[k] ?? NaN) * perM];
     const places = (mark: Mark): [number, number][] => (marked.get(mark) ?? []).map(place);
     const named = MARKS.filter((mark) => places(mark).length > 0).map((mark): [Mark, string, number] => {

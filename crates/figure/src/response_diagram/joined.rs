@@ -9,15 +9,16 @@ use crate::marks::Mark;
 /// A place by frequency and value.
 type Place = (f64, f64);
 
-/// Places count as one if they are no further apart than this, in lengths of the axes: a third of a point in
-/// print, a third of the radius of a mark.
-const ONE_PLACE: f64 = 1e-3;
+/// Places count as one if they are no further apart than this, in lengths of the axes: the same event is
+/// located on both branches to far less, and others are that near by chance only.
+const ONE_PLACE: f64 = 1e-5;
 
 /// Events of a panel by their marks.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JoinedEvents {
-    /// Places of each mark that has some, in the order of [`Mark::ALL`].
-    pub(super) events: Vec<(Mark, Vec<Place>)>,
+    /// Places of each mark that has some, in the order of [`Mark::ALL`], and how many events of that kind
+    /// there are, those with another mark included.
+    pub(super) events: Vec<(Mark, Vec<Place>, usize)>,
     /// Branch points that have the mark of a flip.
     pub(super) branches_at_flips: usize,
 }
@@ -48,13 +49,18 @@ pub(super) fn join(events: &[(Mark, Vec<Place>)], shares: impl Fn(Place) -> Plac
             Mark::Flip | Mark::NeimarkSacker | Mark::OfUnstable => of(mark).collect(),
         }
     };
-    let joined = Mark::ALL.map(|mark| (mark, places(mark)));
-    let left: usize =
-        joined.iter().filter(|(mark, _)| *mark == Mark::BranchPoint).map(|(_, p)| p.len()).sum();
-    JoinedEvents {
-        events: joined.into_iter().filter(|(_, places)| !places.is_empty()).collect(),
-        branches_at_flips: of(Mark::BranchPoint).count() - left,
-    }
+    let joined = Mark::ALL.map(|mark| {
+        let places = places(mark);
+        let count = of(mark).count().max(places.len());
+        (mark, places, count)
+    });
+    let hidden = |(mark, places, count): &(Mark, Vec<Place>, usize)| match mark {
+        Mark::BranchPoint => count - places.len(),
+        _ => 0,
+    };
+    let branches_at_flips = joined.iter().map(hidden).sum();
+    let events = joined.into_iter().filter(|(_, places, _)| !places.is_empty()).collect();
+    JoinedEvents { events, branches_at_flips }
 }
 
 /// Whether one of the places, in increasing order along the first axis, is that one.
@@ -78,12 +84,14 @@ mod tests {
         ];
         let joined = join(&events, |place| place);
         assert_eq!(joined.branches_at_flips, 1);
-        let of = |mark: Mark| joined.events.iter().find(|(kind, _)| *kind == mark).unwrap().1.clone();
+        let found = |mark: Mark| joined.events.iter().find(|(kind, ..)| *kind == mark).unwrap();
+        let of = |mark: Mark| found(mark).1.clone();
         assert_eq!(of(Mark::Flip), [(0.2, 0.5), (0.9, 0.1)]);
         assert_eq!(of(Mark::BranchPoint), [(0.6, 0.6)]);
         // A fold on a flip is a finding of its own.
         assert_eq!(of(Mark::Fold), [(0.2, 0.5)]);
         assert_eq!(of(Mark::FoldAtGrazing), [(0.4, 0.4)]);
         assert_eq!(of(Mark::Grazing), [(0.4, 0.7)]);
+        assert_eq!((found(Mark::Grazing).2, found(Mark::Fold).2, found(Mark::FoldAtGrazing).2), (2, 2, 1));
     }
 }

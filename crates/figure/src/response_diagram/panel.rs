@@ -83,7 +83,7 @@ impl Panel {
 
     /// Whether an event of a kind is drawn.
     pub(super) fn has_mark(&self, mark: Mark) -> bool {
-        self.events.events.iter().any(|(present, _)| *present == mark)
+        self.events.events.iter().any(|(present, ..)| *present == mark)
     }
 
     /// The period multiples drawn, each once, rising.
@@ -136,7 +136,7 @@ impl Panel {
             let places: Vec<Point> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
             mark.thin_out(&places, style.mark_distance)
         };
-        self.events.events.iter().map(|(mark, places)| (*mark, thinned(*mark, places))).collect()
+        self.events.events.iter().map(|(mark, places, _)| (*mark, thinned(*mark, places))).collect()
     }
 
     /// Branch points that have the mark of a flip.
@@ -146,12 +146,7 @@ impl Panel {
 
     /// Number of events of a kind, drawn or not.
     pub(super) fn count(&self, mark: Mark) -> usize {
-        self.events
-            .events
-            .iter()
-            .filter(|(present, _)| *present == mark)
-            .map(|(_, places)| places.len())
-            .sum()
+        self.events.events.iter().filter(|(present, ..)| *present == mark).map(|(_, _, count)| count).sum()
     }
 }
 
