@@ -3,9 +3,9 @@
 //!
 //! Each time there is an error with a sentence and exit code 1 and no panic, or the failure did no harm and
 //! all is there; what was finished is kept; and the command done again leaves the same bytes as an
-//! undisturbed one. By default one call of one kind for a command, with `HAMMERBEAM_EXTENSIVE=1` every call of the small
-//! commands; `HAMMERBEAM_FAILURES=N` takes N of each kind. Calls are made to fail by `strace`; where that is
-//! not there, the test says so and only limits the size of files.
+//! undisturbed one. By default one call of one kind for a command; with `HAMMERBEAM_EXTENSIVE=1` every call
+//! of the small commands; `HAMMERBEAM_FAILURES=N` takes N of each kind. Calls are made to fail by `strace`;
+//! where that is not there, the test says so and only limits the size of files.
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::print_stderr, reason = "it has to say what it did")]
