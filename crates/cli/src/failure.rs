@@ -104,8 +104,12 @@ impl From<ExportError> for Failure {
 
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
-        // The user named the folder, but not how much room there is in it.
-        if error.is_full() { Self::NoResult(error.to_string()) } else { Self::BadInput(error.to_string()) }
+        // The user named the folder, but neither fills the disk nor breaks it.
+        if error.is_wrong_place() {
+            Self::BadInput(error.to_string())
+        } else {
+            Self::NoResult(error.to_string())
+        }
     }
 }
 

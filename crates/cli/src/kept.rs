@@ -104,6 +104,13 @@ pub fn branches(
     out: Option<&Path>,
     file: &StudyFile,
 ) -> Result<Option<StoredBranches>, StoreError> {
+    if let Some(folder) = results {
+        return StoredBranches::open(folder, file).map(Some);
+    }
     let own = out.filter(|folder| folder.join(DATABASE).is_file());
-    results.or(own).map(|folder| StoredBranches::open(folder, file)).transpose()
+    match own.map(|folder| StoredBranches::open(folder, file)).transpose() {
+        // Of a command that ended before it had stored anything.
+        Err(StoreError::NoResults { .. }) => Ok(None),
+        other => other,
+    }
 }

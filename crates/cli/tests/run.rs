@@ -8,7 +8,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout, told};
+use crate::common::{Random, TWO_MASSES, Workshop, assert_success, short_run, stderr, stdout, told};
 
 const RUN: [&str; 4] = ["run", "study.toml", "--out", "results"];
 
@@ -31,12 +31,8 @@ fn undisturbed(study: &str) -> (String, Duration) {
 
 /// Ten numbers from 0 to 1, always the same ones.
 fn random_parts() -> Vec<f64> {
-    let mut seed = 20_u64;
-    let mut next = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1u64 << 53) as f64
-    };
-    (0..10).map(|_| next()).collect()
+    let mut random = Random(20);
+    (0..10).map(|_| random.next()).collect()
 }
 
 /// Each of the ten runs is killed somewhere from its beginning to its very end and taken up again once.

@@ -10,7 +10,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::common::{Workshop, assert_success, stdout};
+use crate::common::{Random, Workshop, assert_success, stdout};
 
 /// A bilinear oscillator with superharmonic and subharmonic branches and doublings of them: a second or two.
 const STUDY: &str = r#"
@@ -85,10 +85,9 @@ fn one_two_and_three_threads_give_the_same_bytes() {
 fn three_threads_killed_at_ten_instants_and_resumed_end_with_the_same_bytes() {
     let (expected, duration) = undisturbed();
     let workshop = Workshop::with(&with_continuation(""));
-    let (mut seed, mut killed) = (20_u64, 0);
+    let (mut random, mut killed) = (Random(20), 0);
     for _ in 0..10 {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        let part = (seed >> 11) as f64 / (1_u64 << 53) as f64;
+        let part = random.next();
         let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
             .args(["run", "study.toml", "--out", "results", "--jobs", "3"])
             .current_dir(workshop.path(""))

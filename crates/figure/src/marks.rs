@@ -16,14 +16,23 @@ pub(crate) enum Mark {
     NeimarkSacker,
     BranchPoint,
     Grazing,
+    /// A fold that is a corner of its branch, at a grazing.
+    FoldAtGrazing,
     /// A flip or Neimark-Sacker point of solutions that are unstable on both sides.
     OfUnstable,
 }
 
 impl Mark {
     /// All marks, in the order of the legend.
-    pub(crate) const ALL: [Self; 6] =
-        [Self::Fold, Self::Flip, Self::NeimarkSacker, Self::BranchPoint, Self::OfUnstable, Self::Grazing];
+    pub(crate) const ALL: [Self; 7] = [
+        Self::Fold,
+        Self::FoldAtGrazing,
+        Self::Flip,
+        Self::NeimarkSacker,
+        Self::BranchPoint,
+        Self::OfUnstable,
+        Self::Grazing,
+    ];
 
     /// Whether the mark stands behind the lines: some events are so frequent that they would bury them.
     pub(crate) fn is_behind(self) -> bool {
@@ -40,6 +49,7 @@ impl Mark {
         match self {
             Self::Grazing => "grazing",
             Self::Fold => "fold",
+            Self::FoldAtGrazing => "fold at a grazing",
             Self::Flip => "flip",
             Self::NeimarkSacker => "Neimark–Sacker",
             Self::BranchPoint => "branch point",
@@ -54,7 +64,7 @@ impl Mark {
         }
         let data: String = places.iter().map(|&place| self.outline(place, radius)).collect();
         let (fill, stroke) = match self {
-            Self::Fold => (INK, Stroke { colour: PAPER, width: 0.3 }),
+            Self::Fold | Self::FoldAtGrazing => (INK, Stroke { colour: PAPER, width: 0.3 }),
             Self::Grazing => ("none", Stroke { colour: PALE_INK, width: 0.45 }),
             Self::OfUnstable => (PAPER, Stroke { colour: PALE_INK, width: 0.45 }),
             _ => (PAPER, Stroke { colour: INK, width: 0.6 }),
@@ -66,6 +76,7 @@ impl Mark {
         match self {
             Self::Grazing => triangle(at, 1.4 * radius),
             Self::Fold => circle(at, 0.8 * radius),
+            Self::FoldAtGrazing => triangle(at, 1.2 * radius),
             Self::Flip => diamond(at, 1.6 * radius),
             Self::NeimarkSacker => circle(at, 1.3 * radius),
             Self::BranchPoint => square(at, 1.1 * radius),

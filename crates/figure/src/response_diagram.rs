@@ -4,6 +4,7 @@
 //! Figures 3 and 4 of van de Vorst, Fey, de Kraker, van Campen are of this kind.
 
 mod drawing;
+mod joined;
 mod panel;
 
 use crate::{

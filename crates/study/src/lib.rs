@@ -48,6 +48,7 @@ mod identity;
 mod model;
 mod number;
 mod orbit_solver;
+mod reason;
 pub mod rig;
 pub mod run;
 pub mod settled;

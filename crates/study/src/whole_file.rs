@@ -29,12 +29,30 @@ pub struct WriteError {
 }
 
 impl WriteError {
-    /// Whether there is no room left, as opposed to a wrong folder.
+    /// Whether the user named a place where no file can be, as opposed to a disk that is full or fails.
     #[must_use]
-    pub fn is_full(&self) -> bool {
-        use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
-        matches!(self.source.kind(), StorageFull | QuotaExceeded | FileTooLarge)
+    pub fn is_wrong_place(&self) -> bool {
+        is_wrong_place(&self.source)
     }
+}
+
+/// Whether an error says that a path is wrong, as opposed to a disk that is full or fails.
+pub(crate) fn is_wrong_place(error: &io::Error) -> bool {
+    use io::ErrorKind::{
+        AlreadyExists, InvalidFilename, InvalidInput, IsADirectory, NotADirectory, NotFound,
+        PermissionDenied, ReadOnlyFilesystem,
+    };
+    matches!(
+        error.kind(),
+        AlreadyExists
+            | InvalidFilename
+            | InvalidInput
+            | IsADirectory
+            | NotADirectory
+            | NotFound
+            | PermissionDenied
+            | ReadOnlyFilesystem
+    )
 }
 
 /// A file that is being written.

@@ -1,11 +1,6 @@
 //! `hammerbeam new`: a commented starter study.
 
-use std::{
-    fs,
-    io::{self, Write},
-    path::Path,
-};
-
+use hammerbeam_study::whole_file::replace;
 use serde_json::json;
 
 use crate::{args::NewOptions, failure::Failure, output::Output};
@@ -22,14 +17,7 @@ pub fn run(options: &NewOptions, output: Output) -> Result<(), Failure> {
     if folder.exists() && !folder.is_dir() {
         return Err(Failure::BadInput(format!("{} is not a folder", folder.display())));
     }
-    // The user named the folder.
-    let refused = |what: &str, path: &Path, error: io::Error| {
-        Failure::BadInput(format!("cannot {what} {}: {error}", path.display()))
-    };
-    fs::create_dir_all(folder).map_err(|error| refused("make", folder, error))?;
-    let file = fs::File::create_new(&path);
-    file.and_then(|mut file| file.write_all(STARTER.as_bytes()))
-        .map_err(|error| refused("write", &path, error))?;
+    replace(&path, STARTER.as_bytes())?;
     let shown = path.display().to_string();
     output.give(&json!({ "study": shown }), || {
         format!(

@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "every test file uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+pub mod writers;
+
 use std::{
     collections::BTreeMap,
     fs,
@@ -19,6 +21,21 @@ pub fn database(path: impl AsRef<Path>) -> rusqlite::Connection {
     let connection = rusqlite::Connection::open(path).unwrap();
     hammerbeam_study::store::add_checksums(&connection).unwrap();
     connection
+}
+
+/// Whether whole sets are asked for instead of samples.
+pub fn extensive() -> bool {
+    std::env::var("HAMMERBEAM_EXTENSIVE").is_ok_and(|value| value == "1")
+}
+
+/// Numbers from 0 to 1, the same ones for the same seed.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }
 
 /// A beam with a stop, as in the studies folder.

@@ -9,7 +9,7 @@ use std::{
 
 use hammerbeam_study::Store;
 
-use crate::common::{TWO_MASSES, Workshop, assert_bad_input, short_run};
+use crate::common::{TWO_MASSES, Workshop, assert_bad_input, assert_success, short_run};
 
 /// The commands that keep what they find, each with little to do.
 const COMMANDS: [&[&str]; 5] = [
@@ -103,4 +103,15 @@ fn stopped_before_its_table(command: &[&str], table: &str) -> Option<(Workshop, 
     child.kill().unwrap();
     child.wait().unwrap();
     None
+}
+
+/// As a command leaves it whose first write has failed, or that was killed before its tables were there.
+#[test]
+fn a_folder_whose_database_is_still_empty_is_begun() {
+    for arguments in COMMANDS {
+        let workshop = Workshop::with(TWO_MASSES);
+        fs::create_dir(workshop.path("out")).unwrap();
+        fs::write(workshop.path("out/results.db"), "").unwrap();
+        assert_success(&workshop.hammerbeam(&[arguments, &["--out", "out"]].concat()));
+    }
 }

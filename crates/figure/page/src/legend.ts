@@ -2,7 +2,7 @@
 
 import type { Meta, Solutions } from "./data";
 import { element } from "./dom";
-import { markedSolutions } from "./marks";
+import { namedMarks } from "./marks";
 import type { Dot } from "./overlay";
 import { drawDots } from "./overlay_paint";
 import { hasMarginal } from "./paths";
@@ -23,7 +23,7 @@ const MEASURED: readonly [Dot["layer"], string][] = [
 
 /** A line of samples with their names; drawn anew when the colours change. */
 export function legend(meta: Meta, solutions: Solutions, store: Store, theme: Theme): HTMLElement {
-    const marks = [...markedSolutions(solutions)].filter(([, found]) => found.length > 0).map(([mark]) => mark);
+    const marks = namedMarks(solutions);
     const isMarginal = hasMarginal(solutions);
     const root = element("div", { class: "legend", "aria-label": "Legend" });
     const fill = (): void => {
@@ -34,7 +34,7 @@ export function legend(meta: Meta, solutions: Solutions, store: Store, theme: Th
             items.push(item("marginal", line(theme.look.ink, DOTS, 0, 2)));
         }
         items.push(item("unstable", line(theme.look.ink, [4, 3])));
-        items.push(...marks.map((mark) => item(mark.name, (context) => {
+        items.push(...marks.map(([mark, name]) => item(name, (context) => {
             const path = new Path2D();
             mark.outline(path, MIDDLE, SIZE / 2, mark.radius);
             context.fillStyle = mark.isFilled ? theme.look.ink : theme.look.paper;

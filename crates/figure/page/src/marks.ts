@@ -76,6 +76,52 @@ export function eventNames(flags: number): string {
     return names.filter(([bit]) => (flags & bit) !== 0).map(([, name]) => name).join(", ");
 }
 
+/** A mark that another one stands for where both are at one place: at each flip a branch of twice the period begins. */
+export function standsFor(mark: Mark): (other: Mark) => boolean {
+    return (other) => (mark.bits & BRANCH_POINT) !== 0 && (other.bits & FLIP) !== 0;
+}
+
+/** Of the places those that are no place of the others, as far as can be seen (canvas pixels). */
+export function apart(places: readonly [number, number][], others: readonly [number, number][], density: number): [number, number][] {
+    const cell = density;
+    const key = (column: number, row: number): number => column * 65536 + row;
+    const taken = new Set(others.map(([x, y]) => key(Math.floor(x / cell), Math.floor(y / cell))));
+    const beside = [-1, 0, 1];
+    return places.filter(([x, y]) => {
+        const [column, row] = [Math.floor(x / cell), Math.floor(y / cell)];
+        return !beside.some((across) => beside.some((down) => taken.has(key(column + across, row + down))));
+    });
+}
+
+/** The marks of a legend with their names: where flips stand for branch points theirs says so, and branch points are named only if some lie elsewhere. */
+export function namedMarks(solutions: Solutions): [Mark, string][] {
+    const marked = markedSolutions(solutions);
+    const { frequency, maxima: { displacement } } = solutions;
+    const extent = (column: ArrayLike<number>): [number, number] => {
+        const ends: [number, number] = [Infinity, -Infinity];
+        for (let k = 0; k < column.length; k++) {
+            const value = column[k] ?? NaN;
+            if (Number.isFinite(value)) {
+                ends[0] = Math.min(ends[0], value);
+                ends[1] = Math.max(ends[1], value);
+            }
+        }
+        return ends;
+    };
+    const [[least, greatest], [, largest]] = [extent(frequency), extent(displacement)];
+    // In ten-thousandths of the diagram.
+    const [perHz, perM] = [1e4 / (greatest - least || 1), 1e4 / (largest || 1)];
+    const place = (k: number): [number, number] => [((frequency[k] ?? NaN) - least) * perHz, (displacement[k] ?? NaN) * perM];
+    const places = (mark: Mark): [number, number][] => (marked.get(mark) ?? []).map(place);
+    const named = MARKS.filter((mark) => places(mark).length > 0).map((mark): [Mark, string, number] => {
+        const others = MARKS.filter(standsFor(mark)).flatMap(places);
+        return [mark, mark.name, apart(places(mark), others, 1).length];
+    });
+    const isJoined = named.some(([mark, , left]) => left < places(mark).length);
+    const name = (mark: Mark, plain: string): string => (isJoined && mark.name === "flip" ? "flip, branch point of twice the period" : plain);
+    return named.filter(([, , left]) => left > 0).map(([mark, plain]) => [mark, name(mark, plain)]);
+}
+
 /** Draws marks of a kind at places in canvas pixels, those that do not cover another one. */
 export function drawMarks(context: CanvasRenderingContext2D, mark: Mark, places: readonly [number, number][], density: number, look: Look): void {
     const cell = mark.distance * density;

@@ -4,7 +4,7 @@ import { scalesOf, type Curves, type Scales } from "./curves";
 import { STRIP } from "./chaos";
 import type { Meta, Solutions } from "./data";
 import type { Frame } from "./frame";
-import { drawMarks, MARKS, type Mark } from "./marks";
+import { apart, drawMarks, MARKS, standsFor, type Mark } from "./marks";
 import { dotsOf } from "./overlay";
 import { drawDots } from "./overlay_paint";
 import { linesOf, type Strokes } from "./paths";
@@ -108,19 +108,18 @@ function paintBranches(context: CanvasRenderingContext2D, frame: Frame, scene: S
 }
 
 function paintMarks(context: CanvasRenderingContext2D, frame: Frame, scene: Scene, scales: Scales, isBehind: boolean): void {
-    const { solutions, curves, state, theme, marked } = scene;
+    for (const mark of MARKS.filter(({ isPale }) => isPale === isBehind)) {
+        const others = MARKS.filter(standsFor(mark)).flatMap((other) => placesOf(other, scene, scales));
+        drawMarks(context, mark, apart(placesOf(mark, scene, scales), others, frame.density), frame.density, scene.theme.look);
+    }
+}
+
+/** Where a mark is seen (canvas pixels). */
+function placesOf(mark: Mark, { solutions, curves, state, marked }: Scene, scales: Scales): [number, number][] {
     const levels = curves.levels(state.quantity, state.log);
     const { left, top, width, height } = scales;
-    for (const mark of MARKS.filter(({ isPale }) => isPale === isBehind)) {
-        const places: [number, number][] = [];
-        for (const k of marked.get(mark) ?? []) {
-            const [x, y] = placeOf(solutions, levels, k, scales);
-            if (x >= left && x <= left + width && y >= top && y <= top + height && !state.hidden.has(solutions.branch[k] ?? 0)) {
-                places.push([x, y]);
-            }
-        }
-        drawMarks(context, mark, places, frame.density, theme.look);
-    }
+    const places = (marked.get(mark) ?? []).filter((k) => !state.hidden.has(solutions.branch[k] ?? 0)).map((k) => placeOf(solutions, levels, k, scales));
+    return places.filter(([x, y]) => x >= left && x <= left + width && y >= top && y <= top + height);
 }
 
 function placeOf(solutions: Solutions, levels: Float64Array, k: number, scales: Scales): [number, number] {

@@ -167,6 +167,11 @@ impl<'a> Page<'a> {
                     description.push_str(&format!(", marked at {drawn} places"));
                 }
             }
+            if panel.branches_at_flips() > 0 {
+                let (count, quantity) = (panel.branches_at_flips(), panel.quantity.name());
+                description
+                    .push_str(&format!("; branch point of {quantity}, marked as the flip it is: {count}"));
+            }
         }
         description
     }
@@ -203,7 +208,7 @@ fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
     let marks = Mark::ALL
         .into_iter()
         .filter(|mark| panels.iter().any(|panel| panel.has_mark(*mark)))
-        .map(|mark| Entry { sample: Sample::Mark(mark), name: mark.name().to_owned() });
+        .map(|mark| Entry { sample: Sample::Mark(mark), name: mark_name(mark, panels) });
     let is_shaded = !diagram.chaotic_ranges_hz.is_empty();
     let shade =
         is_shaded.then(|| Entry { sample: Sample::Cell(SHADE), name: "chaotic motion found".to_owned() });
@@ -217,6 +222,12 @@ fn entries(panels: &[Panel], diagram: &ResponseDiagram) -> Vec<Vec<Entry>> {
         Some(Entry { sample: Sample::Dot(motion.dot(0.0)), name })
     });
     vec![colours.chain(lines).collect(), marks.chain(shade).collect(), measured.collect()]
+}
+
+/// The name of a mark, with what it stands for besides.
+fn mark_name(mark: Mark, panels: &[Panel]) -> String {
+    let stands_for_both = mark == Mark::Flip && panels.iter().any(|panel| panel.branches_at_flips() > 0);
+    if stands_for_both { "flip, branch point of twice the period".to_owned() } else { mark.name().to_owned() }
 }
 
 fn period_name(multiple: u32) -> String {

@@ -1,6 +1,9 @@
 //! One panel: the data of one quantity, made ready for the page.
 
-use super::{MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings};
+use super::{
+    MeasuredMotion, Quantity, ResponseCurve, ResponseDiagram, ResponsePoint, ResponseSettings,
+    joined::{JoinedEvents, join},
+};
 use crate::{
     FigureError, ScaleChoice,
     decimate::decimate,
@@ -19,7 +22,7 @@ pub(super) struct Panel {
     pub(super) quantity: Quantity,
     pub(super) scale: Scale,
     lines: Vec<Line>,
-    events: Vec<(Mark, Vec<(f64, f64)>)>,
+    events: JoinedEvents,
     measured: Vec<Measured>,
 }
 
@@ -56,8 +59,9 @@ impl Panel {
         let values = vertices.map(|vertex| vertex.y).chain(over);
         let ends = extent(values).ok_or_else(|| empty(diagram, quantity))?;
         let events = Mark::ALL.map(|mark| (mark, events(diagram, quantity, kind, range_hz, mark)));
-        let events = events.into_iter().filter(|(_, places)| !places.is_empty()).collect();
-        Ok(Self { quantity, scale: Scale::around(kind, ends), lines, events, measured })
+        let (scale, across) = (Scale::around(kind, ends), Scale::exact(ScaleKind::Linear, range_hz));
+        let events = join(&events, |(x, y)| (across.share(x), scale.share(y)));
+        Ok(Self { quantity, scale, lines, events, measured })
     }
 
     /// What the vertical axis shows.
@@ -79,7 +83,7 @@ impl Panel {
 
     /// Whether an event of a kind is drawn.
     pub(super) fn has_mark(&self, mark: Mark) -> bool {
-        self.events.iter().any(|(present, _)| *present == mark)
+        self.events.events.iter().any(|(present, ..)| *present == mark)
     }
 
     /// The period multiples drawn, each once, rising.
@@ -132,12 +136,17 @@ impl Panel {
             let places: Vec<Point> = places.iter().map(|&(x, y)| plot.place(x, y)).collect();
             mark.thin_out(&places, style.mark_distance)
         };
-        self.events.iter().map(|(mark, places)| (*mark, thinned(*mark, places))).collect()
+        self.events.events.iter().map(|(mark, places, _)| (*mark, thinned(*mark, places))).collect()
+    }
+
+    /// Branch points that have the mark of a flip.
+    pub(super) fn branches_at_flips(&self) -> usize {
+        self.events.branches_at_flips
     }
 
     /// Number of events of a kind, drawn or not.
     pub(super) fn count(&self, mark: Mark) -> usize {
-        self.events.iter().filter(|(present, _)| *present == mark).map(|(_, places)| places.len()).sum()
+        self.events.events.iter().filter(|(present, ..)| *present == mark).map(|(_, _, count)| count).sum()
     }
 }
 
@@ -225,6 +234,8 @@ fn is(points: &[ResponsePoint], index: usize, mark: Mark) -> bool {
     match mark {
         Mark::Grazing => point.grazing,
         Mark::Fold => point.fold,
+        // Made of both.
+        Mark::FoldAtGrazing => false,
         Mark::Flip => point.flip && beside_stable(),
         Mark::NeimarkSacker => point.neimark_sacker && beside_stable(),
         Mark::BranchPoint => point.branch_point,

@@ -7,6 +7,8 @@ use std::{
 
 use rusqlite::ErrorCode;
 
+use crate::whole_file::is_wrong_place;
+
 /// Why a results folder cannot be used.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "each message names its fields")]
@@ -71,8 +73,8 @@ pub enum StoreError {
     #[error("{} was removed or replaced while it was written; what was stored in it is gone with it", database.display())]
     Gone { database: PathBuf },
     /// The database refuses.
-    #[error("results database: {0}")]
-    Database(#[source] rusqlite::Error),
+    #[error("results database: {}", in_words(.0))]
+    Database(rusqlite::Error),
 }
 
 impl From<rusqlite::Error> for StoreError {
@@ -109,6 +111,9 @@ impl StoreError {
         if let Self::Database(error) = self {
             return matches!(error.sqlite_error_code(), Some(CannotOpen | PermissionDenied | ReadOnly));
         }
+        if let Self::Folder { source, .. } = self {
+            return is_wrong_place(source);
+        }
         !matches!(
             self,
             Self::Damaged { .. }
@@ -122,6 +127,18 @@ impl StoreError {
                 | Self::Unknown { .. }
                 | Self::OutOfOrder { .. }
         )
+    }
+}
+
+/// What the database says, once: its own errors repeat themselves.
+fn in_words(error: &rusqlite::Error) -> String {
+    match error.sqlite_error_code() {
+        Some(ErrorCode::DiskFull) => "there is no room left on the disk".to_owned(),
+        Some(ErrorCode::SystemIoFailure) => {
+            let code = error.sqlite_error().map_or(0, |error| error.extended_code);
+            format!("the disk fails, or a file may not grow further (code {code} of SQLite)")
+        }
+        _ => error.to_string(),
     }
 }
 

@@ -34,7 +34,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use hammerbeam_orbit::{ResonantMode, Side, StopReason};
+use hammerbeam_orbit::{Side, StopReason};
 use rusqlite::{Connection, OpenFlags, Transaction, TransactionBehavior};
 
 pub use checksum::add_checksums;
@@ -54,7 +54,7 @@ pub use varied::{
 };
 pub(crate) use write::{Continuation, Memory};
 
-use crate::file::StudyFile;
+use crate::{file::StudyFile, reason};
 use lock::Lock;
 use place::Place;
 
@@ -205,7 +205,7 @@ impl StoredReason {
         Self {
             kind: "not-begun".to_owned(),
             frequency_hz: None,
-            message: format!("the walk could not begin: {message}"),
+            message: format!("the branch could not be followed from its start: {message}"),
         }
     }
 
@@ -222,108 +222,31 @@ impl StoredReason {
     /// The reason, as it is stored.
     #[must_use]
     pub fn of(reason: &StopReason) -> Self {
-        let (kind, frequency_hz, message) = match reason {
-            StopReason::RangeEnd { frequency_hz } => {
-                ("range-end", Some(*frequency_hz), format!("end of the frequency range at {frequency_hz} Hz"))
-            }
-            StopReason::Closed => ("closed", None, "the branch came back to its start".to_owned()),
-            StopReason::ShorterPeriod { frequency_hz, grazes } => (
-                "shorter-period",
-                Some(*frequency_hz),
-                format!("{} of a branch of shorter period at {frequency_hz:.6} Hz", met(*grazes)),
-            ),
-            StopReason::Budget { solutions } => {
-                ("budget", None, format!("the budget of {solutions} solutions is used up"))
-            }
-            StopReason::StepTooShort { frequency_hz, step, residual, doubt } => (
-                "step-too-short",
-                Some(*frequency_hz),
-                format!(
-                    "no acceptable solution beyond {frequency_hz:.6} Hz, last step {step:.1e}, residual {residual:.1e}: {doubt}"
-                ),
-            ),
-            StopReason::RunsBack { frequency_hz, met_arc_length } => (
-                "runs-back",
-                Some(*frequency_hz),
-                format!(
-                    "at {frequency_hz:.6} Hz every step led back to a stretch already walked, at arc length {met_arc_length:.6}"
-                ),
-            ),
-            StopReason::ContactSplits { frequency_hz, element, phase } => (
-                "contact-splits",
-                Some(*frequency_hz),
-                format!("beyond {frequency_hz:.6} Hz {}", splits(element, *phase)),
-            ),
-            StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => (
-                "crawls",
-                Some(*frequency_hz),
-                format!("at {frequency_hz:.6} Hz {}", crawls(*solutions, *largest_multiplier)),
-            ),
-            StopReason::Unbounded { frequency_hz, mode } => {
-                (UNBOUNDED, Some(*frequency_hz), format!("at {frequency_hz:.6} Hz {}", unbounded(*mode)))
-            }
-            StopReason::TooLaborious { frequency_hz, solutions, gets_on } => (
-                "too-laborious",
-                Some(*frequency_hz),
-                format!("at {frequency_hz:.6} Hz {}", too_laborious(*solutions, *gets_on)),
-            ),
-            StopReason::Motion { frequency_hz, message } => (
-                "motion",
-                Some(*frequency_hz),
-                format!("the motion could not be computed at {frequency_hz:.6} Hz: {message}"),
-            ),
+        let (kind, frequency_hz) = match reason {
+            StopReason::RangeEnd { frequency_hz } => ("range-end", Some(*frequency_hz)),
+            StopReason::Closed => ("closed", None),
+            StopReason::ShorterPeriod { frequency_hz, .. } => ("shorter-period", Some(*frequency_hz)),
+            StopReason::Budget { .. } => ("budget", None),
+            StopReason::StepTooShort { frequency_hz, .. } => ("step-too-short", Some(*frequency_hz)),
+            StopReason::RunsBack { frequency_hz, .. } => ("runs-back", Some(*frequency_hz)),
+            StopReason::ContactSplits { frequency_hz, .. } => ("contact-splits", Some(*frequency_hz)),
+            StopReason::Crawls { frequency_hz, .. } => ("crawls", Some(*frequency_hz)),
+            StopReason::Unbounded { frequency_hz, .. } => (UNBOUNDED, Some(*frequency_hz)),
+            StopReason::TooLaborious { frequency_hz, .. } => ("too-laborious", Some(*frequency_hz)),
+            StopReason::Motion { frequency_hz, .. } => ("motion", Some(*frequency_hz)),
         };
+        // The end of the range is what the study says, with all its digits.
+        let at = |place: f64| match reason {
+            StopReason::RangeEnd { .. } => format!("{place} Hz"),
+            _ => format!("{place:.6} Hz"),
+        };
+        let message = reason::in_words(reason, "the frequency range", at);
         Self { kind: kind.to_owned(), frequency_hz, message }
     }
 }
 
-/// What of a branch of shorter period another branch comes to, in words.
-pub(crate) fn met(grazes: bool) -> &'static str {
-    if grazes { "grazing" } else { "flip" }
-}
-
-/// What happens beyond the end of a branch whose contact splits.
-pub(crate) fn splits(element: &str, phase: f64) -> String {
-    format!(
-        "{element} opens and is pressed on again at once, at the phase of {phase:.4} cycles; its law remembers how a contact began, so its force jumps there"
-    )
-}
-
-/// What a branch does that crawls.
-pub(crate) fn crawls(solutions: u64, largest_multiplier: f64) -> String {
-    format!("{solutions} solutions in a row led nowhere, with a multiplier of {largest_multiplier:.1e}")
-}
-
-/// What becomes of a branch that takes too much work, and what helps.
-pub(crate) fn too_laborious(solutions: u64, gets_on: bool) -> String {
-    let what = if gets_on {
-        format!("the work that a side of a branch may take is used up after {solutions} solutions")
-    } else {
-        format!("the branch does not get on, after {solutions} solutions: each takes too much work")
-    };
-    format!(
-        "{what}; `sweep` shows the motion there, a narrower range or fewer modes ([reduction]) make it cheaper"
-    )
-}
-
 /// Kind of the end of a branch that goes to infinity.
 const UNBOUNDED: &str = "unbounded";
-
-/// What a branch does that goes to infinity.
-pub(crate) fn unbounded(mode: Option<ResonantMode>) -> String {
-    let why = match mode {
-        Some(ResonantMode { number, frequency_hz, damping_ratio }) if damping_ratio > 0.0 => {
-            format!(
-                "mode {number} ({frequency_hz:.6} Hz) has next to no damping, a ratio of {damping_ratio:.1e}"
-            )
-        }
-        Some(ResonantMode { number, frequency_hz, .. }) => {
-            format!("mode {number} ({frequency_hz:.6} Hz) has no damping")
-        }
-        None => "nothing there takes energy out of the motion".to_owned(),
-    };
-    format!("the amplitude grows without bound: {why}")
-}
 
 impl StoredReason {
     /// Whether the branch goes to infinity.

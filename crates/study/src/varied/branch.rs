@@ -6,7 +6,7 @@ use hammerbeam_orbit::{
 };
 
 use super::{
-    CAME_BACK, Failed, Found,
+    Failed, Found,
     watch::{Watch, Way},
 };
 use crate::{
@@ -14,7 +14,8 @@ use crate::{
     file::{VariedParameter, Vary},
     model::StudyParameter,
     orbit_solver::settings,
-    store::{VariedBranch, VariedRow, crawls, met, splits, too_laborious, unbounded},
+    reason,
+    store::{VariedBranch, VariedRow},
 };
 
 /// Steps over the range of a parameter.
@@ -149,32 +150,5 @@ fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<
 
 fn in_words(reason: &StopReason, varied: &VariedParameter, parameter: &StudyParameter) -> String {
     let (name, range) = (&varied.name, varied.range);
-    let at = |value: f64| format!("{name} = {}", parameter.in_range(value, range));
-    match reason {
-        StopReason::RangeEnd { frequency_hz } => format!("end of the range at {}", at(*frequency_hz)),
-        StopReason::Closed => format!("the branch {CAME_BACK}"),
-        StopReason::ShorterPeriod { frequency_hz, grazes } => {
-            format!("{} of a branch of shorter period at {}", met(*grazes), at(*frequency_hz))
-        }
-        StopReason::Budget { solutions } => format!("the budget of {solutions} solutions is used up"),
-        StopReason::StepTooShort { frequency_hz, doubt, .. } => {
-            format!("no acceptable solution beyond {}: {doubt}", at(*frequency_hz))
-        }
-        StopReason::RunsBack { frequency_hz, .. } => {
-            format!("at {} every step led back to a stretch already walked", at(*frequency_hz))
-        }
-        StopReason::ContactSplits { frequency_hz, element, phase } => {
-            format!("beyond {} {}", at(*frequency_hz), splits(element, *phase))
-        }
-        StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => {
-            format!("at {} {}", at(*frequency_hz), crawls(*solutions, *largest_multiplier))
-        }
-        StopReason::Unbounded { frequency_hz, mode } => {
-            format!("at {} {}", at(*frequency_hz), unbounded(*mode))
-        }
-        StopReason::TooLaborious { frequency_hz, solutions, gets_on } => {
-            format!("at {} {}", at(*frequency_hz), too_laborious(*solutions, *gets_on))
-        }
-        StopReason::Motion { frequency_hz, message } => format!("at {}: {message}", at(*frequency_hz)),
-    }
+    reason::in_words(reason, "the range", |value| format!("{name} = {}", parameter.in_range(value, range)))
 }

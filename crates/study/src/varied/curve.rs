@@ -14,7 +14,8 @@ use crate::{
     file::{Curve, CurveOf},
     model::StudyParameter,
     orbit_solver::settings,
-    store::{Store, StoreError, VariedBranch, VariedRow, solution_key, splits},
+    reason::splits,
+    store::{Store, StoreError, VariedBranch, VariedRow, solution_key},
 };
 
 /// Longest step of a curve, in hundredths of the ranges.
@@ -208,7 +209,9 @@ fn in_words(end: &CurveEnd, kind: CurveKind, curve: &Curve, parameter: &StudyPar
         CurveEnd::RangeEnd => "end of the range of the parameter".to_owned(),
         CurveEnd::FrequencyRangeEnd => "end of the frequency range".to_owned(),
         CurveEnd::Closed => format!("the curve {CAME_BACK}"),
-        CurveEnd::Resonance => "the pair of multipliers became real at a strong resonance".to_owned(),
+        CurveEnd::Resonance => "the second frequency of the motion came into a resonance of 1:1 or 1:2 \
+            with its own, where its pair of multipliers becomes real and Neimark-Sacker points end"
+            .to_owned(),
         CurveEnd::OwnImage { parameter: value, mirrored: true } => format!(
             "the orbits become symmetric at {}, where pairs of mirror images branch off: the curve comes back from there as that of the mirror images, over the same values",
             named(*value, curve, parameter)
@@ -231,9 +234,14 @@ fn in_words(end: &CurveEnd, kind: CurveKind, curve: &Curve, parameter: &StudyPar
             format!("beyond {} {}", named(*value, curve, parameter), splits(element, *phase))
         }
         CurveEnd::Crawls { parameter: value, rows } => {
-            format!("ended early at {}: the last {rows} rows led nowhere", named(*value, curve, parameter))
+            format!(
+                "ended early at {}: the last {rows} solutions brought the curve no further",
+                named(*value, curve, parameter)
+            )
         }
-        CurveEnd::Budget => "the budget of solutions is used up".to_owned(),
+        CurveEnd::Budget => "the budget of solutions is used up; with a larger budget_solutions \
+            ([continuation]) a new run gets further"
+            .to_owned(),
         CurveEnd::Stopped { parameter: value, message } => {
             format!("ended early at {}: {message}", named(*value, curve, parameter))
         }

@@ -1,0 +1,97 @@
+//! Events at one place of a panel have one mark.
+//!
+//! At each flip a branch of twice the period begins, whose first row is a branch point at the same place: the
+//! mark of the flip stands for both. A fold that is the corner of a branch at a grazing has a mark of its own
+//! instead of one over the other. Events of other kinds stay apart, since where they meet is a finding.
+
+use crate::marks::Mark;
+
+/// A place by frequency and value.
+type Place = (f64, f64);
+
+/// Places count as one if they are no further apart than this, in lengths of the axes: the same event is
+/// located on both branches to far less, and others are that near by chance only.
+const ONE_PLACE: f64 = 1e-5;
+
+/// Events of a panel by their marks.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct JoinedEvents {
+    /// Places of each mark that has some, in the order of [`Mark::ALL`], and how many events of that kind
+    /// there are, those with another mark included.
+    pub(super) events: Vec<(Mark, Vec<Place>, usize)>,
+    /// Branch points that have the mark of a flip.
+    pub(super) branches_at_flips: usize,
+}
+
+/// Joins events at one place.
+///
+/// * `events`: of each kind, along the branches.
+/// * `shares`: where a place lies, in lengths of the axes.
+pub(super) fn join(events: &[(Mark, Vec<Place>)], shares: impl Fn(Place) -> Place) -> JoinedEvents {
+    let of = |mark: Mark| {
+        events.iter().filter(move |(kind, _)| *kind == mark).flat_map(|(_, places)| places.iter().copied())
+    };
+    let near = |marks: &[Mark]| {
+        let mut places: Vec<Place> = marks.iter().flat_map(|&mark| of(mark)).map(&shares).collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        places
+    };
+    let flips = near(&[Mark::Flip, Mark::OfUnstable]);
+    let (folds, grazings) = (near(&[Mark::Fold]), near(&[Mark::Grazing]));
+    let places = |mark: Mark| -> Vec<Place> {
+        match mark {
+            Mark::BranchPoint => of(mark).filter(|&place| !is_near(&flips, shares(place))).collect(),
+            Mark::Fold => of(mark).filter(|&place| !is_near(&grazings, shares(place))).collect(),
+            Mark::Grazing => of(mark).filter(|&place| !is_near(&folds, shares(place))).collect(),
+            Mark::FoldAtGrazing => {
+                of(Mark::Fold).filter(|&place| is_near(&grazings, shares(place))).collect()
+            }
+            Mark::Flip | Mark::NeimarkSacker | Mark::OfUnstable => of(mark).collect(),
+        }
+    };
+    let joined = Mark::ALL.map(|mark| {
+        let places = places(mark);
+        let count = of(mark).count().max(places.len());
+        (mark, places, count)
+    });
+    let hidden = |(mark, places, count): &(Mark, Vec<Place>, usize)| match mark {
+        Mark::BranchPoint => count - places.len(),
+        _ => 0,
+    };
+    let branches_at_flips = joined.iter().map(hidden).sum();
+    let events = joined.into_iter().filter(|(_, places, _)| !places.is_empty()).collect();
+    JoinedEvents { events, branches_at_flips }
+}
+
+/// Whether one of the places, in increasing order along the first axis, is that one.
+fn is_near(places: &[Place], (x, y): Place) -> bool {
+    let first = places.partition_point(|place| place.0 < x - ONE_PLACE);
+    let mut beside = places[first..].iter().take_while(|place| place.0 <= x + ONE_PLACE);
+    beside.any(|place| (place.1 - y).abs() <= ONE_PLACE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_flip_stands_for_the_branch_point_on_it_and_a_corner_has_one_mark() {
+        let events = [
+            (Mark::Flip, vec![(0.2, 0.5), (0.9, 0.1)]),
+            (Mark::BranchPoint, vec![(0.6, 0.6), (0.2 + 1e-9, 0.5)]),
+            (Mark::Fold, vec![(0.4, 0.4), (0.2, 0.5)]),
+            (Mark::Grazing, vec![(0.4, 0.4), (0.4, 0.7)]),
+        ];
+        let joined = join(&events, |place| place);
+        assert_eq!(joined.branches_at_flips, 1);
+        let found = |mark: Mark| joined.events.iter().find(|(kind, ..)| *kind == mark).unwrap();
+        let of = |mark: Mark| found(mark).1.clone();
+        assert_eq!(of(Mark::Flip), [(0.2, 0.5), (0.9, 0.1)]);
+        assert_eq!(of(Mark::BranchPoint), [(0.6, 0.6)]);
+        // A fold on a flip is a finding of its own.
+        assert_eq!(of(Mark::Fold), [(0.2, 0.5)]);
+        assert_eq!(of(Mark::FoldAtGrazing), [(0.4, 0.4)]);
+        assert_eq!(of(Mark::Grazing), [(0.4, 0.7)]);
+        assert_eq!((found(Mark::Grazing).2, found(Mark::Fold).2, found(Mark::FoldAtGrazing).2), (2, 2, 1));
+    }
+}
