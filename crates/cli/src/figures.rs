@@ -151,7 +151,9 @@ pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
     if !tables.frequency_errors.is_empty() {
         drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables));
     }
-    drawn.add("excitation", linear::excitation(study));
+    if let Some(excitation) = study.excitation.harmonic() {
+        drawn.add("excitation", linear::excitation(&study.title, excitation));
+    }
 }
 
 fn draw_response(
@@ -160,7 +162,7 @@ fn draw_response(
     scale: FigureScale,
     drawn: &mut Drawn<'_>,
 ) -> anyhow::Result<()> {
-    let diagram = diagram(store, file.study.excitation.frequency_hz)?;
+    let diagram = diagram(store, file.study.excitation.range_hz())?;
     if diagram.curves.is_empty() {
         return Ok(());
     }

@@ -17,6 +17,7 @@ use crate::{
 
 pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     let grid = grid(options, &model)?;
     let effort = Effort::from(&options.effort);

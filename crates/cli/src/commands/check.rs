@@ -33,7 +33,7 @@ fn document(study: &Study, model: &Model) -> Value {
         "identity": study.identity(),
         "degrees_of_freedom": model.system.dof(),
         "eigenfrequencies_hz": eigenfrequencies_hz(model),
-        "frequency_hz": study.excitation.frequency_hz,
+        "frequency_hz": study.excitation.harmonic().map(|harmonic| harmonic.frequency_hz),
         "undamped_modes": model.undamped_modes().iter().map(undamped_document).collect::<Vec<_>>(),
         "undamped_in_contact":
             model.undamped_in_contact().iter().map(in_contact_document).collect::<Vec<_>>(),
@@ -118,6 +118,10 @@ fn text(study: &Study, model: &Model) -> String {
     lines.push(format!("excitation   {}", excitation_text(study)));
     lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
     lines.extend(study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop))));
+    if study.excitation.harmonic().is_none() {
+        lines.push(format!("response     point {}", study.response.point));
+        return lines.join("\n");
+    }
     let multiples: Vec<String> = study.response.period_multiples.iter().map(u32::to_string).collect();
     lines.push(format!(
         "response     point {}, period multiples {}",
@@ -218,7 +222,9 @@ fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
 }
 
 fn excitation_text(study: &Study) -> String {
-    let excitation = &study.excitation;
+    let Some(excitation) = study.excitation.harmonic() else {
+        return "none; `simulate` follows the free vibration".to_owned();
+    };
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {

@@ -33,6 +33,7 @@ const MOST_POINTS: usize = 4096;
 
 pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     let ends = (options.frequency, options.to.unwrap_or(options.frequency));
     let frequencies = series(ends, options.step, "--frequency")?;

@@ -15,6 +15,7 @@ use crate::{
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
     let solver = OrbitSolver::new(&model, &file.study);

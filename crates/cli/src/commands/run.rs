@@ -31,6 +31,7 @@ use crate::{
 
 pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
     drift::warn_of_range(&model, &file.study);
@@ -132,7 +133,7 @@ impl Summary<'_> {
     }
 
     fn nothing(&self) -> String {
-        let [low, high] = self.study.excitation.frequency_hz;
+        let [low, high] = self.study.excitation.range_hz();
         let mut lines = vec![format!("no periodic solution was found between {low} and {high} Hz")];
         lines.extend(self.failed_text());
         if self.left() > 0 {

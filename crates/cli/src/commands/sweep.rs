@@ -25,8 +25,8 @@ use crate::{
 
 pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    let [low, high] = file.forced()?.frequency_hz;
     let model = Model::build(&file)?;
-    let [low, high] = file.study.excitation.frequency_hz;
     let upward = series((options.from.unwrap_or(low), options.to.unwrap_or(high)), options.step, "--from")?;
     let (results, out) = (options.results.as_deref(), options.out.as_deref());
     branches(results, out, &file)?;

@@ -9,7 +9,7 @@ use hammerbeam_figure::{
 use hammerbeam_structure::{FrequencyError, ModeTables};
 use hammerbeam_study::{
     Model, Study,
-    file::{End, Excitation, ExcitationKind, Place, Side, StopLaw, Structure},
+    file::{End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, Structure},
 };
 
 /// Rows of the amplitude over the frequency range.
@@ -108,8 +108,7 @@ pub fn reduction(title: &str, tables: &ModeTables) -> Result<Figure, FigureError
 }
 
 /// The amplitude of the excitation: of the acceleration of a support, or of a force.
-pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
-    let excitation = &study.excitation;
+pub fn excitation(title: &str, excitation: &HarmonicExcitation) -> Result<Figure, FigureError> {
     let [low, high] = excitation.frequency_hz;
     let frequency = |k: u32| low + (high - low) * f64::from(k) / f64::from(ROWS);
     let rows =
@@ -119,7 +118,7 @@ pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
         ExcitationKind::Force { .. } => "Amplitude of the force (N)",
     };
     let diagram = ExcitationDiagram {
-        title: study.title.clone(),
+        title: title.to_owned(),
         quantity: quantity.to_owned(),
         rows: rows.collect(),
         measured: Vec::new(),
@@ -128,7 +127,7 @@ pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
 }
 
 /// Amplitude of the acceleration of the support (m/s²), `A (2 pi m f)²`, or of the force (N).
-fn amplitude(excitation: &Excitation, frequency_hz: f64) -> f64 {
+fn amplitude(excitation: &HarmonicExcitation, frequency_hz: f64) -> f64 {
     match &excitation.kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => {
             amplitude_m.at(frequency_hz) * (TAU * f64::from(excitation.order) * frequency_hz).powi(2)

@@ -30,7 +30,7 @@ pub use amplitude::Amplitude;
 pub use beam::{Beam, BeamPoint, End, Section};
 pub use continuation::{Continuation, Segments};
 pub use damping::{Damping, ModalRatio};
-pub use excitation::{Excitation, ExcitationKind};
+pub use excitation::{Excitation, ExcitationKind, HarmonicExcitation};
 pub use figures::{DrawnOrbit, Figures};
 pub use load::Load;
 pub use lumped::{Damper, Lumped, Mass, Spring};

@@ -103,11 +103,13 @@ type Known = (String, ParameterKind, Quantity);
 impl Variable<'_> {
     /// Every parameter by its name; stops also by their number, from 1.
     fn known(self) -> Vec<Known> {
-        let amplitude = match self.excitation.kind {
+        let amplitude = self.excitation.harmonic().map(|harmonic| match harmonic.kind {
             ExcitationKind::SupportMotion { .. } => ("excitation.amplitude_m", quantity::AMPLITUDE),
             ExcitationKind::Force { .. } => ("excitation.amplitude_n", quantity::FORCE),
-        };
-        let mut known = vec![(amplitude.0.to_owned(), ParameterKind::Amplitude, amplitude.1)];
+        });
+        let of_amplitude =
+            |(key, quantity): (&str, Quantity)| (key.to_owned(), ParameterKind::Amplitude, quantity);
+        let mut known: Vec<Known> = amplitude.map(of_amplitude).into_iter().collect();
         known.extend(of_damping(self.damping));
         known.extend(of_dampers(self.structure));
         for (number, stop) in self.stops.iter().enumerate() {

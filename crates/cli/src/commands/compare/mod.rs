@@ -57,6 +57,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
+    let range_hz @ [low, high] = file.forced()?.frequency_hz;
     let (model, point) = observed(&file, options.point.as_deref())?;
     let at_response_point = point == file.study.response.point;
     let folder = folder(options)?;
@@ -68,7 +69,6 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
     }
     let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
-    let range_hz @ [low, high] = file.study.excitation.frequency_hz;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let mut compared = Vec::new();
     for quantity in quantities {

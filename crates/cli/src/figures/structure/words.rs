@@ -128,7 +128,9 @@ fn counted(measured: GapMeasured) -> &'static str {
 }
 
 fn excitation_words(study: &Study) -> String {
-    let excitation = &study.excitation;
+    let Some(excitation) = study.excitation.harmonic() else {
+        return "No excitation: free vibration.".to_owned();
+    };
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
