@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod borders;
+mod both_sides;
 mod common;
 mod compare;
 mod corners;

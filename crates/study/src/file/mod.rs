@@ -39,7 +39,7 @@ pub use reduction::{Reduction, ReductionMethod};
 pub use response::Response;
 pub use rig::Rig;
 pub use search::Search;
-pub use stop::{FixedTo, Place, Stop};
+pub use stop::{FixedTo, Place, Stop, StopEntry};
 pub use stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};
 pub use structure::Structure;
 pub use study::{Study, StudyError, StudyFile};
