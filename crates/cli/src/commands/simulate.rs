@@ -74,7 +74,7 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::Interrupted(format!("interrupted; {}", told.fate(done, &kept))));
     }
     let out = options.out.as_deref();
-    output.give(&summary.document(&told, out), || summary.text(&told, out))?;
+    output.give(&summary.document(&told, out), || summary.text(&told, (out, output.frequency_unit)))?;
     Ok(())
 }
 

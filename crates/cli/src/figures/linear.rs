@@ -16,7 +16,7 @@ use hammerbeam_study::{
 const ROWS: u32 = 200;
 
 /// The mode shapes.
-pub fn modes(study: &Study, model: &Model) -> Result<Figure, FigureError> {
+pub fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureError> {
     let at = |name: &str| position(study, name);
     let points: Vec<(f64, String)> = match &study.structure {
         Structure::Beam(beam) => beam.points.iter().map(|point| (point.at_m, point.name.clone())).collect(),
@@ -56,7 +56,7 @@ pub fn modes(study: &Study, model: &Model) -> Result<Figure, FigureError> {
         stops: stops.collect(),
         modes: rates.enumerate().map(mode).collect(),
     };
-    diagram.draw(&Style::single_column())
+    diagram.draw(style)
 }
 
 /// Whether an end is held, and whether it cannot turn.
@@ -97,18 +97,22 @@ fn position(study: &Study, name: &str) -> Option<f64> {
 }
 
 /// The error of the reduction.
-pub fn reduction(title: &str, tables: &ModeTables) -> Result<Figure, FigureError> {
+pub fn reduction(title: &str, tables: &ModeTables, style: &Style) -> Result<Figure, FigureError> {
     let mode = |error: &FrequencyError| ReducedMode {
         full_hz: error.full_hz,
         relative_error: error.relative,
         below_cut_off: error.below_cut_off,
     };
     let modes = tables.frequency_errors.iter().map(mode).collect();
-    ReductionDiagram { title: title.to_owned(), modes }.draw(&Style::single_column())
+    ReductionDiagram { title: title.to_owned(), modes }.draw(style)
 }
 
 /// The amplitude of the excitation: of the acceleration of a support, or of a force.
-pub fn excitation(title: &str, excitation: &HarmonicExcitation) -> Result<Figure, FigureError> {
+pub fn excitation(
+    title: &str,
+    excitation: &HarmonicExcitation,
+    style: &Style,
+) -> Result<Figure, FigureError> {
     let [low, high] = excitation.frequency_hz;
     let frequency = |k: u32| low + (high - low) * f64::from(k) / f64::from(ROWS);
     let rows =
@@ -123,7 +127,7 @@ pub fn excitation(title: &str, excitation: &HarmonicExcitation) -> Result<Figure
         rows: rows.collect(),
         measured: Vec::new(),
     };
-    diagram.draw(&Style::single_column())
+    diagram.draw(style)
 }
 
 /// Amplitude of the acceleration of the support (m/s²), `A (2 pi m f)²`, or of the force (N).

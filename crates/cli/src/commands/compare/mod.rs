@@ -82,6 +82,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         compared.push(Compared { curves, comparison, low_pass_hz, point, range_hz });
     }
     let mut drawn = Drawn::into(&folder)?;
+    drawn.frequency_unit = output.frequency_unit;
     for one in &compared {
         let name = format!("points_{}.csv", one.comparison.quantity.word());
         write_points(&folder, &name, (&one.comparison, one.low_pass_hz))?;

@@ -86,6 +86,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let signals = rig.signals.iter().map(signal).collect::<Result<Vec<_>, _>>()?;
     let found = Found { file, rig, modes, points, filters, filtered, comparisons, signals, solutions };
     let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
+    drawn.frequency_unit = output.frequency_unit;
     tables::write(&options.out, &found, &mut drawn.files)?;
     for (name, curves, comparison) in &found.comparisons {
         let compared = Compared {

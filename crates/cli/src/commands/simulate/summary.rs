@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::store::{SimulatedChunk, SimulatedContact, SimulationLayout};
 use serde_json::{Value, json};
+
+use crate::output::frequency;
 
 use super::{folder, time::Pieces, told::Told};
 
@@ -91,13 +94,14 @@ impl Summary {
         document
     }
 
-    pub fn text(&self, told: &Told<'_>, out: Option<&Path>) -> String {
+    pub fn text(&self, told: &Told<'_>, (out, unit): (Option<&Path>, FrequencyUnit)) -> String {
         let layout = told.layout;
         let seconds = self.seconds(layout);
         let mut lines = vec![
             match told.pieces {
                 Pieces::Periods => {
-                    format!("{} periods at {} Hz, {seconds:.6} s", layout.periods, layout.frequency_hz)
+                    let at = frequency(unit, layout.frequency_hz);
+                    format!("{} periods at {at}, {seconds:.6} s", layout.periods)
                 }
                 Pieces::Intervals => {
                     format!("{seconds:.6} s of free vibration, {} samples in a second", sampling_hz(layout))
