@@ -58,7 +58,7 @@ impl Results {
         let file = StudyFile::parse("study.toml", text.to_owned())?;
         let model = Model::build(&file)?;
         let stored = StoredBranches::open(folder, &file)?;
-        Ok(Self { model, range_hz: file.study.excitation.frequency_hz, stored })
+        Ok(Self { model, range_hz: file.study.excitation.range_hz(), stored })
     }
 
     /// The branches, in their order.

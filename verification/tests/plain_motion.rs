@@ -55,7 +55,7 @@ fn it_follows_the_systems_of_the_surveys_as_the_library_does() {
     for (name, text) in SYSTEMS {
         let file = StudyFile::parse(name, (*text).to_owned()).unwrap();
         let (model, equations) = (Model::build(&file).unwrap(), equations(text));
-        let [low, high] = file.study.excitation.frequency_hz;
+        let [low, high] = file.study.excitation.range_hz();
         let frequency_hz = low + 0.37 * (high - low);
         let mut plain = Simulator::plain(&equations, &model, frequency_hz);
         let mut exact = Simulator::exact(&model.system, frequency_hz).unwrap();

@@ -26,6 +26,10 @@ pub struct Arguments {
     #[arg(long, global = true)]
     pub json: bool,
 
+    /// Show frequencies in rad/s in texts and figures; tables, documents and page.html keep hertz
+    #[arg(long, global = true)]
+    pub angular: bool,
+
     #[command(subcommand)]
     pub command: Command,
 }

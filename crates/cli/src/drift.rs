@@ -27,7 +27,7 @@ pub fn warn(drifts: &[Drift]) {
 
 /// Warns of a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
 pub fn warn_of_range(model: &Model, study: &Study) {
-    let [_, high] = study.excitation.frequency_hz;
+    let [_, high] = study.excitation.range_hz();
     if let Some(resolved) = model.resolved_hz().filter(|resolved| high > *resolved) {
         anstream::eprintln!(
             "warning: the range reaches {high:e} Hz, where a period is so short that rounding hides what the \

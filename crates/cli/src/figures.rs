@@ -11,7 +11,7 @@ mod varied;
 
 use hammerbeam_figure::{
     Bifurcation, BifurcationCurve, CurveDiagram, CurvePoint, Quantity, ResponseCurve, ResponseDiagram,
-    ResponsePoint, ResponseSettings, ScaleChoice, Style,
+    ResponsePoint, ResponseSettings, ScaleChoice,
 };
 use hammerbeam_orbit::Stability;
 use hammerbeam_structure::ModeTables;
@@ -146,12 +146,14 @@ fn draw_kind(
 /// Draws the structure, its modes, the error of its reduction if it is reduced, and its excitation.
 pub fn draw_linear(drawn: &mut impl Album, file: &StudyFile, model: &Model) {
     let (study, tables): (_, &ModeTables) = (&file.study, &model.tables);
-    drawn.add("structure", structure::sketch(study));
-    drawn.add("modes", linear::modes(study, model));
+    drawn.add("structure", structure::sketch(study, drawn.frequency_unit()));
+    drawn.add("modes", linear::modes(study, model, &drawn.narrow()));
     if !tables.frequency_errors.is_empty() {
-        drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables));
+        drawn.add_unless_empty("reduction", linear::reduction(&study.title, tables, &drawn.narrow()));
     }
-    drawn.add("excitation", linear::excitation(study));
+    if let Some(excitation) = study.excitation.harmonic() {
+        drawn.add("excitation", linear::excitation(&study.title, excitation, &drawn.narrow()));
+    }
 }
 
 fn draw_response(
@@ -160,12 +162,12 @@ fn draw_response(
     scale: FigureScale,
     drawn: &mut Drawn<'_>,
 ) -> anyhow::Result<()> {
-    let diagram = diagram(store, file.study.excitation.frequency_hz)?;
+    let diagram = diagram(store, file.study.excitation.range_hz())?;
     if diagram.curves.is_empty() {
         return Ok(());
     }
     for (word, quantity) in quantities(&diagram.curves) {
-        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale)));
+        drawn.add(&format!("response_{word}"), diagram.draw_with(&[quantity], &settings(scale, drawn)));
     }
     Ok(())
 }
@@ -185,17 +187,17 @@ fn quantities(curves: &[ResponseCurve]) -> impl Iterator<Item = (&'static str, Q
     })
 }
 
-fn settings(scale: FigureScale) -> ResponseSettings {
+fn settings(scale: FigureScale, album: &impl Album) -> ResponseSettings {
     let choice = match scale {
         FigureScale::Automatic => ScaleChoice::Automatic,
         FigureScale::Linear => ScaleChoice::Linear,
         FigureScale::Logarithmic => ScaleChoice::Logarithmic,
     };
     ResponseSettings {
+        style: album.wide(),
         displacement_scale: choice,
         acceleration_scale: choice,
         contact_scale: choice,
-        ..ResponseSettings::default()
     }
 }
 
@@ -214,7 +216,7 @@ fn draw_curves(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
             continue;
         }
         let diagram = CurveDiagram { title: store.about("title")?, parameter: axis_label(parameter), curves };
-        drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&Style::default()));
+        drawn.add(&format!("curves_{}", file_name(parameter)), diagram.draw(&drawn.wide()));
     }
     Ok(())
 }

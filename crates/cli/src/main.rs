@@ -25,12 +25,15 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use hammerbeam_figure::FrequencyUnit;
+
 use args::{Arguments, Command};
 use output::Output;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let output = Output { json: arguments.json };
+    let frequency_unit = if arguments.angular { FrequencyUnit::RadPerSecond } else { FrequencyUnit::Hertz };
+    let output = Output { json: arguments.json, frequency_unit };
     let result = match &arguments.command {
         Command::New(options) => commands::new::run(options, output),
         Command::Check(options) => commands::check::run(options, output),

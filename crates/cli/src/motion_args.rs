@@ -17,21 +17,31 @@ pub struct SimulateOptions {
     /// Study file
     pub study: PathBuf,
 
-    /// Excitation frequency
+    /// Excitation frequency; needed unless the study has no [excitation]
     #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
-    pub frequency: f64,
+    pub frequency: Option<f64>,
 
-    /// Excitation periods that are written down
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = whole(1_u64..=100_000_000), allow_negative_numbers = true)]
-    pub periods: u64,
+    /// Excitation periods that are written down [default: 10]
+    #[arg(long, value_name = "N", value_parser = whole(1_u64..=100_000_000), allow_negative_numbers = true)]
+    pub periods: Option<u64>,
+
+    /// Time that is written down, in seconds: rounded up to whole excitation periods, or, without [excitation],
+    /// to intervals of samples
+    #[arg(long, value_name = "S", conflicts_with = "periods", value_parser = seconds, allow_negative_numbers = true)]
+    pub duration: Option<f64>,
 
     /// Excitation periods that are run first and not written down
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0_u64..=100_000_000), allow_negative_numbers = true)]
     pub transient_periods: u64,
 
-    /// Samples in an excitation period
-    #[arg(long, value_name = "N", default_value_t = 100, value_parser = whole(1_u32..=1_000_000), allow_negative_numbers = true)]
-    pub samples_per_period: u32,
+    /// Samples in an excitation period [default: 100]
+    #[arg(long, value_name = "N", value_parser = whole(1_u32..=1_000_000), allow_negative_numbers = true)]
+    pub samples_per_period: Option<u32>,
+
+    /// Samples in a second, for a study without [excitation] [default: 100 in a period of the lowest
+    /// eigenfrequency]
+    #[arg(long, value_name = "HZ", value_parser = excitation_frequency, allow_negative_numbers = true)]
+    pub sampling: Option<f64>,
 
     #[arg(long, value_name = "STATE", default_value = "rest", help = INITIAL, allow_hyphen_values = true)]
     pub initial: String,
@@ -265,6 +275,13 @@ where
             text.parse::<i128>().map_err(|_| format!("must be a whole number from {low} to {high}"))?;
         let inside = (low..=high).contains(&number).then(|| T::try_from(number).ok()).flatten();
         inside.ok_or_else(|| format!("{number} is not in {low}..={high}"))
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if (1e-15..=1e15).contains(&number) => Ok(number),
+        _ => Err("must be a number of seconds from 1e-15 to 1e15".to_owned()),
     }
 }
 

@@ -5,6 +5,7 @@ use std::{
     io::{self, Write},
 };
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_signal::limits::is_control;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -16,6 +17,16 @@ use crate::failure::Failure;
 pub struct Output {
     /// One JSON document instead of text.
     pub json: bool,
+    /// Unit in which texts and figures show frequencies.
+    pub frequency_unit: FrequencyUnit,
+}
+
+/// A frequency with its unit: all digits of one in hertz, nine of another.
+pub fn frequency(unit: FrequencyUnit, frequency_hz: f64) -> String {
+    match unit {
+        FrequencyUnit::Hertz => format!("{frequency_hz} Hz"),
+        other => other.words(frequency_hz),
+    }
 }
 
 impl Output {

@@ -1,8 +1,10 @@
 //! All tests of this crate that use it from outside, in one binary: linking is most of what a test costs.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod angular;
 mod bad_input;
 mod borders;
+mod both_sides;
 mod common;
 mod compare;
 mod corners;

@@ -31,16 +31,28 @@ pub(crate) struct Measure {
     pub(crate) choice: ScaleChoice,
     /// Where it ends; a little beyond the data if not told.
     pub(crate) ends: Option<(f64, f64)>,
+    /// What its numbers are of the values of the data.
+    pub(crate) factor: f64,
 }
 
 impl Measure {
     /// A linear axis a little longer than the data.
     pub(crate) fn new(label: impl Into<String>) -> Self {
-        Self { label: Text::upright(label), choice: ScaleChoice::Linear, ends: None }
+        Self { label: Text::upright(label), choice: ScaleChoice::Linear, ends: None, factor: 1.0 }
     }
 
     pub(crate) fn logarithmic(label: impl Into<String>) -> Self {
         Self { choice: ScaleChoice::Logarithmic, ..Self::new(label) }
+    }
+
+    /// A linear axis of frequencies in hertz, shown in the unit of the style.
+    pub(crate) fn frequency(what: &str, style: &Style) -> Self {
+        let unit = style.frequency_unit;
+        Self { factor: unit.factor(), ..Self::new(unit.label(what)) }
+    }
+
+    pub(crate) fn over_decades(self) -> Self {
+        Self { choice: ScaleChoice::Logarithmic, ..self }
     }
 
     pub(crate) fn between(self, ends: (f64, f64)) -> Self {
@@ -153,13 +165,15 @@ impl Chart {
         let axes: Vec<Axis> = scales.iter().zip(&self.panels).map(|pair| axis(pair, guess)).collect();
         let labels = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, labels);
-        let right = points(style.width_mm) - MARGIN - room_right(style, &across, left, TICK_SPACING.0);
+        let right = points(style.width_mm)
+            - MARGIN
+            - room_right(style, (&across, self.x.factor), left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left).len() as f64;
         let legend = Legend::new(self.legend.clone(), style, right - left).height(style);
         let head = MARGIN + 1.5 * title * style.label_size + legend + GAP;
         let longest = axes.iter().map(|axis| axis.label.width(style.label_size)).fold(0.0, f64::max);
         let height = self.aspect.map_or(guess, |aspect| aspect * (right - left)).max(longest);
-        let x = Axis::new(across, self.x.label.clone(), right - left, TICK_SPACING.0);
+        let x = Axis::in_unit((across, self.x.factor), self.x.label.clone(), right - left, TICK_SPACING.0);
         let last = self.panels.len() - 1;
         let mut top = head;
         Ok(scales

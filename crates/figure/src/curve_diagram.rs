@@ -110,9 +110,11 @@ impl CurveDiagram {
 
     fn laid_out(&self, (across, up): (Scale, Scale), style: &Style) -> (Plot, Legend, Vec<Text>) {
         let plot_height = points(style.height_mm) - room_below(style);
-        let y = Axis::new(up, Text::upright("Excitation frequency (Hz)"), 0.85 * plot_height, TICK_SPACING.1);
+        let unit = style.frequency_unit;
+        let label = Text::upright(unit.label("Excitation frequency"));
+        let y = Axis::in_unit((up, unit.factor()), label, 0.85 * plot_height, TICK_SPACING.1);
         let left = room_left(style, y.label_width(style.tick_size));
-        let right = points(style.width_mm) - MARGIN - room_right(style, &across, left, TICK_SPACING.0);
+        let right = points(style.width_mm) - MARGIN - room_right(style, (&across, 1.0), left, TICK_SPACING.0);
         let x = Axis::new(across, Text::upright(&self.parameter), right - left, TICK_SPACING.0);
         let title = wrap(&self.title, style.label_size, right - left);
         let legend = Legend::new(vec![self.entries()], style, right - left);

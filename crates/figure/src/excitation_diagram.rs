@@ -51,7 +51,7 @@ impl ExcitationDiagram {
         };
         let rows = self.rows.len();
         let description = format!("amplitude of the excitation over its frequency, {rows} rows{measured}");
-        let x = Measure::new("Excitation frequency (Hz)");
+        let x = Measure::frequency("Excitation frequency", style);
         let frequencies = self.rows.iter().chain(&self.measured).map(|(frequency, _)| *frequency);
         let ends = extent(frequencies.filter(|frequency| frequency.is_finite()));
         let x = ends.filter(|(from, to)| from < to).map_or_else(|| x.clone(), |ends| x.clone().between(ends));

@@ -75,7 +75,7 @@ impl ExponentDiagram {
             sample: Sample::Dot(dot),
             name: "mean, with its interval of 95 per cent".to_owned(),
         }]];
-        let x = Measure::new("Excitation frequency (Hz)");
+        let x = Measure::frequency("Excitation frequency", style);
         let count = self.points.len();
         let description =
             format!("largest Lyapunov exponent and Kaplan-Yorke dimension at {count} frequencies");
@@ -118,8 +118,8 @@ impl ConvergenceDiagram {
         let y = Measure::new("Lyapunov exponent (1/s)");
         let panels = vec![Panel { quantity: "exponent", y, layers, heading: String::new() }];
         let description = format!(
-            "convergence of the {drawn} largest of {all} Lyapunov exponents at {} Hz",
-            self.frequency_hz
+            "convergence of the {drawn} largest of {all} Lyapunov exponents at {}",
+            style.frequency_unit.words(self.frequency_hz)
         );
         let x = Measure::logarithmic("Averaging time (s)");
         Chart { title: self.title.clone(), x, panels, legend, description, aspect: None }.draw(style)

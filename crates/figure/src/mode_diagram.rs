@@ -4,7 +4,7 @@
 //! beam the line is a cubic with slopes by differences; where an end cannot turn its slope is zero.
 
 use crate::{
-    Figure, FigureError, Style,
+    Figure, FigureError, FrequencyUnit, Style,
     dots::{Dot, Shape},
     font::CAPITAL_HEIGHT,
     plot::lettering,
@@ -89,7 +89,7 @@ impl ModeDiagram {
         };
         let foot = if more.is_empty() { 0.0 } else { heading };
         let height = top + modes.len() as f64 * (BAND + heading) + foot + MARGIN;
-        let description = self.description(&modes);
+        let description = self.description(&modes, style.frequency_unit);
         let mut svg = SvgWriter::new(style.width_mm, height * 25.4 / 72.0, &self.title, &description);
         for (i, line) in title.iter().enumerate() {
             let y = MARGIN + 1.5 * i as f64 * style.label_size + CAPITAL_HEIGHT * style.label_size;
@@ -100,7 +100,7 @@ impl ModeDiagram {
             let y = top + row as f64 * (BAND + heading);
             svg.text(
                 at(MARGIN, y + 0.75 * heading),
-                &Text::upright(words(*number, mode)),
+                &Text::upright(words(*number, mode, style.frequency_unit)),
                 lettering(style.tick_size, Anchor::Start),
             );
             self.draw_mode(&mut svg, mode, y + heading + 0.5 * BAND, style);
@@ -110,8 +110,8 @@ impl ModeDiagram {
         Ok(Figure::new(svg.finish(), description, style.width_mm, height * 25.4 / 72.0))
     }
 
-    fn description(&self, modes: &[(usize, &DrawnMode)]) -> String {
-        let of: Vec<String> = modes.iter().map(|(number, mode)| words(*number, mode)).collect();
+    fn description(&self, modes: &[(usize, &DrawnMode)], unit: FrequencyUnit) -> String {
+        let of: Vec<String> = modes.iter().map(|(number, mode)| words(*number, mode, unit)).collect();
         format!("shapes of {} modes: {}", modes.len(), of.join("; "))
     }
 
@@ -211,20 +211,21 @@ impl ModeDiagram {
     }
 }
 
-fn words(number: usize, mode: &DrawnMode) -> String {
+fn words(number: usize, mode: &DrawnMode, unit: FrequencyUnit) -> String {
+    let (symbol, shown) = (unit.symbol(), |hertz: f64| five_digits(unit.factor() * hertz));
     let unreduced = match mode.unreduced_hz {
-        Some(full) if mode.frequency_hz > 0.0 => format!(" (unreduced {} Hz)", hertz(full)),
+        Some(full) if mode.frequency_hz > 0.0 => format!(" (unreduced {} {symbol})", shown(full)),
         _ => String::new(),
     };
     if mode.frequency_hz == 0.0 {
-        format!("Mode {number}: 0 Hz, moves as a rigid body")
+        format!("Mode {number}: 0 {symbol}, moves as a rigid body")
     } else {
-        format!("Mode {number}: {} Hz{unreduced}", hertz(mode.frequency_hz))
+        format!("Mode {number}: {} {symbol}{unreduced}", shown(mode.frequency_hz))
     }
 }
 
-/// A frequency with five significant digits.
-fn hertz(value: f64) -> String {
+/// A number with five significant digits.
+fn five_digits(value: f64) -> String {
     let whole = if value > 0.0 { value.log10().floor() as i32 + 1 } else { 1 };
     decimal(value, (5 - whole).clamp(0, 6) as usize)
 }
@@ -277,8 +278,8 @@ mod tests {
 
     #[test]
     fn frequencies_have_five_digits() {
-        assert_eq!(hertz(17.495_46), "17.495");
-        assert_eq!(hertz(1538.8499), "1538.8");
-        assert_eq!(hertz(0.159_154_9), "0.15915");
+        assert_eq!(five_digits(17.495_46), "17.495");
+        assert_eq!(five_digits(1538.8499), "1538.8");
+        assert_eq!(five_digits(0.159_154_9), "0.15915");
     }
 }

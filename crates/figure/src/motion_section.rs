@@ -7,7 +7,6 @@ use crate::{
     dots::{Dot, Shape},
     layer::Layer,
     style::PERIOD_COLOUR,
-    text::plain_number,
 };
 
 /// Points up to which they are drawn larger.
@@ -39,8 +38,10 @@ impl SectionDiagram {
         let y = Measure::new("Velocity (m/s)");
         let panels = vec![Panel { quantity: "point of the section", y, layers, heading: String::new() }];
         let count = self.points.len();
-        let description =
-            format!("Poincaré section at phase 0 at {} Hz, {count} points", plain_number(self.frequency_hz));
+        let description = format!(
+            "Poincaré section at phase 0 at {}, {count} points",
+            style.frequency_unit.words(self.frequency_hz)
+        );
         let x = Measure::new("Displacement (mm)");
         let title = self.title.clone();
         Chart { title, x, panels, legend: Vec::new(), description, aspect: Some(0.8) }.draw(style)

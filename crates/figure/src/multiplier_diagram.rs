@@ -82,7 +82,7 @@ impl MultiplierDiagram {
         );
         Chart {
             title: self.title.clone(),
-            x: Measure::new("Excitation frequency (Hz)"),
+            x: Measure::frequency("Excitation frequency", style),
             panels,
             legend: vec![(0..drawn).map(entry).collect()],
             description,

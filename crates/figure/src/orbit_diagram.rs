@@ -6,13 +6,12 @@ mod impulse;
 use std::f64::consts::TAU;
 
 use crate::{
-    Figure, FigureError, Style,
+    Figure, FigureError, FrequencyUnit, Style,
     chart::{Chart, Measure, Panel},
     dots::{Dot, Shape},
     layer::Layer,
     legend::{Entry, Sample},
     style::{INK, PALE_INK, Pattern, line_pattern},
-    text::plain_number,
 };
 
 pub use impulse::OrbitImpulse;
@@ -93,8 +92,10 @@ impl OrbitDiagram {
             plain("acceleration", "Accel. (m/s²)", self.acceleration(), 0),
         ];
         if let Some(filtered) = &self.filtered {
-            let heading =
-                format!("acceleration behind a low-pass filter of {} Hz", plain_number(filtered.cut_off_hz));
+            let heading = format!(
+                "acceleration behind a low-pass filter of {}",
+                style.frequency_unit.words(filtered.cut_off_hz)
+            );
             let points = self.closed(&filtered.values_m_s2);
             panels.push(Panel { heading, ..plain("filtered acceleration", "Accel. (m/s²)", points, 0) });
         }
@@ -122,7 +123,8 @@ impl OrbitDiagram {
         }
         let legend = vec![legend];
         let x = Measure::new("Time over excitation period (–)").between((0.0, self.periods()));
-        self.chart("one period of the orbit", x, panels, legend, Some(0.16)).draw(style)
+        self.chart(("one period of the orbit", style.frequency_unit), x, panels, legend, Some(0.16))
+            .draw(style)
     }
 
     /// Velocity over displacement, with the points at phase 0; below it these points alone, the Poincaré
@@ -158,7 +160,14 @@ impl OrbitDiagram {
             panel("point of the section", "Poincaré section", vec![dots]),
         ];
         let x = Measure::new("Displacement (mm)");
-        self.chart("phase portrait and Poincaré section", x, panels, vec![legend], Some(0.62)).draw(style)
+        self.chart(
+            ("phase portrait and Poincaré section", style.frequency_unit),
+            x,
+            panels,
+            vec![legend],
+            Some(0.62),
+        )
+        .draw(style)
     }
 
     /// Amplitudes of the harmonics of the acceleration, with the eigenfrequencies marked.
@@ -195,8 +204,9 @@ impl OrbitDiagram {
         let y = Measure::logarithmic("Amplitude of acceleration (m/s²)");
         let y = if floor > 0.0 { y.between((floor, 3.0 * largest)) } else { y };
         let panels = vec![Panel { quantity: "harmonic", y, layers, heading: String::new() }];
-        let x = Measure::new("Frequency (Hz)").between((0.0, 1.2 * highest));
-        self.chart("spectrum of the acceleration", x, panels, vec![legend], None).draw(style)
+        let x = Measure::frequency("Frequency", style).between((0.0, 1.2 * highest));
+        self.chart(("spectrum of the acceleration", style.frequency_unit), x, panels, vec![legend], None)
+            .draw(style)
     }
 
     /// Amplitude of a harmonic, by Goertzel's sum written out; the phase is reduced first, so that it stays
@@ -233,15 +243,15 @@ impl OrbitDiagram {
 
     fn chart(
         &self,
-        what: &str,
+        (what, unit): (&str, FrequencyUnit),
         x: Measure,
         panels: Vec<Panel>,
         legend: Vec<Vec<Entry>>,
         aspect: Option<f64>,
     ) -> Chart {
-        let (frequency, multiple) = (plain_number(self.frequency_hz), self.period_multiple);
+        let (frequency, multiple) = (unit.words(self.frequency_hz), self.period_multiple);
         let mut description =
-            format!("{what}, at {frequency} Hz, period {multiple}, {} samples", self.samples.len());
+            format!("{what}, at {frequency}, period {multiple}, {} samples", self.samples.len());
         if !self.impulses.is_empty() {
             description.push_str(&format!("; {}", self.impulses_in_words()));
         }

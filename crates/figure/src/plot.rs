@@ -46,11 +46,12 @@ pub(crate) fn room_left(style: &Style, label_width: f64) -> f64 {
 
 /// Room right of the frame (pt): for as much of a number of the horizontal axis as juts out there.
 ///
+/// * `scale`: of the axis, and the factor of its numbers.
 /// * `left`: of the frame (pt).
 /// * `spacing`: distance of the numbers of the axis (pt).
-pub(crate) fn room_right(style: &Style, scale: &Scale, left: f64, spacing: f64) -> f64 {
+pub(crate) fn room_right(style: &Style, (scale, factor): (&Scale, f64), left: f64, spacing: f64) -> f64 {
     let length = points(style.width_mm) - left - style.tick_size;
-    let axis = Axis::new(*scale, Text::default(), length, spacing);
+    let axis = Axis::in_unit((*scale, factor), Text::default(), length, spacing);
     let jut = |tick| 0.5 * number(tick).width(style.tick_size) - (1.0 - scale.share(tick.value)) * length;
     labelled(&axis).map(jut).fold(style.tick_size, f64::max)
 }

@@ -72,7 +72,7 @@ impl ReductionDiagram {
         let panels = vec![Panel { quantity: "error", y, layers, heading: String::new() }];
         let description =
             format!("relative errors of {} eigenfrequencies by the reduction", self.modes.len());
-        let x = Measure::logarithmic("Unreduced eigenfrequency (Hz)");
+        let x = Measure::frequency("Unreduced eigenfrequency", style).over_decades();
         Chart { title: self.title.clone(), x, panels, legend: vec![legend], description, aspect: None }
             .draw(style)
     }

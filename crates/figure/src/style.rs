@@ -4,7 +4,7 @@
 //! of lightness, and what has one step has another number of strokes across its line. Nothing is said by
 //! colour alone where a line style or a mark can say it.
 
-use crate::{Bifurcation, MotionKind, stretch::LineLook};
+use crate::{Bifurcation, FrequencyUnit, MotionKind, stretch::LineLook};
 
 /// Colour of text, frames and marks.
 pub(crate) const INK: &str = "#222222";
@@ -159,6 +159,8 @@ pub struct Style {
     pub stroke_reach: f64,
     /// Greatest distance of the drawn line from the stored points (pt).
     pub line_tolerance: f64,
+    /// Unit in which frequencies are shown.
+    pub frequency_unit: FrequencyUnit,
 }
 
 impl Style {
@@ -181,7 +183,14 @@ impl Style {
             stroke_spacing: (24.0, 1.6),
             stroke_reach: 2.2,
             line_tolerance: 0.024, // a tenth of a pixel at 300 pixels per inch
+            frequency_unit: FrequencyUnit::Hertz,
         }
+    }
+
+    /// The same with frequencies in that unit.
+    #[must_use]
+    pub fn showing(self, frequency_unit: FrequencyUnit) -> Self {
+        Self { frequency_unit, ..self }
     }
 
     /// For one column of a journal: 84 mm wide.

@@ -110,7 +110,7 @@ impl SweepDiagram {
             layers: origins.iter().flat_map(|origin| self.maxima(*origin)).collect(),
             heading: String::new(),
         });
-        let x = Measure::new("Excitation frequency (Hz)");
+        let x = Measure::frequency("Excitation frequency", style);
         let (title, description) = (self.title.clone(), self.description());
         Chart { title, x, panels, legend: self.legend(&origins), description, aspect: None }.draw(style)
     }

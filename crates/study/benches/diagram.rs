@@ -240,7 +240,7 @@ fn flights(integrator: &mut ExactIntegrator, orbit: &PeriodicSolution) -> Vec<(S
 
 /// Time [s] and evaluations of a solution, over short walks from some of the orbits.
 fn walk(model: &Model, file: &StudyFile, orbits: &[PeriodicSolution]) -> (f64, f64) {
-    let [low, high] = file.study.excitation.frequency_hz;
+    let [low, high] = file.study.excitation.range_hz();
     let settings = OrbitSettings::default();
     let (mut rows, mut evaluations, mut elapsed) = (Vec::new(), 0, 0.0);
     for orbit in orbits.iter().step_by(orbits.len().div_ceil(WALKS).max(1)) {

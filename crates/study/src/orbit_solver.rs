@@ -45,7 +45,7 @@ impl<'m> OrbitSolver<'m> {
     /// For a study and its model.
     #[must_use]
     pub fn new(model: &'m Model, study: &Study) -> Self {
-        let [low, high] = study.excitation.frequency_hz;
+        let [low, high] = study.excitation.range_hz();
         let usual = SurveyEffort::default();
         Self {
             model,

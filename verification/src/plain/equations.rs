@@ -151,7 +151,7 @@ impl Equations {
         Ok(row)
     }
 
-    /// One stop, or the two of a two-sided one.
+    /// One stop, or the two of one on both sides.
     fn stop(&self, stop: &Table) -> Result<Vec<Stop>, Failure> {
         let mut ratio = 0.0;
         let row = if let Some(pair) = stop.get("between").and_then(Value::as_array) {
@@ -201,13 +201,18 @@ impl Equations {
             "rigid" => Law::Rigid { restitution: needed(stop, "restitution")? },
             other => return Err(format!("no law {other} here").into()),
         };
-        let side = if text(stop, "side")? == "above" { 1.0 } else { -1.0 };
+        let sides = match text(stop, "side")? {
+            "above" => &[1.0][..],
+            "below" => &[-1.0],
+            "both" => &[1.0, -1.0],
+            other => return Err(format!("no side {other} here").into()),
+        };
         // A preloaded stop is in touch when the structure is undeformed, and opens where its force is gone.
         let gap = match law {
             Law::Linear { stiffness, preload, .. } => gap - preload / stiffness,
             _ => gap,
         };
-        Ok(vec![one(side, gap, law)])
+        Ok(sides.iter().map(|side| one(*side, gap, law.clone())).collect())
     }
 
     /// Where the structure rests under its constant forces, without any stop.

@@ -73,10 +73,13 @@ pub fn swapped(study: &Table) -> Table {
     study
 }
 
-/// A stop on the other side.
+/// A stop on the other side; one on both sides stays.
 fn turn_stop(stop: &mut Table) {
-    let other =
-        stop.get("side").and_then(Value::as_str).map(|side| if side == "above" { "below" } else { "above" });
+    let other = match stop.get("side").and_then(Value::as_str) {
+        Some("above") => Some("below"),
+        Some("below") => Some("above"),
+        _ => None,
+    };
     if let Some(other) = other {
         stop.insert("side".into(), Value::String(other.into()));
     }

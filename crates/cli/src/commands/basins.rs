@@ -1,6 +1,7 @@
 //! `hammerbeam basins`: which attractor each of a grid of initial states leads to.
 
 use hammerbeam_attractor::{Attractor, Axis, Basins, Class, Effort, Estimate, Grid, fractions};
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{Model, Store, StoredBranches, StudyFile, export::write_basins, store::RequestKind};
 use serde_json::{Value, json};
@@ -11,12 +12,13 @@ use crate::{
     interrupt::Interrupt,
     kept::{Kept, branches},
     motion_args::{AxisOption, BasinsOptions},
-    output::Output,
+    output::{Output, frequency},
     ticker::Ticker,
 };
 
 pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     let grid = grid(options, &model)?;
     let effort = Effort::from(&options.effort);
@@ -54,7 +56,7 @@ pub fn run(options: &BasinsOptions, output: Output) -> Result<(), Failure> {
     if result.lost() == total {
         return Err(Failure::NoResult(format!("no motion from any of the {total} cells: {NOT_COMPUTED}")));
     }
-    output.give(&result.document(), || result.text())?;
+    output.give(&result.document(), || result.text(output.frequency_unit))?;
     Ok(())
 }
 
@@ -211,8 +213,9 @@ impl Outcome<'_> {
         })
     }
 
-    fn text(&self) -> String {
-        let mut lines = vec![format!("{} cells at {} Hz", self.cells.len(), self.options.frequency)];
+    fn text(&self, unit: FrequencyUnit) -> String {
+        let mut lines =
+            vec![format!("{} cells at {}", self.cells.len(), frequency(unit, self.options.frequency))];
         for (index, attractor, fraction, branch) in self.attractors() {
             let class = attractor.class;
             let branch = branch.map_or_else(String::new, |branch| format!(", branch {branch}"));

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{
     Drift, Model, Study, StudyFile, UndampedInContact, UndampedMode,
     file::{
@@ -11,14 +12,19 @@ use hammerbeam_study::{
 };
 use serde_json::{Value, json};
 
-use crate::{args::StudyOptions, drift, failure::Failure, output::Output};
+use crate::{
+    args::StudyOptions,
+    drift,
+    failure::Failure,
+    output::{Output, frequency},
+};
 
 pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     drift::warn(&model.drifts());
     drift::warn_of_range(&model, &file.study);
-    output.give(&document(&file.study, &model), || text(&file.study, &model))?;
+    output.give(&document(&file.study, &model), || text(&file.study, &model, output.frequency_unit))?;
     Ok(())
 }
 
@@ -33,7 +39,7 @@ fn document(study: &Study, model: &Model) -> Value {
         "identity": study.identity(),
         "degrees_of_freedom": model.system.dof(),
         "eigenfrequencies_hz": eigenfrequencies_hz(model),
-        "frequency_hz": study.excitation.frequency_hz,
+        "frequency_hz": study.excitation.harmonic().map(|harmonic| harmonic.frequency_hz),
         "undamped_modes": model.undamped_modes().iter().map(undamped_document).collect::<Vec<_>>(),
         "undamped_in_contact":
             model.undamped_in_contact().iter().map(in_contact_document).collect::<Vec<_>>(),
@@ -99,7 +105,8 @@ fn undamped_text(modes: &[UndampedMode], dof: usize) -> Option<String> {
     ))
 }
 
-fn text(study: &Study, model: &Model) -> String {
+fn text(study: &Study, model: &Model, unit: FrequencyUnit) -> String {
+    let shown = |hertz: f64| digits(unit.factor() * hertz);
     let mut lines = Vec::new();
     if !study.title.is_empty() {
         lines.push(study.title.clone());
@@ -108,16 +115,20 @@ fn text(study: &Study, model: &Model) -> String {
         Structure::Beam(beam) => beam_text(beam),
         Structure::Lumped(lumped) => lumped_text(lumped),
     });
-    lines.push(format!("reduction    {}", reduction_text(&study.reduction, model.system.dof())));
-    let frequencies: Vec<String> = eigenfrequencies_hz(model).iter().take(8).map(|f| digits(*f)).collect();
+    lines.push(format!("reduction    {}", reduction_text(&study.reduction, model.system.dof(), unit)));
+    let frequencies: Vec<String> = eigenfrequencies_hz(model).iter().take(8).map(|f| shown(*f)).collect();
     let more = if model.system.dof() > 8 { ", ..." } else { "" };
-    lines.push(format!("modes        {}{more} Hz", frequencies.join(", ")));
+    lines.push(format!("modes        {}{more} {}", frequencies.join(", "), unit.symbol()));
     lines.push(format!("damping      {}", damping_text(study)));
     lines.extend(undamped_text(&model.undamped_modes(), model.system.dof()));
     lines.extend(in_contact_text(&model.undamped_in_contact()));
-    lines.push(format!("excitation   {}", excitation_text(study)));
+    lines.push(format!("excitation   {}", excitation_text(study, unit)));
     lines.extend(study.loads.iter().map(|load| format!("load         {}", load_text(load))));
     lines.extend(study.stops.iter().map(|stop| format!("stop         {}", stop_text(stop))));
+    if study.excitation.harmonic().is_none() {
+        lines.push(format!("response     point {}", study.response.point));
+        return lines.join("\n");
+    }
     let multiples: Vec<String> = study.response.period_multiples.iter().map(u32::to_string).collect();
     lines.push(format!(
         "response     point {}, period multiples {}",
@@ -126,8 +137,9 @@ fn text(study: &Study, model: &Model) -> String {
     ));
     let continuation = &study.continuation;
     lines.push(format!(
-        "continuation steps of at most {} Hz, tolerance {:e}, at most {} solutions on each side of a start",
-        digits(continuation.max_step_hz),
+        "continuation steps of at most {} {}, tolerance {:e}, at most {} solutions on each side of a start",
+        shown(continuation.max_step_hz),
+        unit.symbol(),
         continuation.tolerance,
         continuation.budget_solutions
     ));
@@ -166,10 +178,13 @@ fn lumped_text(lumped: &Lumped) -> String {
     )
 }
 
-fn reduction_text(reduction: &Reduction, dof: usize) -> String {
+fn reduction_text(reduction: &Reduction, dof: usize, unit: FrequencyUnit) -> String {
     match reduction.method {
         ReductionMethod::None => format!("none, {dof} modes"),
-        _ => format!("{}, cut-off {} Hz, {dof} modes left", word(&reduction.method), reduction.cut_off_hz),
+        _ => {
+            let cut_off = frequency(unit, reduction.cut_off_hz);
+            format!("{}, cut-off {cut_off}, {dof} modes left", word(&reduction.method))
+        }
     }
 }
 
@@ -217,8 +232,10 @@ fn amplitude_text(amplitude: &Amplitude, unit: &str) -> String {
     }
 }
 
-fn excitation_text(study: &Study) -> String {
-    let excitation = &study.excitation;
+fn excitation_text(study: &Study, unit: FrequencyUnit) -> String {
+    let Some(excitation) = study.excitation.harmonic() else {
+        return "none; `simulate` follows the free vibration".to_owned();
+    };
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
@@ -229,9 +246,10 @@ fn excitation_text(study: &Study) -> String {
         }
     };
     format!(
-        "{what}, {} to {} Hz, order {}, phase {} rad",
-        digits(low),
-        digits(high),
+        "{what}, {} to {} {}, order {}, phase {} rad",
+        digits(unit.factor() * low),
+        digits(unit.factor() * high),
+        unit.symbol(),
         excitation.order,
         excitation.phase_rad
     )

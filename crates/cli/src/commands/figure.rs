@@ -22,6 +22,7 @@ pub fn run(options: &FigureOptions, output: Output) -> Result<(), Failure> {
         orbit::refuse_unknown(store.folder(), &file, &options.orbit)?;
     }
     let mut drawn = Drawn::into(folder)?.on(threads(options.jobs), Interrupt::listen(output)?);
+    drawn.frequency_unit = output.frequency_unit;
     drawn.resolution = options.resolution;
     drawn.formats = FigureFormat::ALL.into_iter().filter(|format| options.format.contains(format)).collect();
     let wishes = wishes(options, &file);

@@ -1,6 +1,7 @@
 //! `hammerbeam lyapunov`: the exponents of a motion.
 
 use hammerbeam_attractor::{Lyapunov, LyapunovSettings, SectionMap, SystemMap, WATCHED_PERIODS, zero_one};
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, Store, StudyFile,
@@ -16,7 +17,7 @@ use crate::{
     interrupt::Interrupt,
     kept::{Kept, state_words},
     motion_args::LyapunovOptions,
-    output::Output,
+    output::{Output, frequency},
     series::series,
     ticker::Ticker,
 };
@@ -33,6 +34,7 @@ const MOST_POINTS: usize = 4096;
 
 pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     let ends = (options.frequency, options.to.unwrap_or(options.frequency));
     let frequencies = series(ends, options.step, "--frequency")?;
@@ -77,7 +79,7 @@ pub fn run(options: &LyapunovOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::Interrupted(message));
     }
     let results: Vec<Outcome> = records.iter().map(|record| Outcome { options, record }).collect();
-    output.give(&document(options, &results), || text(&results))?;
+    output.give(&document(options, &results), || text(&results, output.frequency_unit))?;
     Ok(())
 }
 
@@ -240,11 +242,13 @@ impl Outcome<'_> {
         })
     }
 
-    fn text(&self) -> String {
+    fn text(&self, unit: FrequencyUnit) -> String {
         let spectrum = &self.record.spectrum;
         let mut lines = vec![format!(
-            "exponents at {} Hz over {:.6} s, {} section(s) in a period, with intervals of 95 %",
-            self.record.frequency_hz, spectrum.time, self.record.sections_per_period
+            "exponents at {} over {:.6} s, {} section(s) in a period, with intervals of 95 %",
+            frequency(unit, self.record.frequency_hz),
+            spectrum.time,
+            self.record.sections_per_period
         )];
         for exponent in &spectrum.exponents {
             lines.push(format!("  {:>14.6} +- {:.6} 1/s", exponent.value, exponent.half_width));
@@ -286,13 +290,17 @@ fn document(options: &LyapunovOptions, results: &[Outcome<'_>]) -> Value {
 }
 
 /// All of the only spectrum, or a row for each of a series.
-fn text(results: &[Outcome<'_>]) -> String {
+fn text(results: &[Outcome<'_>], unit: FrequencyUnit) -> String {
     if let [only] = results {
-        return only.text();
+        return only.text(unit);
     }
     let mut lines = vec![format!(
         "{:>12} {:>28} {:>10} {:>6}  {}",
-        "Hz", "largest exponent 1/s", "dimension", "K", "which is"
+        unit.symbol(),
+        "largest exponent 1/s",
+        "dimension",
+        "K",
+        "which is"
     )];
     for result in results {
         let (record, spectrum) = (result.record, &result.record.spectrum);
@@ -300,7 +308,7 @@ fn text(results: &[Outcome<'_>]) -> String {
         let k = record.zero_one.map_or_else(String::new, |k| format!("{k:.2}"));
         lines.push(format!(
             "{:>12.6} {:>14.6} +- {:<10.6} {:>10.4} {k:>6}  {}",
-            record.frequency_hz,
+            unit.factor() * record.frequency_hz,
             largest.value,
             largest.half_width,
             spectrum.kaplan_yorke_dimension,

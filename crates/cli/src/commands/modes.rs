@@ -1,5 +1,6 @@
 //! `hammerbeam modes`: eigenfrequencies before and after the reduction, and the shapes at the points.
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{Model, StudyFile};
 use serde_json::{Value, json};
 
@@ -19,10 +20,11 @@ pub fn run(options: &ModesOptions, output: Output) -> Result<(), Failure> {
     let mut document = document(&model);
     if let Some(folder) = &options.out {
         let mut drawn = Drawn::into(folder)?;
+        drawn.frequency_unit = output.frequency_unit;
         figures::draw_linear(&mut drawn, &file, &model);
         document["figures"] = json!(drawn.finish()?.names);
     }
-    output.give(&document, || text(&model))?;
+    output.give(&document, || text(&model, output.frequency_unit))?;
     Ok(())
 }
 
@@ -66,7 +68,7 @@ fn shapes_text(model: &Model) -> Vec<String> {
     lines
 }
 
-fn text(model: &Model) -> String {
+fn text(model: &Model, unit: FrequencyUnit) -> String {
     let tables = &model.tables;
     let interface = if tables.fixed_interface_hz.is_empty() {
         ("free interface", &tables.free_interface_hz)
@@ -74,12 +76,16 @@ fn text(model: &Model) -> String {
         ("fixed interface", &tables.fixed_interface_hz)
     };
     let mut lines = vec![
-        "Eigenfrequencies in Hz; clamped means as supported, with the moving support held still.".to_owned(),
+        format!(
+            "Eigenfrequencies in {}; clamped means as supported, with the moving support held still.",
+            unit.symbol()
+        ),
         format!("mode {:>16} {:>16} {:>16} {:>12}", "clamped", interface.0, "reduced", "error"),
     ];
     let rows = tables.reduced_hz.len().max(interface.1.len()).max(SHOWN).min(tables.clamped_hz.len());
-    let cell =
-        |values: &[f64], row: usize| values.get(row).map_or(String::new(), |value| format!("{value:.6}"));
+    let cell = |values: &[f64], row: usize| {
+        values.get(row).map_or(String::new(), |value| format!("{:.6}", unit.factor() * value))
+    };
     for row in 0..rows {
         let error =
             tables.frequency_errors.get(row).map_or(String::new(), |e| format!("{:+.2e}", e.relative));

@@ -1,5 +1,6 @@
 //! `hammerbeam orbit`: the periodic solutions at one frequency.
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_orbit::{FoundOrbits, PeriodicSolution};
 use hammerbeam_study::{Model, OrbitSolver, StudyFile};
 use serde_json::{Value, json};
@@ -10,11 +11,12 @@ use crate::{
     failure::Failure,
     figures::{self, Drawn},
     interrupt::Interrupt,
-    output::Output,
+    output::{Output, frequency},
 };
 
 pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
     let solver = OrbitSolver::new(&model, &file.study);
@@ -27,8 +29,10 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     let FoundOrbits { orbits, incomplete } = found.map_err(Failure::NoResult)?;
     let incomplete = incomplete.map(|reason| format!("the search is not complete: {reason}"));
     let Some((first, others)) = orbits.split_first() else {
-        let nothing =
-            format!("no periodic solution of {multiple} excitation period(s) was found at {frequency_hz} Hz");
+        let nothing = format!(
+            "no periodic solution of {multiple} excitation period(s) was found at {}",
+            frequency(output.frequency_unit, frequency_hz)
+        );
         return Err(Failure::NoResult(incomplete.map_or(nothing.clone(), |why| format!("{nothing}; {why}"))));
     };
     let complete = incomplete.is_none();
@@ -39,10 +43,11 @@ pub fn run(options: &OrbitOptions, output: Output) -> Result<(), Failure> {
     if let Some(folder) = &options.out {
         let low_pass_hz = options.low_pass.or(file.study.figures.low_pass_hz);
         let mut drawn = Drawn::into(folder)?.on(1, interrupt);
+        drawn.frequency_unit = output.frequency_unit;
         figures::orbit::draw((&model, &file.study.title), &orbits, low_pass_hz, &mut drawn)?;
         document["figures"] = json!(drawn.finish()?.names);
     }
-    output.give(&document, || text(first, others, &file.study.response.point))?;
+    output.give(&document, || text(first, others, (&file.study.response.point, output.frequency_unit)))?;
     Ok(())
 }
 
@@ -74,9 +79,9 @@ fn quantities(solution: &PeriodicSolution) -> Value {
     })
 }
 
-fn text(first: &PeriodicSolution, others: &[PeriodicSolution], point: &str) -> String {
+fn text(first: &PeriodicSolution, others: &[PeriodicSolution], shown: (&str, FrequencyUnit)) -> String {
     let shown: Vec<String> =
-        std::iter::once(first).chain(others).map(|solution| solution_text(solution, point)).collect();
+        std::iter::once(first).chain(others).map(|solution| solution_text(solution, shown)).collect();
     let count = match shown.len() {
         1 => "One periodic solution was found.".to_owned(),
         count => format!("{count} periodic solutions were found."),
@@ -84,14 +89,14 @@ fn text(first: &PeriodicSolution, others: &[PeriodicSolution], point: &str) -> S
     format!("{count}\n\n{}", shown.join("\n\n"))
 }
 
-fn solution_text(solution: &PeriodicSolution, point: &str) -> String {
+fn solution_text(solution: &PeriodicSolution, (point, unit): (&str, FrequencyUnit)) -> String {
     let maxima = &solution.maxima;
     let multipliers: Vec<String> = solution.floquet_multipliers.iter().take(4).map(|m| complex(*m)).collect();
     let more = if solution.floquet_multipliers.len() > 4 { ", ..." } else { "" };
     [
         format!(
-            "{} Hz, period {} excitation period(s), {}",
-            solution.frequency_hz,
+            "{}, period {} excitation period(s), {}",
+            frequency(unit, solution.frequency_hz),
             solution.period_multiple,
             solution.stability().word()
         ),

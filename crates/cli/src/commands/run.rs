@@ -6,6 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
     MirrorImage, Model, OrbitSolver, Store, StoredBranches, Study, StudyFile, UndampedInContact,
@@ -25,12 +26,13 @@ use crate::{
     failure::Failure,
     figures::{self, Drawn, Wishes},
     interrupt::Interrupt,
-    output::Output,
+    output::{Output, frequency},
     progress::Terminal,
 };
 
 pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    file.forced()?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
     drift::warn_of_range(&model, &file.study);
@@ -62,6 +64,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     let pieces = store.pieces()?;
     let jobs = store.jobs()?;
     let summary = Summary {
+        unit: output.frequency_unit,
         study: &file.study,
         folder: options.out.display().to_string(),
         branches,
@@ -75,6 +78,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
         RunOutcome::Interrupted => Err(Failure::Interrupted(summary.interrupted())),
         RunOutcome::Done | RunOutcome::OutOfTime { .. } => {
             let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt);
+            drawn.frequency_unit = output.frequency_unit;
             figures::draw(&store, (&file, &model), &Wishes::of_run(&file), &mut drawn)?;
             match drawn.finish() {
                 Err(Failure::Interrupted(_)) => Err(Failure::Interrupted(summary.interrupted_drawing())),
@@ -99,6 +103,7 @@ pub fn threads(asked: Option<u16>) -> usize {
 
 /// What came of a run.
 struct Summary<'a> {
+    unit: FrequencyUnit,
     study: &'a Study,
     folder: String,
     branches: Vec<BranchSummary>,
@@ -132,8 +137,9 @@ impl Summary<'_> {
     }
 
     fn nothing(&self) -> String {
-        let [low, high] = self.study.excitation.frequency_hz;
-        let mut lines = vec![format!("no periodic solution was found between {low} and {high} Hz")];
+        let [low, high] = self.study.excitation.range_hz();
+        let (low, high) = (frequency(self.unit, low), frequency(self.unit, high));
+        let mut lines = vec![format!("no periodic solution was found between {low} and {high}")];
         lines.extend(self.failed_text());
         if self.left() > 0 {
             lines.push(format!("the search is not complete: {}", self.out_of_time()));
@@ -170,7 +176,9 @@ impl Summary<'_> {
             failed.len(),
             self.jobs.len()
         )];
-        let line = |(job, message): &(&JobRecord, &str)| format!("  {:.6} Hz: {message}", job.frequency_hz);
+        let line = |(job, message): &(&JobRecord, &str)| {
+            format!("  {}: {message}", shown(self.unit, job.frequency_hz, 6))
+        };
         lines.extend(failed.iter().take(SHOWN).map(line));
         if failed.len() > SHOWN {
             lines.push("  ...".to_owned());
@@ -229,7 +237,7 @@ impl Summary<'_> {
 
     fn branch_text(&self, branch: &BranchSummary) -> String {
         let image = self.images.get(&branch.record.id).copied().and_then(image_text);
-        [Some(branch_text(branch)), image].into_iter().flatten().collect::<Vec<_>>().join("\n")
+        [Some(branch_text(branch, self.unit)), image].into_iter().flatten().collect::<Vec<_>>().join("\n")
     }
 
     fn text(&self, figures: &[String], elapsed: Duration) -> String {
@@ -319,14 +327,15 @@ fn branch_document(branch: &BranchSummary) -> Value {
     })
 }
 
-fn branch_text(branch: &BranchSummary) -> String {
-    let [low, high] = branch.range_hz;
+fn branch_text(branch: &BranchSummary, unit: FrequencyUnit) -> String {
+    let [low, high] = branch.range_hz.map(|end| unit.factor() * end);
     let mut lines = vec![
         format!(
-            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} Hz, {} of them stable{}",
+            "\nbranch {} (period {}): {} solutions, {low:.6} to {high:.6} {}, {} of them stable{}",
             branch.record.id,
             branch.record.period_multiple,
             branch.solutions,
+            unit.symbol(),
             branch.stable,
             marginal_words(branch.marginal)
         ),
@@ -342,7 +351,7 @@ fn branch_text(branch: &BranchSummary) -> String {
             2 * branch.record.period_multiple
         ));
     }
-    lines.extend(peaks_text(&branch.peaks));
+    lines.extend(peaks_text(&branch.peaks, unit));
     for (side, walk) in [("up", &branch.record.up), ("down", &branch.record.down)] {
         lines.push(format!("  {side} side: {}", stop_text(walk.reason.as_ref())));
     }
@@ -350,7 +359,7 @@ fn branch_text(branch: &BranchSummary) -> String {
 }
 
 /// The highest peaks, those that are as high as one another in one line.
-fn peaks_text(peaks: &[Peak]) -> Vec<String> {
+fn peaks_text(peaks: &[Peak], unit: FrequencyUnit) -> Vec<String> {
     const SHOWN: usize = 6;
     let mut peaks: Vec<&Peak> = peaks.iter().collect();
     peaks.sort_by(|a, b| b.max_abs_displacement_m.total_cmp(&a.max_abs_displacement_m));
@@ -361,10 +370,12 @@ fn peaks_text(peaks: &[Peak]) -> Vec<String> {
         let more =
             if group.len() > SHOWN { format!(", and {} more", group.len() - SHOWN) } else { String::new() };
         let height = group[0].max_abs_displacement_m;
-        let place = |peak: &&Peak| format!("{}, {}", peak_place(peak), peak_stability(peak));
+        let place = |peak: &&Peak| format!("{}, {}", peak_place(peak, unit), peak_stability(peak));
         let places: Vec<String> = group.iter().take(SHOWN).map(place).collect();
         match group[..] {
-            [one] => format!("  peak at {}, {height:.4e} m, {}", peak_place(one), peak_stability(one)),
+            [one] => {
+                format!("  peak at {}, {height:.4e} m, {}", peak_place(one, unit), peak_stability(one))
+            }
             _ => format!("  {} equal peaks of {height:.4e} m: {}{more}", group.len(), places.join("; ")),
         }
     };
@@ -372,12 +383,18 @@ fn peaks_text(peaks: &[Peak]) -> Vec<String> {
 }
 
 /// Where a peak is: at one solution, or at several that are equal.
-fn peak_place(peak: &Peak) -> String {
-    let [low, high] = peak.equal_hz;
+fn peak_place(peak: &Peak, unit: FrequencyUnit) -> String {
     if peak.equal == 1 {
-        return format!("{:.4} Hz", peak.frequency_hz);
+        return shown(unit, peak.frequency_hz, 4);
     }
-    format!("{low:.4} to {high:.4} Hz ({} solutions of equal height)", peak.equal)
+    let [low, high] = peak.equal_hz;
+    let (low, high) = (unit.factor() * low, shown(unit, high, 4));
+    format!("{low:.4} to {high} ({} solutions of equal height)", peak.equal)
+}
+
+/// A frequency with so many decimals.
+fn shown(unit: FrequencyUnit, frequency_hz: f64, decimals: usize) -> String {
+    format!("{:.decimals$} {}", unit.factor() * frequency_hz, unit.symbol())
 }
 
 fn peak_stability(peak: &Peak) -> &'static str {

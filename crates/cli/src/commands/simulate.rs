@@ -7,6 +7,7 @@
 mod observer;
 mod size;
 mod summary;
+mod time;
 mod told;
 
 use std::path::Path;
@@ -16,7 +17,7 @@ use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, StudyFile,
     export::SimulationTables,
-    store::{RequestKind, SimulatedChunk, SimulationLayout},
+    store::{RequestKind, SimulatedChunk},
 };
 
 use crate::{
@@ -30,18 +31,20 @@ use crate::{
 };
 use observer::Observer;
 use summary::Summary;
+use told::Told;
 
 pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
-    let layout = layout(options, &model);
-    size::check(&layout, options.out.is_some())?;
+    let (layout, pieces) = time::layout(options, (&file, &model))?;
+    let told = Told { layout: &layout, pieces };
+    size::check(&told, options.out.is_some())?;
     let motion = ExactSettings::default();
-    let mut map = SystemMap::new(model.system.clone(), options.frequency, 1, motion)?;
+    let mut map = SystemMap::new(model.system.clone(), layout.frequency_hz, 1, motion)?;
     let state = initial::state(&options.initial, &mut map, (&file, &model), options.results.as_deref())?;
     let begin = |checkpoint: Option<SimulationCheckpoint>| match checkpoint {
-        Some(checkpoint) => Simulation::resume(model.system.clone(), options.frequency, checkpoint, motion),
-        None => Simulation::new(model.system.clone(), options.frequency, &state, motion),
+        Some(checkpoint) => Simulation::resume(model.system.clone(), layout.frequency_hz, checkpoint, motion),
+        None => Simulation::new(model.system.clone(), layout.frequency_hz, &state, motion),
     };
     if options.out.is_some() {
         // A motion that cannot begin leaves no folder behind.
@@ -51,11 +54,11 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     // What is asked of the study.
     let mut words = layout.words();
     words.extend(state_words(&state));
-    let total = options.transient_periods + options.periods;
+    let total = layout.transient_periods + layout.periods;
     let kept = Kept::open(options.out.as_deref(), &file, (RequestKind::Simulation, &words), total)?;
     let tables = options.out.as_deref().map(|folder| SimulationTables::new(folder, "", layout.clone()));
-    let written = Written { layout: &layout, tables, summary: Summary::default() };
-    let mut work = Work { options, interrupt: &interrupt, done: kept.done, kept, written };
+    let written = Written { told, tables, summary: Summary::default() };
+    let mut work = Work { interrupt: &interrupt, done: kept.done, kept, written };
     let mut simulation = begin(work.read()?)?;
     let failure = work.simulate(&mut simulation, Observer::new(&model, &layout))?;
     let Work { mut kept, done, written, .. } = work;
@@ -63,31 +66,19 @@ pub fn run(options: &SimulateOptions, output: Output) -> Result<(), Failure> {
     // Under the lock of the folder: two commands do not write the same tables at once.
     let written = written.finish();
     kept.finish()?;
-    let summary = written.map_err(|failure| failure.and(&told::fate(&layout, done, &kept)))?;
+    let summary = written.map_err(|failure| failure.and(&told.fate(done, &kept)))?;
     if let Some(error) = failure {
-        return Err(if done > 0 { told::ended(&error, &layout, (done, &kept)) } else { error.into() });
+        return Err(if done > 0 { told.ended(&error, (done, &kept)) } else { error.into() });
     }
     if done < total {
-        return Err(Failure::Interrupted(format!("interrupted; {}", told::fate(&layout, done, &kept))));
+        return Err(Failure::Interrupted(format!("interrupted; {}", told.fate(done, &kept))));
     }
-    output.give(&summary.document(options), || summary.text(options))?;
+    let out = options.out.as_deref();
+    output.give(&summary.document(&told, out), || summary.text(&told, (out, output.frequency_unit)))?;
     Ok(())
 }
 
-fn layout(options: &SimulateOptions, model: &Model) -> SimulationLayout {
-    SimulationLayout {
-        transient_periods: options.transient_periods,
-        periods: options.periods,
-        frequency_hz: options.frequency,
-        samples_per_period: options.samples_per_period,
-        section_phase: options.section_phase,
-        dof: model.system.dof(),
-        elements: model.system.elements().iter().map(|element| element.name.clone()).collect(),
-    }
-}
-
 struct Work<'a> {
-    options: &'a SimulateOptions,
     interrupt: &'a Interrupt,
     kept: Kept,
     written: Written<'a>,
@@ -103,8 +94,8 @@ impl Work<'_> {
     fn read(&mut self) -> Result<Option<SimulationCheckpoint>, Failure> {
         let Some((store, request)) = self.kept.stored() else { return Ok(None) };
         let (written, mut last) = (&mut self.written, None);
-        let fate = told::fate(written.layout, self.done, &self.kept);
-        store.each_simulated::<Failure>(request, written.layout, |chunk| {
+        let fate = written.told.fate(self.done, &self.kept);
+        store.each_simulated::<Failure>(request, written.told.layout, |chunk| {
             if self.interrupt.raised() {
                 let message = "interrupted before the tables were written; everything is kept";
                 return Err(Failure::Interrupted(message.to_owned()));
@@ -125,9 +116,10 @@ impl Work<'_> {
         simulation: &mut Simulation,
         mut observer: Observer<'_>,
     ) -> Result<Option<AttractorError>, Failure> {
-        let transient = self.options.transient_periods;
-        let total = transient + self.options.periods;
-        let mut ticker = Ticker::new(total, "periods");
+        let Told { layout, pieces } = self.written.told;
+        let transient = layout.transient_periods;
+        let total = transient + layout.periods;
+        let mut ticker = Ticker::new(total, pieces.words());
         let mut failure = None;
         while self.done < total && failure.is_none() && !self.interrupt.raised() {
             let period =
@@ -150,31 +142,30 @@ impl Work<'_> {
     fn add(&mut self, chunk: Option<SimulatedChunk>) -> Result<(), Failure> {
         let Some(chunk) = chunk else { return Ok(()) };
         let first = self.done - chunk.periods;
-        let fate = |done, kept: &Kept| told::fate(self.written.layout, done, kept);
         let stored = self.kept.add(|store, request| store.append_simulated(request, first, &chunk));
-        stored.map_err(|error| Failure::from(error).and(&fate(first, &self.kept)))?;
-        let kept = fate(self.done, &self.kept);
+        stored.map_err(|error| Failure::from(error).and(&self.written.told.fate(first, &self.kept)))?;
+        let kept = self.written.told.fate(self.done, &self.kept);
         self.written.take(&chunk).map_err(|failure| failure.and(&kept))
     }
 }
 
 /// The tables, and the motion in few numbers.
 struct Written<'a> {
-    layout: &'a SimulationLayout,
+    told: Told<'a>,
     tables: Option<SimulationTables>,
     summary: Summary,
 }
 
 impl Written<'_> {
     fn take(&mut self, chunk: &SimulatedChunk) -> Result<(), Failure> {
-        self.summary.take(self.layout, chunk);
+        self.summary.take(self.told.layout, chunk);
         self.tables.as_mut().map_or(Ok(()), |tables| tables.take(chunk))?;
         Ok(())
     }
 
     fn finish(mut self) -> Result<Summary, Failure> {
         self.tables.map_or_else(|| Ok(Vec::new()), SimulationTables::finish)?;
-        self.summary.finish(self.layout);
+        self.summary.finish(self.told.layout);
         Ok(self.summary)
     }
 }

@@ -3,6 +3,7 @@
 use hammerbeam_attractor::{
     AttractorError, Class, Observable, SweepPoint, SweepSettings, Sweeper, SystemMap, in_order,
 };
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_motion::exact::ExactSettings;
 use hammerbeam_study::{
     Model, Store, StoredBranches, StudyFile,
@@ -25,8 +26,8 @@ use crate::{
 
 pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    let [low, high] = file.forced()?.frequency_hz;
     let model = Model::build(&file)?;
-    let [low, high] = file.study.excitation.frequency_hz;
     let upward = series((options.from.unwrap_or(low), options.to.unwrap_or(high)), options.step, "--from")?;
     let (results, out) = (options.results.as_deref(), options.out.as_deref());
     branches(results, out, &file)?;
@@ -69,7 +70,7 @@ pub fn run(options: &SweepOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult("no motion could be computed".to_owned()));
     }
     let result = Outcome { options, found: &found, branches: &on_branches, dof: model.system.dof() };
-    output.give(&result.document(), || result.text())?;
+    output.give(&result.document(), || result.text(output.frequency_unit))?;
     Ok(())
 }
 
@@ -267,10 +268,16 @@ impl Outcome<'_> {
         })
     }
 
-    fn text(&self) -> String {
+    fn text(&self, unit: FrequencyUnit) -> String {
         let mut lines = vec![format!(
             "{:>6} {:>12}  {:<16} {:>14} {:>9}  {:<24} {:>6}  branch",
-            "from", "Hz", "class", "max. displ. m", "contacts", "largest exponent 1/s", "K"
+            "from",
+            unit.symbol(),
+            "class",
+            "max. displ. m",
+            "contacts",
+            "largest exponent 1/s",
+            "K"
         )];
         for (SettledMotion { origin, point }, branch) in self.found.iter().zip(self.branches) {
             let class = point.class;
@@ -281,7 +288,9 @@ impl Outcome<'_> {
             let branch = branch.map_or_else(String::new, |branch| branch.to_string());
             lines.push(format!(
                 "{origin:>6} {:>12.6}  {class:<16} {:>14.6e} {:>9.2}  {exponent:<24} {k:>6}  {branch}",
-                point.frequency_hz, point.max_abs_displacement, point.contacts_per_period
+                unit.factor() * point.frequency_hz,
+                point.max_abs_displacement,
+                point.contacts_per_period
             ));
         }
         let doubtful = self.found.iter().filter(|motion| motion.point.class.doubt().is_some()).count();

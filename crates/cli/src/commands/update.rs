@@ -24,6 +24,9 @@ const DOCUMENT: &str = "update.json";
 pub fn run(options: &UpdateOptions, output: Output) -> Result<(), Failure> {
     let study = StudyFile::read(&options.study)?;
     let data = UpdateData::read(&options.data, &study).map_err(data_failure)?;
+    if !data.orbits.is_empty() {
+        study.forced()?;
+    }
     let settings = UpdateSettings {
         confidence: options.confidence / 100.0,
         profiles: options.profile,

@@ -10,7 +10,7 @@ use std::{
     },
 };
 
-use hammerbeam_figure::{Figure, FigureError};
+use hammerbeam_figure::{Figure, FigureError, FrequencyUnit, Style};
 use hammerbeam_study::whole_file::{WriteError, replace};
 
 use super::RESOLUTION;
@@ -35,6 +35,19 @@ pub trait Album {
         }
     }
 
+    /// Unit in which frequencies are shown.
+    fn frequency_unit(&self) -> FrequencyUnit;
+
+    /// The style of a figure over two columns.
+    fn wide(&self) -> Style {
+        Style::double_column().showing(self.frequency_unit())
+    }
+
+    /// The style of a figure over one column.
+    fn narrow(&self) -> Style {
+        Style::single_column().showing(self.frequency_unit())
+    }
+
     /// Whether the rest is left out, since the user has asked to stop.
     fn is_stopped(&mut self) -> bool;
 }
@@ -47,6 +60,8 @@ pub struct Drawn<'a> {
     folder: &'a Path,
     /// Resolution of the PNG files, in pixels per inch.
     pub resolution: f64,
+    /// Unit in which frequencies are shown.
+    pub frequency_unit: FrequencyUnit,
     /// Formats of the figures.
     pub formats: Vec<FigureFormat>,
     /// Names of the files.
@@ -83,6 +98,7 @@ impl<'a> Drawn<'a> {
         Ok(Self {
             folder,
             resolution: RESOLUTION,
+            frequency_unit: FrequencyUnit::Hertz,
             formats: FigureFormat::USUAL.to_vec(),
             files: Vec::new(),
             refused: Vec::new(),
@@ -201,6 +217,10 @@ impl Album for Drawn<'_> {
             }
             Err(reason) => self.refuse(name, reason.to_string()),
         }
+    }
+
+    fn frequency_unit(&self) -> FrequencyUnit {
+        self.frequency_unit
     }
 
     fn is_stopped(&mut self) -> bool {

@@ -9,14 +9,14 @@ use hammerbeam_figure::{
 use hammerbeam_structure::{FrequencyError, ModeTables};
 use hammerbeam_study::{
     Model, Study,
-    file::{End, Excitation, ExcitationKind, Place, Side, StopLaw, Structure},
+    file::{End, ExcitationKind, HarmonicExcitation, Place, Side, StopLaw, Structure},
 };
 
 /// Rows of the amplitude over the frequency range.
 const ROWS: u32 = 200;
 
 /// The mode shapes.
-pub fn modes(study: &Study, model: &Model) -> Result<Figure, FigureError> {
+pub fn modes(study: &Study, model: &Model, style: &Style) -> Result<Figure, FigureError> {
     let at = |name: &str| position(study, name);
     let points: Vec<(f64, String)> = match &study.structure {
         Structure::Beam(beam) => beam.points.iter().map(|point| (point.at_m, point.name.clone())).collect(),
@@ -56,7 +56,7 @@ pub fn modes(study: &Study, model: &Model) -> Result<Figure, FigureError> {
         stops: stops.collect(),
         modes: rates.enumerate().map(mode).collect(),
     };
-    diagram.draw(&Style::single_column())
+    diagram.draw(style)
 }
 
 /// Whether an end is held, and whether it cannot turn.
@@ -97,19 +97,22 @@ fn position(study: &Study, name: &str) -> Option<f64> {
 }
 
 /// The error of the reduction.
-pub fn reduction(title: &str, tables: &ModeTables) -> Result<Figure, FigureError> {
+pub fn reduction(title: &str, tables: &ModeTables, style: &Style) -> Result<Figure, FigureError> {
     let mode = |error: &FrequencyError| ReducedMode {
         full_hz: error.full_hz,
         relative_error: error.relative,
         below_cut_off: error.below_cut_off,
     };
     let modes = tables.frequency_errors.iter().map(mode).collect();
-    ReductionDiagram { title: title.to_owned(), modes }.draw(&Style::single_column())
+    ReductionDiagram { title: title.to_owned(), modes }.draw(style)
 }
 
 /// The amplitude of the excitation: of the acceleration of a support, or of a force.
-pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
-    let excitation = &study.excitation;
+pub fn excitation(
+    title: &str,
+    excitation: &HarmonicExcitation,
+    style: &Style,
+) -> Result<Figure, FigureError> {
     let [low, high] = excitation.frequency_hz;
     let frequency = |k: u32| low + (high - low) * f64::from(k) / f64::from(ROWS);
     let rows =
@@ -119,16 +122,16 @@ pub fn excitation(study: &Study) -> Result<Figure, FigureError> {
         ExcitationKind::Force { .. } => "Amplitude of the force (N)",
     };
     let diagram = ExcitationDiagram {
-        title: study.title.clone(),
+        title: title.to_owned(),
         quantity: quantity.to_owned(),
         rows: rows.collect(),
         measured: Vec::new(),
     };
-    diagram.draw(&Style::single_column())
+    diagram.draw(style)
 }
 
 /// Amplitude of the acceleration of the support (m/s²), `A (2 pi m f)²`, or of the force (N).
-fn amplitude(excitation: &Excitation, frequency_hz: f64) -> f64 {
+fn amplitude(excitation: &HarmonicExcitation, frequency_hz: f64) -> f64 {
     match &excitation.kind {
         ExcitationKind::SupportMotion { amplitude_m, .. } => {
             amplitude_m.at(frequency_hz) * (TAU * f64::from(excitation.order) * frequency_hz).powi(2)

@@ -2,8 +2,8 @@
 
 use hammerbeam_attractor::{Attractor, Axis, Class, Grid, behind_rigid_stops};
 use hammerbeam_figure::{
-    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, MotionKind, Origin,
-    SectionDiagram, Style, SweepDiagram, SweptMotion, plain_number,
+    BasinMap, ConvergenceDiagram, Destination, ExponentDiagram, ExponentPoint, FrequencyUnit, MotionKind,
+    Origin, SectionDiagram, SweepDiagram, SweptMotion,
 };
 use hammerbeam_study::{
     Model, Store, StoreError, StoredBranches, StudyFile,
@@ -19,7 +19,7 @@ pub fn draw_sweeps(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> 
     for request in store.requests()? {
         if matches!(request.kind, RequestKind::Sweep | RequestKind::Starts) {
             let motions = store.settled(request.id)?.iter().map(swept).collect();
-            let figure = SweepDiagram { title: title.clone(), motions }.draw(&Style::double_column());
+            let figure = SweepDiagram { title: title.clone(), motions }.draw(&drawn.wide());
             drawn.add(&format!("sweep-{}", request.id), figure);
         }
     }
@@ -37,7 +37,7 @@ pub fn draw_exponents(store: &Store, drawn: &mut impl Album) -> anyhow::Result<(
         if records.len() != 1 {
             let mut points: Vec<ExponentPoint> = records.iter().map(exponent).collect();
             points.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
-            let figure = ExponentDiagram { title: title.clone(), points }.draw(&Style::double_column());
+            let figure = ExponentDiagram { title: title.clone(), points }.draw(&drawn.wide());
             drawn.add(&format!("exponents-{}", request.id), figure);
         }
     }
@@ -46,27 +46,30 @@ pub fn draw_exponents(store: &Store, drawn: &mut impl Album) -> anyhow::Result<(
 
 /// Draws the convergence of the exponents of every motion.
 pub fn draw_convergence(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
-    each_spectrum(store, |title, suffix, record| {
+    each_spectrum((store, drawn.frequency_unit()), |title, suffix, record| {
         let places = record.spectrum.convergence.iter();
         let places = places.map(|place| (place.time, place.exponents.clone())).collect();
         let diagram = ConvergenceDiagram { title, frequency_hz: record.frequency_hz, places };
-        drawn.add(&format!("convergence{suffix}"), diagram.draw(&Style::double_column()));
+        drawn.add(&format!("convergence{suffix}"), diagram.draw(&drawn.wide()));
     })
 }
 
 /// Draws the section of every motion whose exponents are stored.
 pub fn draw_sections(store: &Store, drawn: &mut impl Album) -> anyhow::Result<()> {
-    each_spectrum(store, |title, suffix, record| {
+    each_spectrum((store, drawn.frequency_unit()), |title, suffix, record| {
         let points = record.section.iter().map(|[displacement, velocity]| (*displacement, *velocity));
         let frequency_hz = record.frequency_hz;
         let section = SectionDiagram { title, frequency_hz, points: points.collect() };
-        drawn.add(&format!("section{suffix}"), section.draw(&Style::single_column()));
+        drawn.add(&format!("section{suffix}"), section.draw(&drawn.narrow()));
     })
 }
 
 /// Hands over every motion whose exponents are stored, with the title of its figures and the end of their
 /// names.
-fn each_spectrum(store: &Store, mut each: impl FnMut(String, String, &ExponentRecord)) -> anyhow::Result<()> {
+fn each_spectrum(
+    (store, unit): (&Store, FrequencyUnit),
+    mut each: impl FnMut(String, String, &ExponentRecord),
+) -> anyhow::Result<()> {
     let title = store.about("title")?;
     for request in store.requests()? {
         if request.kind != RequestKind::Exponents {
@@ -79,7 +82,7 @@ fn each_spectrum(store: &Store, mut each: impl FnMut(String, String, &ExponentRe
             } else {
                 format!("-{}-{}", request.id, number + 1)
             };
-            each(format!("{title}, {} Hz", plain_number(record.frequency_hz)), suffix, record);
+            each(format!("{title}, {}", unit.words(record.frequency_hz)), suffix, record);
         }
     }
     Ok(())
@@ -123,7 +126,7 @@ pub fn draw_basins(
         };
         let behind_stop = behind_stops(&request, model, frequency_hz)?;
         let map = BasinMap {
-            title: format!("{title}, {} Hz", plain_number(frequency_hz)),
+            title: format!("{title}, {}", drawn.frequency_unit().words(frequency_hz)),
             x_label: coordinate(&request, "x"),
             y_label: coordinate(&request, "y"),
             x_range: range("x")?,
@@ -133,7 +136,7 @@ pub fn draw_basins(
             behind_stop,
             attractors: destinations,
         };
-        drawn.add(&format!("basins-{}", request.id), map.draw(&Style::single_column()));
+        drawn.add(&format!("basins-{}", request.id), map.draw(&drawn.narrow()));
     }
     Ok(())
 }

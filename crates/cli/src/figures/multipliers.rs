@@ -1,6 +1,6 @@
 //! Figures of the Floquet multipliers of the branches.
 
-use hammerbeam_figure::{MultiplierDiagram, Multipliers, Style};
+use hammerbeam_figure::{MultiplierDiagram, Multipliers};
 use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
     Store, StoreError,
@@ -24,9 +24,9 @@ pub fn draw(store: &Store, drawn: &mut Drawn<'_>) -> Result<(), Failure> {
         let found = unless_damaged(solutions(store, &branch), &name, drawn)?;
         let Some(solutions) = found else { continue };
         let diagram = MultiplierDiagram { title, solutions };
-        let moduli = diagram.draw_moduli(&Style::double_column());
+        let moduli = diagram.draw_moduli(&drawn.wide());
         drawn.add(&name, moduli);
-        let circle = diagram.draw_circle(&Style::single_column());
+        let circle = diagram.draw_circle(&drawn.narrow());
         drawn.add(&format!("{name}-unit-circle"), circle);
     }
     Ok(())

@@ -5,7 +5,9 @@ mod course;
 
 use std::path::Path;
 
-use hammerbeam_figure::{FilteredAcceleration, OrbitDiagram, OrbitImpulse, OrbitSample, Style, plain_number};
+use hammerbeam_figure::{
+    FilteredAcceleration, FrequencyUnit, OrbitDiagram, OrbitImpulse, OrbitSample, plain_number,
+};
 use hammerbeam_orbit::PeriodicSolution;
 use hammerbeam_signal::filter::periodic_low_pass;
 use hammerbeam_study::{Model, StoredBranches, StudyFile, file::DrawnOrbit};
@@ -27,7 +29,7 @@ pub fn draw(
     drawn: &mut Drawn<'_>,
 ) -> Result<(), Failure> {
     for (number, orbit) in (1..).zip(orbits) {
-        let diagram = diagram((model, title), orbit, low_pass_hz)?;
+        let diagram = diagram((model, title), orbit, (low_pass_hz, drawn.frequency_unit))?;
         add(drawn, &format!("orbit-{number}"), &diagram);
     }
     Ok(())
@@ -81,7 +83,10 @@ pub fn draw_stored(
             b.may_be_stable().cmp(&a.may_be_stable()).then(size(b).total_cmp(&size(a)))
         });
         match found.first() {
-            Some(orbit) => add(drawn, &name, &diagram((model, &file.study.title), orbit, low_pass_hz)?),
+            Some(orbit) => {
+                let shown = (low_pass_hz, drawn.frequency_unit);
+                add(drawn, &name, &diagram((model, &file.study.title), orbit, shown)?);
+            }
             None => drawn.refuse(
                 &name,
                 format!(
@@ -94,7 +99,7 @@ pub fn draw_stored(
 }
 
 fn add(drawn: &mut Drawn<'_>, name: &str, diagram: &OrbitDiagram) {
-    let (wide, narrow) = (Style::double_column(), Style::single_column());
+    let (wide, narrow) = (drawn.wide(), drawn.narrow());
     drawn.add(&format!("{name}-history"), diagram.draw_history(&wide));
     drawn.add(&format!("{name}-phase"), diagram.draw_phase(&narrow));
     drawn.add(&format!("{name}-spectrum"), diagram.draw_spectrum(&wide));
@@ -103,12 +108,12 @@ fn add(drawn: &mut Drawn<'_>, name: &str, diagram: &OrbitDiagram) {
 fn diagram(
     (model, title): (&Model, &str),
     orbit: &PeriodicSolution,
-    low_pass_hz: Option<f64>,
+    (low_pass_hz, unit): (Option<f64>, FrequencyUnit),
 ) -> Result<OrbitDiagram, Failure> {
     let frequency_hz = orbit.frequency_hz;
     let stability = orbit.stability().word();
-    let (hz, multiple) = (plain_number(frequency_hz), orbit.period_multiple);
-    let title = format!("{title}, {hz} Hz, period {multiple}, {stability}");
+    let (frequency, multiple) = (unit.words(frequency_hz), orbit.period_multiple);
+    let title = format!("{title}, {frequency}, period {multiple}, {stability}");
     let eigenfrequencies_hz =
         model.system.model().natural_frequencies.iter().map(|rate| rate / std::f64::consts::TAU).collect();
     let (samples, impulses) = course(model, orbit)?;

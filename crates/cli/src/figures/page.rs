@@ -28,7 +28,7 @@ pub fn draw(store: &Store, file: &StudyFile, model: &Model, drawn: &mut Drawn<'_
     }
     let stored: Vec<Vec<Placed>> =
         records.iter().map(|record| places(store, record)).collect::<Result<_, _>>()?;
-    let [low, high] = file.study.excitation.frequency_hz;
+    let [low, high] = file.study.excitation.range_hz();
     let mut page = Page {
         title: store.about("title")?,
         point: file.study.response.point.clone(),

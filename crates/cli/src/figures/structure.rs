@@ -3,8 +3,8 @@
 mod words;
 
 use hammerbeam_figure::{
-    Figure, FigureError, SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink, SketchLumped,
-    SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
+    Figure, FigureError, FrequencyUnit, SketchBeam, SketchCarrier, SketchEnd, SketchLayout, SketchLink,
+    SketchLumped, SketchPoint, SketchStop, StopKind, StructureDiagram, Style,
 };
 use hammerbeam_study::{
     Study,
@@ -15,7 +15,7 @@ use hammerbeam_study::{
 const NARROW: usize = 3;
 
 /// The sketch.
-pub fn sketch(study: &Study) -> Result<Figure, FigureError> {
+pub fn sketch(study: &Study, unit: FrequencyUnit) -> Result<Figure, FigureError> {
     let (layout, style) = match &study.structure {
         Structure::Beam(beam) => (SketchLayout::Beam(sketched_beam(beam)), Style::single_column()),
         Structure::Lumped(lumped) => {
@@ -33,7 +33,7 @@ pub fn sketch(study: &Study) -> Result<Figure, FigureError> {
         stops: study.stops.iter().map(sketched_stop).collect(),
         moving: study.excitation.moving_supports().to_vec(),
         forces,
-        words: words::of(study),
+        words: words::of(study, unit),
     };
     diagram.draw(&style)
 }

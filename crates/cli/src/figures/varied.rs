@@ -1,6 +1,6 @@
 //! Branches over another parameter than the frequency: a response diagram for each piece of the study.
 
-use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint, plain_number};
+use hammerbeam_figure::{ResponseCurve, ResponseDiagram, ResponsePoint};
 use hammerbeam_orbit::Stability;
 use hammerbeam_study::{
     Store, StoreError,
@@ -16,14 +16,16 @@ pub fn draw(store: &Store, scale: FigureScale, drawn: &mut impl Album) -> anyhow
         let (curves, frequency_hz) = curves_of(store, &piece)?;
         let title = store.about("title")?;
         let diagram = ResponseDiagram {
-            title: format!("{title}, {} Hz", plain_number(frequency_hz)).trim_start_matches(", ").to_owned(),
+            title: format!("{title}, {}", drawn.frequency_unit().words(frequency_hz))
+                .trim_start_matches(", ")
+                .to_owned(),
             parameter: axis_label(&piece.parameter),
             curves,
             ..ResponseDiagram::default()
         };
         for (word, quantity) in quantities(&diagram.curves) {
             let name = format!("vary_{}_{}_{word}", piece.id, file_name(&piece.parameter));
-            drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale)));
+            drawn.add_unless_empty(&name, diagram.draw_with(&[quantity], &settings(scale, drawn)));
         }
     }
     Ok(())

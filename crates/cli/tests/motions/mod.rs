@@ -8,6 +8,7 @@ mod ended;
 mod exponents;
 mod exported;
 mod folders;
+mod free;
 mod initial;
 mod kept;
 mod met;

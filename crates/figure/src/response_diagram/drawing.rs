@@ -84,12 +84,13 @@ impl<'a> Page<'a> {
         let label_width = axes.iter().map(|axis| axis.label_width(style.tick_size)).fold(0.0, f64::max);
         let left = room_left(style, label_width);
         let across = Scale::exact(ScaleKind::Linear, range_hz);
-        let right = points(style.width_mm) - MARGIN - room_right(style, &across, left, TICK_SPACING.0);
+        let (label, factor) = horizontal(diagram, style);
+        let right =
+            points(style.width_mm) - MARGIN - room_right(style, (&across, factor), left, TICK_SPACING.0);
         let title = wrap(&diagram.title, style.label_size, right - left);
         let legend = Legend::new(entries(panels, diagram), style, right - left);
         let head = MARGIN + title.len() as f64 * title_height(style) + legend.height(style) + GAP;
-        let horizontal =
-            Axis::new(across, Text::upright(horizontal_label(diagram)), right - left, TICK_SPACING.0);
+        let horizontal = Axis::in_unit((across, factor), Text::upright(label), right - left, TICK_SPACING.0);
         let lowest = axes.len() - 1;
         let labels = axes.iter().map(|axis| axis.label.width(style.label_size));
         let plot_height = labels.fold(panel_height - head, f64::max);
@@ -146,7 +147,11 @@ impl<'a> Page<'a> {
             if has_marginal { "marginal dotted, " } else { "" }
         );
         if !self.diagram.chaotic_ranges_hz.is_empty() {
-            let words = |(from, to): &(f64, f64)| format!("{from:.3} to {to:.3} Hz");
+            let unit = self.style.frequency_unit;
+            let words = |(from, to): &(f64, f64)| {
+                let [from, to] = [from, to].map(|end| unit.factor() * end);
+                format!("{from:.3} to {to:.3} {}", unit.symbol())
+            };
             let ranges: Vec<String> = self.diagram.chaotic_ranges_hz.iter().map(words).collect();
             description.push_str(&format!("; chaotic motion found at {}", ranges.join(", ")));
         }
@@ -177,8 +182,14 @@ impl<'a> Page<'a> {
     }
 }
 
-fn horizontal_label(diagram: &ResponseDiagram) -> &str {
-    if diagram.parameter.is_empty() { "Excitation frequency (Hz)" } else { &diagram.parameter }
+/// Label of the horizontal axis, and the factor of its numbers.
+fn horizontal(diagram: &ResponseDiagram, style: &Style) -> (String, f64) {
+    let unit = style.frequency_unit;
+    if diagram.parameter.is_empty() {
+        (unit.label("Excitation frequency"), unit.factor())
+    } else {
+        (diagram.parameter.clone(), 1.0)
+    }
 }
 
 /// Height of a panel over that of a figure of one: panels on top of each other are lower.

@@ -52,7 +52,10 @@ pub(super) fn read(root: &Table<'_>, excitation: Option<&Excitation>) -> Option<
     }
     let step = match step {
         Some(step) => step?,
-        None => excitation.map(|e| (e.frequency_hz[1] - e.frequency_hz[0]) / DEFAULT_STEPS)?,
+        None => {
+            let [low, high] = excitation?.range_hz();
+            (high - low) / DEFAULT_STEPS
+        }
     };
     Some(Continuation {
         max_step_hz: step,

@@ -1,4 +1,4 @@
-//! `[excitation]`: the harmonic that carries the frequency of the study.
+//! `[excitation]`: the harmonic that carries the frequency of the study, if it has one.
 
 use serde::Serialize;
 
@@ -6,9 +6,19 @@ use crate::document::{Table, Value, quantity};
 
 use super::{Amplitude, Structure, amplitude, names::Names};
 
+/// What shakes the structure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Excitation {
+    /// Nothing: it vibrates freely, there is no frequency, and time has no period.
+    None,
+    /// A harmonic.
+    Harmonic(HarmonicExcitation),
+}
+
 /// The harmonic excitation `amplitude cos(2 pi order f t + phase)` and the range of `f`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Excitation {
+pub struct HarmonicExcitation {
     /// What is driven.
     pub kind: ExcitationKind,
     /// Phase [rad].
@@ -40,15 +50,38 @@ pub enum ExcitationKind {
 }
 
 impl Excitation {
+    /// The harmonic, if there is one.
+    #[must_use]
+    pub fn harmonic(&self) -> Option<&HarmonicExcitation> {
+        if let Self::Harmonic(harmonic) = self { Some(harmonic) } else { None }
+    }
+
     /// The supports whose motion is prescribed; none for a force.
     #[must_use]
     pub fn moving_supports(&self) -> &[String] {
-        match &self.kind {
-            ExcitationKind::SupportMotion { at, .. } => at,
-            ExcitationKind::Force { .. } => &[],
+        match self.harmonic().map(|harmonic| &harmonic.kind) {
+            Some(ExcitationKind::SupportMotion { at, .. }) => at,
+            Some(ExcitationKind::Force { .. }) | None => &[],
         }
     }
 
+    /// The point at which a force acts; none for support motion.
+    #[must_use]
+    pub fn force_point(&self) -> Option<&str> {
+        match self.harmonic().map(|harmonic| &harmonic.kind) {
+            Some(ExcitationKind::Force { at, .. }) => Some(at),
+            Some(ExcitationKind::SupportMotion { .. }) | None => None,
+        }
+    }
+
+    /// Range of the frequency [Hz]; without a harmonic there is nothing in it, `[0, 0]`.
+    #[must_use]
+    pub fn range_hz(&self) -> [f64; 2] {
+        self.harmonic().map_or([0.0; 2], |harmonic| harmonic.frequency_hz)
+    }
+}
+
+impl HarmonicExcitation {
     /// Amplitude [m or N].
     #[must_use]
     pub fn amplitude(&self) -> &Amplitude {
@@ -66,7 +99,8 @@ enum Kind {
 }
 
 pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure>) -> Option<Excitation> {
-    let table = root.required("excitation").and_then(|value| value.table())?;
+    let Some(table) = root.optional("excitation") else { return Some(Excitation::None) };
+    let table = table.table()?;
     let kinds = [("support-motion", Kind::SupportMotion), ("force", Kind::Force)];
     let kind = table.required("kind").and_then(|value| value.choice(&kinds));
     let known = kind.is_some();
@@ -86,7 +120,8 @@ pub(super) fn read(root: &Table<'_>, names: &Names, structure: Option<&Structure
     if known {
         table.finish();
     }
-    Some(Excitation { kind: kind?, phase_rad: phase?, order: order?, frequency_hz: range? })
+    let (kind, phase_rad, order, frequency_hz) = (kind?, phase?, order?, range?);
+    Some(Excitation::Harmonic(HarmonicExcitation { kind, phase_rad, order, frequency_hz }))
 }
 
 fn read_support_motion(table: &Table<'_>, names: &Names) -> Option<ExcitationKind> {

@@ -63,7 +63,7 @@ fn read_load(table: Table<'_>, names: &Names, excitation: Option<&Excitation>) -
     let kind = table.required("kind").and_then(|value| value.choice(&KINDS))?;
     let load = match kind {
         Kind::Gravity => read_gravity(&table),
-        Kind::Force => read_force(&table, names),
+        Kind::Force => read_force(&table, names, excitation),
         Kind::SupportMotion => read_support_motion(&table, excitation),
     };
     table.finish();
@@ -75,10 +75,14 @@ fn read_gravity(table: &Table<'_>) -> Option<Load> {
     Some(Load::Gravity { acceleration_m_s2: acceleration? })
 }
 
-fn read_force(table: &Table<'_>, names: &Names) -> Option<Load> {
+fn read_force(table: &Table<'_>, names: &Names, excitation: Option<&Excitation>) -> Option<Load> {
     let at = table.required("at").and_then(|value| names.point(&value));
     let amplitude = table.required("amplitude_n").and_then(|value| value.number(&quantity::LOAD_FORCE));
     let (order, phase) = read_harmonic(table, 0);
+    if excitation == Some(&Excitation::None) && order.is_some_and(|order| order > 0) {
+        let message = "`order` is a multiple of the excitation frequency, and there is no [excitation]";
+        table.problem("order", message.into(), vec!["allowed: 0, a constant force".into()]);
+    }
     Some(Load::Force { at: at?, amplitude_n: amplitude?, order: order?, phase_rad: phase? })
 }
 

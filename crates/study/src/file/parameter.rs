@@ -8,7 +8,9 @@ use crate::{
     number::{number_named, numbers},
 };
 
-use super::{Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopLaw, Structure};
+use super::{
+    Approach, Damping, Excitation, ExcitationKind, Load, ModalRatio, Stop, StopEntry, StopLaw, Structure,
+};
 
 /// A parameter of the study and the range in which it varies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -101,17 +103,23 @@ pub(super) struct Variable<'a> {
 type Known = (String, ParameterKind, Quantity);
 
 impl Variable<'_> {
-    /// Every parameter by its name; stops also by their number, from 1.
+    /// Every parameter by its name; stops also by their number, from 1, if they are
+    /// no side of one: what both sides have in common is a number of the model as any other.
     fn known(self) -> Vec<Known> {
-        let amplitude = match self.excitation.kind {
+        let amplitude = self.excitation.harmonic().map(|harmonic| match harmonic.kind {
             ExcitationKind::SupportMotion { .. } => ("excitation.amplitude_m", quantity::AMPLITUDE),
             ExcitationKind::Force { .. } => ("excitation.amplitude_n", quantity::FORCE),
-        };
-        let mut known = vec![(amplitude.0.to_owned(), ParameterKind::Amplitude, amplitude.1)];
+        });
+        let of_amplitude =
+            |(key, quantity): (&str, Quantity)| (key.to_owned(), ParameterKind::Amplitude, quantity);
+        let mut known: Vec<Known> = amplitude.map(of_amplitude).into_iter().collect();
         known.extend(of_damping(self.damping));
         known.extend(of_dampers(self.structure));
         for (number, stop) in self.stops.iter().enumerate() {
-            let names = [stop.name.clone(), format!("{}", number + 1)];
+            let mut names = vec![stop.name.clone()];
+            if let StopEntry::Whole(entry) = stop.entry {
+                names.push(format!("{}", entry + 1));
+            }
             for (key, kind, quantity) in of_stop(number, &stop.law) {
                 known.extend(names.iter().map(|name| (format!("stop.{name}.{key}"), kind, quantity)));
             }

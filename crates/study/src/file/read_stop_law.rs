@@ -1,4 +1,9 @@
 //! Reading the force law of a stop from its table.
+//!
+//! A one-sided law with `side = "both"`, and a two-sided stop with a damper, is read as two one-sided ones:
+//! the force on either side is that of a one-sided stop there, and no more than one of them touches at a
+//! time, unless they press at rest. So whatever holds for one-sided stops (parting while there is
+//! penetration left, impacts that are remembered, what sticks to a rigid stop) holds for these.
 
 use super::stop_law::{Approach, GapMeasured, HertzStiffness, ImpactModel, Side, StopLaw};
 use crate::document::{Quantity, Table, Value, quantity};
@@ -30,46 +35,68 @@ const KINDS: [(&str, Kind); 12] = [
     ("hu-guo", Kind::Restitution(ImpactModel::HuGuo)),
 ];
 
+/// The law of a stop, or those of the two that it is read as.
+pub(super) enum ReadLaw {
+    /// One law.
+    One(StopLaw),
+    /// Two one-sided laws, above and below.
+    Pair([StopLaw; 2]),
+}
+
+/// The sides on which a one-sided law acts.
+#[derive(Clone, Copy)]
+enum Sides {
+    One(Side),
+    Both,
+}
+
+impl Sides {
+    fn of(self, law: impl Fn(Side) -> StopLaw) -> ReadLaw {
+        match self {
+            Self::One(side) => ReadLaw::One(law(side)),
+            Self::Both => ReadLaw::Pair([law(Side::Above), law(Side::Below)]),
+        }
+    }
+}
+
 pub(super) fn read_kind(table: &Table<'_>) -> Option<Kind> {
     table.required("law").and_then(|value| value.choice(&KINDS))
 }
 
-pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<StopLaw> {
+pub(super) fn read(table: &Table<'_>, kind: Kind) -> Option<ReadLaw> {
     match kind {
         Kind::Hertz => {
             let stiffness = read_hertz(table);
-            let (approach, side) = read_one_sided(table);
-            Some(StopLaw::Hertz { stiffness: stiffness?, approach: approach?, side: side? })
+            let (approach, sides) = read_one_sided(table);
+            let (stiffness, approach) = (stiffness?, approach?);
+            Some(sides?.of(|side| StopLaw::Hertz { stiffness, approach, side }))
         }
         Kind::Linear => {
             let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
             let damping =
                 table.optional("damping_n_s_m").map_or(Some(0.0), |value| value.number(&quantity::DAMPER));
-            let (approach, side) = read_one_sided(table);
-            Some(StopLaw::Linear {
-                stiffness_n_m: stiffness?,
-                damping_n_s_m: damping?,
-                approach: approach?,
-                side: side?,
-            })
+            let (approach, sides) = read_one_sided(table);
+            let (stiffness_n_m, damping_n_s_m, approach) = (stiffness?, damping?, approach?);
+            Some(sides?.of(|side| StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side }))
         }
         Kind::TwoSided => read_two_sided(table),
-        Kind::Cubic => read_cubic(table),
+        Kind::Cubic => read_cubic(table).map(ReadLaw::One),
         Kind::Rigid => read_rigid(table),
         Kind::HuntCrossley => read_hunt_crossley(table),
         Kind::Restitution(model) => read_restitution(table, model),
     }
 }
 
-fn read_rigid(table: &Table<'_>) -> Option<StopLaw> {
+fn read_rigid(table: &Table<'_>) -> Option<ReadLaw> {
     let restitution = required(table, "restitution", &quantity::RIGID_RESTITUTION);
     let why = "a rigid stop has no stiffness to press with";
-    let (approach, side) = read_with_gap(table, (why, "allowed: a gap"));
-    Some(StopLaw::Rigid { restitution: restitution?, approach: approach?, side: side? })
+    let (approach, sides) = read_with_gap(table, (why, "allowed: a gap"));
+    let (restitution, approach) = (restitution?, approach?);
+    Some(sides?.of(|side| StopLaw::Rigid { restitution, approach, side }))
 }
 
 /// With the loss itself, or with a coefficient of restitution for every impact.
-fn read_hunt_crossley(table: &Table<'_>) -> Option<StopLaw> {
+fn read_hunt_crossley(table: &Table<'_>) -> Option<ReadLaw> {
     if !table.has("restitution") {
         let stiffness = read_hertz(table);
         if !table.has("loss_s_m") {
@@ -77,13 +104,9 @@ fn read_hunt_crossley(table: &Table<'_>) -> Option<StopLaw> {
             table.problem("loss_s_m", "`loss_s_m` is missing in this stop".into(), help);
         }
         let loss = table.optional("loss_s_m").and_then(|value| value.number(&quantity::LOSS));
-        let (approach, side) = read_one_sided(table);
-        return Some(StopLaw::HuntCrossley {
-            stiffness: stiffness?,
-            loss_s_m: loss?,
-            approach: approach?,
-            side: side?,
-        });
+        let (approach, sides) = read_one_sided(table);
+        let (stiffness, loss_s_m, approach) = (stiffness?, loss?, approach?);
+        return Some(sides?.of(|side| StopLaw::HuntCrossley { stiffness, loss_s_m, approach, side }));
     }
     if let Some(loss) = table.optional("loss_s_m") {
         let help = vec!["allowed: one of `loss_s_m` and `restitution`".into()];
@@ -92,19 +115,14 @@ fn read_hunt_crossley(table: &Table<'_>) -> Option<StopLaw> {
     read_restitution(table, ImpactModel::HuntCrossley)
 }
 
-fn read_restitution(table: &Table<'_>, model: ImpactModel) -> Option<StopLaw> {
+fn read_restitution(table: &Table<'_>, model: ImpactModel) -> Option<ReadLaw> {
     let stiffness = read_hertz(table);
     let restitution = required(table, "restitution", &quantity::RESTITUTION);
     let why = "the law needs the speed of each impact";
     let allowed = "allowed: a gap; a contact that is closed at rest has no impact to remember";
-    let (approach, side) = read_with_gap(table, (why, allowed));
-    Some(StopLaw::Restitution {
-        model,
-        stiffness: stiffness?,
-        restitution: restitution?,
-        approach: approach?,
-        side: side?,
-    })
+    let (approach, sides) = read_with_gap(table, (why, allowed));
+    let (stiffness, restitution, approach) = (stiffness?, restitution?, approach?);
+    Some(sides?.of(|side| StopLaw::Restitution { model, stiffness, restitution, approach, side }))
 }
 
 fn required(table: &Table<'_>, key: &'static str, quantity: &Quantity) -> Option<f64> {
@@ -154,8 +172,10 @@ fn read_radii(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
     Some(radii)
 }
 
-fn read_side(table: &Table<'_>) -> Option<Side> {
-    table.required("side").and_then(|value| value.choice(&[("above", Side::Above), ("below", Side::Below)]))
+fn read_sides(table: &Table<'_>) -> Option<Sides> {
+    let choices =
+        [("above", Sides::One(Side::Above)), ("below", Sides::One(Side::Below)), ("both", Sides::Both)];
+    table.required("side").and_then(|value| value.choice(&choices))
 }
 
 fn read_gap(table: &Table<'_>) -> Option<Approach> {
@@ -167,21 +187,21 @@ fn read_gap(table: &Table<'_>) -> Option<Approach> {
 /// Gap and side of a law that takes no preload.
 ///
 /// * `why`, `allowed`: why it takes none, and what it takes instead.
-fn read_with_gap(table: &Table<'_>, (why, allowed): (&str, &str)) -> (Option<Approach>, Option<Side>) {
-    let side = read_side(table);
+fn read_with_gap(table: &Table<'_>, (why, allowed): (&str, &str)) -> (Option<Approach>, Option<Sides>) {
+    let sides = read_sides(table);
     let gap = read_gap(table);
     if !table.has("preload_n") {
-        return (gap, side);
+        return (gap, sides);
     }
     table.refuse("preload_n", format!("`preload_n` is given, but {why}"), vec![allowed.to_owned()]);
-    (None, side)
+    (None, sides)
 }
 
-/// Gap or preload, and the side.
-fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Side>) {
-    let side = read_side(table);
+/// Gap or preload, and the sides.
+fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Sides>) {
+    let sides = read_sides(table);
     let Some(preload) = table.optional("preload_n") else {
-        return (read_gap(table), side);
+        return (read_gap(table), sides);
     };
     for key in ["gap_m", "gap_measured"] {
         if let Some(value) = table.optional(key) {
@@ -189,7 +209,7 @@ fn read_one_sided(table: &Table<'_>) -> (Option<Approach>, Option<Side>) {
             value.problem(format!("`{key}` is given besides `preload_n`"), help);
         }
     }
-    (preload.number(&quantity::PRELOAD).map(|preload_n| Approach::Preload { preload_n }), side)
+    (preload.number(&quantity::PRELOAD).map(|preload_n| Approach::Preload { preload_n }), sides)
 }
 
 fn read_measured(table: &Table<'_>) -> Option<GapMeasured> {
@@ -197,9 +217,10 @@ fn read_measured(table: &Table<'_>) -> Option<GapMeasured> {
     table.optional("gap_measured").map_or(Some(GapMeasured::Undeformed), |value| value.choice(&choices))
 }
 
-/// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`.
-fn read_two_sided(table: &Table<'_>) -> Option<StopLaw> {
+/// `gap_m` for both sides, or `gap_above_m` and `gap_below_m`; with a damper two linear stops.
+fn read_two_sided(table: &Table<'_>) -> Option<ReadLaw> {
     let stiffness = required(table, "stiffness_n_m", &quantity::STIFFNESS);
+    let damping = table.optional("damping_n_s_m").map_or(Some(0.0), |value| value.number(&quantity::DAMPER));
     let both = table.optional("gap_m");
     let each = ["gap_above_m", "gap_below_m"].map(|key| table.optional(key));
     if both.is_some() {
@@ -211,12 +232,22 @@ fn read_two_sided(table: &Table<'_>) -> Option<StopLaw> {
     let common = both.map_or(Some(0.0), |value| value.number(&quantity::GAP));
     let [above, below] = each.map(|gap| gap.map_or(common, |value| value.number(&quantity::GAP)));
     let measured = read_measured(table);
-    Some(StopLaw::TwoSided {
-        stiffness_n_m: stiffness?,
-        gap_above_m: above?,
-        gap_below_m: below?,
-        gap_measured: measured?,
-    })
+    let (stiffness_n_m, damping_n_s_m, measured) = (stiffness?, damping?, measured?);
+    let (gap_above_m, gap_below_m) = (above?, below?);
+    if damping_n_s_m == 0.0 {
+        let gap_measured = measured;
+        return Some(ReadLaw::One(StopLaw::TwoSided {
+            stiffness_n_m,
+            gap_above_m,
+            gap_below_m,
+            gap_measured,
+        }));
+    }
+    let one = |(side, gap_m)| {
+        let approach = Approach::Gap { gap_m, measured };
+        StopLaw::Linear { stiffness_n_m, damping_n_s_m, approach, side }
+    };
+    Some(ReadLaw::Pair([(Side::Above, gap_above_m), (Side::Below, gap_below_m)].map(one)))
 }
 
 /// Any of three constants, at least one of which is there and not 0.

@@ -14,7 +14,7 @@ use toml::de::DeTable;
 use crate::document::{Problem, Reading, Report, Table, place};
 
 use super::{
-    Continuation, Curve, Damping, Excitation, ExcitationKind, Figures, Load, Reduction, Response, Rig,
+    Continuation, Curve, Damping, Excitation, Figures, HarmonicExcitation, Load, Reduction, Response, Rig,
     Search, Stop, Structure, VariedParameter, Vary, continuation, damping, excitation, figures, load,
     names::Names, parameter::Variable, reduction, response, rig, search, stop, structure, vary,
 };
@@ -68,11 +68,7 @@ impl Study {
 
     /// Points at which forces of the excitation and of the loads act.
     pub fn force_points(&self) -> impl Iterator<Item = &str> {
-        let excitation = match &self.excitation.kind {
-            ExcitationKind::Force { at, .. } => Some(at.as_str()),
-            ExcitationKind::SupportMotion { .. } => None,
-        };
-        excitation.into_iter().chain(self.loads.iter().filter_map(|load| match load {
+        self.excitation.force_point().into_iter().chain(self.loads.iter().filter_map(|load| match load {
             Load::Force { at, .. } => Some(at.as_str()),
             _ => None,
         }))
@@ -102,6 +98,13 @@ pub enum StudyError {
     /// The file says something that is not allowed.
     #[error("{0}")]
     Invalid(Report),
+    /// Nothing shakes the structure, so that there is no frequency and no period.
+    #[error(
+        "{name} has no [excitation]: without a frequency there are no periodic responses to look for; \
+         `simulate`, `check`, `modes` and `update` from eigenfrequencies take a study without one"
+    )]
+    #[expect(missing_docs, reason = "the message names its fields")]
+    Unforced { name: String },
 }
 
 impl StudyFile {
@@ -136,6 +139,14 @@ impl StudyFile {
             Some(study) if problems.is_empty() => Ok(Self { name: name.to_owned(), text, study, places }),
             _ => Err(StudyError::Invalid(Report::new(name, &text, problems).and(left_out))),
         }
+    }
+
+    /// The excitation, for what needs its frequency.
+    ///
+    /// # Errors
+    /// [`StudyError::Unforced`].
+    pub fn forced(&self) -> Result<&HarmonicExcitation, StudyError> {
+        self.study.excitation.harmonic().ok_or_else(|| StudyError::Unforced { name: self.name.clone() })
     }
 
     /// A fault of a key that was found after reading.

@@ -54,7 +54,7 @@ fn the_paper_is_read_as_it_is_written() {
     assert_eq!(beam.section.area_m2, 0.0298 * 0.0020);
     assert_eq!((beam.points[0].at_m, beam.points[0].mass_kg), (0.2432157, 0.03756));
     assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.015)));
-    assert_eq!(study.excitation.frequency_hz, [19.0, 110.0]);
+    assert_eq!(study.excitation.range_hz(), [19.0, 110.0]);
     assert_eq!(study.excitation.moving_supports(), ["left"]);
     let place = Place::At { point: "contact".into(), fixed_to: FixedTo::Support };
     assert_eq!(study.stops[0].place, place);
@@ -69,7 +69,10 @@ fn what_is_not_said_has_its_default() {
     let study = parse(LUMPED).unwrap();
     assert_eq!(study.reduction.method, ReductionMethod::None);
     assert_eq!(study.damping, Damping::Modal(ModalRatio::Every(0.0)));
-    assert_eq!((study.excitation.order, study.excitation.phase_rad), (1, 0.0));
+    assert_eq!(
+        study.excitation.harmonic().map(|harmonic| (harmonic.order, harmonic.phase_rad)),
+        Some((1, 0.0))
+    );
     assert_eq!(
         study.response,
         Response { point: "a".into(), period_multiples: vec![1], period_doubling_depth: 0 }
@@ -118,7 +121,11 @@ fn a_missing_key_is_named_with_its_table() {
         &["`density_kg_m3` is missing in [structure]", "[structure]"],
     );
     assert_refused(paper_with("side = \"below\"", ""), &["`side` is missing in [stop[0]]"]);
-    assert_refused(parse(""), &["`structure` is missing", "`excitation` is missing"]);
+    // Nothing has to shake a structure: what is let go vibrates freely.
+    assert_refused(parse(""), &["`structure` is missing"]);
+    let free = parse(LUMPED.split("[excitation]").next().unwrap()).unwrap();
+    assert_eq!((&free.excitation, free.excitation.range_hz()), (&Excitation::None, [0.0, 0.0]));
+    assert!(!free.canonical().contains("excitation."));
 }
 
 #[test]
@@ -413,7 +420,7 @@ const TABLE: &str = "amplitude_m = [[19.0, 0.50e-3], [60.0, 0.45e-3], [110.0, 0.
 #[test]
 fn an_amplitude_may_be_a_table_over_the_frequency() {
     let study = paper_with("amplitude_m = 0.5015e-3", TABLE).unwrap();
-    let amplitude = study.excitation.amplitude();
+    let amplitude = study.excitation.harmonic().unwrap().amplitude();
     assert_eq!((amplitude.constant(), amplitude.ends()), (None, Some([19.0, 110.0])));
     assert_eq!((amplitude.at(60.0), amplitude.largest()), (0.45e-3, 0.5e-3));
     let other = paper_with("amplitude_m = 0.5015e-3", &TABLE.replace("0.45e-3", "0.46e-3")).unwrap();
@@ -469,7 +476,7 @@ fn a_quantity_with_its_unit_is_the_number_that_one_would_write() {
 fn a_quantity_of_another_dimension_is_refused_with_the_unit_that_fits() {
     let frequency = |text: &str| parse(&LUMPED.replacen("frequency_hz = [1.0, 2.0]", text, 1));
     let rad = frequency("frequency = [\"6.283185307179586 rad/s\", \"2 Hz\"]").unwrap();
-    assert_eq!(rad.excitation.frequency_hz, [1.0, 2.0]);
+    assert_eq!(rad.excitation.range_hz(), [1.0, 2.0]);
     assert_refused(
         frequency("frequency = \"3 kg\""),
         &["`frequency` has to be a number with a unit that fits Hz", "`frequency = \"1 Hz\"`"],

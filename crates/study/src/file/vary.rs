@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::document::{Reading, Table, quantity};
 
 use super::{
-    VariedParameter,
+    Excitation, VariedParameter,
     parameter::{self, Variable},
 };
 
@@ -69,6 +69,12 @@ pub(super) fn read(
     study: Option<Variable<'_>>,
 ) -> Option<(Vec<Vary>, Vec<Curve>)> {
     let before = reading.count();
+    if study.is_some_and(|study| *study.excitation == Excitation::None) {
+        for key in ["vary", "curve"].into_iter().filter(|key| root.has(key)) {
+            let message = format!("`{key}` needs a frequency, and there is no [excitation]");
+            root.problem(key, message, vec!["allowed: only with [excitation]".into()]);
+        }
+    }
     let varies = root.tables("vary").into_iter().filter_map(|table| read_vary(table, study)).collect();
     let curves = root.tables("curve").into_iter().filter_map(|table| read_curve(table, study)).collect();
     (reading.count() == before).then_some((varies, curves))

@@ -68,8 +68,8 @@ pub(super) fn elements(
 ) -> Result<Vec<LocalElement>, StudyError> {
     let rest = rest(load, model);
     let mut elements = Vec::new();
-    for (index, stop) in file.study.stops.iter().enumerate() {
-        let key = format!("stop[{index}]");
+    for stop in &file.study.stops {
+        let key = format!("stop[{}]", stop.entry.number());
         let relative = Relative::of(&stop.place, model);
         if relative.shape.iter().all(|entry| *entry == 0.0) {
             return Err(immovable(file, &key));

@@ -3,16 +3,13 @@
 use hammerbeam_motion::{AmplitudeCurve, Harmonic, HarmonicForce, Load};
 use hammerbeam_structure::ReducedModel;
 
-use crate::file::{self, ExcitationKind, Study, StudyError, StudyFile};
+use crate::file::{self, ExcitationKind, HarmonicExcitation, Study, StudyError, StudyFile};
 
 /// Refuses forces on points that cannot move.
 pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyError> {
-    let of_excitation = match &file.study.excitation.kind {
-        ExcitationKind::Force { at, .. } => Some(("excitation.at".to_owned(), at)),
-        ExcitationKind::SupportMotion { .. } => None,
-    };
+    let of_excitation = file.study.excitation.force_point().map(|at| ("excitation.at".to_owned(), at));
     let of_loads = file.study.loads.iter().enumerate().filter_map(|(index, load)| match load {
-        file::Load::Force { at, .. } => Some((format!("load[{index}].at"), at)),
+        file::Load::Force { at, .. } => Some((format!("load[{index}].at"), at.as_str())),
         _ => None,
     });
     for (key, at) in of_excitation.into_iter().chain(of_loads) {
@@ -26,8 +23,10 @@ pub(super) fn check(file: &StudyFile, model: &ReducedModel) -> Result<(), StudyE
 
 /// All that drives the structure with amplitudes that the frequency does not change.
 pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
-    let amplitude = study.excitation.amplitude().constant();
-    let mut load = amplitude.map_or_else(Load::default, |amplitude| excitation(study, model, amplitude));
+    let constant = |harmonic: &HarmonicExcitation| {
+        harmonic.amplitude().constant().map(|amplitude| excitation(harmonic, model, amplitude))
+    };
+    let mut load = study.excitation.harmonic().and_then(constant).unwrap_or_default();
     for further in &study.loads {
         add(&mut load, further, model);
     }
@@ -36,11 +35,11 @@ pub(super) fn load(study: &Study, model: &ReducedModel) -> Load {
 
 /// The excitation at amplitude 1 and its amplitude, where that is a table over the frequency.
 pub(super) fn over_frequency(study: &Study, model: &ReducedModel) -> Option<(Load, AmplitudeCurve)> {
-    Some((excitation(study, model, 1.0), study.excitation.amplitude().curve()?))
+    let harmonic = study.excitation.harmonic()?;
+    Some((excitation(harmonic, model, 1.0), harmonic.amplitude().curve()?))
 }
 
-fn excitation(study: &Study, model: &ReducedModel, amplitude: f64) -> Load {
-    let excitation = &study.excitation;
+fn excitation(excitation: &HarmonicExcitation, model: &ReducedModel, amplitude: f64) -> Load {
     let harmonic = Harmonic { order: excitation.order, amplitude, phase: excitation.phase_rad };
     match &excitation.kind {
         ExcitationKind::SupportMotion { .. } => Load { support: vec![harmonic], forces: Vec::new() },

@@ -3,7 +3,9 @@
 use hammerbeam_motion::Parameter;
 
 use super::{Model, damping};
-use crate::file::{Damping, ModalRatio, ParameterKind, Study, VariedParameter};
+use crate::file::{
+    Amplitude, Damping, HarmonicExcitation, ModalRatio, ParameterKind, Study, VariedParameter,
+};
 
 /// A parameter of the system whose value in the study is `factor value + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +52,8 @@ impl Model {
         let plain = |parameter| StudyParameter { parameter, factor: 1.0, offset: 0.0 };
         match varied.kind {
             ParameterKind::Amplitude => {
-                let Some(factor) = study.excitation.amplitude().constant() else {
+                let amplitude = study.excitation.harmonic().map(HarmonicExcitation::amplitude);
+                let Some(factor) = amplitude.and_then(Amplitude::constant) else {
                     return Err(format!("{} is a table over the frequency", varied.name));
                 };
                 Ok(StudyParameter { factor, ..plain(Parameter::ExcitationScale) })

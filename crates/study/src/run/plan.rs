@@ -46,7 +46,7 @@ impl Plan {
     /// The plan of a study: harmonic branches that together span the range, and every branch that is met.
     #[must_use]
     pub fn of(study: &Study) -> Self {
-        let [low, high] = study.excitation.frequency_hz;
+        let [low, high] = study.excitation.range_hz();
         let at = |part: f64| (high + part * (low - high)).clamp(low, high);
         let harmonic = study.response.period_multiples.contains(&1);
         let count = study.search.frequencies;

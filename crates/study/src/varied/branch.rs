@@ -25,7 +25,7 @@ const STEPS: f64 = 1000.0;
 pub(super) fn follow(model: &Model, study: &Study, vary: &Vary, watch: &Watch<'_>) -> Result<Found, Failed> {
     let parameter = model.parameter(study, &vary.parameter).map_err(Failed::Message)?;
     let value = model.system.parameter(parameter.parameter).map_err(|e| Failed::Message(e.to_string()))?;
-    let [low, high] = study.excitation.frequency_hz;
+    let [low, high] = study.excitation.range_hz();
     let searching =
         OrbitSettings { max_solutions: study.continuation.budget_solutions, ..settings(&study.continuation) };
     let orbit = (vary.frequency_hz, vary.period_multiple);

@@ -51,7 +51,7 @@ pub(super) fn follow(
 ) -> Result<Found, Failed> {
     let parameter = model.parameter(study, &curve.parameter).map_err(Failed::Message)?;
     let kind = kind_of(curve.of, event);
-    let [low, high] = study.excitation.frequency_hz;
+    let [low, high] = study.excitation.range_hz();
     let [from, to] = curve.parameter.range;
     let curve_settings = CurveSettings {
         parameter: parameter.parameter,

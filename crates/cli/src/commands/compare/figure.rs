@@ -33,7 +33,8 @@ pub fn draw(file: &StudyFile, compared: &Compared, name: &str, drawn: &mut Drawn
         chaotic_ranges_hz: Vec::new(),
         measured: compared.comparison.points.iter().map(|point| mark(point, quantity)).collect(),
     };
-    let figure = diagram.draw_with(&[drawing], &ResponseSettings::default());
+    let figure = diagram
+        .draw_with(&[drawing], &ResponseSettings { style: drawn.wide(), ..ResponseSettings::default() });
     drawn.add(&format!("compare_{}", name.trim_start_matches("compare_")), figure);
 }
 

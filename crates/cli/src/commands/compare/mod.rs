@@ -57,6 +57,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
+    let range_hz @ [low, high] = file.forced()?.frequency_hz;
     let (model, point) = observed(&file, options.point.as_deref())?;
     let at_response_point = point == file.study.response.point;
     let folder = folder(options)?;
@@ -68,7 +69,6 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         return Err(Failure::NoResult(format!("{results} holds no branch to compare with")));
     }
     let filter = options.low_pass.map(|cut_off_hz| Filter { order: options.order as usize, cut_off_hz });
-    let range_hz @ [low, high] = file.study.excitation.frequency_hz;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let mut compared = Vec::new();
     for quantity in quantities {
@@ -82,6 +82,7 @@ pub fn run(options: &CompareOptions, output: Output) -> Result<(), Failure> {
         compared.push(Compared { curves, comparison, low_pass_hz, point, range_hz });
     }
     let mut drawn = Drawn::into(&folder)?;
+    drawn.frequency_unit = output.frequency_unit;
     for one in &compared {
         let name = format!("points_{}.csv", one.comparison.quantity.word());
         write_points(&folder, &name, (&one.comparison, one.low_pass_hz))?;

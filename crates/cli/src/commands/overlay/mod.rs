@@ -43,6 +43,7 @@ pub fn run(options: &OverlayOptions, output: Output) -> Result<(), Failure> {
     let store = Store::open(&options.results)?;
     let file = StudyFile::parse("study.toml", store.about("study")?)?;
     drop(store);
+    file.forced()?;
     let (model, point) = observed(&file, options.point.as_deref())?;
     let input = open(&options.input, options.reference.as_deref())?;
     let quantity = sensor(&input, options)?;

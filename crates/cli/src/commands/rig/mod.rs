@@ -55,6 +55,7 @@ impl Found {
 
 pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
+    let [low, high] = file.forced()?.frequency_hz;
     let Some(rig) = file.study.rig.clone() else {
         return Err(RigError::NoRig { name: file.name }.into());
     };
@@ -69,7 +70,6 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     anstream::eprintln!("sweeping the rig");
     let points = sweep(&rig, &rig_model, threads, stop)?;
     let modes = rig_modes(&rig, &rig_model, &model)?;
-    let [low, high] = file.study.excitation.frequency_hz;
     let spacing_hz = SPACING * 0.5 * (low + high);
     let cut_offs = std::iter::once(rig.low_pass_hz).chain(rig.other_low_pass_hz.iter().copied());
     let order = rig.low_pass_order as usize;
@@ -86,6 +86,7 @@ pub fn run(options: &RigOptions, output: Output) -> Result<(), Failure> {
     let signals = rig.signals.iter().map(signal).collect::<Result<Vec<_>, _>>()?;
     let found = Found { file, rig, modes, points, filters, filtered, comparisons, signals, solutions };
     let mut drawn = Drawn::into(&options.out)?.on(threads, interrupt.clone());
+    drawn.frequency_unit = output.frequency_unit;
     tables::write(&options.out, &found, &mut drawn.files)?;
     for (name, curves, comparison) in &found.comparisons {
         let compared = Compared {

@@ -5,6 +5,7 @@ use std::path::Path;
 use hammerbeam_signal::{Quantity, points::Kind};
 use hammerbeam_study::{
     export::{Table, header, number},
+    file::HarmonicExcitation,
     rig::{FilteredBranch, SignalPair},
 };
 
@@ -101,8 +102,11 @@ fn figure_2(folder: &Path, found: &Found) -> Result<(), Failure> {
 
 /// Amplitude of the acceleration of the support that the study has [m/s²].
 pub fn table_acceleration(found: &Found, frequency_hz: f64) -> f64 {
-    let rate = std::f64::consts::TAU * frequency_hz * f64::from(found.file.study.excitation.order);
-    found.file.study.excitation.amplitude().at(frequency_hz) * rate * rate
+    let of = |excitation: &HarmonicExcitation| {
+        let rate = std::f64::consts::TAU * frequency_hz * f64::from(excitation.order);
+        excitation.amplitude().at(frequency_hz) * rate * rate
+    };
+    found.file.study.excitation.harmonic().map_or(0.0, of)
 }
 
 /// Branches with and without filters.

@@ -1,10 +1,14 @@
 //! A motion in few numbers.
 
+use std::path::Path;
+
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::store::{SimulatedChunk, SimulatedContact, SimulationLayout};
 use serde_json::{Value, json};
 
-use super::folder;
-use crate::motion_args::SimulateOptions;
+use crate::output::frequency;
+
+use super::{folder, time::Pieces, told::Told};
 
 /// Contacts that a document lists; all of them are in `contacts.csv`.
 const LISTED: usize = 1000;
@@ -61,12 +65,13 @@ impl Summary {
         }
     }
 
-    pub fn document(&self, options: &SimulateOptions) -> Value {
-        json!({
-            "frequency_hz": options.frequency,
-            "transient_periods": options.transient_periods,
-            "periods": options.periods,
-            "time_s": self.seconds(options),
+    pub fn document(&self, told: &Told<'_>, out: Option<&Path>) -> Value {
+        let layout = told.layout;
+        let mut document = json!({
+            "frequency_hz": layout.frequency_hz,
+            "transient_periods": layout.transient_periods,
+            "periods": layout.periods,
+            "time_s": self.seconds(layout),
             "samples": self.samples,
             "max_abs_sampled_displacement_m": self.largest_displacement,
             "contacts": self.contacts,
@@ -77,18 +82,31 @@ impl Summary {
             "contact_list": self.listed,
             "contact_list_complete": self.listed.len() as u64 == self.contacts,
             "final_modal_state": self.state,
-            "results": folder(options.out.as_deref()),
-        })
+            "results": folder(out),
+        });
+        if told.pieces == Pieces::Intervals {
+            for key in ["frequency_hz", "transient_periods", "periods"] {
+                document[key] = Value::Null;
+            }
+            document["intervals"] = layout.periods.into();
+            document["sampling_hz"] = sampling_hz(layout).into();
+        }
+        document
     }
 
-    pub fn text(&self, options: &SimulateOptions) -> String {
+    pub fn text(&self, told: &Told<'_>, (out, unit): (Option<&Path>, FrequencyUnit)) -> String {
+        let layout = told.layout;
+        let seconds = self.seconds(layout);
         let mut lines = vec![
-            format!(
-                "{} periods at {} Hz, {:.6} s",
-                options.periods,
-                options.frequency,
-                self.seconds(options)
-            ),
+            match told.pieces {
+                Pieces::Periods => {
+                    let at = frequency(unit, layout.frequency_hz);
+                    format!("{} periods at {at}, {seconds:.6} s", layout.periods)
+                }
+                Pieces::Intervals => {
+                    format!("{seconds:.6} s of free vibration, {} samples in a second", sampling_hz(layout))
+                }
+            },
             format!(
                 "  largest sampled displacement  {:.6e} m ({} samples)",
                 self.largest_displacement, self.samples
@@ -102,16 +120,20 @@ impl Summary {
         if self.stores {
             lines.push("    (with what a contact holds that is closed at the begin or the end)".to_owned());
         }
-        if let Some(folder) = &options.out {
+        if let Some(folder) = out {
             let folder = folder.display();
             lines.push(format!("samples.csv, contacts.csv and stroboscopic.csv are in {folder}"));
         }
         lines.join("\n")
     }
 
-    fn seconds(&self, options: &SimulateOptions) -> f64 {
-        self.periods as f64 / options.frequency
+    fn seconds(&self, layout: &SimulationLayout) -> f64 {
+        self.periods as f64 / layout.frequency_hz
     }
+}
+
+fn sampling_hz(layout: &SimulationLayout) -> f64 {
+    f64::from(layout.samples_per_period) * layout.frequency_hz
 }
 
 fn contact_document(layout: &SimulationLayout, contact: &SimulatedContact) -> Value {

@@ -1,6 +1,6 @@
 //! Printed figures for the page: of all results that it does not draw itself.
 
-use hammerbeam_figure::{Figure, FigureError, PageFigure, PageFigures};
+use hammerbeam_figure::{Figure, FigureError, FrequencyUnit, PageFigure, PageFigures};
 use hammerbeam_study::{Model, Store, StudyFile};
 
 use super::super::{Album, Drawn, draw_curves, draw_linear, motions, unless_damaged, varied};
@@ -12,7 +12,12 @@ pub fn figures(
     (file, model): (&StudyFile, &Model),
     drawn: &mut Drawn<'_>,
 ) -> Result<PageFigures, Failure> {
-    let mut gallery = Gallery { heading: "", figures: PageFigures::default(), interrupt: drawn.interrupt() };
+    let mut gallery = Gallery {
+        heading: "",
+        figures: PageFigures::default(),
+        interrupt: drawn.interrupt(),
+        unit: drawn.frequency_unit,
+    };
     gallery.heading = "Structure and excitation";
     draw_linear(&mut gallery, file, model);
     gallery.heading = "Branches over another parameter";
@@ -36,6 +41,7 @@ struct Gallery {
     heading: &'static str,
     figures: PageFigures,
     interrupt: Option<Interrupt>,
+    unit: FrequencyUnit,
 }
 
 impl Album for Gallery {
@@ -44,6 +50,10 @@ impl Album for Gallery {
             Ok(figure) => self.figures.push(PageFigure::new(name, self.heading, &figure)),
             Err(reason) => self.figures.refuse(name, &reason.to_string()),
         }
+    }
+
+    fn frequency_unit(&self) -> FrequencyUnit {
+        self.unit
     }
 
     fn is_stopped(&mut self) -> bool {

@@ -1,5 +1,6 @@
 //! What stands below the sketch of a structure: the numbers of the study, in words.
 
+use hammerbeam_figure::FrequencyUnit;
 use hammerbeam_study::{
     Study,
     file::{
@@ -12,13 +13,13 @@ use hammerbeam_study::{
 const LISTED: usize = 12;
 
 /// The lines.
-pub fn of(study: &Study) -> Vec<String> {
+pub fn of(study: &Study, unit: FrequencyUnit) -> Vec<String> {
     let mut lines = match &study.structure {
         Structure::Beam(beam) => beam_words(beam),
         Structure::Lumped(lumped) => lumped_words(lumped),
     };
     lines.extend(study.stops.iter().map(stop_words));
-    lines.push(excitation_words(study));
+    lines.push(excitation_words(study, unit));
     lines.extend(study.loads.iter().map(load_words));
     lines
 }
@@ -127,8 +128,10 @@ fn counted(measured: GapMeasured) -> &'static str {
     if measured == GapMeasured::AtRest { " from rest" } else { "" }
 }
 
-fn excitation_words(study: &Study) -> String {
-    let excitation = &study.excitation;
+fn excitation_words(study: &Study, unit: FrequencyUnit) -> String {
+    let Some(excitation) = study.excitation.harmonic() else {
+        return "No excitation: free vibration.".to_owned();
+    };
     let [low, high] = excitation.frequency_hz;
     let what = match &excitation.kind {
         ExcitationKind::SupportMotion { at, amplitude_m } => {
@@ -139,7 +142,8 @@ fn excitation_words(study: &Study) -> String {
         }
     };
     let order = if excitation.order > 1 { format!(", order {}", excitation.order) } else { String::new() };
-    format!("Excitation: {what}, {} to {} Hz{order}.", number(low), number(high))
+    let [low, high] = [low, high].map(|end| number(unit.factor() * end));
+    format!("Excitation: {what}, {low} to {high} {}{order}.", unit.symbol())
 }
 
 /// One amplitude, or the least and the largest of a table.
