@@ -11,7 +11,7 @@ use crate::{
     matching::{distance_in_phase, states_at_phase},
     shooting::ShootingProblem,
     size::{Cut, orbit_scale, scale_from},
-    solve::{approach, correct, has_minimal_period, integrator, solution, state_scale},
+    solve::{Wanted, approach, correct, has_minimal_period, integrator, solution, state_scale},
     state_scale::StateScale,
 };
 
@@ -99,6 +99,16 @@ impl<'a> Catalogue<'a> {
     /// was not good enough.
     pub fn probe(
         &mut self,
+        guess: (f64, &[Vec<f64>]),
+        period_multiple: u32,
+    ) -> Result<Option<Arrived>, OrbitError> {
+        self.probe_for(Wanted::Any, guess, period_multiple)
+    }
+
+    /// The same for orbits that are wanted.
+    pub fn probe_for(
+        &mut self,
+        wanted: Wanted,
         (phase, nodes): (f64, &[Vec<f64>]),
         period_multiple: u32,
     ) -> Result<Option<Arrived>, OrbitError> {
@@ -107,7 +117,7 @@ impl<'a> Catalogue<'a> {
         let Ok(scale) = guess.scale(self.integrator()) else { return Ok(None) };
         let integrator = self.integrator.take().expect("it is back after every use");
         let mut problem = ShootingProblem::new(integrator, shape, scale, 1.0).beginning_at(phase);
-        let result = approach(&mut problem, nodes, self.frequency_hz, self.settings)
+        let result = approach(&mut problem, nodes, self.frequency_hz, (wanted, self.settings))
             .and_then(|(point, correction)| self.arrive(&mut problem, &point, correction));
         self.integrator = Some(problem.into_integrator());
         match result {
@@ -197,5 +207,30 @@ impl<'a> Catalogue<'a> {
             period_multiple.is_multiple_of(known.solution.period_multiple)
                 && distance_in_phase(&known.scale, &known.phases, state) < SAME
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test ends where its system is wrong")]
+
+    use hammerbeam_motion::{Law, law::PowerSpring};
+
+    use super::*;
+    use crate::test_oscillator::oscillator;
+
+    /// `x'' + 0.1 x' + x - x^3/10 = 1e-3 cos(2 pi t)` has a well at 0 and a hill at `x = sqrt(10)`, where the
+    /// larger multiplier is `exp(l)`, 3.9, with `l^2 + 0.1 l - 2 = 0`.
+    #[test]
+    fn newtons_method_for_stable_orbits_leaves_a_hill_and_comes_to_a_well() {
+        let (system, response) = oscillator(0.1, 1e-3, Law::Power(PowerSpring::cubic(-0.1).unwrap()));
+        let settings = OrbitSettings::default();
+        let mut catalogue = Catalogue::new(&system, &response, &settings, 1.0).unwrap();
+        let (hill, well) = (vec![10.0_f64.sqrt(), 0.0], vec![0.0, 0.0]);
+        let mut arrived_at =
+            |wanted, at: &Vec<f64>| catalogue.probe_for(wanted, (0.0, std::slice::from_ref(at)), 1);
+        assert_eq!(arrived_at(Wanted::StableNearby, &hill).unwrap(), None);
+        assert!(arrived_at(Wanted::StableNearby, &well).unwrap().is_some_and(|arrived| arrived.is_new));
+        assert!(arrived_at(Wanted::Any, &hill).unwrap().is_some_and(|arrived| arrived.is_new));
     }
 }

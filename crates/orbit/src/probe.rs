@@ -4,7 +4,9 @@
 //! Motions begin from the linear response, from states about it and from those of large amplitude that a
 //! backbone suggests. A motion ends where it has come to a stable orbit that is known by then, or has
 //! repeated. Where there is little damping it has done neither at last: then Newton's method begins where it
-//! has come back most closely after each of the multiples. What that finds is kept if it is stable.
+//! has come back most closely after each of the multiples. What that finds is kept if it is stable. A motion
+//! that will not settle, a chaotic one, comes back near unstable orbits: there Newton's method ends as soon
+//! as that is seen, which is before it has converged.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -14,6 +16,7 @@ use crate::{
     backbone::backbone_states,
     catalogue::{Arrived, Catalogue},
     cut::search_cut,
+    solve::Wanted,
     start::starting_states,
     state_scale::StateScale,
     survey::{nearest_returns, repeats_after},
@@ -132,7 +135,7 @@ impl Probe<'_> {
                 if interrupted() {
                     return Err(OrbitError::Interrupted);
                 }
-                let arrived = self.catalogue.probe((0.0, nodes), multiple)?;
+                let arrived = self.catalogue.probe_for(Wanted::StableNearby, (0.0, nodes), multiple)?;
                 self.note(arrived)?;
             }
         }

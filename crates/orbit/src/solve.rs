@@ -18,6 +18,36 @@ const COARSE: f64 = 0.5;
 const MANY: u32 = 12;
 /// a correction that is still larger than this, relative to the orbit, means that the guess leads nowhere.
 const STILL_FAR: f64 = 0.3;
+/// The same number of iterations where only an orbit near the guess is wanted.
+const FEW: u32 = 6;
+/// Where a correction is as small as this, relative to the orbit,
+const NEAR: f64 = 0.03;
+/// and a multiplier as large as this, the orbit is not stable.
+const FAR_OUTSIDE: f64 = 2.0;
+
+/// Which orbits Newton's method is to find.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Whichever it comes to.
+    Any,
+    /// Stable ones near the guess: it ends early where it comes to none.
+    StableNearby,
+}
+
+impl Wanted {
+    /// Whether Newton's method, whose problem was evaluated last at the point before this correction, need
+    /// not go on.
+    fn is_out_of_reach(self, problem: &mut ShootingProblem, (iterations, correction): (u32, f64)) -> bool {
+        let patience = if self == Self::StableNearby { FEW } else { MANY };
+        if iterations >= patience && correction > STILL_FAR {
+            return true;
+        }
+        let largest = |multipliers: &[[f64; 2]]| multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+        self == Self::StableNearby
+            && correction <= NEAR
+            && problem.multipliers().is_ok_and(|multipliers| largest(multipliers) >= FAR_OUTSIDE)
+    }
+}
 
 /// An integrator of the system that observes the response.
 pub(crate) fn integrator(
@@ -68,10 +98,18 @@ pub(crate) fn correct(
     point: &mut [f64],
     settings: &OrbitSettings,
 ) -> Result<f64, OrbitError> {
+    correct_wanted(problem, point, (Wanted::Any, settings))
+}
+
+fn correct_wanted(
+    problem: &mut ShootingProblem,
+    point: &mut [f64],
+    (wanted, settings): (Wanted, &OrbitSettings),
+) -> Result<f64, OrbitError> {
     let last = point.len() - 1;
     let mut row = vec![0.0; point.len()];
     row[last] = 1.0;
-    correct_in_plane(problem, point, &row, settings)
+    correct_wanted_in_plane(problem, point, (&row, wanted), settings)
 }
 
 /// Newton's method at a fixed frequency from a guess, whose scale the problem has; the point of the orbit and
@@ -80,10 +118,10 @@ pub(crate) fn approach(
     problem: &mut ShootingProblem,
     nodes: &[Vec<f64>],
     frequency_hz: f64,
-    settings: &OrbitSettings,
+    (wanted, settings): (Wanted, &OrbitSettings),
 ) -> Result<(Vec<f64>, f64), OrbitError> {
     let mut point = problem.point(nodes, frequency_hz);
-    let correction = correct(problem, &mut point, settings)?;
+    let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
     let reached = problem.nodes(&point);
     // The whole motion is not much smaller than its nodes.
     if problem.size(&point) > COARSE {
@@ -99,7 +137,7 @@ pub(crate) fn approach(
     // A guess far larger than the orbit has measured the error too coarsely.
     problem.rescale(factor);
     point = problem.point(&reached, frequency_hz);
-    let correction = correct(problem, &mut point, settings)?;
+    let correction = correct_wanted(problem, &mut point, (wanted, settings))?;
     Ok((point, correction))
 }
 
@@ -111,13 +149,22 @@ pub(crate) fn correct_in_plane(
     row: &[f64],
     settings: &OrbitSettings,
 ) -> Result<f64, OrbitError> {
+    correct_wanted_in_plane(problem, point, (row, Wanted::Any), settings)
+}
+
+fn correct_wanted_in_plane(
+    problem: &mut ShootingProblem,
+    point: &mut [f64],
+    (row, wanted): (&[f64], Wanted),
+    settings: &OrbitSettings,
+) -> Result<f64, OrbitError> {
     let frequency_hz = problem.frequency(point);
     let mut correction = f64::INFINITY;
     for iterations in 1..=MAX_ITERATIONS {
         let failed = OrbitError::NotConverged { frequency_hz, correction, iterations };
         let update;
         (update, correction) = newton_update(problem, point, row)?;
-        if !correction.is_finite() || (iterations >= MANY && correction > STILL_FAR) {
+        if !correction.is_finite() || wanted.is_out_of_reach(problem, (iterations, correction)) {
             return Err(failed);
         }
         if correction <= settings.tolerance {
@@ -240,7 +287,7 @@ pub(crate) fn orbit_near(
     let scale = guess.scale(&mut integrator)?;
     let mut problem =
         ShootingProblem::new(integrator, (period_multiple, nodes.len()), scale, 1.0).beginning_at(phase);
-    let (point, correction) = approach(&mut problem, nodes, frequency_hz, settings)?;
+    let (point, correction) = approach(&mut problem, nodes, frequency_hz, (Wanted::Any, settings))?;
     let solution = solution(&mut problem, &point, correction)?;
     Ok((solution, problem))
 }

@@ -57,6 +57,7 @@ impl ExactIntegrator {
         let (unknowns, states) = (NODES * self.step.active.len(), 2 * self.blocks.count());
         self.counts.operations += (unknowns * unknowns * unknowns / 3 + unknowns * states) as u64;
         let before = self.step.length;
+        self.step.known_ends.clear();
         self.set_weights(length, run.remaining, grading);
         let step = &mut self.step;
         step.grading = Some(grading);

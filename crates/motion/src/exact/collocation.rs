@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 use faer::{Mat, linalg::solvers::DenseSolveCore};
 
 use super::{
-    lanes::dot,
+    lanes::{dot, vectorised},
     recurrence::{Recurrence, gauss_legendre},
 };
 
@@ -169,18 +169,18 @@ impl Rule {
 
     /// Derivative by s of a polynomial at the nodes, from its values there.
     pub fn derivative(&self, values: &[f64; NODES]) -> [f64; NODES] {
-        self.derivative.map(|row| dot(&row, values))
+        products(&self.derivative, values)
     }
 
     /// Bernstein coefficients of a polynomial from the first node to the end of the step, from its values at
     /// the nodes.
     pub fn bernstein(&self, values: &[f64; NODES]) -> [f64; NODES] {
-        self.to_bernstein.map(|row| dot(&row, values))
+        products(&self.to_bernstein, values)
     }
 
     /// Bernstein coefficients of a polynomial over all of the step, from its values at the nodes.
     pub fn bernstein_of_whole(&self, values: &[f64; NODES]) -> [f64; NODES] {
-        self.to_whole.map(|row| dot(&row, values))
+        products(&self.to_whole, values)
     }
 
     /// Expansion of a polynomial in the orthonormal polynomials, from its values at the nodes.
@@ -202,6 +202,18 @@ impl Rule {
         let values = self.recurrence.values(s);
         std::array::from_fn(|node| (0..NODES).map(|d| self.coefficients[d][node] * values[d]).sum())
     }
+}
+
+/// A matrix over the nodes times values at them.
+fn products(matrix: &NodeMatrix, values: &[f64; NODES]) -> [f64; NODES] {
+    vectorised(
+        #[inline(always)]
+        || {
+            let mut products = [0.0; NODES];
+            products.iter_mut().zip(matrix).for_each(|(product, row)| *product = dot(row, values));
+            products
+        },
+    )
 }
 
 /// `c_k^m/m!`.

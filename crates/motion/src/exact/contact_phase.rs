@@ -179,9 +179,12 @@ impl ExactIntegrator {
             return Tried::Again(aim.without_event(length));
         };
         let event = aim.event.filter(|_| at_event);
-        let release = match event {
-            Some(end @ (Event::Release(_) | Event::Part(_) | Event::Lift(_))) => Some((end, length)),
-            _ => self.first_release(run, None, &[]),
+        let (release, polynomials) = match event {
+            Some(end @ (Event::Release(_) | Event::Part(_) | Event::Lift(_))) => (Some((end, length)), None),
+            _ => {
+                let found = self.first_release(run, None, &[]);
+                (found, Some(found))
+            }
         };
         if error > 1.0 {
             let shorter = length * self.growth(error).clamp(0.1, MOST_KEPT);
@@ -214,7 +217,7 @@ impl ExactIntegrator {
         // from.
         let refuted = (aim.event.is_some() && !at_event).then(|| aim.refuted(length));
         let aim = refuted.as_ref().unwrap_or(aim);
-        let Ok(earlier) = self.earlier_event(run, aim, (event, length)) else {
+        let Ok(earlier) = self.earlier_event(run, aim, (event, length), polynomials) else {
             // Undecided: in a shorter step the search goes further.
             return free(0.5 * length);
         };
@@ -242,15 +245,19 @@ impl ExactIntegrator {
 
     /// An event that the polynomials find before the end of the solved step, and when, apart from those that
     /// were located to come later.
+    ///
+    /// * `polynomials`: the first release of all of them, where it was looked for.
     fn earlier_event(
         &mut self,
         run: &Run,
         aim: &Aim,
         (event, length): (Option<Event>, f64),
+        polynomials: Option<Option<(Event, f64)>>,
     ) -> Result<Option<(Event, f64)>, Unresolved> {
         let mut excused = Vec::new();
         loop {
-            let found = self.first_in_step(run, event, &excused)?;
+            let release = polynomials.filter(|_| excused.is_empty());
+            let found = self.first_in_step(run, event, &excused, release)?;
             let Some((earlier, time)) = found.filter(|found| found.1 < length * (1.0 - SAME)) else {
                 return Ok(None);
             };
@@ -266,11 +273,14 @@ impl ExactIntegrator {
     /// The first touch, else the first release, in the solved step that ends with `event`, other than those
     /// `excused`. Where the polynomials through the nodes show none there is one only if the proof of
     /// `enclosure.rs` fails.
+    ///
+    /// * `release`: the first release, where it is known.
     fn first_in_step(
         &mut self,
         run: &Run,
         event: Option<Event>,
         excused: &[Event],
+        release: Option<Option<(Event, f64)>>,
     ) -> Result<Option<(Event, f64)>, Unresolved> {
         let length = self.step.length;
         let touch = self.first_touch_in_step(run, event, excused)?;
@@ -278,7 +288,7 @@ impl ExactIntegrator {
         if let Some((touch, time)) = touch {
             return Ok(Some((Event::Touch(touch), time)));
         }
-        match self.first_release(run, event, excused) {
+        match release.unwrap_or_else(|| self.first_release(run, event, excused)) {
             Some(release) => Ok(Some(release)),
             None => self.first_opening_in_step(run, event, excused),
         }
@@ -325,6 +335,7 @@ impl ExactIntegrator {
         }
         self.trace_step(run);
         self.step.advance_state(&self.series, &mut run.state);
+        self.step.known_ends.clear();
         run.time += length;
         if end - run.time <= 4.0 * f64::EPSILON * end {
             run.time = end;

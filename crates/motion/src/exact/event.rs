@@ -95,6 +95,9 @@ impl ExactIntegrator {
             if last {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
             }
+            if !matches!(event, Event::Lift(_)) {
+                self.keep_step_end(run, event.element());
+            }
             let distance = self.distance_at_end(run, event);
             if length == least && precision < COARSE && distance.value <= run.start[event.element()].margin {
                 return Some(Solved { error: self.state_error(run), at_event: true, length });
@@ -231,6 +234,17 @@ impl ExactIntegrator {
 
     /// An output and its derivatives at the end of the solved step, apart from the direct part of the forces.
     pub(super) fn free_jet_at_step_end(&self, run: &Run, output: usize) -> Jet {
+        let known = self.step.known_ends.iter().find(|(known, _)| *known == output);
+        known.map_or_else(|| self.read_step_end(run, output), |(_, jet)| *jet)
+    }
+
+    /// Reads it once for all who ask for it before another step is solved.
+    pub(super) fn keep_step_end(&mut self, run: &Run, output: usize) {
+        let jet = self.free_jet_at_step_end(run, output);
+        self.step.known_ends.push((output, jet));
+    }
+
+    fn read_step_end(&self, run: &Run, output: usize) -> Jet {
         let end = self.step.start + self.step.length;
         let (own, driven) = (
             self.step.end_jet(output, &self.series, &self.outputs, &run.state),

@@ -36,6 +36,8 @@ pub(crate) struct ForceStep {
     /// Start of the step in the time of the stretch [s].
     pub start: f64,
     pub active: Vec<usize>,
+    /// Outputs at its end that were read, apart from the direct part of the forces.
+    pub known_ends: Vec<(usize, Jet)>,
     pub displacement: Vec<f64>,
     pub force: Vec<f64>,
     pub slope: Vec<f64>,
@@ -104,6 +106,7 @@ impl ForceStep {
     pub fn start_anew(&mut self) {
         self.active.clear();
         self.readings.clear();
+        self.known_ends.clear();
     }
 
     /// Displacements at the nodes if no force acted in the step that starts from `state`.

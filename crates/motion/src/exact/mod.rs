@@ -176,6 +176,8 @@ pub struct ExactIntegrator {
     rates: Vec<f64>,
     /// Part of each block in the mobility of each element, `[e][i]`.
     shares: Vec<Vec<f64>>,
+    /// Of each element, for the proof that its contact stays closed.
+    in_common: Vec<enclosure::InCommon>,
     has_contacts: bool,
     has_rigid_stops: bool,
     counts: ExactCounts,
@@ -240,8 +242,9 @@ impl ExactIntegrator {
         let laws: Vec<Law> = system.elements().iter().map(|e| e.law).collect();
         let stretch = Stretch { frequency_hz: 1.0, start: 0.0, end: 0.0 };
         let drive = Drive::new(&system, &blocks, &outputs, &stretch);
-        let Structure { blocks, outputs, inputs, series, mobility, rates, shares, kept_weights, drive } =
-            Structure::new(blocks, outputs, inputs, drive);
+        let structure = Structure::new(blocks, outputs, inputs, drive);
+        let Structure { blocks, outputs, inputs, series, mobility, rates, .. } = structure;
+        let Structure { shares, in_common, kept_weights, drive, .. } = structure;
         Ok(Self {
             drive,
             series,
@@ -253,6 +256,7 @@ impl ExactIntegrator {
             settings,
             rates,
             shares,
+            in_common,
             blocks,
             laws,
             outputs,

@@ -323,23 +323,27 @@ impl Series {
         let rule = grading.rule();
         let z = length * self.rate;
         let count = self.columns.len();
-        let sums = vectorised(|| {
-            let mut sums = [0.0; 3];
-            let (mut power, mut factor) = (1.0, length);
-            let three = |list: &[f64], m: usize| [list[m], list[m + 1], list[m + 2]];
-            for m in 0..Self::terms(z) {
-                let reading = three(readings, m);
-                (0..3).for_each(|d| sums[d] += power * reading[d]);
-                power *= z / (m + 1) as f64;
-                for (force, &e) in force.as_chunks::<NODES>().0.iter().zip(active) {
-                    let moment = factor * dot(&rule.at_end[m], force);
-                    let markov = three(&self.markov[output * count + e], m);
-                    (0..3).for_each(|d| sums[d] += markov[d] * moment);
+        let terms = Self::terms(z);
+        let sums = vectorised(
+            #[inline(always)]
+            || {
+                let mut sums = [0.0; 3];
+                let (mut power, mut factor) = (1.0, length);
+                let three = |list: &[f64], m: usize| [list[m], list[m + 1], list[m + 2]];
+                for (m, at_end) in rule.at_end[..terms].iter().enumerate() {
+                    let reading = three(readings, m);
+                    (0..3).for_each(|d| sums[d] += power * reading[d]);
+                    power *= z / (m + 1) as f64;
+                    for (force, &e) in force.as_chunks::<NODES>().0.iter().zip(active) {
+                        let moment = factor * dot(at_end, force);
+                        let markov = three(&self.markov[output * count + e], m);
+                        (0..3).for_each(|d| sums[d] += markov[d] * moment);
+                    }
+                    factor *= z;
                 }
-                factor *= z;
-            }
-            sums
-        });
+                sums
+            },
+        );
         Jet { value: sums[0], slope: sums[1] * self.rate, curvature: sums[2] * self.rate * self.rate }
     }
 }

@@ -4,8 +4,8 @@
 use std::{collections::HashMap, sync::Arc};
 
 use super::{
-    ExactIntegrator, block::Blocks, collocation::Grading, drive::Drive, output::Output, series::Series,
-    weights::StepWeights,
+    ExactIntegrator, block::Blocks, collocation::Grading, drive::Drive, enclosure::InCommon, output::Output,
+    series::Series, weights::StepWeights,
 };
 
 /// Matrices of steps beyond the reach of the series, by their active elements, grading and place on the grid
@@ -23,6 +23,7 @@ pub(super) struct Structure {
     pub mobility: Vec<Vec<f64>>,
     pub rates: Vec<f64>,
     pub shares: Vec<Vec<f64>>,
+    pub in_common: Vec<InCommon>,
     pub kept_weights: KeptWeights,
     pub drive: Drive,
 }
@@ -35,6 +36,7 @@ impl Structure {
             mobility: mobility(&outputs, &inputs),
             rates: blocks.rates(),
             shares: shares(blocks.count(), &outputs, &inputs),
+            in_common: outputs[..inputs.len()].iter().map(|o| InCommon::new(&blocks, o, &inputs)).collect(),
             kept_weights: HashMap::new(),
             blocks,
             outputs,
@@ -54,6 +56,7 @@ impl ExactIntegrator {
         std::mem::swap(&mut self.mobility, &mut other.mobility);
         std::mem::swap(&mut self.rates, &mut other.rates);
         std::mem::swap(&mut self.shares, &mut other.shares);
+        std::mem::swap(&mut self.in_common, &mut other.in_common);
         std::mem::swap(&mut self.kept_weights, &mut other.kept_weights);
         std::mem::swap(&mut self.drive, &mut other.drive);
     }

@@ -113,6 +113,12 @@ impl ExactIntegrator {
         event: Option<Event>,
         excused: &[Event],
     ) -> Result<Option<(Event, f64)>, Unresolved> {
+        for a in 0..self.step.active.len() {
+            let element = self.step.active[a];
+            if run.closed[element].is_some() {
+                self.keep_step_end(run, element);
+            }
+        }
         let is_doubtful =
             |sought: &(usize, Event)| !excused.contains(&sought.1) && !self.stays_above(run, *sought, event);
         let doubtful: Vec<(usize, Event)> = self.possible_ends(run).filter(is_doubtful).collect();

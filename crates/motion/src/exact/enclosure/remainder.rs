@@ -1,9 +1,12 @@
-//! The bound on the derivatives of a guard over a step with forces: theorem 2 of `enclosure.rs`.
+//! The bound on the derivatives of a guard over a step with forces: theorems 2 and 3 of `enclosure.rs`.
 
 use super::{
     super::{
         ExactIntegrator,
+        block::Blocks,
         collocation::{Grading, NODES},
+        lanes::{raise, vectorised},
+        output::Output,
         run::Run,
     },
     Hermite,
@@ -12,7 +15,78 @@ use super::{
 /// Binomial coefficients of `NODES - 1`.
 pub(super) const BINOMIALS: [f64; NODES] = binomials();
 
+/// What the blocks of a structure have in common in the bound on the derivatives of an output.
+#[derive(Debug, Clone, Default)]
+pub(in crate::exact) struct InCommon {
+    /// Of the fastest block, `z/h`.
+    rate: f64,
+    /// Factors of the energy norms in `D_0/h`.
+    of_norms: Vec<f64>,
+    /// Factors of `max |F_a|` in `D_0/h^2` and of `phi_a` in the driving series over `h^2`, for each input.
+    of_forces: Vec<[f64; 2]>,
+}
+
+impl InCommon {
+    pub(in crate::exact) fn new(blocks: &Blocks, output: &Output, inputs: &[Vec<f64>]) -> Self {
+        let n = blocks.count();
+        let rates = blocks.rates();
+        let of_norms: Vec<f64> = (0..n).map(|i| start_factor(output, i, rates[i])).collect();
+        let of_input = |input: &Vec<f64>| {
+            let mut sums = [0.0; 2];
+            for i in 0..n {
+                sums[0] += of_norms[i] * norm_by_force(blocks, input, i);
+                sums[1] += sigma(output, input, (i, rates[i]));
+            }
+            sums
+        };
+        let of_forces = inputs.iter().map(of_input).collect();
+        Self { rate: rates.into_iter().fold(0.0, f64::max), of_norms, of_forces }
+    }
+}
+
+/// `D_0/h` of block i per its energy norm.
+fn start_factor(output: &Output, i: usize, rate: f64) -> f64 {
+    output.first_bound[i].max(if rate > 0.0 { output.second_bound[i] / rate } else { 0.0 })
+}
+
+/// `|B_a|` in the energy norm of block i.
+fn norm_by_force(blocks: &Blocks, input: &[f64], i: usize) -> f64 {
+    let (on_p, on_s) = (input[i], input[blocks.count() + i]);
+    (blocks.stiffness[i] * on_p * on_p + on_s * on_s).sqrt()
+}
+
+/// `sigma_a` of block i.
+fn sigma(output: &Output, input: &[f64], (i, rate): (usize, f64)) -> f64 {
+    let n = input.len() / 2;
+    let part = |row: &[f64]| (row[i] * input[i] + row[n + i] * input[n + i]).abs();
+    let second = part(&output.acceleration_row);
+    part(&output.velocity_row).max(if rate > 0.0 { second / rate } else { 0.0 })
+}
+
 impl ExactIntegrator {
+    /// A bound on `r_n` from what all blocks have in common: never below [`remainder`](Self::remainder).
+    pub(super) fn common_remainder(&self, run: &Run, element: usize, [alpha, beta]: [f64; 2]) -> f64 {
+        let Some(orders) = self.drive.amplitudes(element) else { return f64::INFINITY };
+        let (step, common) = (&self.step, &self.in_common[element]);
+        let (length, rule) = (step.length, step.grading().rule());
+        let norms = common.of_norms.iter().enumerate();
+        let mut start: f64 = norms.map(|(i, factor)| factor * self.energy_norm(&run.state, i)).sum();
+        let (mut rate, mut driven) = (common.rate, [0.0; NODES]);
+        for (force, &active) in step.force.as_chunks::<NODES>().0.iter().zip(&step.active) {
+            let (majorant, factors) =
+                (force_majorant(rule.bernstein_of_whole(force)), common.of_forces[active]);
+            start += length * factors[0] * majorant[0];
+            (0..NODES).for_each(|j| driven[j] += length * length * factors[1] * majorant[j]);
+        }
+        for (amplitude, frequency) in orders {
+            start += amplitude * frequency;
+            rate = rate.max(frequency);
+        }
+        let series = DerivativeSeries::of(step.grading());
+        let [displacement, velocity] = series.last(rate * length, start * length, &driven);
+        alpha * displacement + beta * velocity / length
+    }
+
     /// `r_n` of the guard with these parts of an element's displacement and velocity in the solved step;
     /// infinite where a load is resonant.
     pub(super) fn remainder(&self, run: &Run, element: usize, [alpha, beta]: [f64; 2]) -> f64 {
@@ -36,18 +110,14 @@ impl ExactIntegrator {
             sum[1] += velocity;
         };
         for i in 0..n {
-            let (k, rate) = (self.blocks.stiffness[i], self.rates[i]);
+            let rate = self.rates[i];
             let (mut norm, mut driven) = (self.energy_norm(&run.state, i), [0.0; NODES]);
             for (majorant, input) in &forces {
-                let (on_p, on_s) = (input[i], input[n + i]);
-                let part = |row: &[f64]| (row[i] * on_p + row[n + i] * on_s).abs();
-                let second = part(&output.acceleration_row);
-                let sigma = part(&output.velocity_row).max(if rate > 0.0 { second / rate } else { 0.0 });
-                norm += length * (k * on_p * on_p + on_s * on_s).sqrt() * majorant[0];
+                norm += length * norm_by_force(&self.blocks, input, i) * majorant[0];
+                let sigma = sigma(output, input, (i, rate));
                 (0..NODES).for_each(|j| driven[j] += length * length * sigma * majorant[j]);
             }
-            let second = if rate > 0.0 { output.second_bound[i] / rate } else { 0.0 };
-            add((rate * length, length * output.first_bound[i].max(second) * norm), &driven);
+            add((rate * length, length * start_factor(output, i, rate) * norm), &driven);
         }
         for (amplitude, frequency) in orders {
             let z = frequency * length;
@@ -90,13 +160,23 @@ impl DerivativeSeries {
 
 /// `phi_j` of a force, from its Bernstein coefficients.
 fn force_majorant(mut differences: [f64; NODES]) -> [f64; NODES] {
-    std::array::from_fn(|j| {
-        if j > 0 {
-            (0..NODES - j).for_each(|i| differences[i] = differences[i + 1] - differences[i]);
-        }
-        let largest = differences[..NODES - j].iter().fold(0.0_f64, |largest, d| largest.max(d.abs()));
-        BINOMIALS[j] * largest
-    })
+    vectorised(
+        #[inline(always)]
+        || {
+            let mut majorant = BINOMIALS;
+            for (j, bound) in majorant.iter_mut().enumerate() {
+                if j > 0 {
+                    (0..NODES - 1).for_each(|i| differences[i] = differences[i + 1] - differences[i]);
+                    // There is one difference less.
+                    differences[NODES - j] = 0.0;
+                }
+                let mut largest = [0.0; 4];
+                differences.as_chunks::<4>().0.iter().for_each(|four| raise(&mut largest, four));
+                *bound *= largest.iter().fold(0.0_f64, |most, d| most.max(*d));
+            }
+            majorant
+        },
+    )
 }
 
 const fn binomials() -> [f64; NODES] {

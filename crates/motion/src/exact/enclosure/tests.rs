@@ -127,6 +127,35 @@ fn the_motion_stays_within_the_bounds_of_its_polynomial() {
     assert!((1e-3..=1.0).contains(&largest), "the bounds are met and not absurdly wide: {largest:e}");
 }
 
+/// Theorem 3, for displacements and velocities.
+#[test]
+fn what_all_blocks_have_in_common_bounds_their_sum() {
+    let hertz = Law::Hertz(HertzStop::with_preload(3.0, 9.0).unwrap());
+    let damped = Law::Linear(LinearStop::with_preload(5.0, 8.0).unwrap().with_damping(0.7).unwrap());
+    for frequencies in [[1.0, 1.0], [1.0, 3.0], [2.0, 7.0]] {
+        for grading in [Grading::Smooth, Grading::Touch, Grading::Release] {
+            let (integrator, run) = solved([hertz, damped], frequencies, 0.9, grading);
+            for (element, parts) in [(0, [1.0, 0.0]), (1, [1.0, 0.0]), (1, [0.3, 0.7])] {
+                let sum = integrator.remainder(&run, element, parts);
+                let common = integrator.common_remainder(&run, element, parts);
+                assert!(sum > 0.0 && sum <= common, "{frequencies:?} {grading:?}: {sum:e}, {common:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_kept_of_the_end_of_a_step_goes_with_the_step() {
+    let hertz = Law::Hertz(HertzStop::with_preload(3.0, 9.0).unwrap());
+    let (mut integrator, run) = solved([hertz; 2], [1.0, 3.0], 0.3, Grading::Smooth);
+    let read = integrator.free_jet_at_step_end(&run, 1);
+    integrator.keep_step_end(&run, 1);
+    assert_eq!(integrator.free_jet_at_step_end(&run, 1), read);
+    integrator.attempt(&run, 0.2, Grading::Smooth).expect("the step is solved");
+    let shorter = integrator.free_jet_at_step_end(&run, 1);
+    assert!(shorter.value != read.value && integrator.step.known_ends.is_empty());
+}
+
 /// `Omega A z^n/n!` with `Omega = (12!)^2/24! = 1/2704156`.
 #[test]
 fn a_mode_in_a_smooth_step_has_the_remainder_of_its_power_series() {
