@@ -1,6 +1,6 @@
 //! Checks a results folder against simulation: `completeness STUDY RESULTS [FREQUENCIES] [STATES] [LONGEST
-//! PERIOD] [SEED] [--plain]`. With `--plain` by the integrator that shares nothing with the library, for lumped
-//! structures.
+//! PERIOD] [SEED] [--plain]`. With `--plain` by the integrator that shares nothing with the library, for
+//! lumped structures.
 #![allow(clippy::print_stdout, reason = "a command")]
 
 use std::{env, fs, path::Path};

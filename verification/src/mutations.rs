@@ -114,8 +114,8 @@ pub fn outcome(reader: Reader, folder: &Path, bytes: &[u8]) -> (Outcome, Duratio
     (outcome, time)
 }
 
-/// Processor time of this thread where Linux tells it: a busy machine makes no reader slow. Elsewhere the time
-/// of day.
+/// Processor time of this thread where Linux tells it: a busy machine makes no reader slow. Elsewhere the
+/// time of day.
 #[derive(Debug)]
 struct Clock {
     started: Instant,
@@ -136,7 +136,9 @@ impl Clock {
     /// The first number of the scheduler's statistics: nanoseconds on a processor.
     fn busy() -> Option<Duration> {
         let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-        text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
+        let nanoseconds = text.split_whitespace().next()?.parse().ok()?;
+        // Without statistics all are 0.
+        (nanoseconds > 0).then(|| Duration::from_nanos(nanoseconds))
     }
 }
 

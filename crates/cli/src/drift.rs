@@ -1,4 +1,5 @@
-//! What to say of a structure that can drift, before its periodic solutions are looked for.
+//! What to say of a structure that can drift, or of a range without periodic solutions, before they are
+//! looked for.
 
 use hammerbeam_study::{Drift, Model, Study};
 
@@ -25,14 +26,18 @@ pub fn warn(drifts: &[Drift]) {
     drifts.iter().for_each(|drift| anstream::eprintln!("warning: {drift}"));
 }
 
-/// Warns of a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
-pub fn warn_of_range(model: &Model, study: &Study) {
+/// Refuses a range that reaches so far above all eigenfrequencies that rounding hides what it asks for.
+///
+/// # Errors
+/// [`Failure::BadInput`] with the highest frequency that may be asked for.
+pub fn heed_range(model: &Model, study: &Study) -> Result<(), Failure> {
     let [_, high] = study.excitation.range_hz();
-    if let Some(resolved) = model.resolved_hz().filter(|resolved| high > *resolved) {
-        anstream::eprintln!(
-            "warning: the range reaches {high:e} Hz, where a period is so short that rounding hides what the \
-             structure does in it; solutions are known up to {resolved:.1e} Hz, a million times the highest \
-             eigenfrequency: end the range there"
-        );
+    match model.resolved_hz().filter(|resolved| high > *resolved) {
+        Some(resolved) => Err(Failure::BadInput(format!(
+            "`frequency_hz` of the excitation reaches {high:e} Hz, where a period is so short that rounding \
+             hides what the structure does in it; allowed: up to {resolved:.3e} Hz, ten million times the \
+             highest eigenfrequency"
+        ))),
+        None => Ok(()),
     }
 }

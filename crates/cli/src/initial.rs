@@ -34,7 +34,11 @@ pub fn state(
     let branches = results.map(|folder| StoredBranches::open(folder, study.0)).transpose()?;
     let state = meant(text, map, study.1, branches.as_ref())?;
     map.check_in_front_of_stops(&state).map_err(|error| {
-        Failure::BadInput(format!("--initial {text}, at {} Hz: {error}", map.frequency_hz()))
+        let place = match study.0.study.excitation.harmonic() {
+            Some(_) => format!(", at {} Hz", map.frequency_hz()),
+            None => String::new(),
+        };
+        Failure::BadInput(format!("--initial {text}{place}: {error}"))
     })?;
     Ok(state)
 }

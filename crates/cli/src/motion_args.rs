@@ -25,8 +25,8 @@ pub struct SimulateOptions {
     #[arg(long, value_name = "N", value_parser = whole(1_u64..=100_000_000), allow_negative_numbers = true)]
     pub periods: Option<u64>,
 
-    /// Time that is written down, in seconds: rounded up to whole excitation periods, or, without [excitation],
-    /// to intervals of samples
+    /// Time that is written down, in seconds: rounded up to whole excitation periods, or, without
+    /// [excitation], to intervals of samples
     #[arg(long, value_name = "S", conflicts_with = "periods", value_parser = seconds, allow_negative_numbers = true)]
     pub duration: Option<f64>,
 

@@ -2,9 +2,9 @@
 //!
 //! A free mass m between two of them flies with its speed from one to the other. With a spring k and a damper
 //! c a contact is `m p'' + c p' + k p = 0` from `p = 0` until it would pull, where `p'' = 0`: with `d = c/(2
-//! m)`, `w^2 = k/m - d^2`, `tan a = d/w` this is the time `t = (pi - 2 a)/w`. The speed is `exp(-d t)` of what
-//! it was then, and the penetration `c/k` times that, so that the flight takes longer by `c/k`. A rigid stop
-//! leaves `e` of the speed.
+//! m)`, `w^2 = k/m - d^2`, `tan a = d/w` this is the time `t = (pi - 2 a)/w`. The speed is `exp(-d t)` of
+//! what it was then, and the penetration `c/k` times that, so that the flight takes longer by `c/k`. A rigid
+//! stop leaves `e` of the speed.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::{f64::consts::PI, fs};
@@ -158,11 +158,19 @@ fn what_both_sides_share_varies_for_both() {
         };
         text.lines().skip(1).map(row).collect::<Vec<_>>()
     };
-    let (both, one) = (reached("stop.wall.gap_m"), reached("stop.wall (above).gap_m"));
-    for rows in [&both, &one] {
+    let at_end = |rows: &[[f64; 2]]| {
         let ends = rows.iter().fold([1.0, 0.0_f64], |[low, high], [gap, _]| [gap.min(low), gap.max(high)]);
         assert_eq!(ends, [0.0195, 0.0205]);
-    }
+        rows.iter().find(|[gap, _]| *gap == 0.0205).unwrap()[1]
+    };
+    let [both, one] = ["stop.wall.gap_m", "stop.wall (above).gap_m"].map(|name| at_end(&reached(name)));
+    let set = Workshop::with(&shaken(&stop.replace("gap_m = 0.02", "gap_m = 0.0205")));
+    let found = set.hammerbeam(&["orbit", "study.toml", "--frequency", "5.8", "--json"]);
+    assert_success(&found);
+    let document: serde_json::Value = serde_json::from_str(&stdout(&found)).unwrap();
+    let force = document["max_contact_force_n"].as_f64().unwrap();
+    assert!((both / force - 1.0).abs() < 1e-8, "{both} {force}");
+    assert!((one / force - 1.0).abs() > 1e-4, "{one} {force}");
 }
 
 #[test]

@@ -28,8 +28,11 @@ use crate::common::{
 const CALLS: [(&str, &str); 3] = [
     ("write,writev,pwrite64", "ENOSPC"),
     ("fsync,fdatasync", "EIO"),
-    ("rename,renameat2,ftruncate,unlink,mkdir", "ENOSPC"),
+    ("?rename,?renameat,?renameat2,ftruncate,?unlink,?unlinkat,?mkdir,?mkdirat", "ENOSPC"),
 ];
+
+/// How `strace` is called.
+const TRACED: [&str; 5] = ["-f", "-qq", "--seccomp-bpf", "-s", "0"];
 
 /// What goes wrong in a command.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +56,7 @@ impl fmt::Display for Fault {
 fn writes_that_fail_end_with_a_sentence_and_the_command_done_again_leaves_the_same_files() {
     let asked = std::env::var("HAMMERBEAM_FAILURES").ok().map(|count| count.parse::<usize>().unwrap());
     let most = asked.unwrap_or(if extensive() { usize::MAX } else { 1 });
-    let traces = Command::new("strace").args(["-o", "/dev/null", "true"]).output();
+    let traces = Command::new("strace").args(TRACED).args(["-e", "trace=?rename,fsync", "true"]).output();
     let traces = traces.is_ok_and(|output| output.status.success());
     if !traces {
         eprintln!("skipped: strace cannot make calls fail here; files are limited alone");
@@ -112,7 +115,7 @@ fn calls(writer: &Writer, names: &str) -> usize {
 fn traced(writer: &Writer, workshop: &Workshop, names: &str, failure: Option<&str>) -> (Output, String) {
     let log = tempfile::NamedTempFile::new().unwrap();
     let mut command = Command::new("strace");
-    command.args(["-f", "-qq", "--seccomp-bpf", "-s", "0", "-o"]).arg(log.path());
+    command.args(TRACED).arg("-o").arg(log.path());
     command.args(["-e", &format!("trace={names}")]);
     if let Some(failure) = failure {
         command.args(["-e", &format!("inject={names}:{failure}")]);

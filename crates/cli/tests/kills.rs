@@ -10,7 +10,7 @@ use std::{
     fs,
     process::{Command, Stdio},
     thread::sleep,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 use crate::common::{
@@ -68,16 +68,17 @@ fn kill_once(writer: &Writer, part: f64) -> bool {
 /// A starter study that was cut off is not a starter study: it is there whole, or not at all.
 #[test]
 fn a_starter_study_is_there_whole_or_not_at_all() {
-    let mut random = Random(3);
-    for _ in 0..20 {
+    let start = |folder: &std::path::Path| {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"));
+        command.args(["new", "starter"]).current_dir(folder).stdout(Stdio::null()).spawn().unwrap()
+    };
+    let (undisturbed, begun) = (tempfile::tempdir().unwrap(), Instant::now());
+    assert!(start(undisturbed.path()).wait().unwrap().success());
+    let duration = begun.elapsed();
+    for twentieth in 1..=20 {
         let folder = tempfile::tempdir().unwrap();
-        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("hammerbeam"))
-            .args(["new", "starter"])
-            .current_dir(folder.path())
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
-        sleep(Duration::from_micros((1e4 * random.next()) as u64));
+        let mut child = start(folder.path());
+        sleep(duration.mul_f64(f64::from(twentieth) / 16.0));
         child.kill().unwrap();
         child.wait().unwrap();
         let study = fs::read_to_string(folder.path().join("starter/study.toml"));

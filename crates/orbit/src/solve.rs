@@ -20,9 +20,11 @@ const MANY: u32 = 12;
 const STILL_FAR: f64 = 0.3;
 /// The same number of iterations where only an orbit near the guess is wanted.
 const FEW: u32 = 6;
-/// Where a correction is as small as this, relative to the orbit,
+/// Where two corrections after one another are as small as this, relative to the orbit,
 const NEAR: f64 = 0.03;
-/// and a multiplier as large as this, the orbit is not stable.
+/// and a multiplier at both places is as large as this, the orbit is taken for an unstable one. Nothing
+/// proves it: beside a stiff stop one more contact may make such a multiplier. What is lost so is one of many
+/// guesses.
 const FAR_OUTSIDE: f64 = 2.0;
 
 /// Which orbits Newton's method is to find.
@@ -37,15 +39,24 @@ pub(crate) enum Wanted {
 impl Wanted {
     /// Whether Newton's method, whose problem was evaluated last at the point before this correction, need
     /// not go on.
-    fn is_out_of_reach(self, problem: &mut ShootingProblem, (iterations, correction): (u32, f64)) -> bool {
+    ///
+    /// * `unstable`: how often in a row the points before were near an unstable orbit.
+    fn is_out_of_reach(
+        self,
+        problem: &mut ShootingProblem,
+        (iterations, correction): (u32, f64),
+        unstable: &mut u32,
+    ) -> bool {
         let patience = if self == Self::StableNearby { FEW } else { MANY };
         if iterations >= patience && correction > STILL_FAR {
             return true;
         }
         let largest = |multipliers: &[[f64; 2]]| multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
-        self == Self::StableNearby
+        let is_unstable = self == Self::StableNearby
             && correction <= NEAR
-            && problem.multipliers().is_ok_and(|multipliers| largest(multipliers) >= FAR_OUTSIDE)
+            && problem.multipliers().is_ok_and(|multipliers| largest(multipliers) >= FAR_OUTSIDE);
+        *unstable = if is_unstable { *unstable + 1 } else { 0 };
+        *unstable >= 2
     }
 }
 
@@ -158,13 +169,15 @@ fn correct_wanted_in_plane(
     (row, wanted): (&[f64], Wanted),
     settings: &OrbitSettings,
 ) -> Result<f64, OrbitError> {
+    let mut unstable = 0;
     let frequency_hz = problem.frequency(point);
     let mut correction = f64::INFINITY;
     for iterations in 1..=MAX_ITERATIONS {
         let failed = OrbitError::NotConverged { frequency_hz, correction, iterations };
         let update;
         (update, correction) = newton_update(problem, point, row)?;
-        if !correction.is_finite() || wanted.is_out_of_reach(problem, (iterations, correction)) {
+        if !correction.is_finite() || wanted.is_out_of_reach(problem, (iterations, correction), &mut unstable)
+        {
             return Err(failed);
         }
         if correction <= settings.tolerance {

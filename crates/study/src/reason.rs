@@ -6,14 +6,35 @@
 
 use hammerbeam_orbit::{ResonantMode, StopReason};
 
-/// What shows the motion where its branch was lost, and finds the branches on which it lies.
-const LOOK: &str = "`sweep` shows the motion there, `run --from` begins branches at what it finds";
+/// What a branch runs over, as its reasons speak of it.
+pub(crate) struct Course {
+    /// What ends at the end of the range.
+    range: &'static str,
+    /// What shows the motion where its branch was lost.
+    look: &'static str,
+    /// What happens with a larger budget.
+    larger_budget: &'static str,
+}
+
+/// Over the frequency.
+pub(crate) const OVER_FREQUENCY: Course = Course {
+    range: "the frequency range",
+    look: "`sweep` shows the motion there, `run --from` begins branches at what it finds",
+    larger_budget: "the same command goes on from here",
+};
+
+/// Over another parameter.
+pub(crate) const OVER_PARAMETER: Course = Course {
+    range: "the range",
+    look: "`sweep` of a study with the parameter set beyond shows the motion there",
+    larger_budget: "a new run gets further",
+};
 
 /// The reason in words.
 ///
 /// * `at`: a place on the branch as a reader knows it: `31.25 Hz`, `stop.wall.gap_m = 0.002`.
-/// * `range`: what ends at the end of the range, `the frequency range`.
-pub(crate) fn in_words(reason: &StopReason, range: &str, at: impl Fn(f64) -> String) -> String {
+pub(crate) fn in_words(reason: &StopReason, course: &Course, at: impl Fn(f64) -> String) -> String {
+    let Course { range, look, larger_budget } = course;
     match reason {
         StopReason::RangeEnd { frequency_hz } => format!("end of {range} at {}", at(*frequency_hz)),
         StopReason::Closed => "the branch came back to its start".to_owned(),
@@ -28,24 +49,24 @@ pub(crate) fn in_words(reason: &StopReason, range: &str, at: impl Fn(f64) -> Str
         ),
         StopReason::Budget { solutions } => format!(
             "the budget of {solutions} solutions is used up; with a larger budget_solutions \
-                ([continuation]) the same command goes on from here"
+                ([continuation]) {larger_budget}"
         ),
         StopReason::StepTooShort { frequency_hz, step, residual, doubt } => format!(
             "no periodic motion next to the last one was found beyond {}, however near it was looked for; \
-                {LOOK} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
+                {look} (last step {step:.1e}, residual {residual:.1e}: {doubt})",
             at(*frequency_hz)
         ),
         StopReason::RunsBack { frequency_hz, met_arc_length } => format!(
-            "beyond {} every step led back to motions that the branch already has; {LOOK} (met again at \
+            "beyond {} every step led back to motions that the branch already has; {look} (met again at \
                 arc length {met_arc_length:.6})",
             at(*frequency_hz)
         ),
         StopReason::ContactSplits { frequency_hz, element, phase } => {
-            format!("beyond {} {}", at(*frequency_hz), splits(element, *phase))
+            format!("beyond {} {}", at(*frequency_hz), splits(element, *phase, course))
         }
         StopReason::Crawls { frequency_hz, solutions, largest_multiplier } => format!(
             "at {} the last {solutions} solutions brought the branch no further: in a period of the \
-                motion a disturbance of it becomes {largest_multiplier:.1e} times as large; {LOOK}",
+                motion a disturbance of it becomes {largest_multiplier:.1e} times as large; {look}",
             at(*frequency_hz)
         ),
         StopReason::Unbounded { frequency_hz, mode } => {
@@ -61,11 +82,12 @@ pub(crate) fn in_words(reason: &StopReason, range: &str, at: impl Fn(f64) -> Str
 }
 
 /// What happens beyond the end of a branch whose contact splits.
-pub(crate) fn splits(element: &str, phase: f64) -> String {
+pub(crate) fn splits(element: &str, phase: f64, course: &Course) -> String {
+    let look = course.look;
     format!(
         "{element} opens and is pressed on again at once, at the phase of {phase:.4} cycles: the force of \
             its law depends on how fast the contact began, so it jumps there, and so does the motion; \
-            {LOOK}"
+            {look}"
     )
 }
 
@@ -121,7 +143,7 @@ mod tests {
             StopReason::Motion { frequency_hz, message: "x".to_owned() },
         ];
         for reason in reasons {
-            let text = in_words(&reason, "the frequency range", |value| format!("{value} Hz"));
+            let text = in_words(&reason, &OVER_FREQUENCY, |value| format!("{value} Hz"));
             assert_eq!(text.matches("12.5 Hz").count(), 1, "{text}");
             let sentence = text.split(" (last step").next().unwrap();
             for word in ["arc length", "multiplier", "residual", "tangent", "converge", "walk"] {

@@ -183,6 +183,8 @@ impl Equations {
                 preload: number(stop, "preload_n", 0.0)?,
             })
         };
+        let plainly_hertz = stop.contains_key("stiffness_n_m15")
+            && !["restitution", "preload_n"].iter().any(|key| stop.contains_key(*key));
         let law = match text(stop, "law")? {
             "two-sided" => {
                 let (above, below) = (number(stop, "gap_above_m", gap)?, number(stop, "gap_below_m", gap)?);
@@ -194,7 +196,7 @@ impl Equations {
                 return Ok(vec![one(1.0, 0.0, Law::Power { terms })]);
             }
             "linear" => linear()?,
-            "hertz" | "hunt-crossley" if stop.contains_key("stiffness_n_m15") => Law::Hertz {
+            "hertz" | "hunt-crossley" if plainly_hertz => Law::Hertz {
                 stiffness: needed(stop, "stiffness_n_m15")?,
                 loss: number(stop, "loss_s_m", 0.0)?,
             },

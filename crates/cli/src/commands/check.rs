@@ -23,7 +23,7 @@ pub fn run(options: &StudyOptions, output: Output) -> Result<(), Failure> {
     let file = StudyFile::read(&options.study)?;
     let model = Model::build(&file)?;
     drift::warn(&model.drifts());
-    drift::warn_of_range(&model, &file.study);
+    drift::heed_range(&model, &file.study)?;
     output.give(&document(&file.study, &model), || text(&file.study, &model, output.frequency_unit))?;
     Ok(())
 }

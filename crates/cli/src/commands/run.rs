@@ -35,7 +35,7 @@ pub fn run(options: &RunOptions, output: Output) -> Result<(), Failure> {
     file.forced()?;
     let model = Model::build(&file)?;
     drift::heed(&model)?;
-    drift::warn_of_range(&model, &file.study);
+    drift::heed_range(&model, &file.study)?;
     let mut settled = Vec::new();
     for folder in &options.from {
         settled.extend(settled_states(&Store::open(folder)?)?);

@@ -177,9 +177,9 @@ impl Workshop {
         let mut lines = text.lines();
         let header: Vec<&str> = lines.next().unwrap().split(',').collect();
         let row = |line: &str| {
-            let values: Vec<&str> = line.split(',').collect();
+            let values = fields(line);
             assert_eq!(values.len(), header.len(), "{line}");
-            header.iter().zip(values).map(|(key, value)| ((*key).to_owned(), value.to_owned())).collect()
+            header.iter().zip(values).map(|(key, value)| ((*key).to_owned(), value)).collect()
         };
         lines.map(row).collect()
     }
@@ -191,6 +191,19 @@ impl Workshop {
         files.sort();
         files
     }
+}
+
+/// Fields of a line; commas between quotation marks do not separate.
+fn fields(line: &str) -> Vec<String> {
+    let (mut fields, mut is_quoted) = (vec![String::new()], false);
+    for character in line.chars() {
+        match character {
+            '"' => is_quoted = !is_quoted,
+            ',' if !is_quoted => fields.push(String::new()),
+            _ => fields.last_mut().unwrap().push(character),
+        }
+    }
+    fields
 }
 
 fn collect(folder: &Path, files: &mut Vec<(PathBuf, Vec<u8>)>) {

@@ -36,7 +36,7 @@ pub(super) fn join(events: &[(Mark, Vec<Place>)], shares: impl Fn(Place) -> Plac
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         places
     };
-    let flips = near(&[Mark::Flip, Mark::OfUnstable]);
+    let flips = near(&[Mark::Flip]);
     let (folds, grazings) = (near(&[Mark::Fold]), near(&[Mark::Grazing]));
     let places = |mark: Mark| -> Vec<Place> {
         match mark {

@@ -14,7 +14,8 @@
 //! `S` of the blocks that are not smooth over the step it has the error itself; blocks and orders of the load
 //! so fast that the nodes do not resolve their part `U` in the force leave that part. What U leaves of a
 //! velocity moves the release, up to which the sensitivities follow the force, so where they are wanted it
-//! counts `1 + h^2 G f' + h G f_v` times. The step is accepted if
+//! counts `1 + h^2 G f' + h G f_v` times. Orders in resonance with a mode without damping (`secular.rs`), and
+//! what an order is in the column by a parameter, have no part in U. The step is accepted if
 //!
 //! `T^2`, `T D^2 <= 4 tolerance` and `T S`, `U <= 10 tolerance`,
 //!
@@ -156,8 +157,8 @@ impl ExactIntegrator {
         move |block| stiffest * output.value_bound[block] + viscous * output.first_bound[block]
     }
 
-    /// The acceleration by the force that follows an order of the load in the solved step, per displacement of
-    /// the element in it, for a circular frequency of the order.
+    /// The acceleration by the force that follows an order of the load in the solved step, per displacement
+    /// of the element in it, for a circular frequency of the order.
     fn following_load(&self, element: usize, nodes: std::ops::Range<usize>) -> impl Fn(f64) -> f64 {
         let (step, mobility) = (&self.step, self.response(element).mobility);
         let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
@@ -165,8 +166,8 @@ impl ExactIntegrator {
         move |rate| mobility * (stiffest + viscous * rate)
     }
 
-    /// Circular frequencies of the orders of the load, as the nodes of the step see them: time in a graded one
-    /// goes like the square of its variable, so at its end a load turns twice as fast.
+    /// Circular frequencies of the orders of the load, as the nodes of the step see them: time in a graded
+    /// one goes like the square of its variable, so at its end a load turns twice as fast.
     fn load_rates(&self) -> impl Iterator<Item = f64> {
         let pace = if self.step.grading() == Grading::Smooth { 1.0 } else { 2.0 };
         self.drive.orders.iter().map(move |order| pace * order.order * self.drive.circular_frequency())
@@ -323,7 +324,7 @@ impl ExactIntegrator {
             for (amplitude, (rate, order)) in amplitudes[self.rates.len()..].iter_mut().zip(loads) {
                 let (value, slope) = order.outputs[element];
                 let slope = slope.norm() + turned * order.order * value.norm();
-                *amplitude = amplitude.max(follows(rate) * slope / by_frequency);
+                *amplitude = amplitude.max(follows(rate) * slope / (mobility * by_frequency));
             }
         }
         self.step.unresolved = amplitudes;

@@ -103,8 +103,8 @@ pub(super) struct Variable<'a> {
 type Known = (String, ParameterKind, Quantity);
 
 impl Variable<'_> {
-    /// Every parameter by its name; stops also by their number, from 1, if they are
-    /// no side of one: what both sides have in common is a number of the model as any other.
+    /// Every parameter by its name; stops also by their number, from 1. What both sides of a stop have in
+    /// common is a number of the model as any other, so a side has no number.
     fn known(self) -> Vec<Known> {
         let amplitude = self.excitation.harmonic().map(|harmonic| match harmonic.kind {
             ExcitationKind::SupportMotion { .. } => ("excitation.amplitude_m", quantity::AMPLITUDE),

@@ -40,15 +40,13 @@ impl std::fmt::Display for Digits {
     }
 }
 
-/// Excitation frequency over the highest eigenfrequency up to which periodic motion is known to its
-/// tolerance: beyond, a
-/// period leaves every mode as it was, up to rounding.
-const RESOLVED: f64 = 1e6;
+/// Excitation frequency over the highest eigenfrequency up to which branches are followed with steps of usual
+/// length: beyond, a period leaves every mode as it was, up to rounding.
+const RESOLVED: f64 = 1e7;
 
 impl Model {
     /// The highest excitation frequency at which rounding leaves enough of periodic motion, if the structure
-    /// vibrates at
-    /// all [Hz].
+    /// vibrates at all [Hz].
     #[must_use]
     pub fn resolved_hz(&self) -> Option<f64> {
         let highest = self.system.model().natural_frequencies.iter().copied().fold(0.0, f64::max);

@@ -240,7 +240,7 @@ impl StoredReason {
             StopReason::RangeEnd { .. } => format!("{place} Hz"),
             _ => format!("{place:.6} Hz"),
         };
-        let message = reason::in_words(reason, "the frequency range", at);
+        let message = reason::in_words(reason, &reason::OVER_FREQUENCY, at);
         Self { kind: kind.to_owned(), frequency_hz, message }
     }
 }

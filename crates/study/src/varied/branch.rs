@@ -150,5 +150,7 @@ fn crossings(rows: &[VariedRow], parameter: &StudyParameter, value: f64) -> Vec<
 
 fn in_words(reason: &StopReason, varied: &VariedParameter, parameter: &StudyParameter) -> String {
     let (name, range) = (&varied.name, varied.range);
-    reason::in_words(reason, "the range", |value| format!("{name} = {}", parameter.in_range(value, range)))
+    reason::in_words(reason, &reason::OVER_PARAMETER, |value| {
+        format!("{name} = {}", parameter.in_range(value, range))
+    })
 }

@@ -14,7 +14,7 @@ use crate::{
     file::{Curve, CurveOf},
     model::StudyParameter,
     orbit_solver::settings,
-    reason::splits,
+    reason::{OVER_PARAMETER, splits},
     store::{Store, StoreError, VariedBranch, VariedRow, solution_key},
 };
 
@@ -231,7 +231,7 @@ fn in_words(end: &CurveEnd, kind: CurveKind, curve: &Curve, parameter: &StudyPar
             format!("{element} is grazed as well at {} and struck beyond", named(*value, curve, parameter))
         }
         CurveEnd::ContactSplits { parameter: value, element, phase } => {
-            format!("beyond {} {}", named(*value, curve, parameter), splits(element, *phase))
+            format!("beyond {} {}", named(*value, curve, parameter), splits(element, *phase, &OVER_PARAMETER))
         }
         CurveEnd::Crawls { parameter: value, rows } => {
             format!(

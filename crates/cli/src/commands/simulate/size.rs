@@ -22,7 +22,8 @@ pub fn check(told: &Told<'_>, kept: bool) -> Result<(), Failure> {
     let (periods, of_period) = (layout.periods, layout.numbers_of_period());
     if kept && told.pieces == Pieces::Intervals && periods * of_period > MOST_KEPT {
         return Err(Failure::BadInput(format!(
-            "the motion is {} numbers, must be {MOST_KEPT} at most with --out; allowed: a shorter --duration, or a lower --sampling than {} Hz",
+            "the motion is {} numbers, must be {MOST_KEPT} at most with --out; allowed: a shorter --duration, or a \
+             lower --sampling than {} Hz",
             periods * of_period,
             layout.frequency_hz * f64::from(layout.samples_per_period)
         )));

@@ -1,5 +1,5 @@
-//! How the time of a motion is cut: into periods of its excitation, or, where there is none, into intervals of
-//! equally spaced samples.
+//! How the time of a motion is cut: into periods of its excitation, or, where there is none, into intervals
+//! of equally spaced samples.
 //!
 //! A motion is computed, stored and taken up again in equal pieces. Without an excitation nothing says how
 //! long they are, and the motion does not depend on it: the user asks for a duration and a sampling rate, and
@@ -123,7 +123,7 @@ fn free(options: &SimulateOptions, model: &Model) -> Result<(f64, u64, u32), Fai
     Ok((per_second, samples.div_ceil(u64::from(per_interval)), per_interval))
 }
 
-/// The least whole number from which a product of two numbers is not more by more than its rounding.
+/// Rounds a product of two numbers up, but not where it exceeds a whole number by its rounding alone.
 fn whole(number: f64, (most, things): (f64, &str)) -> Result<u64, Failure> {
     if number > most {
         return Err(bad(format!("--duration holds {number:e} {things}, must be {most:e} at most")));

@@ -171,6 +171,7 @@ fn force_majorant(mut differences: [f64; NODES]) -> [f64; NODES] {
                     differences[NODES - j] = 0.0;
                 }
                 let mut largest = [0.0; 4];
+                const { assert!(NODES.is_multiple_of(4), "four at a time leave none out") };
                 differences.as_chunks::<4>().0.iter().for_each(|four| raise(&mut largest, four));
                 *bound *= largest.iter().fold(0.0_f64, |most, d| most.max(*d));
             }
