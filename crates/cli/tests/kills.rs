@@ -10,7 +10,7 @@ use std::{
     fs,
     process::{Command, Stdio},
     thread::sleep,
-    time::{Duration, Instant},
+    time::Instant,
 };
 
 use crate::common::{
