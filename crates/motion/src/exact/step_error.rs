@@ -32,6 +32,7 @@ use std::{f64::consts::TAU, sync::Arc};
 use super::{
     ExactIntegrator,
     collocation::{Grading, NODES},
+    drive::Order,
     run::{ElementStart, Run},
 };
 
@@ -60,6 +61,20 @@ pub(super) struct Errors {
     pub slow: f64,
     /// `S`.
     pub fast_share: f64,
+}
+
+/// The largest slopes of a force by displacement and velocity over a step.
+#[derive(Debug, Clone, Copy)]
+struct Steepest {
+    stiffness: f64,
+    damping: f64,
+}
+
+impl Steepest {
+    /// What the force follows of a motion with that displacement and that velocity.
+    fn force(self, displacement: f64, velocity: f64) -> f64 {
+        self.stiffness * displacement + self.damping * velocity
+    }
 }
 
 /// How an element's displacement responds to its force over a step.
@@ -120,25 +135,25 @@ impl ExactIntegrator {
                 fast_share: response.fast_share,
             };
             largest = largest.max(self.relative_to_bound(errors));
-            let follows = self.following(element, nodes.clone());
-            for (i, amplitude) in amplitudes[..self.rates.len()]
-                .iter_mut()
-                .enumerate()
-                .filter(|(i, _)| self.may_be_unresolved(*i))
-            {
-                let own = response.mobility * follows(i) * self.vibration(run, i) / velocity;
-                *amplitude = amplitude.max(own);
+            let (of_blocks, of_loads) = amplitudes.split_at_mut(self.rates.len());
+            let steepest = self.steepest(nodes);
+            let output = &self.outputs[element];
+            for (i, amplitude) in of_blocks.iter_mut().enumerate() {
+                if self.may_be_unresolved(self.rates[i]) {
+                    let follows = steepest.force(output.value_bound[i], output.first_bound[i]);
+                    let own = response.mobility * follows * self.vibration(run, i) / velocity;
+                    *amplitude = amplitude.max(own);
+                }
             }
-            let follows = self.following_load(element, nodes);
-            // What moves the release, up to which sensitivities follow the force.
-            let count = match run.sensitivity {
-                Some(_) => 1.0 + step.length.powi(2) * follows(step.length.recip()),
-                None => 1.0,
-            };
-            let loads = self.load_rates().zip(&self.drive.orders);
-            for (amplitude, (rate, order)) in amplitudes[self.rates.len()..].iter_mut().zip(loads) {
-                let own = count * follows(rate) * order.outputs[element].0.norm() / velocity;
-                *amplitude = amplitude.max(own);
+            for (amplitude, (rate, order)) in of_loads.iter_mut().zip(self.loads()) {
+                if self.may_be_unresolved(rate) {
+                    // What moves the release, up to which sensitivities follow the force.
+                    let dual = impulse * steepest.force(self.step.length, 1.0);
+                    let count = if run.sensitivity.is_some() { 1.0 + dual } else { 1.0 };
+                    let follows = response.mobility * steepest.force(1.0, rate);
+                    let own = count * follows * order.outputs[element].0.norm() / velocity;
+                    *amplitude = amplitude.max(own);
+                }
             }
         }
         self.step.unresolved = amplitudes;
@@ -148,29 +163,19 @@ impl ExactIntegrator {
         largest.max(self.unresolved_excess())
     }
 
-    /// How much an element's force follows the vibration of each block in the solved step, per energy norm of
-    /// the block.
-    fn following(&self, element: usize, nodes: std::ops::Range<usize>) -> impl Fn(usize) -> f64 {
-        let (step, output) = (&self.step, &self.outputs[element]);
-        let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
-        let viscous = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
-        move |block| stiffest * output.value_bound[block] + viscous * output.first_bound[block]
+    /// The largest slopes of a force over nodes of the solved step.
+    fn steepest(&self, nodes: std::ops::Range<usize>) -> Steepest {
+        let (step, stiffness) = (&self.step, largest_magnitude(&self.step.slope[nodes.clone()]));
+        let damping = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
+        Steepest { stiffness, damping }
     }
 
-    /// The acceleration by the force that follows an order of the load in the solved step, per displacement
-    /// of the element in it, for a circular frequency of the order.
-    fn following_load(&self, element: usize, nodes: std::ops::Range<usize>) -> impl Fn(f64) -> f64 {
-        let (step, mobility) = (&self.step, self.response(element).mobility);
-        let stiffest = largest_magnitude(&step.slope[nodes.clone()]);
-        let viscous = if step.damped { largest_magnitude(&step.damping[nodes]) } else { 0.0 };
-        move |rate| mobility * (stiffest + viscous * rate)
-    }
-
-    /// Circular frequencies of the orders of the load, as the nodes of the step see them: time in a graded
+    /// Orders of the load with their circular frequencies as the nodes of the step see them: time in a graded
     /// one goes like the square of its variable, so at its end a load turns twice as fast.
-    fn load_rates(&self) -> impl Iterator<Item = f64> {
+    fn loads(&self) -> impl Iterator<Item = (f64, &Order)> {
         let pace = if self.step.grading() == Grading::Smooth { 1.0 } else { 2.0 };
-        self.drive.orders.iter().map(move |order| pace * order.order * self.drive.circular_frequency())
+        let circular = self.drive.circular_frequency();
+        self.drive.orders.iter().map(move |order| (pace * order.order * circular, order))
     }
 
     /// Energy norm of a block apart from what follows the present forces and their rates without vibrating:
@@ -223,7 +228,7 @@ impl ExactIntegrator {
             let z = rate * length;
             if z > RESOLVED { highest_part(z, &TWICE_THE_NODES) * amplitude } else { 0.0 }
         };
-        let rates = self.rates.iter().copied().chain(self.load_rates());
+        let rates = self.rates.iter().copied().chain(self.loads().map(|(rate, _)| rate));
         rates.zip(&self.step.unresolved).map(part).sum::<f64>() * length
     }
 
@@ -233,9 +238,9 @@ impl ExactIntegrator {
         if excess > 1.0 { excess.sqrt() } else { 0.0 }
     }
 
-    /// Whether a block is so fast that a somewhat longer step might not resolve it.
-    fn may_be_unresolved(&self, block: usize) -> bool {
-        self.rates[block] * self.step.length * LONGEST_GROWTH > RESOLVED
+    /// Whether a block or a load of that rate is so fast that a somewhat longer step might not resolve it.
+    fn may_be_unresolved(&self, rate: f64) -> bool {
+        rate * self.step.length * LONGEST_GROWTH > RESOLVED
     }
 
     /// The longest step up to `length` whose nodes resolve the motion.
@@ -307,24 +312,24 @@ impl ExactIntegrator {
         let error = further.map(|errors| self.relative_to_bound(errors));
         let error = self.relative_to_bound(errors).max(error[0]).max(error[1]);
         let mut amplitudes = std::mem::take(&mut self.step.unresolved);
+        let (of_blocks, of_loads) = amplitudes.split_at_mut(self.rates.len());
+        let steepest = self.steepest(0..self.step.slope.len());
         for &element in &self.step.active {
-            let follows = self.following(element, 0..self.step.slope.len());
-            let mobility = self.response(element).mobility.sqrt();
-            for (i, amplitude) in amplitudes[..self.rates.len()]
-                .iter_mut()
-                .enumerate()
-                .filter(|(i, _)| self.may_be_unresolved(*i))
-            {
-                let largest = sensitivity.largest_energy_norm(i, self.blocks.stiffness[i], &scale);
-                *amplitude = amplitude.max(mobility * follows(i) * largest / norm);
+            let (output, mobility) = (&self.outputs[element], self.response(element).mobility.sqrt());
+            for (i, amplitude) in of_blocks.iter_mut().enumerate() {
+                if self.may_be_unresolved(self.rates[i]) {
+                    let follows = steepest.force(output.value_bound[i], output.first_bound[i]);
+                    let largest = sensitivity.largest_energy_norm(i, self.blocks.stiffness[i], &scale);
+                    *amplitude = amplitude.max(mobility * follows * largest / norm);
+                }
             }
-            let follows = self.following_load(element, 0..self.step.slope.len());
             let turned = TAU * (run.time + self.step.length);
-            let loads = self.load_rates().zip(&self.drive.orders);
-            for (amplitude, (rate, order)) in amplitudes[self.rates.len()..].iter_mut().zip(loads) {
-                let (value, slope) = order.outputs[element];
-                let slope = slope.norm() + turned * order.order * value.norm();
-                *amplitude = amplitude.max(follows(rate) * slope / (mobility * by_frequency));
+            for (amplitude, (rate, order)) in of_loads.iter_mut().zip(self.loads()) {
+                if self.may_be_unresolved(rate) {
+                    let (value, slope) = order.outputs[element];
+                    let slope = slope.norm() + turned * order.order * value.norm();
+                    *amplitude = amplitude.max(mobility * steepest.force(1.0, rate) * slope / by_frequency);
+                }
             }
         }
         self.step.unresolved = amplitudes;
