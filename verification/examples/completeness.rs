@@ -24,7 +24,7 @@ fn main() -> Result<(), Failure> {
         (number(0, 200)?, number(1, 100)?, number(2, 8)?, number(3, 1)?);
     let text = fs::read_to_string(study)?;
     let results = Results::read(&text, Path::new(folder))?;
-    let plain = is_plain.then(|| Equations::read(&text.parse()?)).transpose()?;
+    let plain = is_plain.then(|| Equations::read(&text.parse()?, &results.model)).transpose()?;
     let effort = Effort { states, longest, patience: 1200 };
     let report = check(&results, plain.as_ref(), frequencies, &effort, seed as u64)?;
     println!("{} branches, {} frequencies", results.branches().len(), report.frequencies);

@@ -52,10 +52,11 @@ fn answers(study: &toml::Table, units: Units, limits: &Limits) -> Result<Answers
     Answers::of(study, units, limits, folder.path())
 }
 
-/// Each unit up to a thousand times larger or smaller.
+/// Mass and length up to a thousand times larger or smaller, times up to thirty: accelerations stay within what
+/// a study file may have.
 fn random_units(seed: u64) -> Units {
     let mut random = Random::new(seed ^ 0x5EED);
     (0..8).for_each(|_| _ = random.part());
-    let mut factor = || 10.0_f64.powf(6.0 * random.part() - 3.0);
-    Units { mass: factor(), length: factor(), time: factor() }
+    let mut factor = |powers: f64| 10.0_f64.powf(powers * (2.0 * random.part() - 1.0));
+    Units { mass: factor(3.0), length: factor(3.0), time: factor(1.5) }
 }

@@ -10,7 +10,7 @@ use hammerbeam_motion::{
 use hammerbeam_study::{Model, PointStart, PointStartKind};
 
 use crate::{
-    plain::{Equations, PlainMotion},
+    plain::{Coordinates, Equations, PlainMotion},
     results::Failure,
 };
 
@@ -49,7 +49,7 @@ impl Attractor {
 pub enum Simulator<'a> {
     /// The library's own integrator.
     Exact(Box<ExactIntegrator>, Stretch),
-    /// One that shares nothing with it, for a model whose points are all its masses.
+    /// One that shares nothing with it.
     Plain(PlainMotion<'a>, &'a Model, f64),
 }
 
@@ -77,8 +77,8 @@ impl<'a> Simulator<'a> {
         match self {
             Self::Exact(integrator, stretch) => Ok(integrator.advance(stretch, state)?),
             Self::Plain(motion, model, frequency_hz) => {
-                let next = motion.period(&of_masses(motion, model, state));
-                of_modes(motion, model, *frequency_hz, &next)
+                let next = motion.period(&of_equations(motion, model, state));
+                of_modes(motion, model, *frequency_hz, next)
             }
         }
     }
@@ -88,15 +88,16 @@ impl<'a> Simulator<'a> {
     pub fn may_begin(&self, state: &[f64]) -> bool {
         match self {
             Self::Exact(..) => true,
-            Self::Plain(motion, model, _) => motion.may_begin(&of_masses(motion, model, state)),
+            Self::Plain(motion, model, _) => motion.may_begin(&of_equations(motion, model, state)),
         }
     }
 }
 
-/// Displacements and velocities of the masses, in the order of the equations.
-fn of_masses(motion: &PlainMotion, model: &Model, state: &[f64]) -> Vec<f64> {
+/// A state of the modes in the coordinates of the equations.
+fn of_equations(motion: &PlainMotion, model: &Model, state: &[f64]) -> Vec<f64> {
+    let Coordinates::Masses(names) = motion.coordinates() else { return state.to_vec() };
     let n = model.system.dof();
-    let points = motion.names().iter().filter_map(|name| model.system.model().point(name));
+    let points = names.iter().filter_map(|name| model.system.model().point(name));
     let moved = |modes: &[f64], ground: f64| -> Vec<f64> {
         let of_point = |shape: &[f64]| shape.iter().zip(modes).map(|(a, b)| a * b).sum::<f64>();
         points.clone().map(|point| of_point(&point.shape) + point.support_ratio * ground).collect()
@@ -109,12 +110,13 @@ fn of_modes(
     motion: &PlainMotion,
     model: &Model,
     frequency_hz: f64,
-    state: &[f64],
+    state: Vec<f64>,
 ) -> Result<Vec<f64>, Failure> {
-    let (y, v) = state.split_at(motion.names().len());
+    let Coordinates::Masses(names) = motion.coordinates() else { return Ok(state) };
+    let (y, v) = state.split_at(names.len());
     let starts = |values: &[f64], kind: PointStartKind| -> Vec<PointStart> {
         let start = |(name, value): (&String, &f64)| PointStart { point: name.clone(), kind, value: *value };
-        motion.names().iter().zip(values).map(start).collect()
+        names.iter().zip(values).map(start).collect()
     };
     let starts = [starts(y, PointStartKind::Displacement), starts(v, PointStartKind::Velocity)].concat();
     Ok(model.state_of_points(frequency_hz, &starts)?)

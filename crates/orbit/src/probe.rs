@@ -6,7 +6,8 @@
 //! repeated. Where there is little damping it has done neither at last: then Newton's method begins where it
 //! has come back most closely after each of the multiples. What that finds is kept if it is stable. A motion
 //! that will not settle, a chaotic one, comes back near unstable orbits: there Newton's method ends as soon
-//! as that is seen, which is before it has converged.
+//! as that is seen, which is before it has converged. Further motions that come to where it wanders end there:
+//! where they would go from there is what it was followed for.
 
 use hammerbeam_motion::{Stretch, System};
 
@@ -30,6 +31,13 @@ const KEPT: usize = 48;
 const NEAR_RETURNS: usize = 2;
 /// Distance over a period below which a motion is on its way to an orbit when it has had its time.
 const NEARLY: f64 = 1e-2;
+
+/// Distance, relative to the motion, from a state of a motion that has not settled, at which another one is
+/// where that was.
+const SAME_PLACE: f64 = 2e-2;
+/// States in such places, of those between two looks, by which a motion has come to where another wandered: one
+/// that passes by on its way to an orbit leaves again within a few periods.
+const AMONG_WANDERED: usize = 6;
 
 /// How many motions begin where, and what is known before.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +78,7 @@ pub fn probe(
     for orbit in starts.known {
         reached.add(catalogue.integrator(), orbit)?;
     }
-    let mut probe = Probe { catalogue, reached, multiples, largest, most };
+    let mut probe = Probe { catalogue, reached, wandered: Vec::new(), multiples, largest, most };
     let (mut failure, mut computed) = (None, false);
     for state in states {
         match probe.follow(state, &mut *interrupted) {
@@ -95,6 +103,8 @@ enum Advanced {
 struct Probe<'a> {
     catalogue: Catalogue<'a>,
     reached: StableOrbits,
+    /// States of motions that have not settled in their time.
+    wandered: Vec<Vec<f64>>,
     multiples: &'a [u32],
     largest: usize,
     most: usize,
@@ -115,12 +125,26 @@ impl Probe<'_> {
             if let Some(period) = repeats_after(&states, &scale, self.largest) {
                 return self.settle(&states[states.len() - 1], period as u32);
             }
+            if self.has_joined(&states[states.len() - more..], &scale) {
+                return Ok(());
+            }
         }
         let scale = self.catalogue.scale_of_motion(&states[states.len() - 1])?;
         match nearly_repeats_after(&states, &scale, self.largest) {
             Some(period) => self.settle(&states[states.len() - 1], period as u32),
-            None => self.approach(&states, &scale, interrupted),
+            None => {
+                self.approach(&states, &scale, interrupted)?;
+                self.wandered.append(&mut states);
+                Ok(())
+            }
         }
+    }
+
+    /// Whether the latest states of a motion are where another one wandered.
+    fn has_joined(&self, latest: &[Vec<f64>], scale: &StateScale) -> bool {
+        let is_there =
+            |state: &Vec<f64>| self.wandered.iter().any(|other| scale.distance(state, other) < SAME_PLACE);
+        latest.iter().filter(|state| is_there(state)).count() >= AMONG_WANDERED
     }
 
     /// Orbits near which a motion is that has not settled.

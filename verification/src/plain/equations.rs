@@ -2,34 +2,15 @@
 
 use std::f64::consts::TAU;
 
+use hammerbeam_study::Model;
 use toml::{Table, Value};
 
+use super::{
+    coordinates::Coordinates,
+    keys::{list, needed, number, table, text},
+    stops::{Law, Stop},
+};
 use crate::results::Failure;
-
-/// What a stop does at a relative displacement beyond its gap.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Law {
-    /// `k d + c d'`, and a force at the gap [N/m, N s/m, N].
-    Linear { stiffness: f64, damping: f64, preload: f64 },
-    /// `k d^1.5 (1 + 3/2 a d')` [N/m^1.5, s/m].
-    Hertz { stiffness: f64, loss: f64 },
-    /// An impact leaves `e` of the speed.
-    Rigid { restitution: f64 },
-    /// `k1 r + k2 r^2 + k3 r^3`, always.
-    Power { terms: [f64; 3] },
-}
-
-/// A stop between two masses, or a mass and what carries it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Stop {
-    /// The relative displacement is `row . y - ratio u`.
-    pub row: Vec<f64>,
-    pub ratio: f64,
-    /// 1 above, -1 below.
-    pub side: f64,
-    pub gap: f64,
-    pub law: Law,
-}
 
 /// A force `amplitude cos(order w t + phase)` on each mass [N].
 #[derive(Debug, Clone, PartialEq)]
@@ -39,11 +20,11 @@ pub(super) struct Harmonic {
     pub phase: f64,
 }
 
-/// A lumped structure with its stops.
+/// A structure with its stops.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equations {
-    /// Names of the masses, in their order.
-    pub names: Vec<String>,
+    /// What the numbers of a state are.
+    pub coordinates: Coordinates,
     pub(super) mass: Vec<f64>,
     pub(super) stiffness: Vec<Vec<f64>>,
     pub(super) damping: Vec<Vec<f64>>,
@@ -73,31 +54,20 @@ impl Ground {
 }
 
 impl Equations {
-    /// Reads a study of masses, springs and dampers.
+    /// Reads a study.
+    ///
+    /// * `model`: what the library made of it, for the modes of a beam.
     ///
     /// # Errors
-    /// A beam, modal damping, a table of amplitudes, or a law that is not known here.
-    pub fn read(study: &Table) -> Result<Self, Failure> {
-        let structure = table(study, "structure")?;
-        if text(structure, "kind")? != "lumped" {
-            return Err("only lumped structures".into());
-        }
-        let masses = list(structure, "mass");
-        let names: Vec<String> =
-            masses.iter().map(|mass| text(mass, "name").map(str::to_owned)).collect::<Result<_, _>>()?;
-        let mass: Vec<f64> = masses.iter().map(|mass| needed(mass, "mass_kg")).collect::<Result<_, _>>()?;
-        let (stiffness, springs) = joined(&names, &list(structure, "spring"), "stiffness_n_m")?;
-        let (mut damping, dampers) = joined(&names, &list(structure, "damper"), "damping_n_s_m")?;
-        if let Some(value) = study.get("damping") {
-            let rayleigh = table(value.as_table().ok_or("[damping] is no table")?, "rayleigh")?;
-            let (by_mass, by_stiffness) = (needed(rayleigh, "mass_per_s")?, needed(rayleigh, "stiffness_s")?);
-            for i in 0..names.len() {
-                damping[i][i] += by_mass * mass[i];
-                (0..names.len()).for_each(|j| damping[i][j] += by_stiffness * stiffness[i][j]);
-            }
-        }
-        let mut this =
-            Self { names, mass, stiffness, damping, forces: Vec::new(), ground: None, stops: Vec::new() };
+    /// A shaken beam, a lumped structure with modal damping, a table of amplitudes, or a law that is not known
+    /// here.
+    pub fn read(study: &Table, model: &Model) -> Result<Self, Failure> {
+        let (mut this, springs, dampers) = if text(table(study, "structure")?, "kind")? == "beam" {
+            let this = Self::of_modes(study, model)?;
+            (this, Vec::new(), Vec::new())
+        } else {
+            Self::of_masses(study)?
+        };
         this.shake(study, springs, dampers)?;
         for load in list(study, "load") {
             this.load(load)?;
@@ -107,6 +77,61 @@ impl Equations {
             this.stops.extend(stop);
         }
         Ok(this)
+    }
+
+    /// `q'' + C q' + W^2 q` of a beam.
+    fn of_modes(study: &Table, model: &Model) -> Result<Self, Failure> {
+        let squares: Vec<f64> =
+            model.system.model().natural_frequencies.iter().map(|frequency| frequency.powi(2)).collect();
+        let damping: Vec<f64> = match study.get("damping").and_then(Value::as_table) {
+            None => vec![0.0; squares.len()],
+            Some(damping) if damping.contains_key("modal_ratio") => {
+                let ratio = needed(damping, "modal_ratio")?;
+                squares.iter().map(|square| 2.0 * ratio * square.sqrt()).collect()
+            }
+            Some(damping) => {
+                let [by_mass, by_stiffness] = rayleigh(damping)?;
+                squares.iter().map(|square| by_mass + by_stiffness * square).collect()
+            }
+        };
+        Ok(Self {
+            coordinates: Coordinates::of_modes(model),
+            mass: vec![1.0; squares.len()],
+            stiffness: diagonal(&squares),
+            damping: diagonal(&damping),
+            forces: Vec::new(),
+            ground: None,
+            stops: Vec::new(),
+        })
+    }
+
+    /// The matrices of masses, and what joins each to the ground.
+    fn of_masses(study: &Table) -> Result<(Self, Vec<f64>, Vec<f64>), Failure> {
+        let structure = table(study, "structure")?;
+        let masses = list(structure, "mass");
+        let names: Vec<String> =
+            masses.iter().map(|mass| text(mass, "name").map(str::to_owned)).collect::<Result<_, _>>()?;
+        let mass: Vec<f64> = masses.iter().map(|mass| needed(mass, "mass_kg")).collect::<Result<_, _>>()?;
+        let (stiffness, springs) = joined(&names, &list(structure, "spring"), "stiffness_n_m")?;
+        let (mut damping, dampers) = joined(&names, &list(structure, "damper"), "damping_n_s_m")?;
+        if let Some(value) = study.get("damping") {
+            let [by_mass, by_stiffness] = rayleigh(value.as_table().ok_or("[damping] is no table")?)?;
+            for i in 0..names.len() {
+                damping[i][i] += by_mass * mass[i];
+                (0..names.len()).for_each(|j| damping[i][j] += by_stiffness * stiffness[i][j]);
+            }
+        }
+        let coordinates = Coordinates::Masses(names);
+        let this = Self {
+            coordinates,
+            mass,
+            stiffness,
+            damping,
+            forces: Vec::new(),
+            ground: None,
+            stops: Vec::new(),
+        };
+        Ok((this, springs, dampers))
     }
 
     fn shake(&mut self, study: &Table, springs: Vec<f64>, dampers: Vec<f64>) -> Result<(), Failure> {
@@ -121,13 +146,16 @@ impl Equations {
                 let amplitude = needed(excitation, "amplitude_m")?;
                 self.ground = Some(Ground { amplitude, order, phase, springs, dampers });
             }
-            _ => return Err("only the ground may be moved".into()),
+            _ => return Err("only the ground of masses may be moved".into()),
         }
         Ok(())
     }
 
     fn load(&mut self, load: &Table) -> Result<(), Failure> {
         let harmonic = match text(load, "kind")? {
+            "gravity" if matches!(self.coordinates, Coordinates::Modes(_)) => {
+                return Err("no weight of a beam here".into());
+            }
             "gravity" => {
                 let acceleration = needed(load, "acceleration_m_s2")?;
                 let row = self.mass.iter().map(|mass| mass * acceleration).collect();
@@ -144,82 +172,14 @@ impl Equations {
         Ok(())
     }
 
-    fn row(&self, name: &str, value: f64) -> Result<Vec<f64>, Failure> {
-        let place = place(&self.names, name).ok_or_else(|| format!("no mass {name}"))?;
-        let mut row = vec![0.0; self.names.len()];
-        row[place] = value;
-        Ok(row)
-    }
-
-    /// One stop, or the two of one on both sides.
-    fn stop(&self, stop: &Table) -> Result<Vec<Stop>, Failure> {
-        let mut ratio = 0.0;
-        let row = if let Some(pair) = stop.get("between").and_then(Value::as_array) {
-            let name = |index: usize| pair[index].as_str().ok_or("a name");
-            let (mut row, other) = (self.row(name(0)?, 1.0)?, self.row(name(1)?, 1.0)?);
-            row.iter_mut().zip(other).for_each(|(entry, other)| *entry -= other);
-            row
-        } else {
-            let carrier = stop.get("fixed_to").and_then(Value::as_str).unwrap_or("ground");
-            ratio = f64::from(u8::from(carrier == "ground" && self.ground.is_some()));
-            self.row(text(stop, "at")?, 1.0)?
-        };
-        let rest = match stop.get("gap_measured").and_then(Value::as_str) {
-            Some("at-rest") => dot(&row, &self.rest()),
-            _ => 0.0,
-        };
-        let one = |side: f64, gap: f64, law: Law| Stop {
-            row: row.clone(),
-            ratio,
-            side,
-            gap: gap + side * rest,
-            law,
-        };
-        let gap = number(stop, "gap_m", 0.0)?;
-        let linear = || -> Result<Law, Failure> {
-            Ok(Law::Linear {
-                stiffness: needed(stop, "stiffness_n_m")?,
-                damping: number(stop, "damping_n_s_m", 0.0)?,
-                preload: number(stop, "preload_n", 0.0)?,
-            })
-        };
-        let plainly_hertz = stop.contains_key("stiffness_n_m15")
-            && !["restitution", "preload_n"].iter().any(|key| stop.contains_key(*key));
-        let law = match text(stop, "law")? {
-            "two-sided" => {
-                let (above, below) = (number(stop, "gap_above_m", gap)?, number(stop, "gap_below_m", gap)?);
-                return Ok(vec![one(1.0, above, linear()?), one(-1.0, below, linear()?)]);
-            }
-            "cubic" => {
-                let term = |key: &str| number(stop, key, 0.0);
-                let terms = [term("stiffness_n_m")?, term("stiffness_n_m2")?, term("stiffness_n_m3")?];
-                return Ok(vec![one(1.0, 0.0, Law::Power { terms })]);
-            }
-            "linear" => linear()?,
-            "hertz" | "hunt-crossley" if plainly_hertz => Law::Hertz {
-                stiffness: needed(stop, "stiffness_n_m15")?,
-                loss: number(stop, "loss_s_m", 0.0)?,
-            },
-            "rigid" => Law::Rigid { restitution: needed(stop, "restitution")? },
-            other => return Err(format!("no law {other} here").into()),
-        };
-        let sides = match text(stop, "side")? {
-            "above" => &[1.0][..],
-            "below" => &[-1.0],
-            "both" => &[1.0, -1.0],
-            other => return Err(format!("no side {other} here").into()),
-        };
-        // A preloaded stop is in touch when the structure is undeformed, and opens where its force is gone.
-        let gap = match law {
-            Law::Linear { stiffness, preload, .. } => gap - preload / stiffness,
-            _ => gap,
-        };
-        Ok(sides.iter().map(|side| one(*side, gap, law.clone())).collect())
+    pub(super) fn row(&self, name: &str, value: f64) -> Result<Vec<f64>, Failure> {
+        let row = self.coordinates.row(name).ok_or_else(|| format!("no point {name}"))?;
+        Ok(row.into_iter().map(|part| value * part).collect())
     }
 
     /// Where the structure rests under its constant forces, without any stop.
-    fn rest(&self) -> Vec<f64> {
-        let mut force = vec![0.0; self.names.len()];
+    pub(super) fn rest(&self) -> Vec<f64> {
+        let mut force = vec![0.0; self.mass.len()];
         for constant in self.forces.iter().filter(|force| force.order == 0.0) {
             force.iter_mut().zip(&constant.row).for_each(|(sum, part)| *sum += part);
         }
@@ -228,7 +188,7 @@ impl Equations {
 
     /// A bound of the highest eigenfrequency [rad/s], contacts included, by the sum of rows.
     pub(super) fn fastest(&self) -> f64 {
-        let n = self.names.len();
+        let n = self.mass.len();
         let mut bound: f64 = 0.0;
         for i in 0..n {
             let mut row: Vec<f64> = self.stiffness[i].clone();
@@ -245,6 +205,17 @@ impl Equations {
         }
         bound
     }
+}
+
+/// Factors of mass and stiffness in the damping [1/s, s].
+fn rayleigh(damping: &Table) -> Result<[f64; 2], Failure> {
+    let rayleigh = table(damping, "rayleigh")?;
+    Ok([needed(rayleigh, "mass_per_s")?, needed(rayleigh, "stiffness_s")?])
+}
+
+fn diagonal(entries: &[f64]) -> Vec<Vec<f64>> {
+    let n = entries.len();
+    (0..n).map(|i| (0..n).map(|j| if i == j { entries[i] } else { 0.0 }).collect()).collect()
 }
 
 /// The matrix of elements between masses, and what joins each mass to the ground.
@@ -297,29 +268,6 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn place(names: &[String], name: &str) -> Option<usize> {
+pub(super) fn place(names: &[String], name: &str) -> Option<usize> {
     names.iter().position(|known| known == name)
-}
-
-fn table<'a>(table: &'a Table, key: &str) -> Result<&'a Table, Failure> {
-    table.get(key).and_then(Value::as_table).ok_or_else(|| format!("no table {key}").into())
-}
-
-fn list<'a>(table: &'a Table, key: &str) -> Vec<&'a Table> {
-    let entries = table.get(key).and_then(Value::as_array);
-    entries.into_iter().flatten().filter_map(Value::as_table).collect()
-}
-
-fn text<'a>(table: &'a Table, key: &str) -> Result<&'a str, Failure> {
-    table.get(key).and_then(Value::as_str).ok_or_else(|| format!("no text {key}").into())
-}
-
-fn needed(table: &Table, key: &str) -> Result<f64, Failure> {
-    let value = table.get(key).ok_or_else(|| format!("no number {key}"))?;
-    let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
-    number.ok_or_else(|| format!("{key} is no number").into())
-}
-
-fn number(table: &Table, key: &str, default: f64) -> Result<f64, Failure> {
-    if table.contains_key(key) { needed(table, key) } else { Ok(default) }
 }

@@ -2,7 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use super::equations::{Equations, Law, dot, solved};
+use super::{
+    coordinates::Coordinates,
+    equations::{Equations, dot, solved},
+    stops::Law,
+};
 
 /// Steps of an excitation period, at least.
 const STEPS: usize = 2000;
@@ -39,10 +43,10 @@ impl<'a> PlainMotion<'a> {
         self.equations.ground.as_ref().map_or([0.0; 2], |ground| [at(ground)[0], at(ground)[1]])
     }
 
-    /// Names of the masses, in the order of the states.
+    /// What the numbers of a state are.
     #[must_use]
-    pub fn names(&self) -> &[String] {
-        &self.equations.names
+    pub fn coordinates(&self) -> &Coordinates {
+        &self.equations.coordinates
     }
 
     /// Whether a state is not beyond a rigid stop.

@@ -299,16 +299,17 @@ impl ExactIntegrator {
     /// step.
     pub(super) fn nodal_distance(&self, run: &Run, a: usize, event: Event) -> Option<[f64; NODES]> {
         let contact = self.closed_contact(run, event.element())?;
-        Some(std::array::from_fn(|k| {
-            let i = a * NODES + k;
-            let penetration = contact.sign * (self.step.displacement[i] - contact.level);
-            match (event, self.laws[event.element()].pressure()) {
-                (Event::Part(_), Some(pressure)) => {
-                    pressure.at(penetration, contact.sign * self.step.velocity[i])
-                }
-                _ => penetration,
+        let of_element = a * NODES..(a + 1) * NODES;
+        let mut distance = [0.0; NODES];
+        for (distance, displacement) in distance.iter_mut().zip(&self.step.displacement[of_element.clone()]) {
+            *distance = contact.sign * (displacement - contact.level);
+        }
+        if let (Event::Part(_), Some(pressure)) = (event, self.laws[event.element()].pressure()) {
+            for (distance, velocity) in distance.iter_mut().zip(&self.step.velocity[of_element]) {
+                *distance = pressure.at(*distance, contact.sign * velocity);
             }
-        }))
+        }
+        Some(distance)
     }
 
     /// What rounding, and the accuracy with which a touch was located, leave undecided of that.
