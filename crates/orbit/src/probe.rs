@@ -103,7 +103,7 @@ enum Advanced {
 struct Probe<'a> {
     catalogue: Catalogue<'a>,
     reached: StableOrbits,
-    /// States of motions that have not settled in their time.
+    /// States of motions that have not settled in their time, nor come near a stable orbit.
     wandered: Vec<Vec<f64>>,
     multiples: &'a [u32],
     largest: usize,
@@ -133,8 +133,9 @@ impl Probe<'_> {
         match nearly_repeats_after(&states, &scale, self.largest) {
             Some(period) => self.settle(&states[states.len() - 1], period as u32),
             None => {
-                self.approach(&states, &scale, interrupted)?;
-                self.wandered.append(&mut states);
+                if !self.approach(&states, &scale, interrupted)? {
+                    self.wandered.append(&mut states);
+                }
                 Ok(())
             }
         }
@@ -147,23 +148,29 @@ impl Probe<'_> {
         latest.iter().filter(|state| is_there(state)).count() >= AMONG_WANDERED
     }
 
-    /// Orbits near which a motion is that has not settled.
+    /// Orbits near which a motion is that has not settled; whether one of them is stable.
     fn approach(
         &mut self,
         states: &[Vec<f64>],
         scale: &StateScale,
         interrupted: Interruption<'_>,
-    ) -> Result<(), OrbitError> {
+    ) -> Result<bool, OrbitError> {
+        let mut is_near_stable = false;
         for &multiple in self.multiples {
             for nodes in nearest_returns(states, scale, multiple as usize, NEAR_RETURNS) {
                 if interrupted() {
                     return Err(OrbitError::Interrupted);
                 }
                 let arrived = self.catalogue.probe_for(Wanted::StableNearby, (0.0, nodes), multiple)?;
+                is_near_stable |= arrived.as_ref().is_some_and(|arrived| self.is_stable(arrived));
                 self.note(arrived)?;
             }
         }
-        Ok(())
+        Ok(is_near_stable)
+    }
+
+    fn is_stable(&self, arrived: &Arrived) -> bool {
+        self.catalogue.known[arrived.place].solution.stable()
     }
 
     /// Goes on by some periods and keeps the last states.

@@ -131,6 +131,17 @@ pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     file.place(|_| Ok(())).map(|_| ())
 }
 
+/// Makes a file of these bytes where there is none, in the same way.
+///
+/// # Errors
+/// [`WriteError`], with [`io::ErrorKind::AlreadyExists`] if there is something by now; that is as it was then.
+pub fn create(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let fail = |source| WriteError { path: path.to_owned(), source };
+    let mut file = WholeFile::begin(path)?;
+    file.write_all(bytes).and_then(|()| file.flush()).map_err(fail)?;
+    file.part.link(path).map_err(fail)
+}
+
 /// A file that goes away unless it gets another name.
 #[derive(Debug)]
 struct Part(Option<PathBuf>);
@@ -142,6 +153,16 @@ impl Part {
         }
         self.0 = None;
         Ok(())
+    }
+
+    /// Gives it a name that nothing has.
+    fn link(self, to: &Path) -> io::Result<()> {
+        let Some(from) = &self.0 else { return Ok(()) };
+        match fs::hard_link(from, to) {
+            // Not every file system has links; there it is as good as can be.
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists && !to.exists() => self.rename(to),
+            linked => linked,
+        }
     }
 }
 
@@ -232,6 +253,27 @@ mod tests {
         fs::create_dir(folder.path().join("taken")).unwrap();
         assert!(replace(&folder.path().join("taken"), b"x").is_err());
         assert_eq!(names(folder.path()), ["page.html", "taken"]);
+    }
+
+    #[test]
+    fn of_several_that_make_a_file_one_does_and_what_is_there_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("study.toml");
+        let made = std::thread::scope(|scope| {
+            let makers: Vec<_> = (0..8_u8)
+                .map(|maker| {
+                    let path = &path;
+                    scope.spawn(move || create(path, &vec![maker; 200_000]).map(|()| maker))
+                })
+                .collect();
+            makers.into_iter().map(|maker| maker.join().unwrap()).collect::<Vec<_>>()
+        });
+        let winners: Vec<u8> = made.iter().filter_map(|made| made.as_ref().ok().copied()).collect();
+        assert_eq!(winners.len(), 1, "{made:?}");
+        assert_eq!(fs::read(&path).unwrap(), vec![winners[0]; 200_000]);
+        let refused = made.into_iter().filter_map(Result::err);
+        assert!({ refused }.all(|error| error.source.kind() == io::ErrorKind::AlreadyExists));
+        assert_eq!(names(folder.path()), ["study.toml"]);
     }
 
     #[test]
