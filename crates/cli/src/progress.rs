@@ -61,7 +61,7 @@ impl Terminal {
 
     /// How long it still takes, and new solutions per second.
     fn pace(&mut self, fraction: f64, new_solutions: u64) -> (String, f64) {
-        let pace = *self.pace.get_or_insert_with(|| Pace::from(fraction));
+        let pace = self.pace.get_or_insert_with(|| Pace::from(fraction));
         (pace.left(fraction), new_solutions as f64 / pace.elapsed().as_secs_f64().max(0.1))
     }
 

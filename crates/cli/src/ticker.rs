@@ -46,8 +46,9 @@ impl Ticker {
     pub fn at(&mut self, done: u64, message: impl FnOnce() -> String) {
         let total = self.bar.length();
         let fraction = total.map(|total| done as f64 / total.max(1) as f64);
-        let pace =
-            fraction.map(|fraction| (*self.pace.get_or_insert_with(|| Pace::from(fraction)), fraction));
+        if let Some(fraction) = fraction {
+            self.pace.get_or_insert_with(|| Pace::from(fraction));
+        }
         if self.begun.elapsed() < PATIENCE || self.changed.elapsed() < CHANGE {
             return;
         }
@@ -55,6 +56,7 @@ impl Ticker {
         if self.bar.is_hidden() {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
+        let pace = self.pace.as_mut().zip(fraction);
         let left = pace.map(|(pace, fraction)| pace.left(fraction) + "  ");
         let message = left.unwrap_or_default() + &message();
         if self.bar.is_hidden() {
